@@ -1,20 +1,20 @@
-//! [`Grid`]: the times at which a run is observed.
+//! [`Grid`]: the observation times of a run.
 
-/// Times that differ by less, relative to their size, are one: a tick k T and a grid point D (k/n) of the same decimal
-/// time have five roundings of half an ulp together, 5.6e-16.
+/// Relative tolerance of equal times: a tick k T and a grid point D (k/n) of the same decimal time have five roundings
+/// of half an ulp together, 5.6e-16.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
-/// How many of `times`, ascending, are not after `end`.
+/// Number of `times`, ascending, up to and including `end`.
 pub fn points_to(times: &[f64], end: f64) -> usize {
     times.partition_point(|time| *time <= end + SAME * end.abs())
 }
 
-/// How many of `times`, ascending, are before `start`.
+/// Number of `times`, ascending, before `start`.
 pub fn points_before(times: &[f64], start: f64) -> usize {
     times.partition_point(|time| *time < start - SAME * start.abs())
 }
 
-/// The times at which a run is observed, s: ascending, the first is zero, the last the duration.
+/// Observation times of a run, s: ascending, from zero to the duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     times: Vec<f64>,
@@ -22,7 +22,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// `points` >= 2 times from zero to `duration` at equal intervals.
+    /// `points` >= 2 equidistant times from zero to `duration`.
     pub fn uniform(duration: f64, points: usize) -> Self {
         let last = (points - 1) as f64;
         Self::at((0..points).map(|k| if k + 1 == points { duration } else { duration * (k as f64 / last) }).collect())
@@ -41,8 +41,7 @@ impl Grid {
         &self.times
     }
 
-    /// The times, padded as the columns of a [`super::StateTable`]: the last time is repeated up to a multiple of
-    /// eight.
+    /// The times with the last one repeated up to a multiple of eight, as in the columns of a [`super::StateTable`].
     pub fn padded_times(&self) -> &[f64] {
         &self.padded
     }
@@ -57,7 +56,7 @@ impl Grid {
         *self.times.last().expect("a grid has at least one time")
     }
 
-    /// `count` of its points, evenly distributed, with the first and the last; all where there are no more.
+    /// `count` of its points, evenly distributed, with the first and the last; all if there are no more.
     pub fn evenly(&self, count: usize) -> Vec<usize> {
         let (points, count) = (self.points(), count.min(self.points()));
         let intervals = count.saturating_sub(1).max(1);
@@ -69,8 +68,8 @@ impl Grid {
 mod tests {
     use super::*;
 
-    /// Law: the point at the decimal time of a tick is one of the points up to that tick and from it on, on every grid
-    /// that has this time; the points beside it are not.
+    /// Law: the point at the decimal time of a tick is among the points up to that tick and from it on, on every such
+    /// grid; its neighbours are not.
     #[test]
     fn a_point_at_a_tick_is_at_the_tick() {
         let mut rounded = [0; 2];

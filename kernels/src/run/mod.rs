@@ -1,11 +1,8 @@
-//! Layer 1: what a run consists of.
+//! Layer 1: data of a run.
 //!
-//! - [`Grid`]: the observation times.
-//! - [`StateTable`]: the physical states at these times, by [`StateField`].
-//! - [`Trajectory`]: the components that a method integrates, from which a kernel completes the table.
-//! - [`Outcome`]: how a run ended, what it cost, and the estimate of its errors.
-//! - [`Telemetry`]: what a control law has recorded of a run.
-//! - [`Quantity`]: name, unit and meaning of a column of numbers.
+//! [`Grid`]: observation times. [`StateTable`]: physical states by [`StateField`]. [`Trajectory`]: integrated
+//! components. [`Outcome`]: status, effort and estimated errors. [`Telemetry`]: records of a control law. [`Quantity`]:
+//! name, unit and meaning of a column.
 
 mod grid;
 mod outcome;

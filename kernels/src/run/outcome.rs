@@ -1,27 +1,27 @@
-//! How a run ended and what it cost.
+//! Outcome and effort of a run.
 
 use crate::math::real::Real;
 
-/// How a run ended.
+/// Status of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Status {
     /// Reached the end of its horizon.
     Done,
-    /// Reached the maximum number of steps before the end of its horizon, or cannot reach that end with them.
+    /// The maximum number of steps was reached, or makes the end of the horizon unreachable.
     StepLimit,
-    /// The step that the tolerance requires is below the resolution of the time in floating point.
+    /// The step required by the tolerance is below the resolution of the time.
     StepFloor,
-    /// A state component became infinite or not a number.
+    /// A state component became infinite or NaN.
     NonFinite,
     /// The sampled scene is physically impossible; nothing was integrated.
     InvalidSample,
     /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
     Inaccurate,
-    /// The program failed in this run, which is a defect of spindrift: its other runs are not affected.
+    /// The program failed in this run, a defect of spindrift; other runs are not affected.
     InternalError,
     /// Reached the surface of the central body of its orbit.
     Surface,
-    /// Ended by its control loop, which is unstable: its commands have grown beyond what it can hold.
+    /// Ended by its control loop, which is unstable.
     Diverged,
 }
 
@@ -54,7 +54,7 @@ impl Status {
         }
     }
 
-    /// Why a run ended in this way after `time` seconds, in words; nothing where the run itself has to say it.
+    /// The reason for this status after `time` seconds, in words, if it does not depend on the run.
     pub fn reason(self, time: f64) -> Option<String> {
         Some(match self {
             Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError | Status::Diverged => {
@@ -68,7 +68,7 @@ impl Status {
     }
 }
 
-/// What a run cost, in counts that do not depend on the machine.
+/// Effort of a run, in counts that do not depend on the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepStatistics {
     /// Accepted steps.
@@ -79,25 +79,25 @@ pub struct StepStatistics {
     pub evaluations: u64,
 }
 
-/// How a run ended, when, and what it cost.
+/// Status, time and effort of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// How it ended.
+    /// Its status.
     pub status: Status,
-    /// The time that was reached, s: the duration if the status is [`Status::Done`].
+    /// Time reached, s: the duration if the status is [`Status::Done`].
     pub time: f64,
-    /// Number of observation points that were filled, counted from the first: all if the status is [`Status::Done`].
+    /// Number of filled observation points, from the first: all if the status is [`Status::Done`].
     pub points: usize,
-    /// What it cost.
+    /// Its effort.
     pub effort: StepStatistics,
-    /// Estimate of the errors that the method made.
+    /// Estimated errors of the method.
     pub local_errors: LocalErrors,
-    /// The same of the rotation of the debris; zero where there is none, or it was not integrated.
+    /// Estimated errors of the debris' rotation; zero without, or if it was not integrated.
     pub debris_errors: LocalErrors,
 }
 
 impl Outcome {
-    /// Of a run that has not begun.
+    /// A run that has not begun.
     pub const NOTHING: Outcome = Outcome {
         status: Status::InvalidSample,
         time: 0.0,
@@ -108,16 +108,15 @@ impl Outcome {
     };
 }
 
-/// The rate, rad/s, that errors of omega are relative to in a run whose largest |omega| is `largest`: that, but at
-/// least one radian over the `duration`, s. A body that turns by less than a radian may have any rate, down to none:
-/// there an error of the rate is the angle, rad, that it adds up to.
+/// Reference rate of errors of omega, rad/s: the largest |omega| of the run, at least one radian over the `duration`,
+/// s. A body that turns by less than a radian may have any rate, down to none; its error is then the resulting angle.
 #[inline(always)]
 pub fn rate_scale(largest: f64, duration: f64) -> f64 {
     if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }
 }
 
-/// Estimated errors of the rotational state from all steps of a run, added as if all had the same direction, before the
-/// motion amplifies them. They are separated by what they are proportional to.
+/// Estimated errors of the rotational state over all steps of a run, added in magnitude, before amplification by the
+/// motion, by their proportionality.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalErrors {
     /// Of omega, rad/s, proportional to its rate of change: truncation.

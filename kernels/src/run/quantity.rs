@@ -1,7 +1,4 @@
-//! [`Quantity`]: name, unit and meaning of a column of numbers.
-//!
-//! Every table that the program writes or prints describes its columns with this type: observables, time series,
-//! audits, drawn parameters, precision measurements.
+//! [`Quantity`]: name, unit and meaning of a column, in every table of the program.
 
 use std::borrow::Cow;
 
@@ -14,13 +11,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// A quantity of a table that is written in the source. `unit` is empty for a pure number; `meaning` is one
-    /// sentence.
+    /// A quantity known at compile time. `unit` is empty for a pure number; `meaning` is one sentence.
     pub const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
         Quantity { name: Cow::Borrowed(name), unit: Cow::Borrowed(unit), meaning: Cow::Borrowed(meaning) }
     }
 
-    /// A quantity whose name is known at run time only.
+    /// A quantity known at run time only.
     pub fn named(name: String, unit: String, meaning: String) -> Self {
         Quantity { name: Cow::Owned(name), unit: Cow::Owned(unit), meaning: Cow::Owned(meaning) }
     }

@@ -1,4 +1,4 @@
-//! [`StateField`]: the physical quantities of a state, and sets of them.
+//! [`StateField`]: physical quantities of a state, and sets of them.
 
 /// A field of the state: components that are present or absent together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,8 +16,8 @@ pub enum StateField {
     ComPosition,
     /// Velocity of c in F_e, m/s (3).
     ComVelocity,
-    /// Work done since time zero: by the thrusters and torques on the body (on an orbit by gravity on all bodies too),
-    /// by the wheel motors (relative to the body, tau_i Omega_i), J (2).
+    /// Work since time zero, J (2): of thrusters and torques on the body (on an orbit of gravity on all bodies too),
+    /// and of the wheel motors (relative to the body, tau_i Omega_i).
     Work,
     /// Impulse of the thrusters since time zero in F_e, N s (3).
     Impulse,
@@ -31,11 +31,11 @@ pub enum StateField {
     DebrisAttitude,
     /// omega^de of the debris in F_d, rad/s (3).
     DebrisRate,
-    /// C_es by columns as integrated, from methods that integrate the DCM itself (9).
+    /// C_es by columns, from methods that integrate the DCM (9).
     Dcm,
     /// Residuals of the constraints: kinematic, collocation, attitude (3).
     Residuals,
-    /// Kinetic energies of body, each wheel, and debris in F_e, from methods with redundant states, J (2 and one per
+    /// Kinetic energies of body, each wheel and debris in F_e, from methods with redundant states, J (2 and one per
     /// wheel).
     KineticEnergies,
 }
@@ -90,7 +90,7 @@ impl StateFields {
     /// The empty set.
     pub const NONE: StateFields = StateFields(0);
 
-    /// This set and one more field.
+    /// This set and `field`.
     #[must_use]
     pub const fn with(self, field: StateField) -> Self {
         StateFields(self.0 | 1 << field as usize)
@@ -102,7 +102,7 @@ impl StateFields {
         StateFields(self.0 | other.0)
     }
 
-    /// Whether the set contains `field`.
+    /// True if the set contains `field`.
     pub const fn contains(self, field: StateField) -> bool {
         self.0 & (1 << field as usize) != 0
     }

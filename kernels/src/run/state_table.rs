@@ -1,29 +1,24 @@
-//! [`StateTable`]: the physical states of one run at its observation points, component by component.
-//!
-//! The interface between integrators and observables. A worker owns and reuses it; only the fields that were requested
-//! have columns. Reading or writing a field that the table does not have is an error of the caller and panics: no other
-//! column can answer for it.
+//! [`StateTable`]: physical states of one run at its observation points: the interface between integrators and
+//! observables, owned and reused by a worker. Only requested fields have columns; access to another field panics.
 
 use crate::run::state_field::{StateField, StateFields};
 
-/// States at the observation points: component by component, eight points to a vector.
-///
-/// The stride is a multiple of eight; the padding after the last point repeats that point.
+/// States at the observation points by component, eight points to a vector. The stride is a multiple of eight, with the
+/// last point repeated in the padding.
 #[derive(Clone, Debug)]
 pub struct StateTable {
     fields: StateFields,
     wheels: usize,
     points: usize,
     stride: usize,
-    /// The column of the first component of each field; [`ABSENT`] where the table does not have the field.
+    /// Column of the first component of each field, or [`ABSENT`].
     columns: [usize; StateField::ALL.len()],
     values: Vec<f64>,
 }
 
-/// Stands for the column of a field that a table does not have.
 const ABSENT: usize = usize::MAX;
 
-/// Reports the read of a field that is not there. Out of line, so that the check costs one comparison.
+/// Panics on access to an absent field. Out of line, so that the check costs one comparison.
 #[cold]
 #[inline(never)]
 fn refuse(field: StateField, component: usize, width: usize) -> ! {
@@ -32,8 +27,8 @@ fn refuse(field: StateField, component: usize, width: usize) -> ! {
 }
 
 impl StateTable {
-    /// A table of `points` >= 1 observation points with the given fields of a spacecraft with `wheels` wheels; all
-    /// values zero.
+    /// A table of zeros with `points` >= 1 observation points and the given fields of a spacecraft with `wheels`
+    /// wheels.
     pub fn new(fields: StateFields, wheels: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
         let mut columns = [ABSENT; StateField::ALL.len()];
@@ -73,12 +68,11 @@ impl StateTable {
         self.stride
     }
 
-    /// Whether the table has `field`.
+    /// True if the table has `field`.
     pub fn has(&self, field: StateField) -> bool {
         self.fields.contains(field)
     }
 
-    /// The index of the first value of a column.
     #[inline]
     fn start(&self, field: StateField, component: usize) -> usize {
         let column = self.columns[field as usize];
@@ -98,7 +92,7 @@ impl StateTable {
         &self.values[start..start + self.stride]
     }
 
-    /// The same, to write.
+    /// [`StateTable::column`], writable.
     ///
     /// # Panics
     /// If the table does not have the field, or the field has no such component.
@@ -126,8 +120,8 @@ impl StateTable {
         }
     }
 
-    /// Writes zero for the wheels from `first` on: a run with fewer wheels than the table has columns for leaves no
-    /// number of an earlier run behind. Without such wheels it writes nothing.
+    /// Writes zero for the wheels from `first` on, so that a run with fewer wheels than columns leaves no numbers of an
+    /// earlier run.
     pub fn clear_wheels(&mut self, first: usize) {
         for wheel in first..self.wheels {
             for field in [StateField::WheelRates, StateField::WheelAngles] {
@@ -173,7 +167,7 @@ mod tests {
         rates_and_wheels().column(StateField::Attitude, 0);
     }
 
-    // Counted from the marker of an absent field, this component would wrap around to the first column of the table.
+    // counted from the marker of an absent field, this component would wrap around to the first column
     #[test]
     #[should_panic = "does not have the field Attitude"]
     fn an_absent_field_cannot_be_read_as_another() {

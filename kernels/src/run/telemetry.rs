@@ -1,23 +1,23 @@
-//! [`Telemetry`]: what a control law has recorded of a run, at times of its own.
+//! [`Telemetry`]: records of a control law at times of its own.
 
 use crate::run::quantity::Quantity;
 
-/// Quantities over the times at which a law recorded them.
+/// Recorded quantities over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Telemetry {
     /// The columns.
     pub quantities: Vec<Quantity>,
     /// The times, ascending, s.
     pub times: Vec<f64>,
-    /// For each time one value of each column; NaN where there is none.
+    /// One value per column for each time; NaN if there is none.
     pub rows: Vec<Vec<f64>>,
-    /// Times that differ by no more than this are one, s: a tick is a product of its number and a period, which rounds
-    /// otherwise than the same time on a grid.
+    /// Tolerance of equal times, s: a tick is a product of number and period, which rounds differently from the same
+    /// time on a grid.
     pub same: f64,
 }
 
 impl Telemetry {
-    /// Each column at `times`: the value recorded last, NaN before the first.
+    /// Each column at `times`: the last recorded value, NaN before the first.
     pub fn held_at(&self, times: &[f64]) -> Vec<Vec<f64>> {
         let row = |time: &f64| self.times.partition_point(|recorded| *recorded <= time + self.same).checked_sub(1);
         let rows: Vec<Option<usize>> = times.iter().map(row).collect();
@@ -30,7 +30,7 @@ impl Telemetry {
 mod tests {
     use super::*;
 
-    /// Law: a value holds from the time at which it was recorded until the next.
+    /// Law: a value holds until the next is recorded.
     #[test]
     fn values_are_held() {
         let telemetry = Telemetry {
@@ -44,8 +44,8 @@ mod tests {
         assert_eq!(held[0][1..], [1.0, 1.0, 2.0, 2.0]);
     }
 
-    /// Law: tick k of a period of 0.1 s is at k times 0.1 and holds at the point of a grid that is meant by the same
-    /// time, whichever of the two rounds below the other; without the tolerance some points show the tick before.
+    /// Law: tick k of a period of 0.1 s holds at the grid point of the same decimal time, whichever rounds below the
+    /// other; without the tolerance some points show the tick before.
     #[test]
     fn rounding_shows_no_tick_before() {
         let ticks = 400;

@@ -1,9 +1,7 @@
-//! [`Trajectory`]: the integrated components of one run at its observation points.
+//! [`Trajectory`]: integrated components of one run at its observation points.
 
-/// The components that a method integrates, of one run at its observation points, component by component.
-///
-/// A kernel completes it to a [`super::StateTable`]; the meaning of the components is defined by the kernel. The stride
-/// is a multiple of eight, so that eight points are one vector; the padding after the last point repeats that point.
+/// Integrated components of one run at its observation points, completed by a kernel to a [`super::StateTable`]. The
+/// stride is a multiple of eight, with the last point repeated in the padding.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     components: usize,
@@ -13,7 +11,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// `components` components at `points` points; all zero.
+    /// `components` components at `points` points, all zero.
     pub fn new(components: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
         Trajectory { components, points, stride, values: vec![0.0; components * stride] }
@@ -41,7 +39,7 @@ impl Trajectory {
         &self.values[component * self.stride..(component + 1) * self.stride]
     }
 
-    /// The same, to write.
+    /// [`Trajectory::column`], writable.
     #[inline]
     pub fn column_mut(&mut self, component: usize) -> &mut [f64] {
         &mut self.values[component * self.stride..(component + 1) * self.stride]
@@ -64,7 +62,7 @@ impl Trajectory {
         }
     }
 
-    /// Copies the first components of `other`, which has the same number of points.
+    /// Copies the first components of `other`, which has as many points.
     pub fn copy_from(&mut self, other: &Trajectory) {
         let length = self.values.len();
         self.values.copy_from_slice(&other.values[..length]);
