@@ -1,21 +1,20 @@
-//! [`Pieces`]: a smooth function on an interval as Chebyshev series, piece by piece: made once, evaluated in
-//! nanoseconds.
+//! [`Pieces`]: a smooth function on an interval as piecewise Chebyshev series.
 //!
 //! A piece is halved until its last coefficients are below the tolerance (the rule of Chebfun, J. L. Aurentz & L. N.
-//! Trefethen, *Chopping a Chebyshev series*, ACM Trans. Math. Softw. 43 (2017), in its simplest form). Sums by
-//! Clenshaw's recurrence. Plain arithmetic and `libm`: the same bits everywhere.
+//! Trefethen, *Chopping a Chebyshev series*, ACM Trans. Math. Softw. 43 (2017), simplified); sums by Clenshaw's
+//! recurrence. Plain arithmetic and `libm`: the same bits everywhere.
 
 use core::f64::consts::PI;
 
-/// Coefficients of a piece: enough that few pieces are needed, few enough that one is quick.
+/// Coefficients of a piece: few pieces, and each is fast.
 const ORDER: usize = 16;
-/// Halvings of the interval at most: a piece is then as wide as the narrowest feature of the functions here.
+/// Limit of halvings: a piece is then as wide as the narrowest feature of the functions here.
 const MOST_HALVINGS: u32 = 14;
 
 /// A function on an interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pieces {
-    /// The upper ends of the pieces, ascending.
+    /// Upper ends of the pieces, ascending.
     ends: Vec<f64>,
     pieces: Vec<Piece>,
 }
@@ -23,13 +22,13 @@ pub struct Pieces {
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
     middle: f64,
-    /// 1 / half the width.
+    /// 1/half width.
     scale: f64,
     coefficients: [f64; ORDER],
 }
 
 impl Pieces {
-    /// `f` on [`low`, `high`], each piece to the absolute error `tolerance(value)` for values of that size.
+    /// `f` on [`low`, `high`], to the absolute error `tolerance(value)`.
     pub fn new(f: &dyn Fn(f64) -> f64, low: f64, high: f64, tolerance: &dyn Fn(f64) -> f64) -> Self {
         let mut made = Pieces { ends: Vec::new(), pieces: Vec::new() };
         made.add(f, [low, high], tolerance, MOST_HALVINGS);
@@ -49,7 +48,7 @@ impl Pieces {
         }
     }
 
-    /// The value at `x`, which is taken to the nearest end where it is outside of the interval.
+    /// The value at `x`, clamped to the interval.
     #[inline]
     pub fn value(&self, x: f64) -> f64 {
         let index = self.ends.partition_point(|end| *end < x).min(self.pieces.len() - 1);

@@ -1,8 +1,6 @@
-//! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits: the arithmetic of reference solutions.
-//!
-//! Source of the algorithms and of their error bounds: M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw.
-//! 44(2), 2017 (algorithms 6, 12, 18). Not a crate: the kernels need exactly [`Real`], with fused operations, and
-//! nothing else.
+//! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits, for reference solutions: algorithms 6, 12
+//! and 18 of M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017, with their error bounds. Not a
+//! crate, since kernels need exactly [`Real`] with fused operations.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -51,7 +49,7 @@ impl Add for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        // Joldes et al., algorithm 6: relative error below 3 u^2
+        // algorithm 6: relative error below 3 u^2
         let s = two_sum(self.high, other.high);
         let t = two_sum(self.low, other.low);
         let v = fast_two_sum(s.high, s.low + t.high);
@@ -71,7 +69,7 @@ impl Mul for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        // Joldes et al., algorithm 12: relative error below 5 u^2
+        // algorithm 12: relative error below 5 u^2
         let product = two_product(self.high, other.high);
         let cross = self.low * other.low;
         let cross = self.high.mul_add(other.low, cross);
@@ -84,7 +82,7 @@ impl Div for DoubleDouble {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        // Joldes et al., algorithm 18: relative error below 10 u^2
+        // algorithm 18: relative error below 10 u^2
         let reciprocal = 1.0 / other.high;
         let rest = DoubleDouble { high: (-other.high).mul_add(reciprocal, 1.0), low: -(other.low * reciprocal) };
         let rest = fast_two_sum(rest.high, rest.low);
@@ -123,7 +121,7 @@ impl Real for DoubleDouble {
     fn splat(self, value: f64) -> Self {
         DoubleDouble::exact(value)
     }
-    /// Two roundings here, each at 2^-104; nothing needs a single rounding at this precision.
+    /// Two roundings, each at 2^-104, sufficient at this precision.
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
@@ -158,7 +156,7 @@ impl Real for DoubleDouble {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
-    /// Of the value rounded to `f64`: the sum with a large number, which rounds one `f64`, would keep the fraction of
+    /// That of the value rounded to `f64`: a sum with a large number, which rounds one `f64`, keeps the fraction of
     /// two.
     #[inline(always)]
     fn nearest_integer(self) -> Self {
@@ -194,7 +192,7 @@ impl Real for DoubleDouble {
 mod tests {
     use super::*;
 
-    /// 16 u^2 = 2^-102: the largest of the stated bounds with a margin for two operations.
+    /// 16 u^2 = 2^-102: the largest stated bound with a margin for two operations.
     const BOUND: f64 = 1.972_152_263_052_53e-31;
 
     fn dd(x: f64) -> DoubleDouble {
@@ -220,7 +218,7 @@ mod tests {
         assert_eq!(dd(0.0).sqrt(), dd(0.0));
     }
 
-    /// Law: the nearest integer has no fraction, however many digits the number has.
+    /// Law: the nearest integer has no fraction, for any number of digits.
     #[test]
     fn the_nearest_integer_is_one() {
         for (number, integer) in [(dd(2.3) + dd(1e-20), 2.0), (dd(-0.7) - dd(1e-18), -1.0), (dd(5.0) + dd(1e-25), 5.0)]

@@ -1,16 +1,15 @@
 //! The regularised incomplete beta function I_x(a, b) and its inverse, for shapes from 1e-3 to 1e15.
 //!
-//! I_x by a continued fraction (evaluated by the method of Lentz as modified by I. J. Thompson & A. R. Barnett, *J.
-//! Comput. Phys.* 64 (1986) 490), from the side where it converges. Its factor x^a (1-x)^b / B(a, b) by the
-//! saddle-point form of C. Loader, *Fast and Accurate Computation of Binomial Probabilities* (2000): the logarithms of
-//! gamma functions would lose as many digits as the shapes have. Elementary functions from `libm`.
+//! I_x by a continued fraction (Lentz's method modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986)
+//! 490), from the side of convergence. Its factor x^a (1-x)^b / B(a, b) by the saddle-point form of C. Loader, *Fast
+//! and Accurate Computation of Binomial Probabilities* (2000): logarithms of gamma functions would lose as many digits
+//! as the shapes have. Elementary functions from `libm`.
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
-/// Terms after which the continued fraction is taken as converged; about 3 sqrt(max(a, b)) are needed in the worst
-/// place.
+/// Limit of terms of the continued fraction; the worst case needs about 3 sqrt(max(a, b)).
 const MAX_TERMS: u32 = 100_000_000;
 /// Replaces a zero, so that Lentz's method continues (Thompson & Barnett).
 const TINY: f64 = 1e-300;
@@ -41,8 +40,7 @@ pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
 
 /// x with I_x(a, b) = `p`, for `p` in [0, 1] given with its complement `q` = 1 - p; returned with 1 - x.
 ///
-/// Bisection in the logarithm of the smaller of x and 1 - x brackets the root, Newton's method with the density as
-/// slope ends it; a Newton step that leaves the bracket is replaced by a bisection, so that it always converges.
+/// Newton's method in the logarithm of the smaller of x and 1 - x, with bisection for steps that leave the bracket.
 pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     if p <= 0.0 {
         return [0.0, 1.0];
@@ -50,7 +48,7 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     if q <= 0.0 {
         return [1.0, 0.0];
     }
-    // the side of the middle on which the root lies decides which of x and 1 - x is the unknown
+    // the side of the root decides whether x or 1 - x is the unknown
     let middle = incomplete_beta(0.5, 0.5, a, b);
     let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
     if below {
@@ -62,8 +60,8 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     }
 }
 
-/// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0: neither x nor 1 - x loses digits,
-/// and neither vanishes.
+/// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0; neither x nor 1 - x loses digits
+/// or vanishes.
 pub fn logit_quantile(p: f64, q: f64, a: f64, b: f64) -> f64 {
     let middle = incomplete_beta(0.5, 0.5, a, b);
     let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
@@ -76,7 +74,7 @@ pub fn logit_quantile(p: f64, q: f64, a: f64, b: f64) -> f64 {
     if below { logit(p, q, a, b) } else { -logit(q, p, b, a) }
 }
 
-/// ln B(a, b), from the factor [`front`] at the mean: logarithms of gamma functions would cancel.
+/// ln B(a, b), from [`front`] at the mean, since logarithms of gamma functions would cancel.
 fn log_beta(a: f64, b: f64) -> f64 {
     let n = a + b;
     let front = stirling_error(n) - stirling_error(a) - stirling_error(b) + 0.5 * libm::log(a * b / (2.0 * PI * n));
@@ -87,7 +85,7 @@ fn log_beta(a: f64, b: f64) -> f64 {
 fn log_of_smaller_root(p: f64, q: f64, a: f64, b: f64) -> f64 {
     // x is the exponential of the unknown: roots near zero keep their relative accuracy
     let (low, high) = (-745.0_f64, -core::f64::consts::LN_2);
-    // the first term of the series x^a / (a B), and the mean where that is no use
+    // the first term of the series x^a / (a B), or else the mean
     let mean = libm::log((a / (a + b)).clamp(1e-300, 0.5));
     let log_x = mean.clamp(low, high);
     log_of_quantile(Probability { lower: p, upper: q }, log_x, [low, high], |log_x| {
@@ -104,11 +102,9 @@ fn front(x: f64, y: f64, a: f64, b: f64) -> f64 {
     libm::exp(exponent) * libm::sqrt(a * b / (2.0 * PI * n))
 }
 
-/// The continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x below about its mean a/(a + b).
-///
-/// A. R. DiDonato & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans.
-/// Math. Softw. 18 (1992) 360, equation (9). Where the shapes are large its terms do not cancel, as those of DLMF
-/// 8.17.22 do.
+/// Continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x below about its mean a/(a + b): A. R. DiDonato
+/// & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans. Math. Softw. 18
+/// (1992) 360, equation (9), whose terms do not cancel for large shapes, unlike DLMF 8.17.22.
 fn continued_fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
     let nonzero = |value: f64| if value.abs() < TINY { TINY } else { value };
     let lambda = a * y - b * x;
@@ -154,7 +150,7 @@ mod tests {
         (2e-06, 0.05, 3000.0, 0.79513779144805185, 0.20486220855194815),
     ];
 
-    /// Measured: at most 2.8e-14, where the complement of 0.98 is taken; 7.6e-15 elsewhere.
+    /// Measured: at most 2.8e-14 via the complement of 0.98; 7.6e-15 elsewhere.
     const RELATIVE_ERROR: f64 = 5e-14;
 
     #[test]
@@ -173,7 +169,7 @@ mod tests {
                 let [x, y] = inverse_incomplete_beta(p, 1.0 - p, a, b);
                 let found = incomplete_beta(x, y, a, b);
                 let error = ((found.lower - p) / p.min(1.0 - p)).abs();
-                // what the last digit of x is worth in p at the largest shapes; measured: 4.8e-13
+                // the last digit of x in p at the largest shapes; measured: 4.8e-13
                 assert!(error < 4e-12, "{a} {b} {p}: x {x} gives {found:?}");
             }
         }
@@ -185,7 +181,7 @@ mod tests {
         for x in [1e-9, 0.2, 0.5, 0.8, 1.0 - 1e-9] {
             for shape in [0.05, 1.0, 7.5, 400.0] {
                 let (first, power) = (incomplete_beta(x, 1.0 - x, 1.0, shape).upper, libm::pow(1.0 - x, shape));
-                // 1 - x has lost digits where x is near one; measured: 4.7e-14
+                // 1 - x has lost digits near one; measured: 4.7e-14
                 assert!((first - power).abs() <= 4e-13 * power, "{x} {shape} {first} {power}");
                 let (second, power) = (incomplete_beta(x, 1.0 - x, shape, 1.0).lower, libm::pow(x, shape));
                 // roundings of exp(a ln x) at exponents of hundreds; measured: 1.4e-13

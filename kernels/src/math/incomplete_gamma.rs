@@ -1,15 +1,15 @@
 //! The regularised incomplete gamma functions P(a, x) and Q(a, x) = 1 - P, and their inverse, for shapes from 1e-3 to
 //! 1e6.
 //!
-//! P by its series for x < a + 1 (DLMF 8.11.4), Q by its continued fraction elsewhere (DLMF 8.9.2, by the method of
-//! Lentz as modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490). Their factor x^a e^-x /
-//! Gamma(a + 1) by the saddle-point form of C. Loader (2000), as for the incomplete beta function.
+//! P by its series for x < a + 1 (DLMF 8.11.4), else Q by its continued fraction (DLMF 8.9.2, Lentz's method modified
+//! by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490); their factor x^a e^-x / Gamma(a + 1) by the
+//! saddle-point form of C. Loader (2000).
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
-/// Terms after which series and fraction are taken as converged; about 9 sqrt(a) are needed in the worst place.
+/// Limit of terms of series and fraction; the worst case needs about 9 sqrt(a).
 const MAX_TERMS: u32 = 1_000_000;
 /// Replaces a zero, so that Lentz's method continues.
 const TINY: f64 = 1e-300;

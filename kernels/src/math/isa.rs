@@ -1,7 +1,7 @@
-//! [`Isa`]: which instruction set the kernels run on, chosen once per process.
+//! [`Isa`]: the instruction set of the kernels, chosen once per process.
 //!
-//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), and every path gives the same
-//! bits: all arithmetic is IEEE 754, fused in [`super::Real::mul_add`] and nowhere else.
+//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), with the same bits on every
+//! path: all arithmetic is IEEE 754, fused only in [`super::Real::mul_add`].
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use fearless_simd::{Level, Simd};
 use crate::math::lanes::Lanes;
 use crate::math::real::Real;
 
-/// The environment variable that forces a path (`avx512`, `avx2`, `plain`); for tests and for comparing paths.
+/// Environment variable that forces a path (`avx512`, `avx2`, `plain`), for tests and comparisons.
 pub const VARIABLE: &str = "SPINDRIFT_ISA";
 
 /// An instruction set that this processor has.
@@ -20,10 +20,10 @@ pub struct Isa {
     name: &'static str,
 }
 
-/// Work that is compiled once per instruction set; [`Isa::run`] calls the right one.
+/// Work compiled once per instruction set, for [`Isa::run`].
 ///
-/// A trait and not a closure, because a closure cannot be generic over the token. `run` should be `#[inline(always)]`,
-/// and so should everything hot that it calls, or it is compiled without the instructions it is meant to use.
+/// A trait, since closures cannot be generic over the token. `run` and all hot callees should be `#[inline(always)]`,
+/// or they are compiled without the instruction set.
 pub trait Work {
     /// What the work returns.
     type Output;
@@ -31,11 +31,8 @@ pub trait Work {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Work that is compiled for lanes on AVX2 and for one number at a time elsewhere; [`Isa::run_narrow`] calls the right
-/// one.
-///
-/// For methods that need not be the fastest: every further instruction set costs compile time, and the bits are the
-/// same.
+/// Work compiled for lanes on AVX2, otherwise for one number at a time, for [`Isa::run_narrow`]: methods that need not
+/// be the fastest, since every instruction set costs compile time.
 pub trait NarrowWork {
     /// What the work returns.
     type Output;
@@ -45,11 +42,11 @@ pub trait NarrowWork {
     fn in_scalars<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Work in as many lanes as the instruction set has registers for; [`Isa::run_wide`] calls it.
+/// Work in as many lanes as suit the registers, for [`Isa::run_wide`].
 ///
-/// AVX-512 has thirty-two registers of eight lanes and takes sixteen lanes; AVX2 has sixteen of four and takes eight.
-/// The plain path of x86-64 takes one number at a time: nearly all its time is the fused operation, which SSE2 does not
-/// have and a library function computes for one number, and lanes cost several times as much machine code.
+/// AVX-512 (32 registers of eight lanes) takes sixteen lanes; AVX2 (16 of four) takes eight. The plain path of x86-64
+/// takes one number at a time: nearly all its time is the fused operation, a library call per number, and lanes would
+/// cost several times the machine code.
 pub trait WideWork {
     /// What the work returns.
     type Output;
@@ -64,8 +61,7 @@ impl Isa {
         Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(|| Self::plain(level))
     }
 
-    /// The path called `name` (`avx512`, `avx2`, `plain`), or `None` if this processor does not have it or the name is
-    /// unknown.
+    /// The path `name` (`avx512`, `avx2`, `plain`), if known and available.
     pub fn from_name(name: &str) -> Option<Self> {
         let level = Level::new();
         match name {
@@ -77,7 +73,7 @@ impl Isa {
     /// The choice of this process: the value of [`VARIABLE`], else the best.
     ///
     /// # Errors
-    /// The value of the variable, if it names no path that this processor has.
+    /// The value of the variable, if it is no available path.
     pub fn chosen() -> Result<Self, String> {
         static CHOICE: OnceLock<Result<Isa, String>> = OnceLock::new();
         CHOICE
@@ -88,7 +84,7 @@ impl Isa {
             .clone()
     }
 
-    /// Every path that this processor has, best first.
+    /// All available paths, best first.
     pub fn available() -> Vec<Self> {
         ["avx512", "avx2", "plain"].into_iter().filter_map(Self::from_name).collect()
     }
@@ -114,8 +110,7 @@ impl Isa {
         }
     }
 
-    /// The path that needs nothing beyond the target's baseline; on x86-64 every fused operation is then a library
-    /// call.
+    /// The path of the target's baseline; on x86-64 every fused operation is a library call.
     fn plain(level: Level) -> Self {
         let _ = level;
         Isa { level: Level::baseline(), name: "plain" }

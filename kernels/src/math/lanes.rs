@@ -1,6 +1,5 @@
-//! [`Lanes`]: eight `f64` side by side as one [`Real`].
-//!
-//! A thin wrapper of `fearless_simd::f64x8`, which contains the token of the chosen instruction set.
+//! [`Lanes`]: eight `f64` as one [`Real`], a thin wrapper of `fearless_simd::f64x8`, which contains the token of the
+//! instruction set.
 
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -12,7 +11,7 @@ use crate::math::real::{Mask, Real};
 /// Number of lanes of [`Lanes`].
 pub const WIDTH: usize = 8;
 
-/// Most lanes of any [`Real`]: two [`Lanes`] as a [`super::Pair`].
+/// Largest number of lanes of a [`Real`]: a [`super::Pair`] of [`Lanes`].
 pub const WIDEST: usize = 2 * WIDTH;
 
 /// Eight `f64` side by side; lane `i` of every operation equals the scalar operation bit for bit.
@@ -57,7 +56,7 @@ impl<S: Simd> Lanes<S> {
         (Lanes(self.0.zip_low(other.0)), Lanes(self.0.zip_high(other.0)))
     }
 
-    /// The even and the odd numbers of the sixteen in `self` and `other`.
+    /// The even and the odd of the sixteen numbers in `self` and `other`.
     #[inline(always)]
     pub fn deinterleave(self, other: Self) -> (Self, Self) {
         (Lanes(self.0.unzip_low(other.0)), Lanes(self.0.unzip_high(other.0)))
@@ -82,8 +81,8 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-/// The fused operation for an instruction set that has none: eight library calls, not inlined, because a kernel with
-/// all of them inlined takes minutes to compile.
+/// The fused operation without hardware support: eight library calls, not inlined, since inlined ones take minutes to
+/// compile.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 fn plain_mul_add<S: Simd>(x: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {

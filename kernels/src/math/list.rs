@@ -1,7 +1,5 @@
-//! [`List`]: up to `N` values in place, for what a scene may have several of.
-//!
-//! Not a vector of the standard library, because every sample resolves a scene without allocating, and because its
-//! parts are copied as plain values.
+//! [`List`]: up to `N` values in place. Unlike a vector it is copied as a plain value, and samples are resolved without
+//! allocation.
 
 use core::ops::{Deref, DerefMut};
 
@@ -13,15 +11,15 @@ pub struct List<T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> List<T, N> {
-    /// No values; `blank` fills the memory that is not used.
+    /// An empty list; `blank` fills unused memory.
     pub const fn empty(blank: T) -> Self {
         List { items: [blank; N], len: 0 }
     }
 
-    /// Adds a value at the end.
+    /// Appends a value.
     ///
     /// # Panics
-    /// Where there are `N` values already.
+    /// If the list is full.
     pub fn push(&mut self, value: T) {
         assert!(self.len < N, "a list of at most {N} values is full");
         self.items[self.len] = value;

@@ -1,20 +1,13 @@
-//! Layer 0: arithmetic and elementary mathematics, no physics.
+//! Layer 0: arithmetic and elementary mathematics.
 //!
-//! - [`real`]: [`Real`], the trait that kernels are generic over (`f64`, eight lanes of `f64`), and its [`Mask`].
-//! - [`double_double`]: 106 bits, for reference solutions.
-//! - [`lanes`]: [`Lanes`], eight `f64` in one vector of the chosen instruction set.
-//! - [`chebyshev`]: smooth functions as pieces of Chebyshev series.
-//! - [`incomplete_beta`], [`incomplete_gamma`], [`normal`]: distribution functions and their inverses, with what they
-//!   share in [`probability`] (a probability and its complement, the search for a quantile) and [`saddle_point`]
-//!   (Loader's functions).
-//! - [`isa`]: the run-time choice of instruction set; the only file that reads `SPINDRIFT_ISA`.
-//! - [`list`]: a short list without allocation.
-//! - [`pair`]: [`Pair`], two numbers of one kind as one, to keep wide vector units busy.
-//! - [`power`]: powers, logarithms and exponentials for step control, the same bits in a scalar and in lanes.
-//! - [`sine`]: sine and cosine of angles in turns, eight at a time.
-//! - [`sums`]: sums with their rounding errors.
-//! - [`symmetric`]: positive definiteness and principal axes of 3x3 matrices.
-//! - [`vector`]: three-vectors, 3x3 matrices and quaternions as plain arrays of `Real`.
+//! - [`real`]: [`Real`], the arithmetic of kernels, and its [`Mask`]. [`lanes`]: [`Lanes`], eight `f64` in a vector.
+//!   [`pair`]: [`Pair`], two numbers as one, for wide vector units. [`double_double`]: 106 bits. [`isa`]: run-time
+//!   choice of instruction set; the only file that reads `SPINDRIFT_ISA`.
+//! - [`incomplete_beta`], [`incomplete_gamma`], [`normal`]: distribution functions and inverses, on [`probability`] and
+//!   [`saddle_point`].
+//! - [`power`]: powers, logarithms and exponentials for step control. [`sine`]: sine and cosine of turns. [`sums`]:
+//!   sums with rounding errors. [`chebyshev`]: piecewise Chebyshev series.
+//! - [`vector`]: three-vectors, 3x3 matrices and quaternions. [`symmetric`]: symmetric matrices. [`list`]: short lists.
 
 pub mod chebyshev;
 pub mod double_double;

@@ -1,8 +1,8 @@
-//! The standard normal distribution: probability and quantile, in portable arithmetic.
+//! Probability and quantile of the standard normal distribution, in portable arithmetic.
 //!
 //! Quantile: M. J. Wichura, *Algorithm AS 241: The Percentage Points of the Normal Distribution*, Applied Statistics 37
-//! (1988) 477-484, routine PPND16 (relative error about 1e-16 by construction). `log`, `erfc` from `libm`, so the same
-//! bits everywhere; no fused operations, since outside a feature-enabled function they are library calls.
+//! (1988) 477-484, routine PPND16 (relative error about 1e-16). `log`, `erfc` from `libm`; no fused operations, which
+//! are library calls outside a feature-enabled function.
 
 // The digits are those that the paper prints.
 #![allow(clippy::excessive_precision)]
@@ -30,7 +30,7 @@ const CENTER: [[f64; 8]; 2] = [
         5.226_495_278_852_854_561_0e3,
     ],
 ];
-/// The same in the near tail, in sqrt(-ln p) - 1.6.
+/// Near tail, in sqrt(-ln p) - 1.6.
 const NEAR: [[f64; 8]; 2] = [
     [
         1.423_437_110_749_683_577_34e0,
@@ -53,7 +53,7 @@ const NEAR: [[f64; 8]; 2] = [
         1.050_750_071_644_416_843_24e-9,
     ],
 ];
-/// The same in the far tail, in sqrt(-ln p) - 5.
+/// Far tail, in sqrt(-ln p) - 5.
 const FAR: [[f64; 8]; 2] = [
     [
         6.657_904_643_501_103_777_20e0,
@@ -84,15 +84,14 @@ fn ratio([numerator, denominator]: &[[f64; 8]; 2], x: f64) -> f64 {
     horner(numerator) / horner(denominator)
 }
 
-/// The z below which a standard normal variable lies with probability `p`, 0 < p < 1; relative error below 4e-16.
+/// z with probability `p` below it, 0 < p < 1; relative error below 4e-16.
 #[inline]
 pub fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= CENTRAL { q * ratio(&CENTER, 0.180_625 - q * q) } else { tail_quantile(p) }
 }
 
-/// [`quantile`] of eight numbers: the rational function about 1/2 for all of them side by side, which the compiler
-/// makes vectors of, and the tails (one in seven) one by one. The same bits as one at a time.
+/// [`quantile`] of eight numbers, bit for bit: vectorised about 1/2, one by one in the tails (one in seven).
 #[inline]
 pub fn quantiles(p: &[f64; 8], z: &mut [f64; 8]) {
     for (z, p) in z.iter_mut().zip(p) {
@@ -106,10 +105,10 @@ pub fn quantiles(p: &[f64; 8], z: &mut [f64; 8]) {
     }
 }
 
-/// Half the width of the interval about 1/2 in which one rational function does without a logarithm.
+/// Half width of the interval about 1/2 of the rational function without a logarithm.
 const CENTRAL: f64 = 0.425;
 
-/// [`quantile`] further than [`CENTRAL`] from 1/2.
+/// [`quantile`] beyond [`CENTRAL`] from 1/2.
 fn tail_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     let tail = (-libm::log(if q < 0.0 { p } else { 1.0 - p })).sqrt();
@@ -117,7 +116,7 @@ fn tail_quantile(p: f64) -> f64 {
     if q < 0.0 { -z } else { z }
 }
 
-/// The probability that a standard normal variable lies below `z`; accurate in the lower tail.
+/// Probability below `z`; accurate in the lower tail.
 pub fn probability(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
@@ -142,7 +141,7 @@ mod tests {
         (0.925, 1.4395314709384562291),
         (0.9999, 3.7190164854557083867),
     ];
-    /// Two units in the last place: the paper's 1e-16 and the rounding of quotient and product.
+    /// Two units in the last place: the paper's 1e-16 and rounding.
     const ERROR: f64 = 4.5e-16;
 
     #[test]

@@ -1,14 +1,12 @@
-//! [`Pair`]: two [`Real`]s of one kind as one, so that twice as many independent operations are in flight.
-//!
-//! A vector unit that starts two fused operations per cycle, each with a latency of four cycles, needs eight
-//! independent chains. A kernel with four sums per vector has them if it works on two vectors at a time. Lanes never
-//! mix, so pairing changes no bit.
+//! [`Pair`]: two [`Real`]s as one, for twice as many independent operations in flight: two fused operations per cycle
+//! with a latency of four cycles need eight chains, which a kernel with four sums per vector has on two vectors. Lanes
+//! never mix, so that pairing changes no bit.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 use crate::math::real::{Mask, Real};
 
-/// Two numbers (or two vectors of numbers) side by side; the lanes of the first come first.
+/// Two numbers (or vectors of numbers); the lanes of the first come first.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<R>(pub R, pub R);
 
@@ -48,7 +46,7 @@ impl<R: Real> SubAssign for Pair<R> {
     }
 }
 
-/// The masks of the two numbers of a [`Pair`].
+/// Masks of a [`Pair`].
 #[derive(Clone, Copy, Debug)]
 pub struct PairMask<M>(M, M);
 

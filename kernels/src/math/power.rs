@@ -1,17 +1,17 @@
-//! Fractional powers from [`Real`] operations alone: the same bits in a scalar and in every lane, on every platform.
+//! Powers from [`Real`] operations alone, with the same bits in a scalar and in lanes, for step control. Values of a
+//! row use `libm`.
 //!
-//! For step control. [`power`] has twelve digits: the logarithm is the series of artanh about the nearest power of two,
-//! the exponential a Taylor polynomial on half an octave on either side (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1).
-//! [`log2_rough`] and [`exp2_rough`] have four and are the ones that a Taylor step needs. Not for values of a row:
-//! those use `libm`.
+//! [`power`] has twelve digits: the logarithm is the series of artanh about the nearest power of two, the exponential a
+//! Taylor polynomial within half an octave (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1). [`log2_rough`] and
+//! [`exp2_rough`] have four digits, for Taylor steps.
 
 use super::real::NEAREST;
 use crate::math::real::Real;
 
-/// The smallest normal number: smaller arguments are replaced by it.
+/// The smallest normal number, a lower limit of arguments.
 const SMALLEST: f64 = f64::MIN_POSITIVE;
 
-/// The largest number whose power of two has a normal reciprocal: larger arguments are replaced by it.
+/// The largest number whose power of two has a normal reciprocal, an upper limit of arguments.
 const LARGEST: f64 = f64::MAX / 2.0;
 
 /// Coefficients of the artanh series; the first neglected term is below 2e-14 at |t| <= 0.172.
@@ -33,7 +33,6 @@ const EXPONENTIAL: [f64; 12] = [
     1.0 / 39_916_800.0,
 ];
 
-/// `c[0] + c[1] x + ...`.
 #[inline(always)]
 fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
     let mut sum = x.splat(coefficients[K - 1]);
@@ -43,15 +42,14 @@ fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
     sum
 }
 
-/// log2 of a positive number, to an absolute error of 1e-13.
-///
-/// Zero, negative and subnormal numbers and NaN count as the smallest normal number, anything above 2^1023 as 2^1023.
+/// log2 of a positive number, to an absolute error of 1e-13. Zero, negative and subnormal numbers and NaN count as the
+/// smallest normal number, anything above 2^1023 as 2^1023.
 #[inline(always)]
 pub fn log2<R: Real>(x: R) -> R {
     let x = x.larger(x.splat(SMALLEST)).smaller(x.splat(LARGEST));
     let exponent = x.exponent();
     let mantissa = x * (-exponent).power_of_two();
-    // From [1, 2) to [0.71, 1.42), where the series converges fastest.
+    // from [1, 2) to [0.71, 1.42), for fastest convergence
     let upper = x.splat(core::f64::consts::SQRT_2).lt(mantissa);
     let exponent = R::select(upper, exponent + x.splat(1.0), exponent);
     let mantissa = R::select(upper, mantissa * x.splat(0.5), mantissa);
@@ -68,9 +66,8 @@ pub fn exp2<R: Real>(x: R) -> R {
     polynomial(&EXPONENTIAL, (x - whole) * x.splat(core::f64::consts::LN_2)) * whole.power_of_two()
 }
 
-/// `x^exponent` for a positive `x` and a small `exponent` (|exponent| <= 1), to a relative error of [`POWER_ERROR`].
-///
-/// Arguments outside the normal range are clamped as [`log2`] says; callers check for non-finite values separately.
+/// `x^exponent` for positive `x` and |exponent| <= 1, to a relative error of [`POWER_ERROR`]. Arguments are clamped as
+/// in [`log2`]; callers check for non-finite values.
 #[inline(always)]
 pub fn power<R: Real>(x: R, exponent: f64) -> R {
     exp2(log2(x) * x.splat(exponent))
@@ -80,7 +77,7 @@ pub fn power<R: Real>(x: R, exponent: f64) -> R {
 /// product with the exponent, times ln 2; rounded up.
 pub const POWER_ERROR: f64 = 3e-13;
 
-/// log2 x with an absolute error of at most [`ROUGH_ERROR`] for positive normal x below 2^1022; about -1020 for zero.
+/// log2 x with an absolute error up to [`ROUGH_ERROR`] for positive normal x below 2^1022; about -1020 for zero.
 #[inline(always)]
 pub fn log2_rough<R: Real>(x: R) -> R {
     let exponent = x.exponent();
@@ -93,11 +90,10 @@ pub fn log2_rough<R: Real>(x: R) -> R {
     y.mul_add(series, exponent)
 }
 
-/// 2^x with a relative error of at most [`ROUGH_ERROR`] for |x| < 1000.
+/// 2^x with a relative error up to [`ROUGH_ERROR`] for |x| < 1000.
 #[inline(always)]
 pub fn exp2_rough<R: Real>(x: R) -> R {
-    // in double-double the sum keeps the fraction, and the power is one of two: rough enough for steps, whose bits stay
-    // as they are
+    // in double-double the sum keeps the fraction: good enough for steps, whose bits stay as they are
     let whole = (x + x.splat(NEAREST)) - x.splat(NEAREST);
     let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
     let mut series = x.splat(1.0 / 120.0);

@@ -1,6 +1,6 @@
-//! [`Probability`]: a probability with its complement, and the search for the value that has it.
+//! [`Probability`]: a probability with its complement, and the search for a quantile.
 
-/// A probability and its complement. Each has its own relative accuracy, so neither tail loses digits.
+/// A probability and its complement, each with its own relative accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probability {
     /// P.
@@ -9,14 +9,13 @@ pub struct Probability {
     pub upper: f64,
 }
 
-/// Newton steps or bisections after which a search ends; some ten are needed.
+/// Limit of Newton steps or bisections; some ten are needed.
 const MAX_STEPS: u32 = 200;
 
-/// ln x of the value x with the probability `target`, from the guess `log_x` between the ends of `bracket`.
+/// ln x of the value x with the probability `target`, from the guess `log_x` within `bracket`.
 ///
-/// `at` gives the distribution function at ln x and its derivative with respect to ln x. Newton's method for the
-/// logarithm of the smaller of the two probabilities, which has the digits; a step that leaves the bracket is a
-/// bisection, so that it always converges.
+/// `at` is the distribution function at ln x and its derivative with respect to ln x. Newton's method for the logarithm
+/// of the smaller probability, which has the digits, with bisection for steps that leave the bracket.
 pub fn log_of_quantile(
     target: Probability,
     mut log_x: f64,

@@ -1,13 +1,12 @@
-//! [`Real`]: the arithmetic a kernel may use.
+//! [`Real`]: the arithmetic of kernels.
 //!
-//! One trait for a scalar and for eight lanes, so that a kernel is written once and lane `i` equals the scalar run bit
-//! for bit: every operation here is correctly rounded (IEEE 754) in both, and `mul_add` is always fused. Comparisons
-//! give a [`Mask`], one truth value per lane, which `&`, `|` and `!` combine. Elementary functions are *not* here:
-//! those that the values of a row depend on come from `libm` or are built from these operations.
+//! One trait for scalars and lanes, so that lane `i` equals the scalar run bit for bit: every operation is correctly
+//! rounded (IEEE 754), and `mul_add` is always fused. Comparisons give a [`Mask`] for `&`, `|` and `!`. Elementary
+//! functions are not here: values of a row use `libm` or these operations.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-/// 2^52: the last bits of 2^52 + n are the integer n, which is how exponents are read and written without a conversion.
+/// 2^52: the last bits of 2^52 + n are the integer n, which reads and writes exponents without a conversion.
 pub const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// 1.5 * 2^52: adding and subtracting it rounds to the nearest integer.
@@ -18,10 +17,10 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
     /// Number of lanes.
     const LANES: usize;
 
-    /// Whether it is true in any lane.
+    /// True if it is true in any lane.
     fn any(self) -> bool;
 
-    /// Whether it is true in lane `lane`.
+    /// The value in lane `lane`.
     fn test(self, lane: usize) -> bool;
 
     /// Sets the value of lane `lane`.
@@ -45,7 +44,7 @@ impl Mask for bool {
     }
 }
 
-/// A real number, or several side by side that never share a decision.
+/// A real number, or several that share no decision.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -62,7 +61,7 @@ pub trait Real:
     /// Number of lanes.
     const LANES: usize;
 
-    /// The constant `value` in every lane; `self` only determines the kind of number.
+    /// `value` in every lane; `self` only determines the type.
     fn splat(self, value: f64) -> Self;
 
     /// `self * a + b` with a single rounding.
@@ -80,11 +79,10 @@ pub trait Real:
     /// Absolute value.
     fn abs(self) -> Self;
 
-    /// The larger of two numbers; the result is `other` where either is not a number (so that a
-    /// maximum over errors, `error.larger(maximum)`, does not detect non-finite values).
+    /// The larger number; `other` if either is NaN, so that `error.larger(maximum)` does not detect NaN.
     fn larger(self, other: Self) -> Self;
 
-    /// The smaller of two numbers, with the same rule for NaN.
+    /// The smaller number; `other` if either is NaN.
     fn smaller(self, other: Self) -> Self;
 
     /// `self < other`, lane by lane.
@@ -93,7 +91,7 @@ pub trait Real:
     /// `yes` in the lanes where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// One in the lanes where `mask` is true, else zero: for counts. `self` only determines the kind of number.
+    /// One in the lanes where `mask` is true, else zero, for counts; `self` only determines the type.
     #[inline(always)]
     fn indicator(self, mask: Self::Mask) -> Self {
         Self::select(mask, self.splat(1.0), self.zero())
@@ -111,33 +109,32 @@ pub trait Real:
         (self + self.splat(NEAREST)) - self.splat(NEAREST)
     }
 
-    /// The exponent of a positive normal number as a number: floor(log2(self)).
+    /// Exponent of a positive normal number: floor(log2(self)).
     fn exponent(self) -> Self;
 
     /// 2^self for an integer from -1022 to 1023.
     fn power_of_two(self) -> Self;
 
-    /// The number in lane `lane`, rounded to `f64` if the type has more digits.
+    /// The number in lane `lane`, rounded to `f64`.
     fn lane(&self, lane: usize) -> f64;
 
     /// Puts `value` into lane `lane`.
     fn set_lane(&mut self, lane: usize, value: f64);
 
-    /// `LANES` numbers from the start of a slice; `self` only determines the kind of number.
+    /// `LANES` numbers from the start of a slice; `self` only determines the type.
     fn read(self, values: &[f64]) -> Self;
 
-    /// Writes the numbers to the start of a slice, as [`Real::lane`] gives them.
+    /// Writes the numbers to the start of a slice, as [`Real::lane`].
     fn write(self, values: &mut [f64]);
 
-    /// What `work` returns. Of lanes it is a function of its own, compiled for their instruction set: for what is long
-    /// and asked for in several places, each of which would have a copy of it. `self` only determines the kind of
-    /// number.
+    /// The result of `work`; for lanes in a function of its own, compiled for their instruction set, for long work
+    /// needed in several places; `self` only determines the type.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()
     }
 
-    /// The constant zero.
+    /// Zero.
     #[inline(always)]
     fn zero(self) -> Self {
         self.splat(0.0)

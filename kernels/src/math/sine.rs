@@ -1,11 +1,11 @@
-//! Sine and cosine of an angle in turns, from [`Real`] operations alone: eight at a time, the same bits everywhere.
+//! Sine and cosine of an angle in turns from [`Real`] operations alone.
 
 use crate::math::real::Real;
 
 /// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more is allowed), each within 2 ulp of 1.
 ///
-/// Reduction to |angle| <= pi/4 by quarter turns is exact; the polynomials are those of fdlibm's kernel functions
-/// (Sun Microsystems, 1993: `__kernel_sin`, `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
+/// Reduction to |angle| <= pi/4 by quarter turns is exact; polynomials of fdlibm (Sun Microsystems, 1993:
+/// `__kernel_sin`, `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
 #[inline(always)]
 pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
     let quarters = (turns.splat(4.0) * turns).nearest_integer();
@@ -58,11 +58,11 @@ mod tests {
         for k in -10_000..=10_000 {
             let turns = f64::from(k) / 20_000.0;
             let (s, c) = sin_cos_turns(turns);
-            // the library's argument is rounded, which costs up to pi eps/2
+            // rounding of the library's argument costs up to pi eps/2
             let angle = core::f64::consts::TAU * turns;
             worst = worst.max((s - libm::sin(angle)).abs()).max((c - libm::cos(angle)).abs());
         }
-        // an ulp of one, and what the rounded angle adds; measured: 3.6e-16
+        // an ulp of one, and the rounded angle; measured: 3.6e-16
         assert!(worst < 3.0 * f64::EPSILON, "{worst:e}");
     }
 

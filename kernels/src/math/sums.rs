@@ -1,8 +1,8 @@
-//! Error-free sums: a rounded sum together with its rounding error, exactly, for any [`Real`].
+//! Error-free sums for any [`Real`]: the rounded sum and its rounding error.
 
 use crate::math::real::Real;
 
-/// The sum of any two numbers and its rounding error (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2,
+/// Sum of any two numbers and its rounding error (D. E. Knuth, *The Art of Computer Programming*, vol. 2, 4.2.2,
 /// theorem B).
 #[inline(always)]
 pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
@@ -11,7 +11,7 @@ pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
     (sum, (a - (sum - other)) + (b - other))
 }
 
-/// The sum and its rounding error for |a| >= |b| or a = 0 (T. J. Dekker, Numerische Mathematik 18, 1971).
+/// Sum and rounding error for |a| >= |b| or a = 0 (T. J. Dekker, Numerische Mathematik 18, 1971).
 #[inline(always)]
 pub fn fast_two_sum<R: Real>(a: R, b: R) -> (R, R) {
     let sum = a + b;
@@ -24,7 +24,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        // the numbers are integers below 2^80, which i128 adds exactly
+        // integers below 2^80, which i128 adds exactly
         #[test]
         fn sum_and_error_are_exact(a in -(1i64 << 53)..1i64 << 53, b in -(1i64 << 53)..1i64 << 53, shift in 0i32..26) {
             let scale = 2.0f64.powi(shift);

@@ -1,18 +1,17 @@
-//! Symmetric 3x3 matrices: positive definiteness and principal axes.
-//!
-//! Source of the Jacobi rotations: Golub & Van Loan, *Matrix Computations*, 4th ed. (2013), section 8.5; that the
-//! method keeps the relative accuracy of small eigenvalues of positive definite matrices: Demmel & Veselic (1992).
+//! Symmetric 3x3 matrices: positive definiteness, and principal axes by Jacobi rotations (Golub & Van Loan, *Matrix
+//! Computations*, 4th ed. (2013), section 8.5), which keep the relative accuracy of small eigenvalues of positive
+//! definite matrices (Demmel & Veselic 1992).
 
 use crate::math::real::Real;
 
-/// Sweeps after which any 3x3 matrix has converged: convergence is quadratic, five sweeps are typical.
+/// Limit of sweeps: convergence is quadratic, five are typical.
 const SWEEPS: usize = 16;
 
-/// An off-diagonal entry this small relative to the difference of its diagonal entries changes no bit of an eigenvalue
-/// or an axis, in double-double either.
+/// Relative to the difference of its diagonal entries, an off-diagonal entry this small changes no bit of an eigenvalue
+/// or axis, in double-double either.
 const NEGLIGIBLE: f64 = 1e-36;
 
-/// Whether a symmetric matrix is positive definite, by the pivots of its Cholesky factor. Reads the lower triangle.
+/// True if a symmetric matrix (lower triangle) is positive definite, by the pivots of its Cholesky factor.
 pub fn is_positive_definite(m: [[f64; 3]; 3]) -> bool {
     let (a, b, c) = (m[0][0], m[1][0], m[2][0]);
     let second = m[1][1] - b * b / a;
@@ -21,13 +20,12 @@ pub fn is_positive_definite(m: [[f64; 3]; 3]) -> bool {
     a > 0.0 && second > 0.0 && third > 0.0
 }
 
-/// The eigenvalues ("moments") of a symmetric matrix, and the rotation C_sb from its principal frame F_b to F_s:
-/// m = C_sb diag(moments) C_sb^T, by cyclic Jacobi rotations.
+/// Eigenvalues ("moments") of a symmetric matrix, and the rotation C_sb from its principal frame F_b to F_s: m = C_sb
+/// diag(moments) C_sb^T, by cyclic Jacobi rotations.
 ///
-/// C_sb comes by rows (its columns are the principal axes), with determinant +1. If the off-diagonals are exactly zero
-/// it is exactly the identity and the moments are the diagonal, in its order; otherwise the order of the moments
-/// follows from the rotations, none of them above 45 degrees. Error: a few ulp of the largest moment; test
-/// `principal_axes_rebuild_the_matrix`.
+/// C_sb is by rows (the columns are the principal axes), with determinant +1. For a diagonal matrix it is exactly the
+/// identity, with the moments in order; otherwise the order follows from the rotations, none above 45 degrees. Error: a
+/// few ulp of the largest moment; test `principal_axes_rebuild_the_matrix`.
 pub fn principal_axes<R: Real>(m: [[R; 3]; 3]) -> ([R; 3], [[R; 3]; 3]) {
     let zero = m[0][0].zero();
     let (one, two, half) = (zero.splat(1.0), zero.splat(2.0), zero.splat(0.5));

@@ -1,24 +1,22 @@
-//! Three-vectors, 3x3 matrices and quaternions as plain arrays of [`Real`].
-//!
-//! Plain arrays and not nalgebra matrices, because these run in lanes. Quaternions are Hamilton's, scalar first.
-//! Written out and not with `map`: the closures of `[T; N]::map` are compiled outside the function that has the vector
-//! instructions, where every operation becomes a call (measured: twenty times slower).
+//! Three-vectors, 3x3 matrices and quaternions (Hamilton, scalar first) as plain arrays of [`Real`], for lanes. Written
+//! out without `map`, whose closures are compiled without the caller's vector instructions (measured: twenty times
+//! slower).
 
 use crate::math::real::Real;
 
-/// The constant vector `v`; `like` determines the kind of number.
+/// The constant vector `v` in the type of `like`.
 #[inline(always)]
 pub fn constant<R: Real>(like: R, v: [f64; 3]) -> [R; 3] {
     [like.splat(v[0]), like.splat(v[1]), like.splat(v[2])]
 }
 
-/// The constant quaternion `q`; `like` determines the kind of number.
+/// The constant quaternion `q` in the type of `like`.
 #[inline(always)]
 pub fn constant_quaternion<R: Real>(like: R, q: [f64; 4]) -> [R; 4] {
     [like.splat(q[0]), like.splat(q[1]), like.splat(q[2]), like.splat(q[3])]
 }
 
-/// The constant matrix `m`, by rows; `like` determines the kind of number.
+/// The constant matrix `m`, by rows, in the type of `like`.
 #[inline(always)]
 pub fn constant_matrix<R: Real>(like: R, m: [[f64; 3]; 3]) -> [[R; 3]; 3] {
     [constant(like, m[0]), constant(like, m[1]), constant(like, m[2])]
@@ -89,8 +87,7 @@ pub fn hamilton<R: Real>(p: [R; 4], q: [R; 4]) -> [R; 4] {
     ]
 }
 
-/// The DCM of a quaternion, by rows, in the homogeneous form: `|q|^2` times a rotation, so that a drift of the norm
-/// shows.
+/// DCM of a quaternion, by rows, in the homogeneous form `|q|^2` times a rotation, so that a drift of the norm shows.
 #[inline(always)]
 pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     let [w, x, y, z] = q;
@@ -104,12 +101,10 @@ pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     ]
 }
 
-/// A multiple of the quaternion of a DCM given by rows (one number per entry, not lanes), by Shepperd's method, and the
-/// index of its component of maximum magnitude: the quaternion is multiplied by four times that component, which is
-/// positive, so that nothing is divided and nothing cancels.
-///
-/// S. W. Shepperd, J. Guidance and Control 1(3), 1978. The error of a matrix that is not quite orthonormal is left to
-/// the caller, who normalises.
+/// A multiple of the quaternion of a DCM by rows (one number per entry, no lanes) by Shepperd's method (J. Guidance and
+/// Control 1(3), 1978), and the index of its largest component: the factor is four times that component, positive, so
+/// that nothing is divided and nothing cancels. The caller normalises, which distributes any deviation from
+/// orthonormality.
 #[inline(always)]
 pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     let (one, two) = (c[0][0].splat(1.0), c[0][0].splat(2.0));
@@ -128,8 +123,7 @@ pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     }
 }
 
-/// The quaternion of a DCM given by rows (one number per entry, not lanes) by [`scaled_quaternion_from_dcm`]; scalar
-/// part >= 0.
+/// Quaternion of a DCM by rows (one number per entry, no lanes) by [`scaled_quaternion_from_dcm`]; scalar part >= 0.
 pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
     let half = c[0][0].splat(0.5);
     let (largest, scaled) = scaled_quaternion_from_dcm(c);
