@@ -3,41 +3,16 @@
 
 use std::f64::consts::PI;
 
-use super::whole_rows::{SPREAD, column, event, near_rounding, plan, rows};
+use super::extremes::extreme;
+use super::whole_rows::{
+    SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows, single,
+};
 use spindrift::campaign::Plan;
-use spindrift::ensemble::{Rows, SingleRun};
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
-use spindrift::sampling::SampleId;
-
-/// A free body with an axis of symmetry: moments 30, 30 and 20 kg m^2, which turns at 0.3 rad/s across its axis and at
-/// 0.6 rad/s about it.
-const FREE: &str = r#"[campaign]
-name = "free"
-samples = 40
-seed = 3
-duration_s = 60.0
-[integrator]
-METHOD
-[observe]
-points = POINTS
-groups = ["attitude", "motion"]
-[body]
-mass_kg = 10.0
-center_of_mass_m = [0, 0, 0]
-principal_moments_kg_m2 = [30, 30, 20]
-[initial]
-angular_velocity_rad_s = [0.3, 0.0, 0.6]
-"#;
 
 fn free(method: &str, points: usize, more: &str) -> Plan {
-    plan(&(FREE.replace("METHOD", method).replace("POINTS", &points.to_string()) + more))
-}
-
-/// The precession of that body about its momentum, rad/s, and the angle between both, rad.
-fn precession() -> (f64, f64) {
-    let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
-    (across.hypot(along) / 30.0, across.atan2(along))
+    plan(&(free_body(method, points, 30.0) + more))
 }
 
 /// Law: s3 leaves its direction by alpha with sin(alpha/2) = sin(theta) sin(Omega t/2): its crossings of an angle are
@@ -83,7 +58,7 @@ fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
 #[test]
 fn a_rate_under_torque_crosses_where_it_must() {
     let of = |value: f64, more: &str| {
-        let text = FREE.replace("METHOD", "").replace("POINTS", "62").replace("[0.3, 0.0, 0.6]", "[0.0, 0.0, 0.6]")
+        let text = free_body("", 62, 30.0).replace("[0.3, 0.0, 0.6]", "[0.0, 0.0, 0.6]")
             + "[environment]\nbody_torque_n_m = [0, 0, -0.4]\n"
             + &event("spin", "angular_rate_rad_s", value, more);
         let plan = plan(&text);
@@ -162,48 +137,39 @@ fn what_is_not_a_number_crosses_nothing() {
         let found = rows(&plan, Isa::best(), 0, 1);
         let of = |name: &str| column(&plan, &found, name)[0];
         assert_eq!((of("ended_by"), of("condition_count").to_bits()), (ended_by, f64::to_bits(count)));
-        let single = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("physical");
-        let bits: Vec<u64> = single.row.iter().map(|value| value.to_bits()).collect();
-        let row: Vec<u64> = (0..bits.len()).map(|index| found.observable(index)[0].to_bits()).collect();
-        assert_eq!(bits, row, "{value}");
+        let row: Vec<u64> = (0..names(&plan).len()).map(|index| found.observable(index)[0].to_bits()).collect();
+        assert!(single(&plan, 0).row.iter().map(|value| value.to_bits()).eq(row), "{value}");
     }
 }
 
-/// Law: events are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; and no
-/// other column changes.
+/// Law: events, extremes and the ends of runs are a row's own; no other column changes by them, but where a run has
+/// ended.
 #[test]
-fn events_are_bits_of_their_row() {
-    let events = event("first", "spin_axis_angle_rad", 0.7, "")
-        + &event("last", "nutation_angle_rad - 0.2 * spin_axis_angle_rad", 0.4, "which = \"last\"");
-    for method in ["method = \"auto\"", "method = \"dormand_prince\"\ntolerance = 1e-9"] {
-        let plan = free(method, 121, &(SPREAD.to_owned() + &events));
-        let bits = |rows: &Rows, row: usize| -> Vec<u64> {
-            (0..plan.request().columns().len()).map(|index| rows.observable(index)[row].to_bits()).collect()
-        };
-        let all = rows(&plan, Isa::best(), 0, 40);
-        let times = column(&plan, &all, "first_time_s");
-        assert!(times.iter().filter(|time| time.is_finite()).count() > 20, "{times:?}");
-        assert!(times.iter().any(|time| time.is_nan()), "{times:?}");
-        for isa in Isa::available() {
-            let found = rows(&plan, isa, 0, 40);
-            (0..40).for_each(|row| assert_eq!(bits(&found, row), bits(&all, row), "{}", isa.name()));
-        }
-        for (first, count) in [(7, 1), (11, 9), (33, 7)] {
-            let part = rows(&plan, Isa::best(), first, count);
-            (0..count).for_each(|row| assert_eq!(bits(&part, row), bits(&all, row + first as usize)));
-        }
-        for sample in [0_usize, 3, 12] {
-            let single =
-                SingleRun::new(&plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("physical");
-            let single: Vec<u64> = single.row.iter().map(|value| value.to_bits()).collect();
-            assert_eq!(single, bits(&all, sample));
-        }
-        let without = free(method, 121, SPREAD);
-        let others = rows(&without, Isa::best(), 0, 40);
-        for (index, column) in without.request().columns().iter().enumerate() {
-            let same =
-                others.observable(index).iter().zip(all.observable(index)).all(|(a, b)| a.to_bits() == b.to_bits());
-            assert!(same, "{}", column.quantity.name());
+fn events_extremes_and_ends_are_bits_of_their_row() {
+    let late = event("last", "nutation_angle_rad - 0.2 * spin_axis_angle_rad", 0.4, "which = \"last\"");
+    let first = |more: &str| event("first", "spin_axis_angle_rad", 0.7, more);
+    let extremes =
+        extreme("angle_rad", "spin_axis_angle_rad - 0.1 * angular_rate_rad_s", "after = \"first\"\ndelay_s = 3")
+            + &extreme("least_rad_s", "angular_rate_rad_s", "which = \"min\"");
+    for (points, middle, before, more, sometimes) in [
+        (121, 30.0, "", first("") + &late, "first_time_s"),
+        (61, 26.0, &*first(""), extremes, "angle_rad"),
+        (121, 30.0, &late, first("ends_run = true"), "first_time_s"),
+    ] {
+        for method in ["method = \"auto\"", "method = \"dormand_prince\"\ntolerance = 1e-9"] {
+            let text = free_body(method, points, middle) + SPREAD + before;
+            let (with, without) = (plan(&(text.clone() + &more)), plan(&text));
+            let (all, others) = (own_rows(&with, 40), rows(&without, Isa::best(), 0, 40));
+            let values = column(&with, &all, sometimes);
+            let found = values.iter().filter(|value| value.is_finite()).count();
+            assert!(found > 20 && found < 40, "{sometimes}: {values:?}");
+            let ended = column(&with, &all, if more.contains("ends_run") { "first_time_s" } else { "steps" });
+            for name in names(&without) {
+                let [with, without] = [column(&with, &all, &name), column(&without, &others, &name)];
+                let has_ended = |row: usize| more.contains("ends_run") && ended[row].is_finite();
+                let same = |row: &usize| has_ended(*row) || with[*row].to_bits() == without[*row].to_bits();
+                assert!((0..40).all(|row| same(&row)), "{name}");
+            }
         }
     }
 }

@@ -1,38 +1,16 @@
 //! Extremes of quantities between observation points: those of closed forms and of many points; bits are a row's own.
 
-use super::whole_rows::{SPREAD, column, event, near_rounding, plan, rows};
+use super::whole_rows::{SPREAD, column, event, free_body, near_rounding, plan, precession, rows, single};
 use spindrift::campaign::Plan;
-use spindrift::ensemble::{Rows, SingleRun};
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::run::StateField;
-use spindrift::sampling::SampleId;
-
-/// A free body which turns at 0.3 rad/s across s3 and at 0.6 rad/s about it.
-const FREE: &str = r#"[campaign]
-name = "free"
-samples = 40
-seed = 3
-duration_s = 60.0
-[integrator]
-METHOD
-[observe]
-points = POINTS
-groups = ["attitude", "motion"]
-[body]
-mass_kg = 10.0
-center_of_mass_m = [0, 0, 0]
-principal_moments_kg_m2 = [30, MIDDLE, 20]
-[initial]
-angular_velocity_rad_s = [0.3, 0.0, 0.6]
-"#;
 
 fn free(method: &str, points: usize, middle: f64, more: &str) -> Plan {
-    let text = FREE.replace("METHOD", method).replace("POINTS", &points.to_string());
-    plan(&(text.replace("MIDDLE", &middle.to_string()) + more))
+    plan(&(free_body(method, points, middle) + more))
 }
 
-fn extreme(name: &str, quantity: &str, more: &str) -> String {
+pub fn extreme(name: &str, quantity: &str, more: &str) -> String {
     format!("[[extreme]]\nname = \"{name}\"\nquantity = \"{quantity}\"\n{more}\n")
 }
 
@@ -41,8 +19,7 @@ fn extreme(name: &str, quantity: &str, more: &str) -> String {
 /// every method, with points that are half a radian of precession apart.
 #[test]
 fn extremes_of_a_free_body_are_those_of_its_precession() {
-    let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
-    let (rate, angle) = (across.hypot(along) / 30.0, across.atan2(along));
+    let (rate, angle) = precession();
     let alpha = |time: f64| 2.0 * (angle.sin() * (0.5 * rate * time).sin().abs()).asin();
     let up = 2.0 / rate * ((0.5 * 0.5_f64).sin() / angle.sin()).asin();
     let period = 2.0 * std::f64::consts::PI / rate;
@@ -101,7 +78,7 @@ fn extremes_are_values_of_the_quantity() {
             assert_eq!([of("step", row), of("third", row), of("lowest", row)], [1.0, 1.0 / 3.0, 0.7], "sample {row}");
             assert_eq!(of("plateau", row), 0.05, "sample {row}");
             assert!(of("kink", row) <= 0.1 && of("kink", row) > 0.1 - 1e-9, "sample {row}: {}", of("kink", row));
-            let run = SingleRun::new(&plan, SampleId(row as u64), plan.grid.clone(), Isa::best()).expect("physical");
+            let run = single(&plan, row);
             let rate = run.table.at::<3>(StateField::Rate, 60).map(|rate| rate * rate).iter().sum::<f64>().sqrt();
             assert!((of("end", row) - rate).abs() < 1e-15, "sample {row}: {} for {rate}", of("end", row));
             assert!(of("root", row).is_nan() && of("at_start", row).is_nan(), "sample {row}");
@@ -163,7 +140,7 @@ fn extremes_of_loops_are_at_ticks() {
     let plan = plan(&(shipped.replace("points = 181", "points = 721") + &more));
     let (_, turned) = of(721);
     for sample in 0..12 {
-        let run = SingleRun::new(&plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("physical");
+        let run = single(&plan, sample);
         let (_, values) = run
             .series
             .iter()
@@ -173,45 +150,5 @@ fn extremes_of_loops_are_at_ticks() {
         let ticks = plan.grid.times().iter().zip(values).filter(|(time, _)| **time >= from - 1e-9);
         let most = ticks.fold(0.0, |most: f64, (_, value)| most.max(*value));
         assert_eq!(most, errors[sample], "sample {sample}");
-    }
-}
-
-/// Law: extremes are a row's own: the same bits alone, in any part, on every instruction set, and in a single run; no
-/// other column changes.
-#[test]
-fn extremes_are_bits_of_their_row() {
-    let more = event("first", "spin_axis_angle_rad", 0.7, "")
-        + &extreme("angle_rad", "spin_axis_angle_rad - 0.1 * angular_rate_rad_s", "after = \"first\"\ndelay_s = 3")
-        + &extreme("least_rad_s", "angular_rate_rad_s", "which = \"min\"");
-    for method in ["method = \"auto\"", "method = \"dormand_prince\"\ntolerance = 1e-9"] {
-        let plan = free(method, 61, 26.0, &(SPREAD.to_owned() + &more));
-        let bits = |rows: &Rows, row: usize| -> Vec<u64> {
-            (0..plan.request().columns().len()).map(|index| rows.observable(index)[row].to_bits()).collect()
-        };
-        let all = rows(&plan, Isa::best(), 0, 40);
-        let angles = column(&plan, &all, "angle_rad");
-        assert!(angles.iter().filter(|angle| angle.is_finite()).count() > 20, "{angles:?}");
-        assert!(angles.iter().any(|angle| angle.is_nan()), "{angles:?}");
-        for isa in Isa::available() {
-            let found = rows(&plan, isa, 0, 40);
-            (0..40).for_each(|row| assert_eq!(bits(&found, row), bits(&all, row), "{}", isa.name()));
-        }
-        for (first, count) in [(7, 1), (11, 9), (33, 7)] {
-            let part = rows(&plan, Isa::best(), first, count);
-            (0..count).for_each(|row| assert_eq!(bits(&part, row), bits(&all, row + first as usize)));
-        }
-        for sample in [0_usize, 3, 12] {
-            let single =
-                SingleRun::new(&plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("physical");
-            let single: Vec<u64> = single.row.iter().map(|value| value.to_bits()).collect();
-            assert_eq!(single, bits(&all, sample));
-        }
-        let without = free(method, 61, 26.0, &(SPREAD.to_owned() + &event("first", "spin_axis_angle_rad", 0.7, "")));
-        let others = rows(&without, Isa::best(), 0, 40);
-        for (index, column) in without.request().columns().iter().enumerate() {
-            let same =
-                others.observable(index).iter().zip(all.observable(index)).all(|(a, b)| a.to_bits() == b.to_bits());
-            assert!(same, "{}", column.quantity.name());
-        }
     }
 }

@@ -2,12 +2,12 @@
 //! of rows and of time series.
 
 use super::assembled_module::{Assembled, INPUT, MEASURED, REPORTED, constant, copied};
-use super::flight_code::{plan_in, rows, with};
+use super::flight_code::{plan_in, with};
+use super::whole_rows::{column, names, rows, single};
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
-use spindrift::sampling::SampleId;
 
 /// A module that wants these measurements, reports this telemetry, and has this step.
 fn module(sensors: &'static str, telemetry: &'static str, step: &[u8]) -> Assembled {
@@ -15,11 +15,6 @@ fn module(sensors: &'static str, telemetry: &'static str, step: &[u8]) -> Assemb
     module.places[0] = 2;
     module.tables = [Some(sensors), Some(telemetry)];
     module
-}
-
-/// Run `sample` of `plan`.
-fn flown(plan: &Plan, sample: u64) -> SingleRun {
-    SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
 }
 
 /// The column `name` of what `run` has recorded, tick by tick.
@@ -57,17 +52,17 @@ fn measurements_are_what_sensors_have_delivered_last() {
     let campaign =
         with(&folder, &module.bytes()).replace("kind = \"rate_gyro\"", "kind = \"rate_gyro\"\nperiod_s = 0.125");
     let plan = plan_in(&folder, &campaign.replace("kind = \"tachometers\"", "kind = \"tachometers\"\nperiod_s = 1.0"));
-    let run = flown(&plan, 5);
-    let names = |prefix: &str, parts: &[&str], suffix: &str| -> Vec<String> {
+    let run = single(&plan, 5);
+    let columns = |prefix: &str, parts: &[&str], suffix: &str| -> Vec<String> {
         parts.iter().map(|part| format!("{prefix}_{part}{suffix}")).collect()
     };
     let told = |first: usize, count: usize| -> Vec<Vec<f64>> {
         (first..first + count).map(|k| recorded(&run, &format!("module_n{k}"))).collect()
     };
     let of_sensors = [
-        (told(0, 5), names("measured_q_es", &["w", "x", "y", "z"], ""), [0.5, 0.25]),
-        (told(6, 4), names("measured_rate", &["w1", "w2", "w3"], "_rad_s"), [1.0, 0.0]),
-        (told(10, 4), names("measured_rate_s", &["x", "y", "z"], "_rad_s"), [0.125, 0.0]),
+        (told(0, 5), columns("measured_q_es", &["w", "x", "y", "z"], ""), [0.5, 0.25]),
+        (told(6, 4), columns("measured_rate", &["w1", "w2", "w3"], "_rad_s"), [1.0, 0.0]),
+        (told(10, 4), columns("measured_rate_s", &["x", "y", "z"], "_rad_s"), [0.125, 0.0]),
     ];
     for (told, names, [period, latency]) in of_sensors {
         let delivered: Vec<Vec<f64>> = names.iter().map(|name| recorded(&run, name)).collect();
@@ -102,7 +97,7 @@ fn telemetry_is_columns() {
     let judged =
         "[[require]]\nobservable = \"module_x_max_rad_s\"\nfraction = 0.9\nat_most = \"1 deg/s\"\nconfidence = 0.9\n";
     let plan = plan_in(&folder, &[&campaign, judged].concat());
-    let run = flown(&plan, 4);
+    let run = single(&plan, 4);
     for axis in ["x", "y", "z"] {
         let told = recorded(&run, &format!("module_{axis}_rad_s"));
         assert_eq!(told, recorded(&run, &format!("estimated_omega_se_s_{axis}_rad_s")));
@@ -117,10 +112,8 @@ fn telemetry_is_columns() {
         plan.request().columns().into_iter().find(|column| column.quantity.name() == "module_x_max_rad_s").unwrap();
     assert_eq!(column.quantity.unit(), "rad/s");
     assert!(column.quantity.meaning().starts_with("Rate about s1: largest magnitude"), "{}", column.quantity.meaning());
-    let none = with(&folder, &Assembled::with_step(&[0x0b]).bytes());
-    assert!(
-        plan_in(&folder, &none).request().columns().iter().all(|column| !column.quantity.name().starts_with("module_"))
-    );
+    let none = plan_in(&folder, &with(&folder, &Assembled::with_step(&[0x0b]).bytes()));
+    assert!(names(&none).iter().all(|name| !name.starts_with("module_")));
 }
 
 /// Law: telemetry that is no finite number is null where it stands, in the largest magnitude for the whole run, and in
@@ -141,7 +134,7 @@ fn telemetry_that_is_not_finite_is_null() {
     };
     let fly = |step: &[u8]| {
         let campaign = with(&folder, &module("", "clock_s | s | Time\n", step).bytes());
-        let run = flown(&plan_in(&folder, &campaign.replace("\"3 min\"", "\"4 s\"")), 1);
+        let run = single(&plan_in(&folder, &campaign.replace("\"3 min\"", "\"4 s\"")), 1);
         let names = ["module_clock_final_s", "module_clock_max_s", "failure"];
         (names.map(|name| of_row(&run, name)), recorded(&run, "module_clock_s"))
     };
@@ -220,5 +213,5 @@ fn what_is_declared_is_checked() {
         assert!(error.contains("control.module") && error.matches("must be").count() == 1, "{error}");
     }
     let plan = plan_in(&folder, &with(&folder, &sound.bytes()));
-    assert_eq!(rows(&plan, Isa::best(), 0, 3).len(), plan.request().columns().len());
+    assert_eq!(column(&plan, &rows(&plan, Isa::best(), 0, 3), "failure"), [0.0; 3]);
 }

@@ -26,10 +26,6 @@ mod lanes_runge_kutta;
 #[cfg(feature = "cloud")]
 mod object_store;
 mod panics;
-#[cfg(feature = "wasm")]
-mod random_code;
-#[cfg(feature = "wasm")]
-mod random_modules;
 mod run_ends;
 mod skipping;
 #[cfg(feature = "cloud")]

@@ -1,7 +1,8 @@
-//! Plans written in a test, and their rows column by column: what the tests of events, extremes and ends of runs share.
+//! Plans written in a test, and their rows column by column, for tests of events, extremes, ends of runs and flight code.
 
+use crate::support::plans::{RowBits, row_bits};
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
+use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
 use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::sampling::SampleId;
@@ -9,6 +10,24 @@ use spindrift::sampling::SampleId;
 /// A dispersion of the angular velocity at time zero.
 pub const SPREAD: &str =
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
+
+/// A free body of moments 30, `middle` and 20 kg m^2 that turns at 0.3 rad/s across s3 and at 0.6 rad/s about it, for a
+/// minute.
+pub fn free_body(integrator: &str, points: usize, middle: f64) -> String {
+    format!(
+        "[campaign]\nname = \"free\"\nsamples = 40\nseed = 3\nduration_s = 60.0\n[integrator]\n{integrator}\n\
+         [observe]\npoints = {points}\ngroups = [\"energy_conservation\", \"momentum_conservation\", \"attitude\", \
+         \"energies\", \"final_state\", \"effort\", \"numerics\", \"motion\"]\n[body]\nmass_kg = 10.0\n\
+         center_of_mass_m = [0, 0, 0]\nprincipal_moments_kg_m2 = [30, {middle}, 20]\n\
+         [initial]\nangular_velocity_rad_s = [0.3, 0.0, 0.6]\n"
+    )
+}
+
+/// Of the free body with an axis of symmetry: its precession about its momentum, rad/s, and the angle between both, rad.
+pub fn precession() -> (f64, f64) {
+    let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
+    (across.hypot(along) / 30.0, across.atan2(along))
+}
 
 pub fn plan(text: &str) -> Plan {
     Plan::from_text("rows.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -35,6 +54,37 @@ pub fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
     rows
 }
 
+/// All rows of `rows`, as bits.
+pub fn bits(rows: &Rows) -> Vec<RowBits> {
+    (0..rows.statuses().len()).map(|row| row_bits(rows, row)).collect()
+}
+
+/// The run of `sample` alone, on the grid of the plan.
+pub fn single(plan: &Plan, sample: usize) -> SingleRun {
+    SingleRun::new(plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("a physical scene")
+}
+
+/// The first `count` rows of `plan`, which have the same bits on every instruction set, in parts and as single runs.
+pub fn own_rows(plan: &Plan, count: usize) -> Rows {
+    let all = rows(plan, Isa::best(), 0, count);
+    let expected = bits(&all);
+    for isa in Isa::available() {
+        assert!(bits(&rows(plan, isa, 0, count)) == expected, "{}", isa.name());
+    }
+    for (first, length) in [(7, 1), (count / 4, 9), (count - 7, 7)] {
+        let part = bits(&rows(plan, Isa::best(), first as u64, length));
+        assert!(part == expected[first..first + length], "{length} from sample {first} on");
+    }
+    for sample in (0..count).step_by(4) {
+        let single = single(plan, sample);
+        assert_eq!(single.outcome.status, all.statuses()[sample]);
+        for (index, value) in single.row.iter().enumerate() {
+            assert_eq!(value.to_bits(), all.observable(index)[sample].to_bits(), "sample {sample}, column {index}");
+        }
+    }
+    all
+}
+
 pub fn names(plan: &Plan) -> Vec<String> {
     plan.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect()
 }
@@ -42,9 +92,4 @@ pub fn names(plan: &Plan) -> Vec<String> {
 /// The column `name` of `rows`.
 pub fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
     rows.observable(names(plan).iter().position(|other| other == name).unwrap_or_else(|| panic!("no {name}")))
-}
-
-/// All numbers of row `row`, as bits.
-pub fn bits(plan: &Plan, rows: &Rows, row: usize) -> Vec<u64> {
-    (0..names(plan).len()).map(|index| rows.observable(index)[row].to_bits()).collect()
 }
