@@ -10,15 +10,19 @@ export function superscript(power) {
   return (power < 0 ? "⁻" : "") + digits;
 }
 
-// A number with about `digits` significant digits.
+// A number with true minus signs, as the texts of the page have it.
+const signed = (text) => text.replace("-", "\u2212");
+const trimmed = (text) => (text.includes(".") ? text.replace(/\.?0+$/, "") : text);
+
+// A number with `digits` significant digits and without zeros at its end, by the rules of `findings::number`: a power of ten below 1e-3 and
+// from the power on that has two digits more, smaller whole numbers in full.
 export function readable(value, digits = 5) {
   if (!Number.isFinite(value)) return "-";
   const size = Math.abs(value);
   if (size === 0) return "0";
-  if (Number.isInteger(value) && size < 1e7) return value.toLocaleString("en-US");
-  if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(digits)));
   const [mantissa, power] = value.toExponential(digits - 1).split("e");
-  return `${Number(mantissa)} × 10${superscript(Number(power))}`;
+  if (size < 1e-3 || size >= Math.max(1e5, 10 ** (digits + 1))) return `${signed(trimmed(mantissa))}\u202f×\u202f10${superscript(Number(power))}`;
+  return signed(trimmed(value.toFixed(Number.isInteger(value) ? 0 : Math.max(0, digits - 1 - Number(power)))));
 }
 
 // A unit whose powers are raised.
@@ -47,5 +51,5 @@ export function tickScale(low, high, unit) {
 export function tickText(value, step, factor) {
   const decimals = Math.min(9, Math.max(0, -Math.floor(Math.log10(Math.abs(step / factor)) + 1e-9)));
   const text = (value / factor).toFixed(decimals);
-  return Number(text) === 0 ? "0" : text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+  return Number(text) === 0 ? "0" : signed(trimmed(text));
 }

@@ -24,10 +24,10 @@ use std::num::NonZeroUsize;
 use pyo3::create_exception;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
-use spindrift::cli::argument_values;
-use spindrift::cli::columns::{of_all_campaigns, table_of};
 use spindrift::cli::program;
 use spindrift::workflow::WorkflowError;
+use spindrift::workflow::columns::{of_all_campaigns, table_of};
+use spindrift::workflow::threads::usable;
 
 use crate::table::ArrowTable;
 
@@ -45,7 +45,7 @@ fn raised(error: impl Into<WorkflowError>) -> PyErr {
 
 /// A number of threads that this machine can use; 0: one per core.
 fn threads(number: usize) -> PyResult<Option<NonZeroUsize>> {
-    let asked = (number > 0).then(|| argument_values::threads(&number.to_string())).transpose();
+    let asked = (number > 0).then(|| usable(number)).transpose();
     asked.map_err(|allowed| SpindriftError::new_err(format!("threads={number}: {allowed}")))
 }
 

@@ -5,9 +5,13 @@ use std::path::{Path, PathBuf};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spindrift::campaign;
-use spindrift::cli::check;
+use spindrift::cli::screen;
+use spindrift::ensemble::Ensemble;
+use spindrift::findings::checked::findings;
 use spindrift::math::Isa;
+use spindrift::report::screen::{question, sections};
 use spindrift::run::Status;
+use spindrift::workflow::check::probed;
 use spindrift::workflow::simulated::simulated;
 use spindrift::workflow::workload::Workload;
 use spindrift::workflow::{Quiet, Session, WorkflowError};
@@ -84,7 +88,11 @@ impl Plan {
 
     /// What would run, in words.
     fn check(&self, py: Python<'_>, samples: Option<u64>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
-        self.with(py, samples, control, |plan, isa| check::text(plan, isa, false).map(|(text, _)| text))
+        self.with(py, samples, control, |plan, isa| {
+            let ensemble = Ensemble::new(plan, isa);
+            let said = sections(&findings(&probed(&ensemble)?, false), screen::width());
+            Ok(question(plan.description.as_deref(), screen::width()) + &said)
+        })
     }
 
     /// The dispersed parameters of so many samples.

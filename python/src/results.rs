@@ -5,12 +5,14 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use spindrift::analysis::comparison_table;
-use spindrift::cli::arguments::CompareOptions;
-use spindrift::cli::compare::compared;
-use spindrift::cli::completed_text;
-use spindrift::report::summary::SummaryEnd;
+use spindrift::cli::screen::width;
+use spindrift::findings::comparison::findings;
+use spindrift::report::screen;
+use spindrift::report::summary;
 use spindrift::storage::names::{BANDS, REPORT, SENSITIVITY, STATISTICS, SUMMARY};
 use spindrift::storage::rows_reader::PartReader;
+use spindrift::workflow::compared::compared;
+use spindrift::workflow::outcome::place;
 use spindrift::workflow::page::remade;
 use spindrift::workflow::simulated::simulated;
 use spindrift::workflow::{self, Quiet, Session, WorkflowError};
@@ -81,8 +83,8 @@ impl Results {
 
     /// Warnings and verdicts, as the command line says them.
     fn verdicts(&self) -> String {
-        let end = SummaryEnd::read(self.summary.as_bytes());
-        end.map_or_else(String::new, |end| completed_text::of_end(&end, &self.root))
+        let end = summary::read(self.summary.as_bytes());
+        end.map_or_else(String::new, |end| screen::end(&end, &place(&self.root), width()))
     }
 
     /// The plan that was run, as TOML.
@@ -147,12 +149,11 @@ pub fn compare(py: Python<'_>, first: PathBuf, second: PathBuf) -> PyResult<(Str
     let found = py.detach(|| {
         let watch = Quiet::default();
         let session = Session::new(&watch)?;
-        let (tolerance, strict, out, verbose, threads) = (None, false, None, false, None);
-        let options = CompareOptions { first, second, tolerance, strict, out, verbose, threads };
-        let (_, text) = compared(&session, &options)?;
-        let [first, second] = [&options.first, &options.second].map(|root| workflow::Results::open(root, session));
-        let found = first?.compare(&second?)?;
-        Ok::<_, WorkflowError>((text, ArrowTable::of(comparison_table::table(&found))?))
+        let names = [&first, &second].map(|root| root.display().to_string());
+        let (first, second) = (workflow::Results::open(&first, session)?, workflow::Results::open(&second, session)?);
+        let found = compared([&first, &second], names)?;
+        let text = screen::list(&findings(&found), false, [screen::LINES, width()]);
+        Ok::<_, WorkflowError>((text, ArrowTable::of(comparison_table::table(&found.comparison))?))
     });
     found.map_err(raised)
 }

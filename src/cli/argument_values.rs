@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
+use crate::workflow::threads::usable;
 
 /// Most shards of a campaign.
 const MOST_SHARDS: u64 = 1_000_000;
@@ -57,23 +58,12 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
 }
 
-/// Most threads for each core. More only wait for each other, and each has its own memory.
-const MOST_THREADS_OF_A_CORE: usize = 4;
-
 /// A number of threads that this machine can use; otherwise the allowed range.
 ///
 /// # Errors
 /// Where it is none.
 pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let most = MOST_THREADS_OF_A_CORE * cores;
-    let allowed = || {
-        format!(
-            "must be a whole number from 1 to {most}: {MOST_THREADS_OF_A_CORE} for each core that this process has \
-            ({cores})"
-        )
-    };
-    text.parse().ok().filter(|number: &NonZeroUsize| number.get() <= most).ok_or_else(allowed)
+    usable(text.parse().unwrap_or(0))
 }
 
 /// A shift, zero or above; otherwise the allowed range.
@@ -117,20 +107,6 @@ mod tests {
         for wrong in ["", "-1", "1.5", "NaN", "1e300", "ten"] {
             assert_eq!(count(wrong).unwrap_err(), "must be a whole number of at least 1", "{wrong}");
         }
-    }
-
-    #[test]
-    fn tolerances_have_a_range() {
-        for value in [1e-16, 1e-4, 0.1] {
-            assert!(tolerance(&value.to_string()).is_ok(), "{value:e}: {:?}", tolerance(&value.to_string()));
-        }
-        assert!(tolerance("1e-17").is_err() && tolerance("0.2").is_err() && tolerance("nan").is_err());
-    }
-
-    #[test]
-    fn methods_have_the_names_of_campaign_files() {
-        assert_eq!(method("auto"), Ok(Method::Auto));
-        assert!(method("euler").is_err_and(|message| message.contains("gauss_legendre_6")));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! [`Arguments`]: commands and options of the program, with their help texts.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
@@ -11,6 +11,7 @@ use crate::cli::colour::Colour;
 use crate::cli::{help, screen};
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
+use crate::workflow::Outputs;
 
 /// Monte Carlo analysis of spacecraft attitude dynamics.
 #[derive(Debug, Parser)]
@@ -85,6 +86,40 @@ impl Changed {
     }
 }
 
+/// How many threads work.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Threads {
+    /// Number of threads, at most four per core [default: one per core]; nothing that is computed depends on it.
+    #[arg(long = "threads", value_name = "N", value_parser = threads)]
+    pub number: Option<std::num::NonZeroUsize>,
+}
+
+/// Files beside a result.
+#[derive(Clone, Debug, Args)]
+pub struct Written {
+    /// Write the verdicts to this file as JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
+    /// Do not write report.html.
+    #[arg(long)]
+    pub no_report: bool,
+    /// Write every figure of the report to this folder: SVG where the program draws it, else a page.
+    #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
+    pub figures: Option<PathBuf>,
+}
+
+impl Written {
+    /// What is made of the rows.
+    pub fn outputs(&self) -> Outputs {
+        Outputs { without_page: self.no_report, figures: self.figures.clone(), junit: self.junit.clone() }
+    }
+
+    /// The files, each with its option.
+    pub fn named(&self) -> [(&'static str, Option<&Path>); 2] {
+        [("--junit", self.junit.as_deref()), ("--figures", self.figures.as_deref())]
+    }
+}
+
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub struct CampaignOptions {
@@ -105,18 +140,15 @@ pub struct CampaignOptions {
     /// Allow campaigns longer than 24 CPU hours, or larger than half of the free disk space.
     #[arg(long)]
     pub yes: bool,
-    /// Number of threads, at most four per core [default: one per core]; rows do not depend on it.
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<std::num::NonZeroUsize>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
     /// Fraction of the samples to compare with a reference solution; overrides the file.
     #[arg(long, value_name = "F")]
     pub audit: Option<f64>,
     /// Replace an existing result, which stays as it is until the new one is complete.
     #[arg(long)]
     pub overwrite: bool,
-    /// Write the verdicts to this file as JUnit XML.
-    #[arg(long, value_name = "FILE")]
-    pub junit: Option<PathBuf>,
     /// Run share K of N, for instance on one of N machines; `finish` then merges the shares.
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "overwrite")]
     pub shard: Option<Shard>,
@@ -129,12 +161,9 @@ pub struct CampaignOptions {
     /// Show all that the rows say, not one screen of it.
     #[arg(long)]
     pub verbose: bool,
-    /// Do not write report.html.
-    #[arg(long)]
-    pub no_report: bool,
-    /// Write every figure of the report to this folder: SVG where the program draws it, else a page.
-    #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
-    pub figures: Option<PathBuf>,
+    /// What is written beside the result.
+    #[command(flatten)]
+    pub written: Written,
 }
 
 /// Arguments of `report`.
@@ -150,9 +179,9 @@ pub struct ReportOptions {
     /// that is noise.
     #[arg(long, value_name = "SCENES", value_parser = clap::value_parser!(u64).range(2..))]
     pub noise: Option<u64>,
-    /// Number of threads, at most four per core [default: one per core]; the page does not depend on it.
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<std::num::NonZeroUsize>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Arguments of `finish`.
@@ -160,21 +189,15 @@ pub struct ReportOptions {
 pub struct FinishOptions {
     /// The result folder.
     pub folder: PathBuf,
-    /// Write the verdicts to this file as JUnit XML.
-    #[arg(long, value_name = "FILE")]
-    pub junit: Option<PathBuf>,
     /// Show all that the rows say, not one screen of it.
     #[arg(long)]
     pub verbose: bool,
-    /// Do not write report.html.
-    #[arg(long)]
-    pub no_report: bool,
-    /// Write every figure of the report to this folder: SVG where the program draws it, else a page.
-    #[arg(long, value_name = "DIR", conflicts_with = "no_report")]
-    pub figures: Option<PathBuf>,
-    /// Number of threads, at most four per core [default: one per core].
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<std::num::NonZeroUsize>,
+    /// What is written beside the result.
+    #[command(flatten)]
+    pub written: Written,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Arguments of `show`.
@@ -188,9 +211,9 @@ pub struct ShowOptions {
     /// Show all that the rows say, not one screen of it.
     #[arg(long)]
     pub verbose: bool,
-    /// Number of threads, at most four per core [default: one per core].
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<std::num::NonZeroUsize>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Arguments of `verify`.
@@ -204,9 +227,9 @@ pub struct VerifyOptions {
     /// Recompute damaged or differing parts and write them again.
     #[arg(long)]
     pub repair: bool,
-    /// Number of threads, at most four per core [default: one per core].
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<std::num::NonZeroUsize>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Arguments of `check`.
@@ -246,9 +269,9 @@ pub struct CompareOptions {
     /// List every column that is shifted, and every key that differs, not one screen of them.
     #[arg(long)]
     pub verbose: bool,
-    /// Number of threads, at most four per core [default: one per core].
-    #[arg(long, value_name = "N", value_parser = threads)]
-    pub threads: Option<std::num::NonZeroUsize>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// Arguments of `simulate`.

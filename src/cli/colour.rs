@@ -165,13 +165,4 @@ mod tests {
         assert!(!on(Colour::Auto, true, None, Some("dumb")) && !on(Colour::Auto, true, None, None));
         assert!(on(Colour::Always, false, Some("1"), None) && !on(Colour::Never, true, None, Some("xterm")));
     }
-
-    /// Law: the option is found in both of its forms, and what is no value of it changes nothing.
-    #[test]
-    fn the_option_is_found() {
-        let asked = |text: &str| Colour::asked(text.split(' ').map(str::to_owned));
-        assert_eq!(asked("spindrift campaign x --color always"), Colour::Always);
-        assert_eq!(asked("spindrift --color=never campaign x"), Colour::Never);
-        assert_eq!([asked("spindrift campaign x"), asked("spindrift --color blue")], [Colour::Auto; 2]);
-    }
 }

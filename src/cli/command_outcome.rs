@@ -1,7 +1,7 @@
 //! [`CommandOutcome`], [`Failure`]: how a command ends, and the documented exit codes.
 
 use crate::cli::{screen, signals};
-use crate::report::summary::SummaryEnd;
+use crate::findings::end::SummaryEnd;
 use crate::run::Status;
 /// A command that could not run: code 2 where arguments or campaign file are wrong, code 4 where files are.
 pub use crate::workflow::WorkflowError as Failure;
@@ -70,22 +70,7 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::summary::EndVerdict;
-
-    /// Law: of several codes the one that comes first in 3, 5, 1, 0 is returned.
-    #[test]
-    fn codes_have_an_order() {
-        for ((runs, failed, undecided), expected) in [
-            ((0, 0, 0), CommandOutcome::Done),
-            ((7, 0, 0), CommandOutcome::SomeFailed(7)),
-            ((0, 0, 2), CommandOutcome::RequirementsUndecided(2)),
-            ((7, 0, 2), CommandOutcome::RequirementsUndecided(2)),
-            ((0, 3, 0), CommandOutcome::RequirementsFailed(3)),
-            ((7, 3, 2), CommandOutcome::RequirementsFailed(3)),
-        ] {
-            assert_eq!(CommandOutcome::of_campaign(runs, failed, undecided), expected);
-        }
-    }
+    use crate::findings::requirement::EndVerdict;
 
     /// Law: whatever makes a finished result no success gives its code, each alone: runs that failed, audits beyond
     /// their estimates, verdicts, a precision that was not reached.

@@ -3,30 +3,26 @@
 use std::path::Path;
 
 use crate::cli::screen::width;
+use crate::findings::end::SummaryEnd;
 use crate::findings::number::{bytes, counted};
 use crate::findings::numerics::cost;
 use crate::report::screen;
-use crate::report::summary::SummaryEnd;
-use crate::storage::names::REPORT;
-use crate::table::wrapped::wrapped;
 use crate::workflow::Completed;
-
-/// Lines of a screen without `--verbose`.
-const SCREEN: usize = 24;
+use crate::workflow::outcome::place;
 
 /// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the
 /// command `simulate`.
 pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
     let findings = &completed.findings;
-    let head = question(completed.plan.description.as_deref()) + &headline(completed);
+    let head = screen::question(completed.plan.description.as_deref(), width()) + &headline(completed);
     let body = if is_verbose {
         screen::verbose(findings, replayed, width()) + &files(completed)
     } else {
         // the last line is the verdict
-        let most = SCREEN.saturating_sub(head.lines().count() + 1);
+        let most = screen::LINES.saturating_sub(head.lines().count() + 1);
         screen::text(findings, replayed, [most, width()])
     };
-    head + &body + &verdict(&completed.end, &completed.root)
+    head + &body + &completed.end.verdict_line(&place(&completed.root)) + "\n"
 }
 
 /// What a result takes: CPU time of audits, files.
@@ -41,23 +37,9 @@ fn files(completed: &Completed) -> String {
     format!("{audits}\n  {root}: {} of rows, {size}\n", counted(files, "file"))
 }
 
-/// The question of a campaign, which comes first.
-pub fn question(question: Option<&str>) -> String {
-    let Some(first) = question.and_then(|text| text.chars().next()) else { return String::new() };
-    let rest = &question.unwrap_or_default()[first.len_utf8()..];
-    wrapped(&format!("{}{rest}\n", first.to_uppercase()), width())
-}
-
 /// The warnings and verdicts of a finished result in `root`, and its page.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
-    let warnings: String = end.warnings.iter().map(|one| format!("  {one}\n")).collect();
-    wrapped(&warnings, width()) + &screen::verdicts(&end.verdicts, width()) + &verdict(end, root)
-}
-
-/// The last line: the verdict, and the page in `root`, where there is one.
-fn verdict(end: &SummaryEnd, root: &Path) -> String {
-    let page = root.join(REPORT);
-    end.verdict_line(if page.is_file() { &page } else { root }) + "\n"
+    screen::end(end, &place(root), width())
 }
 
 /// What ran, how fast.

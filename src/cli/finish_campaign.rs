@@ -9,19 +9,13 @@ use crate::findings::shell_word::quoted_path;
 use crate::storage::names::PLAN;
 use crate::table::wrapped::wrapped;
 use crate::workflow::finishing::finish;
-use crate::workflow::{Finished, Outputs, Session};
+use crate::workflow::{Finished, Session};
 
-/// Runs the command.
-///
-/// # Errors
-/// Where parts are missing or damaged, or a file operation fails.
 pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {
     let watch = Terminal::default();
     let root = &options.folder;
-    let outputs =
-        Outputs { without_page: options.no_report, figures: options.figures.clone(), junit: options.junit.clone() };
-    let named = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
-    let finished = finish(&Session::new(&watch)?.on_threads(options.threads), root, &outputs, &|files| {
+    let (outputs, named) = (options.written.outputs(), options.written.named());
+    let finished = finish(&Session::new(&watch)?.on_threads(options.threads.number), root, &outputs, &|files| {
         refuse_inputs(&files.paths(), &named[..1])?;
         refuse_within(root, &named)
     })?;

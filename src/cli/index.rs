@@ -5,7 +5,9 @@ use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
 use crate::cli::terminal::Terminal;
 use crate::findings::number::counted;
+use crate::findings::results_index::findings;
 use crate::report::index_page;
+use crate::report::screen::paragraphs;
 use crate::storage::atomic;
 use crate::workflow::Session;
 use crate::workflow::results_index::{ResultsIndex, indexed};
@@ -13,10 +15,6 @@ use crate::workflow::results_index::{ResultsIndex, indexed};
 /// The name of the page.
 const PAGE: &str = "index.html";
 
-/// Runs the command.
-///
-/// # Errors
-/// Where the folder cannot be read, has no result, or its page cannot be written.
 pub fn run(options: &IndexOptions) -> Result<CommandOutcome, Failure> {
     let watch = Terminal::default();
     let root = &options.folder;
@@ -36,7 +34,7 @@ pub fn run(options: &IndexOptions) -> Result<CommandOutcome, Failure> {
     let path = root.join(PAGE);
     atomic::write_bytes(&path, html.as_bytes())
         .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
-    let table = index_page::text(&entries, &unreadable, screen::width());
+    let table = paragraphs(&findings(&entries, &unreadable), screen::width());
     screen::print(&format!("{table}{} -> {}\n", counted(entries.len(), "result"), path.display()))?;
     Ok(CommandOutcome::Done)
 }

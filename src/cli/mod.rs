@@ -6,7 +6,6 @@
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`],
 //!   [`precision`], [`report`], [`sample`], [`show`], [`simulate`]: one command each; [`completed_text`]: what is
 //!   printed of a result.
-//! - [`dispersions`]: the dispersions of a plan as text.
 //! - [`terminal`]: notes and the progress bar; [`screen`]: printing, [`terminal_width`]: how wide, [`colour`]: in
 //!   colour; [`signals`].
 //! - [`command_outcome`]: how a command ends, and its exit code.
@@ -15,28 +14,26 @@
 
 pub mod argument_values;
 pub mod arguments;
-pub mod check;
-pub mod colour;
-pub mod columns;
+mod check;
+mod colour;
+mod columns;
 pub mod command_outcome;
-pub mod compare;
-pub mod completed_text;
-pub mod dispersions;
-pub mod finish_campaign;
-pub mod help;
-pub mod index;
-pub mod new;
-pub mod outputs;
-pub mod precision;
+mod compare;
+mod completed_text;
+mod finish_campaign;
+mod help;
+mod index;
+mod new;
+mod outputs;
+mod precision;
 pub mod program;
-pub mod report;
-pub mod run_campaign;
-pub mod sample;
-mod scene_text;
+mod report;
+mod run_campaign;
+mod sample;
 pub mod screen;
-pub mod show;
+mod show;
 pub mod signals;
-pub mod simulate;
+mod simulate;
 pub mod terminal;
-pub mod terminal_width;
-pub mod verify;
+mod terminal_width;
+mod verify;

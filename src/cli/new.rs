@@ -12,10 +12,6 @@ use crate::storage::atomic;
 /// The file: a spacecraft with a wheel, what is uncertain of it, and a requirement.
 const START: &str = include_str!("../../assets/start.toml");
 
-/// Runs the command.
-///
-/// # Errors
-/// Where the file is there already, or cannot be written.
 pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
     let path = &options.file;
     let name = path.file_stem().and_then(|name| name.to_str()).unwrap_or("start");

@@ -12,21 +12,18 @@ use crate::ensemble::Ensemble;
 use crate::ensemble::precision::{Limits, Precision, States};
 use crate::ensemble::runner::start_threads;
 use crate::ensemble::settings::nominal;
+use crate::findings;
 use crate::findings::number::counted;
 use crate::propagation::Method;
 use crate::report::figure_files::instead;
 use crate::report::precision_figure::precision_figure;
-use crate::report::precision_text;
+use crate::report::screen::{measurement, paragraphs};
 use crate::storage::precision_table::precision_table;
 use crate::storage::{atomic, table_file};
 use crate::workflow::isa;
 use crate::workflow::source::plan_and_files;
 use crate::workflow::workload::Workload;
 
-/// Runs the command.
-///
-/// # Errors
-/// Where arguments or campaign file are wrong, a truth cannot be had, or files cannot be written.
 pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
     let (plan, files) = plan_and_files(&options.file, options.changed.overrides())?;
     let isa = isa()?;
@@ -60,29 +57,22 @@ pub fn run(options: &PrecisionOptions) -> Result<CommandOutcome, Failure> {
         return Err(Failure::Input("no sample of this campaign is physical".to_owned()));
     }
     let limits = Limits { repeats: options.repeats.get(), limit: options.limit_s };
-    screen::print(&format!(
-        "{}: {} over {:?} s at {}, {} states, on {}; largest errors against a reference in double-double\n{}",
-        plan.name,
-        counted(precision.samples(), "sample"),
-        plan.grid.duration(),
-        counted(plan.grid.points(), "point"),
-        if options.observed { "observed" } else { "all" },
-        isa.name(),
-        precision_text::headline(screen::width()),
-    ))?;
+    let which = if options.observed { "observed" } else { "all" };
+    let head = findings::precision::head(&plan, precision.samples(), [which, isa.name()]);
+    screen::print(&(paragraphs(&[head], usize::MAX) + &measurement(None, screen::width())))?;
     let (mut measured, mut omitted) = (Vec::new(), Vec::new());
     for method in methods {
         let settings = precision.settings(method, &tolerances);
         let mut heard = Ok(());
-        let skipped = precision.sweep(method, &settings, limits, &mut |measurement| {
-            let printed = screen::print(&precision_text::line(&measurement, screen::width()));
+        let skipped = precision.sweep(method, &settings, limits, &mut |found| {
+            let printed = screen::print(&measurement(Some(&found), screen::width()));
             heard = std::mem::replace(&mut heard, Ok(())).and(printed);
-            measured.push(measurement);
+            measured.push(found);
         });
         heard?;
         omitted.extend(skipped);
     }
-    screen::print(&precision_text::omissions(&omitted, limits.limit))?;
+    screen::print(&paragraphs(&findings::precision::omissions(&omitted, limits.limit), usize::MAX))?;
 
     let table = precision_table(&measured, isa.name());
     save(&folder, "parquet", |path| table_file::save(&plan, &table, path).map_err(Failure::files))?;
@@ -109,15 +99,4 @@ fn save(folder: &Path, extension: &str, write: impl FnOnce(&Path) -> Result<(), 
 /// 1e-4 to 1e-16, a decade apart.
 fn default_tolerances() -> Vec<f64> {
     (4..=16).map(|digits| libm::pow(10.0, -f64::from(digits))).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tolerances_are_decades() {
-        let tolerances = default_tolerances();
-        assert_eq!((tolerances.len(), tolerances[0], tolerances[8]), (13, 1e-4, 1e-12));
-    }
 }

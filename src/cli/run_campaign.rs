@@ -11,20 +11,17 @@ use crate::cli::signals;
 use crate::cli::terminal::Terminal;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
+use crate::report::screen::question;
 use crate::storage::claim::Shard;
 use crate::storage::names::PLAN;
 use crate::table::wrapped::wrapped;
 use crate::workflow::failed_samples::FailedRun;
-use crate::workflow::{Campaign, CampaignOutcome, Made, Outputs, PreparedCampaign, Session};
+use crate::workflow::{Campaign, CampaignOutcome, Made, PreparedCampaign, Session};
 
-/// Runs the command.
-///
-/// # Errors
-/// Where the campaign cannot run or its result cannot be written.
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     signals::watch();
     let watch = Terminal::default();
-    let session = Session::new(&watch)?.on_threads(options.threads);
+    let session = Session::new(&watch)?.on_threads(options.threads.number);
     let Some(campaign) = campaign(options, session).prepare()? else {
         if let Some(of) = &options.only_failed_of {
             screen::print(&format!("{}: no run failed; nothing to do\n", of.display()))?;
@@ -51,7 +48,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 campaign.named().display(),
                 counted(end.rows, "sample"),
             );
-            let question = completed_text::question(plan.description.as_deref());
+            let question = question(plan.description.as_deref(), screen::width());
             let verdicts = completed_text::of_end(&end, root);
             screen::print(&format!("{question}{}{verdicts}", wrapped(&there, screen::width())))?;
             // the verdicts are those of the campaign, not of a shard
@@ -80,9 +77,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
 
 /// The campaign that the options mean.
 fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a> {
-    let outputs =
-        Outputs { without_page: options.no_report, figures: options.figures.clone(), junit: options.junit.clone() };
-    let mut campaign = Campaign::from_file(&options.file, session).outputs(outputs);
+    let mut campaign = Campaign::from_file(&options.file, session).outputs(options.written.outputs());
     for (key, value) in &options.changed.settings {
         campaign = campaign.set(key, value);
     }
@@ -113,7 +108,7 @@ fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a>
 /// Refuses files that the command must not write, and work that cannot be done.
 fn check(options: &CampaignOptions, campaign: &PreparedCampaign<'_>) -> Result<(), Failure> {
     let root = campaign.root();
-    let outputs = [("--junit", options.junit.as_deref()), ("--figures", options.figures.as_deref())];
+    let outputs = options.written.named();
     refuse_inputs(&campaign.files().paths(), &[outputs[0], ("--out", Some(root))])?;
     refuse_within(root, &outputs)?;
     campaign.refuse_work(options.yes)

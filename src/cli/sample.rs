@@ -6,22 +6,20 @@ use crate::campaign::{Overrides, Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
-use crate::cli::{dispersions, screen};
+use crate::cli::screen;
 use crate::ensemble::{DrawnScenes, Percentiles};
+use crate::findings::dispersions;
 use crate::findings::number::counted;
-use crate::report::drawn_columns::DrawnColumns;
-use crate::report::drawn_figure::drawn_figure;
-use crate::report::figure_files::{check_format, instead};
+use crate::report::figure_files::{FigureSheet, check_format, instead};
+use crate::report::inputs::DrawnInputs;
+use crate::report::screen::paragraphs;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
 use crate::storage::table_file::TableFormat;
+use crate::table::text::Text;
 use crate::workflow::source::plan_and_files;
 use crate::workflow::workload::{Workload, plotted_samples};
 
-/// Runs the command.
-///
-/// # Errors
-/// Where the campaign file is wrong or a file cannot be written.
 pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     // refuse a file that cannot be written before any work
     if let Some(path) = &options.out {
@@ -46,9 +44,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             Ok::<(), Failure>(())
         })?,
     }
-    let mut text = String::new();
-    dispersions::table_of(&mut text, &plan, &percentiles).map_err(Failure::files)?;
-    screen::print(&text)?;
+    screen::print(&paragraphs(&dispersions::of_percentiles(&plan, &percentiles), screen::width()))?;
     plan.notes().iter().for_each(|note| screen::note(note));
     if percentiles.invalid() > 0 {
         screen::note(&format!(
@@ -64,13 +60,6 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
         }
         // sample 0 is the nominal scene, which is not dispersed
         let dispersed = DrawnScenes::new(&plan, SampleId(1), plotted_samples(&plan));
-        let shown = DrawnColumns::new(&plan, &dispersed);
-        if shown.names.is_empty() {
-            return Err(Failure::Input(format!(
-                "{} turns attitudes by rounding alone: there is nothing to plot",
-                plan.name
-            )));
-        }
         let title = format!(
             "{}, {}{}, {} design",
             plan.name,
@@ -78,7 +67,9 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
             counted(dispersed.count(), "sample"),
             plan.design.name().replace('_', " ")
         );
-        let written = drawn_figure(title, &shown)
+        let all = plan.samples.saturating_sub(1);
+        let figures = DrawnInputs { columns: dispersed.columns.clone(), all }.figures(&plan);
+        let written = FigureSheet { title, figures }
             .in_units(&plan.analysis.display)
             .save(path)
             .map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
@@ -98,7 +89,8 @@ fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
         let (last, name) = (plan.samples - 1, &plan.name);
         return Err(Failure::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));
     }
-    screen::print(&dispersions::applied(plan, SampleId(sample)))?;
+    let applied = dispersions::applied(plan, SampleId(sample));
+    screen::print(&Text::of(&applied).spaced(0, 2).lines(usize::MAX))?;
     if let Err(errors) = draw(plan, SampleId(sample)) {
         let reasons: String = errors.iter().map(|error| format!("\n  {error}")).collect();
         screen::note(&format!("sample {sample} is not physical (its status would be invalid_sample):{reasons}"));

@@ -9,13 +9,9 @@ use crate::storage::names::PLAN;
 use crate::workflow::outcome::again;
 use crate::workflow::{Results, Session};
 
-/// Runs the command.
-///
-/// # Errors
-/// Where the folder has no finished result, or files cannot be read.
 pub fn run(options: &ShowOptions) -> Result<CommandOutcome, Failure> {
     let watch = Terminal::default();
-    let results = Results::open(&options.folder, Session::new(&watch)?.on_threads(options.threads))?;
+    let results = Results::open(&options.folder, Session::new(&watch)?.on_threads(options.threads.number))?;
     let (completed, json) = again(&results)?;
     let text = match options.json {
         true => json,

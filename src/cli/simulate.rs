@@ -6,11 +6,11 @@ use crate::campaign::Plan;
 use crate::cli::arguments::SimulateOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::outputs::refuse_inputs;
-use crate::cli::{dispersions, screen};
+use crate::cli::screen;
 use crate::ensemble::SingleRun;
 use crate::ensemble::audit::AuditValue;
-use crate::findings::loss;
-use crate::findings::loss::readable;
+use crate::findings::dispersions;
+use crate::findings::loss::{self, readable};
 use crate::findings::number::{counted, short};
 use crate::math::Isa;
 use crate::report::figure_files::{check_format, instead};
@@ -29,10 +29,6 @@ use crate::workflow::source::plan_and_files;
 /// A plot without --times has at least this many intervals: two per pixel.
 const SMOOTH: usize = 1200;
 
-/// Runs the command.
-///
-/// # Errors
-/// Where the sample cannot be run or its files cannot be written.
 pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     // refuse a file that cannot be written before any work
     if let Some(path) = &options.out {
@@ -59,7 +55,8 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     }
     if options.out.is_none() && options.plot.is_none() {
         if options.sample > 0 {
-            screen::print(&dispersions::shown(&plan, SampleId(options.sample)))?;
+            let shown = dispersions::shown(&plan, SampleId(options.sample));
+            screen::print(&Text::of(&shown).spaced(0, 2).lines(screen::width()))?;
         }
         let (table, left_out) = time_table(&plan, &run.request.wheels, &series, screen::width());
         screen::print(&Text::of(&table).spaced(0, 1).lines(screen::width()))?;
@@ -153,20 +150,4 @@ fn plot(path: &Path, options: &SimulateOptions, plan: &Plan, run: &SingleRun) ->
         screen::note(&instead(&written));
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: a plot contains the campaign's points (their times to rounding).
-    #[test]
-    fn a_refined_grid_contains_the_campaigns_points() {
-        let (coarse, fine) = (Grid::uniform(10.0, 101), refined(&Grid::uniform(10.0, 101)));
-        assert!(fine.points() > SMOOTH && fine.duration() == 10.0);
-        for time in coarse.times() {
-            let is_near = fine.times().iter().any(|other| (other - time).abs() <= 1e-15 * 10.0);
-            assert!(is_near, "no point at {time} s");
-        }
-    }
 }

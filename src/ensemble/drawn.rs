@@ -7,7 +7,6 @@ use crate::sampling::SampleId;
 use crate::sampling::design::Size;
 use crate::sampling::design::hash::mix;
 use crate::scene::Scene;
-use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
 /// Samples as drawn: what was applied, and whether the scene is physical.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,13 +143,6 @@ impl DrawnScenes {
     pub fn count(&self) -> usize {
         self.physical.len()
     }
-
-    /// Spearman's rank correlation of each pair of columns; 0 for a column that does not vary. Equal values share their
-    /// mean rank.
-    pub fn rank_correlations(&self) -> Vec<Vec<f64>> {
-        let scores: Vec<Vec<f64>> = self.columns.iter().map(|column| standardised(&mid_ranks(column))).collect();
-        matrix(&scores)
-    }
 }
 
 #[cfg(test)]
@@ -196,23 +188,5 @@ mod tests {
         }
         let random = of("kind = \"random\"");
         assert_eq!(DrawnScenes::spread(&random, 1000), DrawnScenes::new(&random, SampleId(1), 1000));
-    }
-
-    #[test]
-    fn rank_correlations_of_known_columns() {
-        let columns =
-            vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.0, 8.0, 27.0, 64.0], vec![4.0, 3.0, 2.0, 1.0], vec![5.0; 4]];
-        let drawn = DrawnScenes {
-            first: SampleId(0),
-            physical: vec![true; 4],
-            columns,
-            mass: Vec::new(),
-            magnitudes: Vec::new(),
-        };
-        let r = drawn.rank_correlations();
-        // an ulp or two of the sums; none is measured
-        assert!(
-            (r[0][1] - 1.0).abs() < 4.0 * f64::EPSILON && (r[0][2] + 1.0).abs() < 4.0 * f64::EPSILON && r[0][3] == 0.0
-        );
     }
 }

@@ -15,7 +15,6 @@ use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::number::{self, brief, counted, outward, share, short};
 use crate::math::normal;
-use crate::run::Status;
 use crate::sampling::Design;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::contingency::Occurrence;
@@ -223,7 +222,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
                 let most = (100.0 * ends.into_iter().fold(0.0, f64::max)).ceil();
                 format!("no single input explains more than {most:.0}% of the variance{rest}")
             }
-            _ => format!("no input was found to drive it in {runs}{}", power_on_spread(plan, ranking)),
+            _ => format!("no input was found in {runs}{}", power_on_spread(plan, ranking)),
         };
     }
     if first.input.total.is_some() {
@@ -333,7 +332,21 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
         }
     }
     found.sort_by(|(one, order), (other, after)| order.cmp(after).then(strength(other).total_cmp(&strength(one))));
-    let mut found: Vec<Finding> = found.into_iter().map(|(one, _)| one).collect();
+    // of which nothing was found, as of the same runs, is said once
+    let mut list: Vec<Finding> = Vec::new();
+    for (one, _) in found {
+        let same = list.last_mut().filter(|last| last.children.is_empty() && last.sentence.ends_with(&one.sentence));
+        match same {
+            Some(last) => {
+                let titles = last.sentence.strip_suffix(&one.sentence).filter(|_| last.title.is_empty());
+                let titles = titles.map_or(last.title.as_str(), |titles| titles.trim_end_matches(": "));
+                last.sentence = format!("{titles}; {}: {}", one.title, one.sentence);
+                last.title.clear();
+            }
+            None => list.push(one),
+        }
+    }
+    let mut found = list;
     let most = if verdicts.list.is_empty() { DRIVEN } else { 1 };
     let mut seen: Vec<String> = Vec::new();
     for one in &mut found {
@@ -348,17 +361,8 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
         found.insert(0, about("all_fail", "failures", 0, why));
     } else if let Some(why) = refused(plan, all) {
         found = vec![about("untold", "", 0, why)];
-    } else if analysed.tally.without_nominal
-        && seen.is_empty()
-        && !all.is_empty()
-        && !analysed.statistics.loss().is_big()
-    {
-        let computed = Status::ALL.into_iter().zip(analysed.tally.statuses.of_population());
-        let runs: u64 = computed.filter(|(status, _)| *status == Status::Done).map(|(_, count)| count).sum();
-        let first = found.first().map(|one| one.sentence.clone());
-        let first = first.and_then(|text| text.split_once("; one that").map(|(_, rest)| format!("; one that{rest}")));
-        let said = format!("no significant driver found in {}", counted(runs, "dispersed run"));
-        found.insert(0, about("no_driver", "", 0, said + &first.unwrap_or_default()));
+    } else if let Some(first) = found.first_mut().filter(|_| seen.is_empty() && !analysed.statistics.loss().is_big()) {
+        first.rank = 0;
     }
     let has_rest = found.iter().any(|one| one.sentence.contains("; the rest is "));
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {

@@ -6,6 +6,7 @@ use crate::sampling::SampleId;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
+use crate::table::Table;
 
 /// Whether what is asked is so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,6 +89,11 @@ impl Number {
         }
     }
 
+    /// The number alone: "0.938"; "-" where there is none.
+    pub fn alone(&self) -> String {
+        Number { interval: [f64::NAN; 2], ..self.clone() }.bare()
+    }
+
     /// The number with interval and unit: "98.40% [91.45, 99.96]", "0.938 [0.901, 0.994] deg".
     pub fn text(&self) -> String {
         match (self.value.is_finite(), self.unit == SHARE) {
@@ -161,6 +167,8 @@ pub struct Finding {
     pub numbers: Vec<Number>,
     /// What else has to be known, each a sentence without its end, in the order of their worth.
     pub notes: Vec<String>,
+    /// Its rows, called by the title where there are more than are shown.
+    pub table: Option<Table<'static>>,
     pub figures: Figures,
     /// The sample whose run shows it.
     pub sample: Option<SampleId>,

@@ -5,18 +5,32 @@
 //! - `warnings`: what comes first. [`requirement`]: the nearest to its limit first. [`loss`]: runs without numbers,
 //!   missions, `[stop]`. [`outcome`]: distributions. [`drivers`]: what outcomes depend on. [`numerics`]: errors,
 //!   audits.
+//! - [`checked`], with [`dispersions`] ([`origin`]: of one number) and [`scene`]: what a campaign would run.
+//! - [`compared`], [`comparison`] (with [`changed_keys`]): two results compared.
+//! - [`end`]: how a campaign ended; [`results_index`]: how several did; [`verified`]; [`precision`].
 //! - [`number`]: numbers in text, the one formatter. [`names`]: columns and parameters in words. [`shell_word`]: words
 //!   of commands.
 
+pub mod changed_keys;
+pub mod checked;
+pub mod compared;
+pub mod comparison;
+pub mod dispersions;
 pub mod drivers;
+pub mod end;
 pub mod finding;
 pub mod loss;
 pub mod names;
 pub mod number;
 pub mod numerics;
+pub mod origin;
 pub mod outcome;
+pub mod precision;
 pub mod requirement;
+pub mod results_index;
+pub mod scene;
 pub mod shell_word;
+pub mod verified;
 mod warnings;
 
 pub use self::finding::{Figures, Finding, Findings, Kind, Number, Verdict};

@@ -310,25 +310,6 @@ mod tests {
     use super::*;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
-    /// Law: the screen says how many runs were compared, how many of them in double-double, how many in plain doubles,
-    /// and how many failed.
-    #[test]
-    fn every_selected_run_is_accounted_for() {
-        let line = |audited: u64, in_double_double: u64, failed: u64| {
-            let audits = AuditTally { audited, in_double_double, failed, ..AuditTally::default() };
-            let number = |name: &str, value: Option<f64>, of, unit: &str| {
-                Number::new(name, (value.unwrap_or(f64::NAN), [f64::NAN; 2]), of, unit, &ShownUnit::own(unit))
-            };
-            AuditSummary::new(&audits, 0.5).finding(number).sentence
-        };
-        let head = "7 runs compared with reference solutions";
-        let plain = "too long for that, in plain doubles with tolerance 1e-16";
-        assert_eq!(line(7, 7, 0), format!("{head}, 7 of them in double-double"));
-        assert_eq!(line(7, 4, 0), format!("{head}, 4 of them in double-double, 3 {plain}"));
-        let failed = "2 more did not reach their end";
-        assert_eq!(line(7, 5, 2), format!("{head}, 5 of them in double-double, 2 {plain}; {failed}"));
-    }
-
     /// Law: each quantile is that of type 7, and the ratios are of the runs that were audited.
     #[test]
     fn quantiles_and_shares_are_those_stated() {

@@ -9,6 +9,7 @@ use crate::findings::finding::{Finding, Kind, Number, Verdict};
 use crate::findings::names;
 use crate::findings::number::{self, counted, outward, share, short, time, trimmed, written};
 use crate::statistics::binomial::{Decision, POWER};
+use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 
@@ -20,6 +21,38 @@ const DIGITS: i32 = 12;
 // what the documents say of the runs that would decide
 const _: () = assert!(POWER == 0.9);
 
+/// A requirement with its verdict.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EndVerdict {
+    /// The requirement as a sentence.
+    pub requirement: String,
+    /// `PASS`, `FAIL` or `UNDECIDED`.
+    pub word: String,
+    /// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
+    pub statement: String,
+    /// What was found, with its interval: "97.7% [95.3, 99.1]".
+    pub found: String,
+    /// The observable that it is about, where it is about one.
+    pub observable: Option<String>,
+    /// How many runs violate it, unless it is about a mean.
+    pub violations: Option<Occurrence>,
+}
+
+impl EndVerdict {
+    /// The verdict `one`; quantiles have intervals with `statistics` only.
+    pub fn of(one: &Assessment, statistics: Option<&Statistics>) -> Self {
+        EndVerdict {
+            requirement: question(one),
+            word: Verdict::of(one.gate.decision).word().to_owned(),
+            statement: title(one),
+            found: numbers(one, statistics).first().map(Number::text).unwrap_or_default(),
+            observable: one.requirement.observable().map(str::to_owned),
+            violations: (one.requirement.statement != Statement::Mean)
+                .then_some(Occurrence { events: one.violations, runs: one.runs }),
+        }
+    }
+}
+
 /// A finding for each requirement: those that fail first, then those that are undecided; within each the nearest to its
 /// limit first. Then what they say together.
 pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Vec<Finding> {
@@ -28,7 +61,7 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
         let numbers = numbers(one, Some(statistics));
         let id = format!("requirement_{}", place + 1);
         let title = if confidence.is_some() { title(one) } else { question(one) };
-        let found = Finding::new(Kind::Requirement, id, title, sentence(plan, one, &numbers));
+        let found = Finding::new(Kind::Requirement, id, title, sentence(one, &numbers));
         let verdict = Some(Verdict::of(one.gate.decision));
         (Finding { verdict, notes: notes(one), numbers, ..found }, rank(one))
     };
@@ -39,7 +72,7 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
         ..Finding::new(Kind::Verdicts, "together", "", said)
     };
     let together = together(verdicts).into_iter().enumerate().map(|(place, said)| (place + 1, said));
-    let needed = most_needed(plan, verdicts).map(|said| (0, said));
+    let needed = runs_needed(plan, verdicts).map(|said| (0, said));
     found.into_iter().map(|(finding, _)| finding).chain(needed.into_iter().chain(together).map(about)).collect()
 }
 
@@ -50,14 +83,23 @@ pub fn common_confidence(verdicts: &Verdicts) -> Option<f64> {
     all.all(|other| other == first).then_some(first)
 }
 
-/// How many runs would decide all that is undecided, as far as that is known.
-fn most_needed(plan: &Plan, verdicts: &Verdicts) -> Option<String> {
-    let needed = verdicts.list.iter().filter_map(|one| match one.gate.decision {
-        Decision::Undecided(Some(runs)) if one.reason.is_none() => Some(runs.max(one.runs + 1)),
+/// How many runs would decide all that is undecided, said once for all.
+fn runs_needed(plan: &Plan, verdicts: &Verdicts) -> Option<String> {
+    let needed = verdicts.list.iter().filter(|one| one.reason.is_none()).filter_map(|one| match one.gate.decision {
+        Decision::Undecided(runs) => Some(runs.map(|runs| runs.max(one.runs + 1))),
         _ => None,
     });
-    needed.max().map(|runs| runs_needed(plan, Some(runs), "what is undecided"))
+    let needed: Vec<Option<u64>> = needed.collect();
+    let with_nominal = |runs: u64| if plan.samples > 1 { format!(" (samples = {})", runs + 1) } else { String::new() };
+    let runs = if plan.samples > 1 { "dispersed runs" } else { "runs" };
+    Some(match needed.iter().flatten().max().filter(|_| !needed.is_empty()) {
+        Some(most) => format!("about {most} {runs}{} should decide what is undecided, {IF}", with_nominal(*most)),
+        None if needed.is_empty() => return None,
+        None => format!("no number of runs would decide what is undecided, {IF}"),
+    })
 }
+
+const IF: &str = "if the truth is as observed";
 
 /// Verdicts in their order, and how far the estimate is from the limit: in half widths of its interval, so that numbers
 /// of different units compare.
@@ -154,18 +196,7 @@ fn shown(one: &Assessment) -> ShownUnit {
     one.shown.clone().of_time(limit.abs(), Some(limit))
 }
 
-fn sentence(plan: &Plan, one: &Assessment, numbers: &[Number]) -> String {
-    let needed = match (&one.reason, one.gate.decision) {
-        (None, Decision::Undecided(runs)) => {
-            format!("; {}", runs_needed(plan, runs.map(|runs| runs.max(one.runs + 1)), "it"))
-        }
-        _ => String::new(),
-    };
-    found(one, numbers) + &needed
-}
-
-/// What was found, without what would decide.
-fn found(one: &Assessment, numbers: &[Number]) -> String {
+fn sentence(one: &Assessment, numbers: &[Number]) -> String {
     let runs = counted(one.runs, "run");
     let values = numbers.iter().filter(|number| number.name != WITHIN && number.value.is_finite());
     let mut said: Vec<String> = values.map(|number| format!("{} {}", number.name, number.text())).collect();
@@ -240,18 +271,6 @@ fn decided_by(one: &Assessment) -> Option<String> {
     let number = if is_mean { format!("{number} {}", one.shown.unit) } else { format!("{number}% of runs") };
     let side = if is_lower { "at least" } else { "at most" };
     Some(format!("{side} {}, one-sided at {}%", number.trim_end(), percent(one.confidences[0])))
-}
-
-/// How many dispersed `runs` would decide; `None`: no number of them.
-fn runs_needed(plan: &Plan, runs: Option<u64>, what: &str) -> String {
-    const IF: &str = "if the truth is as observed";
-    match runs {
-        None => format!("no number of runs would decide {what}, {IF}"),
-        Some(runs) if plan.samples > 1 => {
-            format!("about {runs} dispersed runs (samples = {}) should decide {what}, {IF}", runs + 1)
-        }
-        Some(runs) => format!("about {runs} runs should decide {what}, {IF}"),
-    }
 }
 
 /// What the verdicts say together: how often one of them is wrong, and what to do about those that are undecided.

@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 
 use crate::analysis::comparison_table;
 use crate::campaign::difference::KeyDifference;
-use crate::report::compared::{Compared, ComparedVerdict};
+use crate::findings::compared::{Compared, ComparedVerdict};
 use crate::table::json::objects;
 
 /// The text of the file: everything that is compared.
-pub fn text(compared: Compared<'_>) -> String {
+pub fn text(compared: &Compared<'_>) -> String {
     let Compared { comparison, keys, verdicts, tolerance, .. } = compared;
     let result = |name: String, which: usize| {
         let statistics = &comparison.statistics[which];

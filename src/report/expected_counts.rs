@@ -1,8 +1,6 @@
 //! [`Asked`]: the distribution of a column of drawn samples, and how many samples of it are expected in the bars of a
 //! histogram.
 
-use core::f64::consts::PI;
-
 use std::sync::Arc;
 
 use crate::sampling::distribution::{Distribution, Quantile};
@@ -18,12 +16,6 @@ pub enum Asked<'p> {
     Drawn(Arc<[f64]>),
     /// Values with their probabilities, ascending.
     Values(Arc<[(f64, f64)]>),
-    /// The angle of the rotation between an attitude uniform over all rotations and any other, deg: its density is
-    /// (1 - cos theta)/pi for theta in [0, pi] (R. E. Miles, *On random rotations in R^3*, Biometrika 52 (1965) 636).
-    UniformRotation,
-    /// The angle between an axis of such an attitude and any other axis, deg: the direction is uniform over the sphere,
-    /// and the density is (sin theta)/2.
-    UniformTilt,
 }
 
 impl Asked<'_> {
@@ -51,7 +43,7 @@ impl Asked<'_> {
         let distribution = match self {
             Asked::Number(distribution) => distribution,
             Asked::Values(values) => return Some(values.to_vec()),
-            Asked::Drawn(_) | Asked::UniformRotation | Asked::UniformTilt => return None,
+            Asked::Drawn(_) => return None,
         };
         let mut below = 0.0;
         let value = |upto: f64| {
@@ -64,15 +56,12 @@ impl Asked<'_> {
 
     /// The probability of smaller values.
     fn probability_below(&self, value: f64) -> f64 {
-        let angle = value.to_radians().clamp(0.0, PI);
         match self {
             Asked::Number(distribution) => probability(distribution, value),
             Asked::Drawn(drawn) => drawn.partition_point(|one| *one < value) as f64 / drawn.len().max(1) as f64,
             Asked::Values(values) => {
                 values.iter().take_while(|(one, _)| *one < value).map(|(_, probability)| probability).sum()
             }
-            Asked::UniformRotation => (angle - libm::sin(angle)) / PI,
-            Asked::UniformTilt => 0.5 * (1.0 - libm::cos(angle)),
         }
     }
 }
@@ -91,7 +80,6 @@ fn probability(distribution: &Distribution, value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::sampling::distribution::choice::ChoiceQuantile;
-    use crate::sampling::distribution::normal::NormalQuantile;
     use crate::sampling::distribution::uniform::UniformQuantile;
 
     /// The resolution of the bisection is 1e-12; closed forms are exact to rounding.
@@ -99,19 +87,6 @@ mod tests {
 
     fn agree(found: &[f64], known: &[f64]) -> bool {
         found.len() == known.len() && found.iter().zip(known).all(|(found, known)| (found - known).abs() < RESOLUTION)
-    }
-
-    /// Known: 68.27% of normal numbers are within one standard deviation; none of uniform ones is outside of their
-    /// range.
-    #[test]
-    fn known_shares() {
-        let normal = Distribution::Normal(NormalQuantile { mean: 5.0, std: 2.0 });
-        let found = Asked::Number(&normal).expected(&[3.0, 5.0, 7.0], 1000);
-        // the known number has nine digits
-        assert!(found.iter().all(|count| (count - 341.344_746).abs() < 1e-6), "{found:?}");
-        let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 1.0 });
-        let found = Asked::Number(&uniform).expected(&[-1.0, 0.0, 0.5, 1.0], 8);
-        assert!(agree(&found, &[0.0, 4.0, 4.0]), "{found:?}");
     }
 
     /// Law: each value of a discrete distribution counts in its bar, the first and the last at the ends of the axis
@@ -127,30 +102,5 @@ mod tests {
         assert!(agree(&asked.expected(&[0.015, 0.03], 100), &[25.0]));
         let uniform = Distribution::Uniform(UniformQuantile { min: 0.0, max: 1.0 });
         assert_eq!(Asked::Number(&uniform).values(), None);
-    }
-
-    /// Known: a rotation by at most 90 degrees has the probability 1/2 - 1/pi, a tilt 1/2; the densities are those that
-    /// the integrals of (1 - cos theta)/pi and (sin theta)/2 have, here by Simpson's rule.
-    #[test]
-    fn angles_of_uniform_attitudes() {
-        let quarters = [0.0, 90.0, 180.0];
-        let found = Asked::UniformRotation.expected(&quarters, 1);
-        assert!(agree(&found, &[0.5 - 1.0 / PI, 0.5 + 1.0 / PI]), "{found:?}");
-        assert!(agree(&Asked::UniformTilt.expected(&quarters, 1), &[0.5, 0.5]));
-        let edges: Vec<f64> = (0..=40).map(|k| 4.5 * f64::from(k)).collect();
-        let simpson = |density: &dyn Fn(f64) -> f64| -> Vec<f64> {
-            let of_bar = |pair: &[f64]| {
-                let (low, high) = (pair[0].to_radians(), pair[1].to_radians());
-                (high - low) / 6.0 * (density(low) + 4.0 * density(0.5 * (low + high)) + density(high))
-            };
-            edges.windows(2).map(of_bar).collect()
-        };
-        let rotation = simpson(&|angle| (1.0 - libm::cos(angle)) / PI);
-        let tilt = simpson(&|angle| 0.5 * libm::sin(angle));
-        // Simpson's rule: h^5/2880 times the fourth derivative, at most 1/2, of h = 0.0785: 5e-10
-        assert!(agree(&Asked::UniformRotation.expected(&edges, 1), &rotation));
-        assert!(agree(&Asked::UniformTilt.expected(&edges, 1), &tilt));
-        // the two are different distributions
-        assert!(!agree(&rotation, &tilt));
     }
 }

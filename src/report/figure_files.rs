@@ -228,20 +228,4 @@ mod tests {
         let alone = FigureSheet { title: String::new(), ..sheet(1) };
         assert_eq!(alone.svg(draw).expect("drawn"), "<svg width=\"700\" height=\"300\">\"f0\"</svg>");
     }
-
-    /// Law: without a way to draw SVG a page with the figures is written, which says how to have SVG; other formats are
-    /// refused.
-    #[test]
-    fn a_page_is_written_in_place_of_svg() {
-        let folder = std::env::temp_dir().join(format!("spindrift-figures-{}", std::process::id()));
-        let sheet = FigureSheet { title: "x".to_owned(), figures: vec![figure("rate")] };
-        let (count, note) = sheet.save_all(&folder).expect("written");
-        let page = std::fs::read_to_string(folder.join("figures.html")).expect("a page");
-        assert!(count == 1 && note.is_some_and(|note| note.contains("SVG")));
-        assert!(page.contains("<h1>x</h1>") && page.contains("id=\"echarts\""));
-        assert_eq!(sheet.save(&folder.join("a.svg")).expect("written"), folder.join("a.html"));
-        std::fs::remove_dir_all(&folder).expect("removed");
-        let refused = check_format(Path::new("x.pdf")).unwrap_err();
-        assert_eq!(refused.to_string(), "a plot is written as .html or .svg, and `x.pdf` is neither");
-    }
 }

@@ -207,27 +207,6 @@ mod tests {
     use crate::sampling::distribution::choice::ChoiceQuantile;
     use crate::sampling::distribution::uniform::UniformQuantile;
 
-    /// Law: every value is in one bar, whatever the range; a single value is in the middle of an axis.
-    #[test]
-    fn bars_hold_every_value() {
-        for values in [
-            vec![1.0, 2.0, 3.0],
-            vec![1e-15, 1e-12, 1e-9, 1e-9],
-            vec![5.0; 7],
-            vec![-1.0, 0.0, 1e6],
-            vec![0.0; 3],
-            vec![8.0, 9.0, 9.0, 12.0],
-            vec![-1.5e308, 1.5e308],
-        ] {
-            let (edges, is_log) = bins(&values, &[]);
-            let counts = counts(&values, &edges);
-            assert_eq!(counts.iter().sum::<f64>(), values.len() as f64, "{values:?}");
-            assert_eq!(is_log, values[0] == 1e-15, "{values:?}");
-            assert!(edges.is_sorted() && edges.iter().all(|edge| edge.is_finite()), "{edges:?}");
-        }
-        assert!(bins(&[], &[]).0.is_empty());
-    }
-
     /// Law: bars of counts and of times of control periods have equally many places of the lattice, so that equally
     /// many values at each place are equally high bars, but for those at the ends; a bar ends with the last place up to
     /// a limit.
@@ -277,31 +256,6 @@ mod tests {
                 assert_eq!(bins(&values, &[high + 1.0]).0, edges);
             }
         }
-    }
-
-    /// Law: a value at an edge between two bars is in the upper one, as the stem of its probability is; the last edge
-    /// is in the last bar.
-    #[test]
-    fn an_edge_is_in_the_bar_above_it() {
-        let edges = [0.0, 1.0, 2.0, 4.0];
-        assert_eq!(counts(&[0.0, 1.0, 1.0, 2.0, 4.0], &edges), [1.0, 2.0, 2.0]);
-        let Mark::Points { x, y, .. } = stems(&[(1.0, 0.25), (4.0, 0.75)], 4, &edges) else { panic!("stems") };
-        assert_eq!((x, y), (vec![1.0, 4.0], vec![1.0, 3.0]));
-    }
-
-    /// Law: the axis is that of the samples where the nominal value is far from them, and contains it where it is near.
-    #[test]
-    fn a_far_nominal_value_does_not_widen_the_axis() {
-        let values: Vec<f64> = (0..=200).map(|k| 999_999.0 + 0.01 * f64::from(k)).collect();
-        for (nominal, is_far) in [(0.0, true), (1e9, true), (1_000_000.5, false), (999_998.5, false)] {
-            let figure = of_input("x", "", &values, nominal, None);
-            assert_eq!(figure.x.range.is_some(), is_far, "{nominal}");
-            let Some(Mark::Limit { label, .. }) = figure.marks.last() else { panic!("{figure:?}") };
-            assert_eq!(label.len() > "nominal".len(), is_far, "{label}");
-        }
-        // one value only: the nominal value is shown however far it is
-        assert!(of_input("x", "", &[5.0], 0.0, None).x.range.is_none());
-        assert_eq!(of_input("x", "", &[], f64::NAN, None).marks.len(), 1);
     }
 
     /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a

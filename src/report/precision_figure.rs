@@ -52,39 +52,3 @@ fn curve(measured: &[Measurement], pick: Pick, index: usize, method: Method) -> 
         Mark::Points { label: String::new(), hue, shape: PointShape::Disc, x: x.clone(), y: y.clone(), samples };
     vec![Mark::line(method.name(), hue, Dash::of_curve(index), x, y), points]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ensemble::precision::Setting;
-
-    /// Law: of each method a curve of its CPU times over its errors.
-    #[test]
-    fn curves_are_times_over_errors() {
-        let measured: Vec<Measurement> = [(1e-6, 1e-5), (1e-9, 3e-5)]
-            .map(|(error, cpu)| Measurement {
-                method: Method::Taylor,
-                setting: Setting::Tolerance(error),
-                cpu: [cpu, cpu],
-                repeats: 1,
-                runs: [1, 0],
-                steps: 1.0,
-                rate: Some(Deviation { max: error, rms: error }),
-                attitude: None,
-                energy: None,
-                momentum: None,
-            })
-            .to_vec();
-        let sheet = precision_figure(String::new(), &measured);
-        let [panel] = &sheet.figures[..] else { panic!("one error has a panel") };
-        let curves = panel.marks.iter().filter_map(|mark| match mark {
-            Mark::Line { x, y, .. } | Mark::Points { x, y, .. } => Some((x, y)),
-            _ => None,
-        });
-        let curves: Vec<_> = curves.collect();
-        assert_eq!(curves.len(), 2);
-        for (x, y) in curves {
-            assert_eq!((&x[..], &y[..]), (&[1e-6, 1e-9][..], &[1e-5, 3e-5][..]));
-        }
-    }
-}

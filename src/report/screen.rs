@@ -1,14 +1,25 @@
 //! What a campaign has found, on one screen: [`text`]; with all that is known, as `--verbose` prints it: [`verbose`].
 //! Both choose from the findings, and say what they leave out.
 
+use std::path::Path;
+
+use crate::ensemble::precision::Measurement;
+use crate::findings::end::SummaryEnd;
+use crate::findings::names::sentence;
+use crate::findings::precision;
+use crate::findings::requirement::EndVerdict;
 use crate::findings::{Finding, Findings, Kind, Number};
-use crate::report::summary::EndVerdict;
 use crate::table::Table;
 use crate::table::text::{Align, Text};
 use crate::table::wrapped::{message, wrapped};
 
+/// Lines of a screen without `--verbose`.
+pub const LINES: usize = 24;
 /// Reasons of failures that a screen lists, and all that are listed.
 const MOST_REASONS: [usize; 2] = [3, 12];
+/// Rows of a screen: requirements that are compared, keys that differ.
+const MOST_REQUIREMENTS: usize = 6;
+const MOST_KEYS: usize = 4;
 /// Outcomes that are shown however many lines there are.
 const LEAST_OUTCOMES: usize = 1;
 
@@ -80,11 +91,73 @@ pub fn verbose(findings: &Findings, file: &str, width: usize) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).map(|part| format!("\n{part}")).collect()
 }
 
-/// The verdicts of a finished result.
-pub fn verdicts(list: &[EndVerdict], width: usize) -> String {
-    let rows: Vec<[String; 4]> =
-        list.iter().map(|one| [one.word.clone(), one.statement.clone(), one.found.clone(), String::new()]).collect();
-    verdict_table(["", ""], &rows, width)
+/// Findings one below the other, each a sentence or a table: on a screen of `most` lines, or all that is known. Rows of
+/// outcomes take the lines that the others leave.
+pub fn list(findings: &[Finding], is_verbose: bool, [most, width]: [usize; 2]) -> String {
+    let shown: Vec<&Finding> = findings.iter().filter(|one| one.rank <= u8::from(is_verbose)).collect();
+    let paragraph = |one: &Finding, outcomes: usize| {
+        let Some(table) = &one.table else {
+            let indent = if [Kind::Runs, Kind::Verdicts].contains(&one.kind) { "" } else { "  " };
+            return wrapped(&format!("{indent}{}\n", one.sentence), width);
+        };
+        let rows = match one.kind {
+            _ if is_verbose => table.rows(),
+            Kind::Requirement => MOST_REQUIREMENTS,
+            Kind::Outcome => outcomes,
+            _ => MOST_KEYS,
+        };
+        let left = table.rows().saturating_sub(rows);
+        let things = [one.title.trim_end_matches('s'), &one.title];
+        format!("\n{}{}", Text::of(table).first(rows).lines(width), left_out(left, things, width))
+    };
+    let text = |outcomes: usize| shown.iter().map(|one| paragraph(one, outcomes)).collect::<String>();
+    let fits = |outcomes: &usize| text(*outcomes).lines().count() <= most;
+    text((LEAST_OUTCOMES..most).rev().find(fits).unwrap_or(LEAST_OUTCOMES))
+}
+
+/// Findings in sections, below their titles.
+pub fn sections(findings: &[Finding], width: usize) -> String {
+    let (mut text, mut title) = (String::new(), "");
+    for one in findings {
+        if one.title != title {
+            title = &one.title;
+            text += &if title.is_empty() { "\n".to_owned() } else { format!("\n== {title}\n") };
+        }
+        text += &paragraphs(core::slice::from_ref(one), width);
+    }
+    text
+}
+
+/// Findings without their titles: sentences, tables, reasons.
+pub fn paragraphs(findings: &[Finding], width: usize) -> String {
+    let paragraph = |one: &Finding| {
+        let end = if one.sentence.is_empty() { "" } else { "\n" };
+        let table = one.table.as_ref().map_or(String::new(), |table| table.text(width));
+        wrapped(&format!("{}{end}", one.sentence), width) + &table + &reason_lines(&one.children, usize::MAX, width)
+    };
+    findings.iter().map(paragraph).collect()
+}
+
+/// One of the measurements of `precision`, or where there is none their heads, for lines of `width` characters.
+pub fn measurement(found: Option<&Measurement>, width: usize) -> String {
+    let table = precision::table(found);
+    let text = Text::of(&table).at_least(&precision::COLUMNS.map(|(.., width)| width)).spaced(0, 1);
+    if found.is_none() { text.head(width) } else { text.body(width) }
+}
+
+/// The question of a campaign, which comes first.
+pub fn question(question: Option<&str>, width: usize) -> String {
+    question
+        .filter(|text| !text.is_empty())
+        .map_or(String::new(), |text| wrapped(&format!("{}\n", sentence(text)), width))
+}
+
+/// Warnings and verdicts of a finished result, and its `place`.
+pub fn end(end: &SummaryEnd, place: &Path, width: usize) -> String {
+    let warnings: String = end.warnings.iter().map(|one| format!("  {one}\n")).collect();
+    let row = |one: &EndVerdict| [one.word.clone(), one.statement.clone(), one.found.clone(), String::new()];
+    let rows: Vec<[String; 4]> = end.verdicts.iter().map(row).collect();
+    wrapped(&warnings, width) + &verdict_table(["", ""], &rows, width) + &end.verdict_line(place) + "\n"
 }
 
 /// A line for each requirement.
@@ -147,12 +220,11 @@ fn sentences(list: &[&Finding], width: usize) -> String {
 }
 
 fn reasons(findings: &Findings, most: usize, width: usize) -> String {
-    reason_lines(findings.of(Kind::Loss).flat_map(|one| &one.children), most, width)
+    findings.of(Kind::Loss).map(|one| reason_lines(&one.children, most, width)).collect()
 }
 
 /// A line for each reason for which runs were not computed, and what can be done about it.
-pub fn reason_lines<'f>(all: impl Iterator<Item = &'f Finding>, most: usize, width: usize) -> String {
-    let all: Vec<&Finding> = all.collect();
+fn reason_lines(all: &[Finding], most: usize, width: usize) -> String {
     let mut text = String::new();
     for one in all.iter().take(most) {
         text += &wrapped(&format!("    {}: {}\n", one.title, one.sentence), width);
@@ -229,10 +301,7 @@ fn numbers_table(list: &[&Finding], (title, columns): (&str, &[String]), has_int
     let heads = columns.iter().map(|name| (name.clone(), Align::Right));
     let mut table = Table::with([(title.to_owned(), Align::Title)].into_iter().chain(heads));
     for one in list {
-        let text = |number: &Number| match has_intervals {
-            true => number.bare(),
-            false => Number { interval: [f64::NAN; 2], ..number.clone() }.bare(),
-        };
+        let text = |number: &Number| if has_intervals { number.bare() } else { number.alone() };
         let unit = one.numbers.first().map_or("", |number| number.shown.unit.as_str());
         let title = format!("{}, {unit}", one.title);
         let cells = columns.iter().map(|name| one.number(name).map_or_else(String::new, text));

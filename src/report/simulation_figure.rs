@@ -44,47 +44,6 @@ mod tests {
     use crate::sampling::SampleId;
     use crate::storage::timeseries::time_series;
 
-    /// A satellite on a circle of 7000 km with a date, at the times `grid`.
-    fn on_orbit(grid: Grid) -> (Plan, SingleRun) {
-        let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9000.0\n[body]\nmass_kg = \
-            10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n\
-                    [initial]\nangular_velocity_rad_s = [0.001, 0.002, 0.0]\n[orbit]\nsemi_major_axis_m = \
-                    7e6\ninclination_rad = \"60 deg\"\nepoch = \"2026-11-24T00:00:00Z\"\n\
-                    [environment]\nsolar_pressure = true\nmagnetic_field = \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.0, \
-                    0.2]\n\
-                    [[plates]]\nname = \"p\"\narea_m2 = 1.0\nnormal = [1, 0, 0]\ncenter_m = [0.0, 0.2, 0.1]\n";
-        let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-        let run = SingleRun::with_series(&plan, SampleId(0), grid, Isa::best(), &GROUPS).expect("a run");
-        (plan, run)
-    }
-
-    /// Law: quantities of an orbit over time are their columns, and the ground track is there beside them.
-    #[test]
-    fn curves_of_an_orbit_are_their_columns() {
-        let (plan, run) = on_orbit(Grid::uniform(9000.0, 301));
-        let series = time_series(SampleId(0), &run, |_| true);
-        let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
-        let panel =
-            |title: &str| panels.iter().find(|panel| panel.title == title).unwrap_or_else(|| panic!("no {title}"));
-        for (title, name) in [
-            ("Angle between s3 and nadir", "nadir_angle_rad"),
-            ("Distance from the centre of the Earth", "orbit_distance_m"),
-            ("Magnetic field at the spacecraft", "magnetic_field_t"),
-            ("Share of the Sun that the Earth hides", "sun_hidden_fraction"),
-        ] {
-            let (_, column) = series.numbers(name).expect(name);
-            let [Mark::Line { y, .. }] = &panel(title).marks[..] else { panic!("{title}") };
-            assert_eq!(y, column, "{title}");
-        }
-        let track = panel("Ground track");
-        assert_eq!((track.x.range, track.y.range), (Some([-180.0, 180.0]), Some([-90.0, 90.0])));
-        for mark in &track.marks {
-            let (Mark::Line { x, y, .. } | Mark::Points { x, y, .. }) = mark else { panic!("{mark:?}") };
-            assert!(x.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 20.0), "a line crosses the figure: {x:?}");
-            assert!(y.iter().all(|latitude| latitude.abs() <= 60.001), "{y:?}");
-        }
-    }
-
     /// Law: a thruster that gives nothing has its curve and says so, in the figure of a mission that it decides; every
     /// curve beside another has a name; a figure of zeros alone is left out, and named as that.
     #[test]
@@ -124,30 +83,6 @@ mod tests {
         let rate = panels.iter().find(|panel| panel.title.starts_with("Angular velocity of the body")).expect("a rate");
         assert_eq!(rate.marks.iter().map(Mark::legend).collect::<Vec<_>>(), ["z"]);
         assert!(left_out(&plan, &run).contains(&"Linear momentum in F_e".to_owned()), "{:?}", left_out(&plan, &run));
-    }
-
-    /// Law: a track of more than 16 revolutions ends there and says so; points that are too far apart are not joined.
-    #[test]
-    fn a_track_shows_what_can_be_seen() {
-        let track = |grid| {
-            let (plan, run) = on_orbit(grid);
-            let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
-            panels.into_iter().find(|panel| panel.title == "Ground track").expect("a track")
-        };
-        let points = |figure: &Figure| -> usize {
-            let of = |mark: &Mark| match mark {
-                Mark::Line { x, .. } | Mark::Points { x, .. } => x.len(),
-                _ => 0,
-            };
-            figure.marks.iter().map(of).sum()
-        };
-        let period = core::f64::consts::TAU * (7e6_f64.powi(3) / 3.986004418e14).sqrt();
-        let [whole, longer] = [15.9, 20.0].map(|revolutions| track(Grid::uniform(revolutions * period, 401)));
-        assert!(!whole.caption.contains("16 revolutions") && longer.caption.contains("The first 16 revolutions."));
-        assert!((points(&longer) as f64 / points(&whole) as f64 - 1.0).abs() < 0.05);
-        let coarse = track(Grid::uniform(2.0 * period, 8));
-        assert!(coarse.marks.iter().all(|mark| matches!(mark, Mark::Points { .. })) && points(&coarse) == 8 + 1);
-        assert!(coarse.caption.ends_with("too far apart for a line."), "{}", coarse.caption);
     }
 
     /// Law: every curve is the column that its panel and its label name: states and energies as they are, their sum,

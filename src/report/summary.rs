@@ -1,24 +1,21 @@
-//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`SummaryEnd`] reads from it how a campaign
-//! ended.
-
-use std::path::Path;
+//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`read`] reads from it how a campaign ended.
 
 use serde_json::{Map, Value, json};
 
 use crate::analysis::analysed::Analysed;
 use crate::analysis::assessment::Assessment;
-use crate::analysis::ending::Ending;
 use crate::analysis::missions::MissionShare;
-use crate::analysis::statistics::{ColumnStatistics, Statistics};
+use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::statuses::Ended;
 use crate::analysis::stopping::{LookFound, Stopping};
 use crate::analysis::tally::Worst;
 use crate::campaign::{Plan, Statement};
 use crate::ensemble::FailureReason;
-use crate::findings::number::counted;
+use crate::findings::end::SummaryEnd;
 use crate::findings::numerics::{AuditSummary, Numerics};
 use crate::findings::outcome::summarised;
-use crate::findings::{Finding, Findings, Kind, Number, Verdict, requirement};
+use crate::findings::requirement::{self, EndVerdict};
+use crate::findings::{Finding, Findings, Kind, Number, Verdict};
 use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::contingency::Occurrence;
@@ -249,178 +246,42 @@ fn stop(stopping: &Stopping) -> Value {
     })
 }
 
-/// A requirement with its verdict.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct EndVerdict {
-    /// The requirement as a sentence.
-    pub requirement: String,
-    /// `PASS`, `FAIL` or `UNDECIDED`.
-    pub word: String,
-    /// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
-    pub statement: String,
-    /// What was found, with its interval: "97.7% [95.3, 99.1]".
-    pub found: String,
-    /// The observable that it is about, where it is about one.
-    pub observable: Option<String>,
-    /// How many runs violate it, unless it is about a mean.
-    pub violations: Option<Occurrence>,
-}
-
-/// How a campaign ended, as its rows and its summary both say.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SummaryEnd {
-    pub rows: u64,
-    /// Number of runs that are not `ok`.
-    pub failed: u64,
-    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
-    pub not_covered: u64,
-    /// What comes before every number, as the summary says it.
-    pub warnings: Vec<String>,
-    /// The requirements, each with its verdict.
-    pub verdicts: Vec<EndVerdict>,
-    /// Whether a campaign with `[stop]` has reached what it says; `true` of others.
-    pub is_reached: bool,
-}
-
-impl SummaryEnd {
-    /// What the summary of a campaign says that ended like this, without its warnings; quantiles have intervals with
-    /// `statistics` only.
-    pub fn of(ending: &Ending, statistics: Option<&Statistics>) -> Self {
-        let verdict = |one: &Assessment| EndVerdict {
-            requirement: requirement::question(one),
-            word: Verdict::of(one.gate.decision).word().to_owned(),
-            statement: requirement::title(one),
-            found: requirement::numbers(one, statistics).first().map(Number::text).unwrap_or_default(),
-            observable: one.requirement.observable().map(str::to_owned),
-            violations: (one.requirement.statement != Statement::Mean)
-                .then_some(Occurrence { events: one.violations, runs: one.runs }),
-        };
-        SummaryEnd {
-            rows: ending.rows,
-            failed: ending.failed,
-            not_covered: ending.not_covered,
-            warnings: Vec::new(),
-            verdicts: ending.verdicts.list.iter().map(verdict).collect(),
-            is_reached: ending.stopping.as_ref().is_none_or(Stopping::is_reached),
-        }
-    }
-
-    /// What the bytes of a summary say; `None` where they are no finished summary.
-    pub fn read(bytes: &[u8]) -> Option<Self> {
-        let value: Value = serde_json::from_slice(bytes).ok()?;
-        let statuses: Vec<(&String, u64)> = value
-            .get("statuses")?
-            .as_object()?
-            .iter()
-            .filter_map(|(name, count)| Some((name, count.as_u64()?)))
-            .collect();
-        let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
-        let excess = |estimate: &str| value.pointer(&format!("/audit/{estimate}/excess")).and_then(Value::as_u64);
-        let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
-        Some(SummaryEnd {
-            rows: statuses.iter().map(|(_, count)| count).sum(),
-            failed: statuses.iter().filter(|(name, _)| *name != Status::Done.name()).map(|(_, count)| count).sum(),
-            warnings: value
-                .get("warnings")
-                .and_then(Value::as_array)
-                .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_owned).collect()),
-            not_covered: ["estimate", "debris_estimate"].into_iter().filter_map(excess).sum(),
-            verdicts: list
-                .filter_map(|one| {
-                    let requirement = text(one, "requirement")?;
-                    // summaries of earlier versions have the sentence alone
-                    let statement = text(one, "in_short").unwrap_or_else(|| requirement.clone());
-                    let found = text(one, "found").unwrap_or_default();
-                    let count = |key: &str| one.get(key)?.as_u64();
-                    let occurrence = |(events, runs)| Occurrence { events, runs };
-                    let violations = count("violations").zip(count("runs")).map(occurrence);
-                    let is_mean = text(one, "statement").as_deref() == Some("mean");
-                    Some(EndVerdict {
-                        requirement,
-                        word: text(one, "verdict")?,
-                        statement,
-                        found,
-                        observable: text(one, "observable"),
-                        violations: violations.filter(|_| !is_mean),
-                    })
+/// What the bytes of a summary say; `None` where they are no finished summary.
+pub fn read(bytes: &[u8]) -> Option<SummaryEnd> {
+    let value: Value = serde_json::from_slice(bytes).ok()?;
+    let statuses: Vec<(&String, u64)> =
+        value.get("statuses")?.as_object()?.iter().filter_map(|(name, count)| Some((name, count.as_u64()?))).collect();
+    let text = |one: &Value, key: &str| Some(one.get(key)?.as_str()?.to_owned());
+    let excess = |estimate: &str| value.pointer(&format!("/audit/{estimate}/excess")).and_then(Value::as_u64);
+    let list = value.pointer("/requirements/list").and_then(Value::as_array).into_iter().flatten();
+    Some(SummaryEnd {
+        rows: statuses.iter().map(|(_, count)| count).sum(),
+        failed: statuses.iter().filter(|(name, _)| *name != Status::Done.name()).map(|(_, count)| count).sum(),
+        warnings: value
+            .get("warnings")
+            .and_then(Value::as_array)
+            .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_owned).collect()),
+        not_covered: ["estimate", "debris_estimate"].into_iter().filter_map(excess).sum(),
+        verdicts: list
+            .filter_map(|one| {
+                let requirement = text(one, "requirement")?;
+                // summaries of earlier versions have the sentence alone
+                let statement = text(one, "in_short").unwrap_or_else(|| requirement.clone());
+                let found = text(one, "found").unwrap_or_default();
+                let count = |key: &str| one.get(key)?.as_u64();
+                let occurrence = |(events, runs)| Occurrence { events, runs };
+                let violations = count("violations").zip(count("runs")).map(occurrence);
+                let is_mean = text(one, "statement").as_deref() == Some("mean");
+                Some(EndVerdict {
+                    requirement,
+                    word: text(one, "verdict")?,
+                    statement,
+                    found,
+                    observable: text(one, "observable"),
+                    violations: violations.filter(|_| !is_mean),
                 })
-                .collect(),
-            is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),
-        })
-    }
-
-    /// The same without the words from which nothing follows: warnings, and the requirements in short.
-    pub fn without_words(&self) -> Self {
-        let bare = |one: &EndVerdict| EndVerdict {
-            requirement: one.requirement.clone(),
-            word: one.word.clone(),
-            ..EndVerdict::default()
-        };
-        SummaryEnd { warnings: Vec::new(), verdicts: self.verdicts.iter().map(bare).collect(), ..self.clone() }
-    }
-
-    /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where
-    /// the rest stands: `3 PASS, 1 FAIL ->
-    /// results/x/report.html`.
-    pub fn verdict_line(&self, place: &Path) -> String {
-        let count = |word: &&str| (self.count(word), word.to_string());
-        let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);
-        let mut said: Vec<String> = found.map(|(count, word)| format!("{count} {word}")).collect();
-        let (rows, ok) = (self.rows, self.rows - self.failed);
-        if said.is_empty() || self.failed > 0 {
-            let of = if self.failed > 0 { format!("{ok} of ") } else { String::new() };
-            said.push(format!("{of}{} computed", counted(rows, "run")));
-        }
-        if self.not_covered > 0 {
-            said.push("audit FAILED".to_owned());
-        }
-        if !self.is_reached {
-            said.push("[stop] not reached".to_owned());
-        }
-        format!("{} -> {}", said.join(", "), place.display())
-    }
-
-    /// The number of requirements with the verdict `word`.
-    pub fn count(&self, word: &str) -> usize {
-        self.verdicts.iter().filter(|one| one.word == word).count()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn failed_runs_are_read_from_a_summary() {
-        let end =
-            SummaryEnd::read(br#"{"statuses": {"ok": 5, "step_limit": 2, "invalid_sample": 1}}"#).expect("a summary");
-        assert_eq!((end.rows, end.failed, end.not_covered, end.is_reached), (8, 3, 0, true));
-        let audited =
-            br#"{"statuses": {"ok": 9}, "audit": {"estimate": {"excess": 2}, "debris_estimate": {"excess": 3}}}"#;
-        assert_eq!(SummaryEnd::read(audited).map(|end| end.not_covered), Some(5));
-        assert_eq!(SummaryEnd::read(b"{}"), None);
-    }
-
-    /// Law: the last line counts each verdict, and else the runs; it says what makes a success none, and the place.
-    #[test]
-    fn the_last_line_is_the_verdict() {
-        let end = |words: &[&str], failed: u64| SummaryEnd {
-            rows: 20,
-            failed,
-            not_covered: 0,
-            warnings: Vec::new(),
-            verdicts: words
-                .iter()
-                .map(|word| EndVerdict { word: (*word).to_owned(), ..EndVerdict::default() })
-                .collect(),
-            is_reached: true,
-        };
-        let line = |end: SummaryEnd| end.verdict_line(Path::new("r/report.html"));
-        let mixed = ["PASS", "FAIL", "PASS", "UNDECIDED", "PASS"];
-        assert_eq!(line(end(&mixed, 0)), "3 PASS, 1 FAIL, 1 UNDECIDED -> r/report.html");
-        assert_eq!(line(end(&mixed[..1], 3)), "1 PASS, 17 of 20 runs computed -> r/report.html");
-        assert_eq!(line(end(&[], 0)), "20 runs computed -> r/report.html");
-        let broken = SummaryEnd { not_covered: 2, is_reached: false, ..end(&[], 0) };
-        assert_eq!(line(broken), "20 runs computed, audit FAILED, [stop] not reached -> r/report.html");
-    }
+            })
+            .collect(),
+        is_reached: value.pointer("/stop/reached").and_then(Value::as_bool) != Some(false),
+    })
 }

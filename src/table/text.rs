@@ -89,6 +89,13 @@ impl<'t> Text<'t> {
         Text { least: widths.to_vec(), ..self }
     }
 
+    /// Its heads and first `rows` rows.
+    #[must_use]
+    pub fn first(mut self, rows: usize) -> Self {
+        self.rows.truncate(self.heads.saturating_add(rows));
+        self
+    }
+
     /// The width of a column where nothing is shortened.
     fn widest(&self, column: usize) -> usize {
         self.rows.iter().map(|row| letters(&row[column])).fold(self.least[column], usize::max)
@@ -260,27 +267,6 @@ mod tests {
         assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
     }
 
-    /// Law: a title stands beside its numbers, and above them where the lines are too narrow; rows without one have no
-    /// such line.
-    #[test]
-    fn titles_stand_above_where_lines_are_narrow() {
-        let mut table = Table::with([("outcome", Align::Title), ("median", Align::Right)]);
-        table.row(["angular_rate_final_rad_s", "1.5"]);
-        table.row(["", "[1.4, 1.6]"]);
-        assert_eq!(
-            table.text(38).lines().collect::<Vec<_>>(),
-            [
-                "  outcome                       median",
-                "  angular_rate_final_rad_s         1.5",
-                "                            [1.4, 1.6]",
-            ]
-        );
-        let narrow = table.text(37);
-        let lines: Vec<&str> = narrow.lines().map(str::trim_start).collect();
-        assert_eq!(lines, ["outcome", "median", "angular_rate_final_rad_s", "1.5", "[1.4, 1.6]"], "{narrow}");
-        assert!(narrow.lines().all(|line| letters(line) <= 28), "{narrow}");
-    }
-
     /// Law: lines that are shown one by one stand below each other as those of the whole table do.
     #[test]
     fn single_lines_are_those_of_the_table() {
@@ -346,15 +332,5 @@ mod tests {
             }
         }
         assert_eq!(text.lines().nth(1).map(|units| units.matches("m/s").count()), Some(5));
-    }
-
-    /// Law: a name is cut in its middle; a table without heads has no line for them.
-    #[test]
-    fn names_are_cut_in_the_middle() {
-        let mut table = Table::with([("", Align::Left), ("", Align::Right)]);
-        table.row(["initial.debris_angular_velocity_rad_s.x", "1.000"]);
-        let text = table.text(40);
-        assert!(text.starts_with("  initial.debris") && text.ends_with("_rad_s.x  1.000\n"), "{text}");
-        assert!(text.contains("...") && text.lines().count() == 1, "{text}");
     }
 }

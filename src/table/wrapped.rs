@@ -120,15 +120,4 @@ mod tests {
         }
         assert_eq!(message(&text, 200), text);
     }
-
-    /// Law: text that fits is not changed; other text keeps its beginning and its end, and fits.
-    #[test]
-    fn text_is_shortened_in_its_middle() {
-        let letters = |text: &str| text.chars().count();
-        assert_eq!(fitted("wheel_number_7", 14, letters), "wheel_number_7");
-        assert_eq!(fitted("wheel_number_7", 10, letters), "whee...r_7");
-        assert_eq!(fitted("ωωωωωω", 5, letters), "ω...ω");
-        assert_eq!(fitted("wheel_number_7", 3, letters), "...");
-        assert_eq!(fitted("wheel_number_7", 2, letters), "");
-    }
 }

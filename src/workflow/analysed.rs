@@ -4,9 +4,9 @@ use std::path::Path;
 
 pub use crate::analysis::analysed::{Analysed, computed};
 use crate::campaign::Plan;
+use crate::findings::end::SummaryEnd;
 use crate::findings::{Findings, findings};
 use crate::report::junit;
-use crate::report::summary::SummaryEnd;
 use crate::storage::atomic;
 use crate::workflow::error::WorkflowError;
 

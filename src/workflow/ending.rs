@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use crate::analysis::ending::ending;
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
+use crate::findings::end::SummaryEnd;
+use crate::findings::requirement::EndVerdict;
 use crate::findings::shell_word::quoted_path;
-use crate::report::summary::{EndVerdict, SummaryEnd};
+use crate::report::summary;
 use crate::storage::claim::Finished;
 use crate::storage::manifest::PartsRead;
 use crate::storage::names::{MANIFEST, SUMMARY};
@@ -27,7 +29,7 @@ pub(super) fn end_of(
 ) -> Result<SummaryEnd, WorkflowError> {
     let ensemble = Ensemble::new(plan, session.isa);
     let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?, None);
-    if let Some(said) = SummaryEnd::read(summary)
+    if let Some(said) = summary::read(summary)
         && said.without_words() == end.without_words()
     {
         let both = end.verdicts.into_iter().zip(said.verdicts);

@@ -2,8 +2,8 @@
 //!
 //! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples
 //!   that are not there yet.
-//! - [`results`]: [`Results`], a finished result to be read.
-//! - [`simulated`]: one sample over time.
+//! - [`results`]: [`Results`], a finished result to be read. [`compared`](mod@compared): two of them compared.
+//! - [`check`]: what a campaign would run. [`simulated`]: one sample over time.
 //! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`.
 //! - `ending`: how a finished campaign ended.
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
@@ -12,7 +12,7 @@
 //! - [`source`]: where plans come from.
 //! - [`session`]: disk, threads, control law, and who is told.
 //! - `stored`: results in an object store.
-//! - [`error`].
+//! - [`columns`]: the columns that rows may have. [`threads`]: how many are allowed. [`error`].
 //! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left
 //!   of memory and disk.
 //!
@@ -20,6 +20,9 @@
 
 pub mod analysed;
 pub mod campaign;
+pub mod check;
+pub mod columns;
+pub mod compared;
 mod derived;
 mod derived_check;
 mod ending;
@@ -36,6 +39,7 @@ pub mod session;
 pub mod simulated;
 pub mod source;
 mod stored;
+pub mod threads;
 pub mod verification;
 pub mod workload;
 

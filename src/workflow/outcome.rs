@@ -1,8 +1,12 @@
 //! [`CampaignOutcome`]: how a campaign ended; [`again`]: the same of a finished result.
 
+use std::path::{Path, PathBuf};
+
+use crate::findings::end::SummaryEnd;
 use crate::findings::findings;
-use crate::report::summary::{self, SummaryEnd};
+use crate::report::summary;
 use crate::storage::claim::Shard;
+use crate::storage::names::REPORT;
 use crate::workflow::analysed::end_of_analysed;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::FailedRun;
@@ -30,6 +34,11 @@ pub enum CampaignOutcome {
     },
     /// A run failed, where that ends the campaign.
     FailedFast(FailedRun),
+}
+
+/// Where a reader of the result in `root` goes: its page, where there is one.
+pub fn place(root: &Path) -> PathBuf {
+    Some(root.join(REPORT)).filter(|page| page.is_file()).unwrap_or_else(|| root.to_owned())
 }
 
 /// What a result was when it was finished, and the text of its summary.

@@ -2,15 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::analysis::comparison::{Comparison, compare};
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
-use crate::analysis::pairing::ResultRows;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
 use crate::ensemble::{Bands, Ensemble, SingleRun};
-use crate::report::summary::SummaryEnd;
+use crate::findings::end::SummaryEnd;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Locks, open};
 use crate::storage::folder::MOST_SUMMARY;
@@ -156,13 +154,9 @@ impl<'a> Results<'a> {
             .map_err(|errors| not_physical(sample.0, &errors))
     }
 
-    /// Compares what the rows of both say, sample by sample where both drew the same ones.
-    ///
-    /// # Errors
-    /// Where a file cannot be read, or they have nothing in common.
-    pub fn compare(&self, other: &Results<'_>) -> Result<Comparison, WorkflowError> {
-        let [first, second] = [self, other].map(|one| ResultRows { plan: &one.plan, reader: &one.reader });
-        compare(first, second, self.session.threads).map_err(WorkflowError::files)
+    /// The number of threads that read its rows.
+    pub(super) fn threads(&self) -> Option<std::num::NonZeroUsize> {
+        self.session.threads
     }
 
     /// Writes the verdicts as JUnit XML.

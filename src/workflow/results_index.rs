@@ -8,9 +8,10 @@ use serde_json::Value;
 
 use crate::campaign::Plan;
 use crate::campaign::difference::text_differences;
-use crate::report::changed_keys;
-use crate::report::index_page::{IndexEntry, Unreadable};
-use crate::report::summary::SummaryEnd;
+use crate::findings::changed_keys;
+use crate::findings::end::SummaryEnd;
+use crate::findings::results_index::{IndexEntry, Unreadable};
+use crate::report::summary;
 use crate::scene::epoch::date_of;
 use crate::storage::folder::MOST_SUMMARY;
 use crate::storage::names::{MANIFEST, PLAN, REPORT, SUMMARY};
@@ -101,7 +102,7 @@ fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, Stri
     let path = folder.join(SUMMARY);
     let bytes = session.storage.read(&path, MOST_SUMMARY).map_err(|_| format!("not finished: no {SUMMARY}"))?;
     let value: Value = serde_json::from_slice(&bytes).map_err(|error| format!("{SUMMARY}: {error}"))?;
-    let end = SummaryEnd::read(&bytes).ok_or_else(|| format!("{SUMMARY} is none of spindrift"))?;
+    let end = summary::read(&bytes).ok_or_else(|| format!("{SUMMARY} is none of spindrift"))?;
     let text = |key: &str| value[key].as_str().map(str::to_owned);
     let campaign = text("campaign").ok_or_else(|| format!("{SUMMARY} names no campaign"))?;
     let plan = session.storage.read(&folder.join(PLAN), MOST_PLAN).map_err(|error| error.to_string())?;

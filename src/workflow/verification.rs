@@ -7,6 +7,7 @@ use crate::control::laws::asked;
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
 use crate::findings::number::counted;
+use crate::findings::verified::Checked;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, ClaimOptions, claim, lock, open};
 use crate::storage::folder::{PartFile, unmark};
@@ -27,16 +28,7 @@ use crate::workflow::stored::{Stored, address};
 /// How a result was verified.
 #[derive(Clone, Debug)]
 pub struct Verified {
-    /// What was compared: files, rows.
-    pub checked: String,
-    /// How many problems there were; all are repaired.
-    pub problems: usize,
-    /// Whether the result is finished.
-    pub is_finished: bool,
-    /// How many parts of a result that is not finished are not made yet.
-    pub missing: usize,
-    /// Of a result that is not finished: files that were not compared, since nothing says what should be in them.
-    pub unchecked: Vec<String>,
+    pub checked: Checked,
     /// The result, where a repair has finished it.
     pub completed: Option<Box<Completed>>,
 }
@@ -121,8 +113,8 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     // a repair that was interrupted has left what is sound and not finished
     if problems.is_empty() && (found.is_finished || !wanted.repair) {
         let (is_finished, unchecked) = (found.is_finished, found.unchecked);
-        let missing = missing.len();
-        return Ok(Some(Verified { checked, problems: 0, is_finished, missing, unchecked, completed: None }));
+        let checked = Checked { what: checked, problems: 0, is_finished, missing: missing.len(), unchecked };
+        return Ok(Some(Verified { checked, completed: None }));
     }
     problems.iter().for_each(|problem| note(problem));
     if !wanted.repair {
@@ -138,8 +130,9 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     drop(locks);
     match repair(session, root, &ensemble, (&found, &differing))? {
         Repair::Done(completed) => {
-            let (problems, completed) = (problems.len(), Some(completed));
-            Ok(Some(Verified { checked, problems, is_finished: true, missing: 0, unchecked: Vec::new(), completed }))
+            let (problems, unchecked) = (problems.len(), Vec::new());
+            let checked = Checked { what: checked, problems, is_finished: true, missing: 0, unchecked };
+            Ok(Some(Verified { checked, completed: Some(completed) }))
         }
         Repair::Stopped(left) => {
             note(&format!(

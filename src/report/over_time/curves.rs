@@ -512,33 +512,4 @@ mod tests {
             }
         }
     }
-
-    /// Law: bands of the first runs say the standard errors sqrt(p (1 - p)/n) of their shares, of the n that are
-    /// counted, whatever others there are; those of all runs say none.
-    #[test]
-    fn bands_of_some_runs_say_how_well_they_are_known() {
-        let text = include_str!("../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        for (counted, runs, said) in [
-            (
-                400,
-                10_000,
-                "the first 400 of 10000 dispersed runs that were computed (standard error of these shares 1.09 and \
-                2.17%, of the median 2.50%;",
-            ),
-            (
-                100,
-                500,
-                "the first 100 of 500 dispersed runs that were computed (standard error of these shares 2.18 and \
-                4.33%, of the median 5.00%;",
-            ),
-            (500, 500, "25 to 75% of 500 dispersed runs that were computed, at each of 2 times."),
-        ] {
-            let quantiles = std::array::from_fn(|_| vec![0.0, 1.0]);
-            let (name, times, in_flight) = ("a".to_owned(), vec![0.0, 1.0], vec![runs; 2]);
-            let bands = [TimeBands { name, times, quantiles, runs, counted, in_flight }];
-            let caption = Curves::of_page(&plan, None, &bands, &[]).caption("a");
-            assert!(caption.contains(said), "{caption}");
-        }
-    }
 }

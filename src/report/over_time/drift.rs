@@ -80,35 +80,3 @@ impl Curves<'_> {
         ]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::campaign::{Overrides, Plan};
-    use crate::report::over_time::curves::TimeBands;
-
-    /// Law: a curve of the drift has the name of its quantity.
-    #[test]
-    fn drifts_have_their_names() {
-        let series = [Series::AngularMomentumError, Series::LinearMomentumError];
-        let text = include_str!("../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let curves = Curves::of_page(&plan, None, &[], &[]);
-        let band = |(k, series): (usize, &Series)| TimeBands {
-            name: curves.name(*series).0,
-            times: vec![0.0, 1.0],
-            quantiles: [1, 2, 3, 4, 5].map(|p| vec![0.0, f64::from(p) * (1.0 + k as f64)]),
-            runs: 9,
-            counted: 9,
-            in_flight: vec![9; 2],
-        };
-        let bands: Vec<TimeBands> = series.iter().enumerate().map(band).collect();
-        let figures = Curves::of_page(&plan, None, &bands, &[]).drift();
-        let figure = figures.iter().find(|figure| figure.name == "drift_momentum").expect("the figure");
-        for (word, median) in [("angular", 3.0), ("linear", 6.0)] {
-            let label = format!("{word}, median");
-            let mark = figure.marks.iter().find(|mark| mark.legend() == label).expect("its median");
-            assert!(matches!(mark, Mark::Line { y, .. } if y[1] == median), "{mark:?}");
-        }
-    }
-}

@@ -94,26 +94,6 @@ pub fn within(times: &[f64], curves: &[&[f64]], ends: &[f64]) -> [Vec<f64>; 3] {
 mod tests {
     use super::*;
 
-    /// Law: every value of every curve is within the envelope of its interval, which some value reaches at both ends.
-    #[test]
-    fn envelopes_hold_every_value() {
-        let times: Vec<f64> = (0..=600).map(|k| 0.01 * f64::from(k)).collect();
-        let curve = |hertz: f64| times.iter().map(|t| (1.0 + t) * libm::sin(hertz * t)).collect::<Vec<_>>();
-        let curves = [curve(40.0), curve(55.0), curve(70.0)[..300].to_vec()];
-        let of: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
-        let ends: Vec<f64> = (0..=8).map(|k| 0.75 * f64::from(k)).collect();
-        let [x, low, high] = within(&times, &of, &ends);
-        assert_eq!((x.len(), x[0], x[15]), (16, 0.0, 6.0));
-        for (k, time) in times.iter().enumerate() {
-            let interval = 2 * ends.windows(2).position(|pair| (pair[0]..=pair[1]).contains(time)).expect("one");
-            let values: Vec<f64> = of.iter().filter_map(|curve| curve.get(k)).copied().collect();
-            assert!(values.iter().all(|value| (low[interval]..=high[interval]).contains(value)), "{time}");
-        }
-        let reached = |end: f64| of.iter().any(|curve| curve.contains(&end));
-        assert!(low.iter().chain(&high).all(|end| reached(*end)));
-        assert_eq!(within(&times, &[], &ends), [const { Vec::<f64>::new() }; 3]);
-    }
-
     /// Law: a curve that turns too often is drawn as its envelope, which is its amplitude.
     #[test]
     fn fast_curves_have_envelopes() {

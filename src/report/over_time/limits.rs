@@ -146,34 +146,4 @@ mod tests {
         let [low, high] = of(&[-3.0, 2.0], &[], true).expect("a range");
         assert!((low + 3.2).abs() < 1e-12 && (high - 2.2).abs() < 1e-12);
     }
-
-    /// Law: an axis is by decades where a linear one would lay the limit onto zero, and never where values are
-    /// negative.
-    #[test]
-    fn small_limits_are_seen_by_decades() {
-        assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(3.0)]), None);
-        assert_eq!(decades(&[curve(&[0.0, 60.0]), limit(1.5)]), Some([0.05, 90.0]));
-        assert_eq!(decades(&[curve(&[-1.0, 60.0]), limit(1.5)]), None);
-        assert_eq!(decades(&[curve(&[0.0, 60.0])]), None);
-    }
-
-    /// Law: actuators with one limit share a line; others are named.
-    #[test]
-    fn actuators_are_named_where_they_differ() {
-        let named = |limits: &[(&str, f64)], signed| -> Vec<(String, f64)> {
-            let limits: Vec<(String, f64)> = limits.iter().map(|(name, at)| ((*name).to_owned(), *at)).collect();
-            let shown = ShownUnit::own("N");
-            let places = of_actuators(&limits, &shown, signed).into_iter().map(|mark| match mark {
-                Mark::Limit { label, at, .. } => (label, at),
-                _ => panic!("{mark:?}"),
-            });
-            places.collect()
-        };
-        let text = |name: &str, at| (name.to_owned(), at);
-        let [two, four] = ["2\u{a0}N", "4\u{a0}N"];
-        assert_eq!(named(&[("a", 4.0), ("b", 4.0)], true), [text(&format!("limit \u{b1}{four}"), 4.0), text("", -4.0)]);
-        let differ = [text(&format!("limit of b {two}"), 2.0), text(&format!("limit of a {four}"), 4.0)];
-        assert_eq!(named(&[("a", 4.0), ("b", 2.0)], false), differ);
-        assert_eq!(named(&[("a", f64::INFINITY), ("b", 2.0)], false), differ[..1]);
-    }
 }

@@ -25,32 +25,3 @@ pub fn limited(marks: &mut Vec<Mark>, tolerance: Option<f64>, is_signed: bool) -
     let axis = Axis::linear("relative error", "");
     if largest > 0.0 { axis.within(if is_signed { -1.1 * shown } else { 0.0 }, 1.1 * shown) } else { axis }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::figure::{Dash, Hue};
-
-    /// Law: errors are drawn on a scale of their own, with a tolerance that is near; that of rounding is not finer than
-    /// doubles are.
-    #[test]
-    fn errors_have_an_axis_of_their_own_size() {
-        for (error, tolerance, shown) in [
-            (1e-15, Some(1e-10), ROUNDING),
-            (1e-15, None, ROUNDING),
-            (1e-15, Some(5e-15), 5e-15),
-            (1e-9, Some(1e-10), 1e-9),
-            (5e-11, Some(1e-10), 1e-10),
-            (1e-12, Some(1e-10), 1e-12),
-            (1e-12, None, 1e-12),
-        ] {
-            for is_signed in [true, false] {
-                let mut marks = vec![Mark::line("e", Hue::Body, Dash::Solid, vec![0.0, 1.0], vec![0.0, -error])];
-                let [low, high] = limited(&mut marks, tolerance, is_signed).range.expect("a range");
-                assert!((high - 1.1 * shown).abs() < 1e-12 * high, "{error} {tolerance:?}: {high}");
-                assert_eq!(low, if is_signed { -high } else { 0.0 });
-                assert_eq!(marks.len() - 1, usize::from(tolerance.is_some()) * (1 + usize::from(is_signed)));
-            }
-        }
-    }
-}

@@ -51,29 +51,3 @@ pub fn dominant(frequencies: &[f64], amplitudes: &[f64]) -> Option<f64> {
     let shift = if curvature < 0.0 { (0.5 * (a - c) / curvature).clamp(-0.5, 0.5) } else { 0.0 };
     Some(frequencies[peak] + shift * (frequencies[1] - frequencies[0]))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: a sine of amplitude 3 and 2.5 Hz on a constant has that amplitude at that frequency; a constant has no
-    /// frequency.
-    #[test]
-    fn a_sine_is_found() {
-        let times: Vec<f64> = (0..=800).map(|k| 0.01 * f64::from(k)).collect();
-        let values: Vec<f64> = times.iter().map(|t| 7.0 + 3.0 * libm::sin(TAU * 2.5 * t)).collect();
-        let (frequencies, found) = amplitudes(&times, &values).unwrap();
-        let peak = dominant(&frequencies, &found).unwrap();
-        // twenty periods fit the window exactly: the peak is a bin
-        assert!((peak - 2.5).abs() < 1e-6, "{peak}");
-        let largest = found.iter().copied().fold(0.0, f64::max);
-        assert!((largest - 3.0).abs() < 1e-9, "{largest}");
-        let (frequencies, found) = amplitudes(&times, &vec![7.0; 801]).unwrap();
-        assert_eq!(dominant(&frequencies, &found), None);
-        // half a period over all times
-        let slow: Vec<f64> = times.iter().map(|t| libm::cos(TAU * t / 16.0)).collect();
-        let (frequencies, found) = amplitudes(&times, &slow).unwrap();
-        assert_eq!(dominant(&frequencies, &found), None);
-        assert!(amplitudes(&times[..5], &values[..5]).is_none());
-    }
-}

@@ -162,7 +162,7 @@ impl<'f> Row<'f> {
             finding,
             outcome: found.of(Kind::Outcome).find(|one| one.id == name),
             figure: called.iter().find_map(|called| figures.iter().find(|figure| figure.name == *called)),
-            drivers: found.of(Kind::Driver).filter(is_of_it).collect(),
+            drivers: found.of(Kind::Driver).filter(is_of_it).filter(|one| !one.title.is_empty()).collect(),
         }
     }
 
@@ -264,15 +264,16 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
             format!("{HATCH}<div class=\"answers\"><p class=\"answer head\"><span></span>{heads}</p>\n{body}</div>")
         }
     };
-    let notes = found.of(Kind::Stop).chain(found.of(Kind::Note)).map(|one| {
+    let needed = found.of(Kind::Verdicts).filter(|one| one.rank == 0);
+    let notes = needed.chain(found.of(Kind::Stop)).chain(found.of(Kind::Note)).map(|one| {
         let title =
             if one.title.is_empty() { String::new() } else { format!("<b>{}:</b> ", text(&sentence(&one.title))) };
         format!("<p class=\"note\">{title}{}</p>", full(&one.sentence))
     });
     let unsaid = found.of(Kind::Outcome).filter(|one| one.rank == 0 && one.numbers.is_empty() && !shown.is_empty());
     let unsaid = unsaid.map(|one| format!("<p class=\"caption\">{}</p>", full(&one.sentence)));
-    let together: String =
-        found.of(Kind::Verdicts).map(|one| format!("<p class=\"quiet\">{}</p>", full(&one.sentence))).collect();
+    let together = found.of(Kind::Verdicts).filter(|one| one.rank > 0);
+    let together: String = together.map(|one| format!("<p class=\"quiet\">{}</p>", full(&one.sentence))).collect();
     let together = match together.is_empty() {
         true => together,
         false => format!("<details><summary>How to read these verdicts together</summary>{together}</details>"),

@@ -6,11 +6,12 @@ use crate::campaign::Plan;
 use crate::findings::names;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::histogram::{bins, counts};
-use crate::report::page::NO_INTERVAL;
 use crate::run::Status;
 use crate::statistics::quantile::percent;
 use crate::statistics::sketch::{Sketch, middle};
 
+/// In place of what an interval is, where there is none.
+pub const NO_INTERVAL: &str = "No interval: these runs are no random part of all.";
 /// Fewer runs than this have no distribution to be seen.
 const FEWEST_RUNS: u64 = 8;
 /// Errors with figures of their own.
@@ -284,23 +285,4 @@ pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
         let limit = if outcome.quantity.name().ends_with("estimate") { SEEN } else { tolerance };
         outcome.sketch.max().is_some_and(|max| max > limit)
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: the tail falls from 1 to 1/n, its intervals contain it, and it ends at the maximum.
-    #[test]
-    fn the_tail_ends_at_the_largest() {
-        let mut sketch = Sketch::default();
-        (1..=5000).for_each(|k| sketch.add(f64::from(k)));
-        let (x, y, low, high) = tail(&sketch, 0, 0.95);
-        assert!(x.is_sorted() && y.iter().rev().is_sorted());
-        assert_eq!((*x.last().unwrap(), y[0], *y.last().unwrap()), (5000.0, 1.0, 1.0 / 5000.0));
-        for k in 0..x.len() {
-            assert!(low[k] <= y[k] && y[k] <= high[k], "{} {} {}", low[k], y[k], high[k]);
-        }
-        assert!(x.len() < 60, "{}", x.len());
-    }
 }

@@ -5,10 +5,10 @@ use crate::campaign::Plan;
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::findings::names::unit_of_input;
+use crate::findings::origin::origin;
 use crate::math::incomplete_gamma::incomplete_gamma;
 use crate::report::escaped::escaped;
 use crate::report::figure::{Figure, Mark};
-use crate::report::origin_text::origin;
 use crate::report::page::readable::with_unit;
 
 /// Size of a small histogram, pixels.
@@ -145,7 +145,6 @@ fn small(figure: &Figure) -> String {
 mod tests {
     use super::*;
     use crate::report::expected_counts::Asked;
-    use crate::report::figure::{Axis, Dash, Hue};
     use crate::report::histogram::of_input;
     use crate::sampling::distribution::normal::NormalQuantile;
     use crate::sampling::distribution::{Distribution, Quantile};
@@ -179,38 +178,5 @@ mod tests {
             assert!(small >= 48, "{small} of 50");
         }
         assert_eq!(fit(&of_input("x", "", &[1.0, 2.0, 3.0], 1.0, None)), None);
-    }
-
-    /// Known: three classes have two degrees of freedom, of which p = exp(-d/2), here of d = 0 + 16/10 + 16/10; also
-    /// where a class is of two bars, or a part of what is expected is beyond the bars.
-    #[test]
-    fn a_fit_is_that_of_its_classes() {
-        let fit_of = |heights: &[f64], expected: &[f64]| {
-            let edges: Vec<f64> = (0..=heights.len()).map(|edge| edge as f64).collect();
-            let line = Mark::line("", Hue::Nominal, Dash::Solid, edges[1..].to_vec(), expected.to_vec());
-            let bars = Mark::Bars { label: String::new(), hue: Hue::Body, heights: heights.to_vec(), edges };
-            fit(&Figure::new("x", Axis::linear("", ""), Axis::linear("", ""), vec![bars, line]))
-        };
-        for (heights, expected) in [
-            (&[10.0, 14.0, 6.0][..], &[10.0, 10.0, 10.0][..]),
-            (&[10.0, 14.0, 2.0, 4.0], &[10.0, 10.0, 4.0, 6.0]),
-            (&[10.0, 14.0, 6.0], &[8.0, 10.0, 8.0]),
-        ] {
-            let p = fit_of(heights, expected).expect("a fit");
-            assert!((p - libm::exp(-1.6)).abs() < 1e-9, "{heights:?}: {p}");
-        }
-        assert_eq!(fit_of(&[3.0, 4.0], &[4.0, 3.0]), None);
-    }
-
-    /// Law: the small histogram has a bar for each class with samples, the highest of the whole height, and the nominal
-    /// value where it is.
-    #[test]
-    fn the_small_histogram_is_the_histogram() {
-        let values: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();
-        let figure = of_input("x", "", &values, 0.5, None);
-        let text = small(&figure);
-        let (observed, _) = counts(&figure);
-        assert_eq!(text.matches("<rect").count(), observed.iter().filter(|count| **count > 0.0).count());
-        assert!(text.contains("y=\"2.0\"") && text.contains(&format!("<line x1=\"{:.1}\"", 0.5 * WIDTH)), "{text}");
     }
 }

@@ -4,7 +4,8 @@
 //! bytes. What is said comes from [`crate::findings`]; here it is put in order, with figures beside it.
 //!
 //! - [`answer`], `pictures`: the first screen.
-//! - `influence`, `outcomes`, `errors`, `inputs`: figures, with those of [`crate::report::over_time`].
+//! - `influence`, `outcomes`, `errors`: figures, with those of [`crate::report::over_time`] and
+//!   [`crate::report::inputs`].
 //! - `figure_json`: what the scripts need to draw them.
 //! - [`runs`], `replay` (with `live`, `sky`): the runs to look at.
 //! - [`tables`], `document`: the rest of the HTML.
@@ -20,7 +21,6 @@ mod fates;
 pub(in crate::report) mod figure_json;
 pub mod influence;
 mod input_rows;
-mod inputs;
 mod live;
 mod outcomes;
 pub(in crate::report) mod payload;
@@ -48,6 +48,7 @@ use crate::ensemble::{Ensemble, SingleRun};
 use crate::findings::outcome::event_time;
 use crate::findings::{Finding, Findings, Kind, loss, names};
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
+use crate::report::inputs::DrawnInputs;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
@@ -81,9 +82,6 @@ pub struct Page {
     /// How many of the runs that it lists it does not show, and the command that does; nothing where there is none.
     pub left_out: Option<String>,
 }
-
-/// What stands in place of an interval where there is none.
-pub(crate) const NO_INTERVAL: &str = "No interval: these runs are no random part of all.";
 
 /// Whether the dispersed runs are independent, so that the intervals of order statistics hold.
 pub fn is_independent(plan: &Plan) -> bool {
@@ -159,7 +157,11 @@ fn figures(
     figures.extend(outcomes::figures(plan, survey, &statistics.columns, has_intervals));
     figures.extend(errors::figures(survey, has_intervals));
     if plan.rows() > 1 {
-        figures.extend(inputs::figures(plan, survey));
+        let rows = (0..survey.thinned.samples.len()).filter(|row| survey.thinned.samples[*row] != 0);
+        let rows: Vec<usize> = rows.collect();
+        let of = |column: &Vec<f64>| rows.iter().map(|row| column[*row]).collect();
+        let columns = survey.thinned.inputs.iter().map(of).collect();
+        figures.extend(DrawnInputs { columns, all: survey.statuses.runs().saturating_sub(1) }.figures(plan));
     }
     let converging = survey.outcomes.iter().zip(&survey.thinned.outcomes);
     let converging = converging.filter(|(outcome, values)| outcome.is_outcome && !outcome.is_yes_or_no(values));

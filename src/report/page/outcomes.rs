@@ -9,8 +9,7 @@ use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::report::histogram::counts;
-use crate::report::page::NO_INTERVAL;
-use crate::report::page::errors::{all_having, histogram, interval_label, magnitude, shown_rows};
+use crate::report::page::errors::{NO_INTERVAL, all_having, histogram, interval_label, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::{number, with_unit};
 use crate::statistics::gate::GateLimit;
@@ -305,41 +304,5 @@ mod tests {
         assert_eq!(figure(&[1000.0]), Some([9.96, 11.04]));
         let [low, high] = figure(&[-5.0, 12.0]).expect("a range");
         assert!((low - 9.92).abs() < 1e-12 && (high - 12.08).abs() < 1e-12, "{low} {high}");
-    }
-
-    /// Law: of few values the curve rises at each of them and is level between; of many it is the same as before.
-    #[test]
-    fn few_values_make_steps() {
-        let of = |values: &[f64]| {
-            let mut sketch = Sketch::default();
-            values.iter().for_each(|value| sketch.add(*value));
-            curve(&sketch, 0, 0.95)
-        };
-        let (x, y, low, high) = stepped(of(&[1.0, 1.0, 2.0, 4.0]));
-        assert_eq!(y, [0.25, 0.5, 0.5, 0.75, 0.75, 1.0]);
-        assert!(
-            x[1] < x[2] && x[2] == x[3] && x[3] < x[4] && x[4] == x[5] && [low.len(), high.len()] == [6, 6],
-            "{x:?}"
-        );
-        let many = of(&(1..300).map(f64::from).collect::<Vec<f64>>());
-        assert_eq!(stepped(many.clone()), many);
-    }
-
-    /// Law: the curve rises from one run to all of them; a fraction is that of the runs up to its value, within the
-    /// width of a bucket, and lies in its interval.
-    #[test]
-    fn the_curve_is_the_distribution() {
-        let mut sketch = Sketch::default();
-        (1..=5000).for_each(|k| sketch.add(f64::from(k)));
-        let (x, y, low, high) = curve(&sketch, 0, 0.95);
-        assert_eq!((x.len(), *y.last().unwrap(), *x.last().unwrap()), (400, 1.0, 5000.0));
-        for k in 0..x.len() {
-            assert!((x[k] / 5000.0 / y[k] - 1.0).abs() < 0.02, "{} of runs up to {}", y[k], x[k]);
-            assert!(low[k] <= y[k] && y[k] <= high[k]);
-        }
-        let mut few = Sketch::default();
-        [3.0, 1.0, 2.0].into_iter().for_each(|value| few.add(value));
-        let (x, y, ..) = curve(&few, 0, 0.95);
-        assert!(x.is_sorted() && y == [1.0 / 3.0, 2.0 / 3.0, 1.0], "{x:?} {y:?}");
     }
 }

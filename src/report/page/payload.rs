@@ -61,27 +61,3 @@ pub fn packed(bytes: &[u8]) -> String {
 pub fn encoded(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
-
-#[cfg(test)]
-mod tests {
-    use std::io::Read;
-
-    use super::*;
-
-    /// Law: what is packed comes back, and the same bytes give the same text.
-    #[test]
-    fn packed_numbers_come_back() {
-        let mut payload = Payload::default();
-        assert_eq!(payload.array(&[1.5, -0.0]), json!([0, 2, 8]));
-        assert_eq!(payload.singles(&[0.25]), json!([16, 1, 4]));
-        assert_eq!(payload.array(&[f64::NAN]), json!([24, 1, 8]));
-        let text = payload.text();
-        assert_eq!(text, payload.clone().text());
-        let mut bytes = Vec::new();
-        flate2::read::GzDecoder::new(&STANDARD.decode(text).unwrap()[..]).read_to_end(&mut bytes).unwrap();
-        assert_eq!(bytes.len(), 32);
-        assert_eq!(bytes[..8], 1.5f64.to_le_bytes());
-        assert_eq!(bytes[8..16], 0.0f64.to_le_bytes(), "there is one zero");
-        assert_eq!(bytes[16..20], 0.25f32.to_le_bytes());
-    }
-}

@@ -1,7 +1,7 @@
 //! Pictures of a few lines' height beside a text: a histogram with its limit, an estimate with its interval on a scale.
 //! They are part of the static page, and are read before any script runs.
 
-use crate::findings::number::{significant, trimmed, typeset};
+use crate::findings::number::{trimmed, typeset};
 use crate::findings::{Finding, Number};
 use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Figure, Hue, Mark, Scale};
@@ -212,7 +212,7 @@ pub fn shares(yes: &Number) -> String {
 pub fn said_of(outcome: &Finding) -> String {
     let numbers = ["median", "p95", "max"].iter().filter_map(|name| outcome.number(name));
     let known = numbers.filter(|number| number.value.is_finite());
-    let said = known.map(|number| (number, format!("{} {}", number.name, significant(number.in_shown().0, 3))));
+    let said = known.map(|number| (number, format!("{} {}", number.name, number.alone())));
     let (numbers, said): (Vec<&Number>, Vec<String>) = said.unzip();
     let unit = numbers.last().map_or("", |number| &number.shown.unit);
     typeset(format!("{} {unit}", said.join(", ")).trim_end())

@@ -270,22 +270,6 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Law: what is shown of a mission ends when the mission does, and not at the last time of the grid before it.
-    #[test]
-    fn a_mission_is_shown_to_its_end() {
-        let text = include_str!("../../../campaigns/net_launch.toml");
-        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
-        let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("physical");
-        let names = run.request.columns().into_iter().map(|column| column.quantity.name().to_owned());
-        let numbers: Vec<(String, f64)> = names.zip(run.row).collect();
-        let end = numbers.iter().find(|(name, _)| name == "end_time_s").expect("a column").1;
-        let row = KnownRow { sample: SampleId(0), status: Status::Done, reason: String::new(), numbers };
-        let (_, flown) = flights(&plan, &[SampleId(0)], &[row], Isa::best()).swap_remove(0);
-        assert_eq!(flown.grid.times()[flown.outcome.points - 1], end);
-        assert_eq!(with_time(&flown.grid, end), None);
-        assert_eq!(with_time(&flown.grid, 1e9), None);
-    }
-
     /// Law: of the listed runs the first are flown, and how many are not is said, with the command that flies the first
     /// of them; a run that ended in a panic is neither.
     #[test]
@@ -312,24 +296,5 @@ mod tests {
             };
             assert!(left.as_deref().is_none_or(is_said), "{left:?}");
         }
-    }
-
-    /// Law: equal runs have the place of the first of them and say how many they are, at least where more than are kept
-    /// may be equal; a run that is alone says nothing.
-    #[test]
-    fn equal_runs_have_no_order() {
-        let found = |is_low: bool, most: usize, values: &[f64]| {
-            let mut worst = WorstRuns::new(most, is_low);
-            values.iter().enumerate().for_each(|(sample, value)| worst.add(SampleId(sample as u64), *value));
-            worst.runs.iter().map(|(_, value)| tied(&worst, *value)).collect::<Vec<_>>()
-        };
-        let of = |places: &[(usize, &str)]| {
-            places.iter().map(|(place, text)| (*place, (*text).to_owned())).collect::<Vec<_>>()
-        };
-        let two = "; 2 runs tie";
-        assert_eq!(found(false, 10, &[3.0, 5.0, -5.0, 1.0]), of(&[(0, two), (0, two), (2, ""), (3, "")]));
-        assert_eq!(found(true, 10, &[3.0, 5.0, -5.0, 3.0]), of(&[(0, ""), (1, two), (1, two), (3, "")]));
-        assert_eq!(found(false, 2, &[1.0, 1.0, 1.0]), of(&[(0, "; 2 or more runs tie"); 2]));
-        assert_eq!(found(false, 2, &[2.0, 1.0]), of(&[(0, ""), (1, "")]));
     }
 }

@@ -215,22 +215,3 @@ class=\"plan\"></pre></details>\n",
         escaped(&plan.text()),
     )
 }
-
-#[cfg(test)]
-mod tests {
-    use super::drawn;
-
-    /// Law: what is drawn is told from what is nominal, however near it is.
-    #[test]
-    fn a_drawn_value_is_not_the_nominal_one() {
-        for (values, text) in [
-            ([0.9, 1.0], "0.9\u{a0}m (nominal 1\u{a0}m, "),
-            ([1.0 + 2.5e-4, 1.0], "1\u{a0}m + 2.5\u{202f}\u{d7}\u{202f}10\u{207b}\u{2074}\u{a0}m ("),
-            ([6_976_000.0, 6_978_000.0], "6.978\u{202f}\u{d7}\u{202f}10\u{2076}\u{a0}m \u{2212} 2000\u{a0}m ("),
-            ([-0.3, 0.0], "\u{2212}0.3\u{a0}m ("),
-            ([1.0, 1.0], "1\u{a0}m (nominal 1\u{a0}m, "),
-        ] {
-            assert_eq!(drawn(values, "m"), text);
-        }
-    }
-}

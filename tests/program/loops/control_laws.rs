@@ -128,12 +128,12 @@ fn is_a_function_of_its_plan(
     assert!(files(&of("shards")) == expected, "{which}: three shards");
 
     let verified = verify(&session, &of("one"), Verification { fraction: 1.0, repair: false }).unwrap().unwrap();
-    assert_eq!(verified.problems, 0);
+    assert_eq!(verified.checked.problems, 0);
     // a damaged part is computed again under the law
     let part = fs::read_dir(of("one").join("runs")).unwrap().next().unwrap().unwrap().path();
     fs::write(&part, b"no rows").unwrap();
     let repaired = verify(&session, &of("one"), Verification { fraction: 0.0, repair: true }).unwrap().unwrap();
-    assert!(repaired.problems > 0 && files(&of("one")) == expected);
+    assert!(repaired.checked.problems > 0 && files(&of("one")) == expected);
 }
 
 /// Law: a sample replayed alone is its row, bit for bit; the law has acted in it, tick by tick; audits judge the arcs

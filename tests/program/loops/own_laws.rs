@@ -107,7 +107,7 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
         replayed.request.columns().iter().position(|column| column.quantity.name() == "pointing_error_final_rad");
     assert_eq!(replayed.row[place.unwrap()].to_bits(), row.to_bits());
     let verified = verify(&own, &root, Verification { fraction: 1.0, repair: false }).unwrap().unwrap();
-    assert_eq!(verified.problems, 0);
+    assert_eq!(verified.checked.problems, 0);
     let Err(WorkflowError::Files(reason)) = Results::open(&root, session) else { panic!("refused") };
     assert!(reason.contains("own_feedback") && reason.contains("quaternion_feedback"), "{reason}");
     let negative = Campaign::from_text("slew_closed.toml", &text.replacen("own_damping = ", "own_damping = -", 1), own);

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use spindrift::storage::disk::{Disk, Storage};
 use spindrift::storage::manifest::{Manifest, PartRecord};
+use spindrift::workflow::compared::compared;
 use spindrift::workflow::finishing::finish as finished;
 use spindrift::workflow::page::remade;
 use spindrift::workflow::{Outputs, Results, Verification, WorkflowError as Failure, verify as verified};
@@ -87,8 +88,7 @@ fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
 fn compare(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
     on(storage, |session| {
         let [first, second] = [Results::open(root, *session)?, Results::open(root, *session)?];
-        first.end()?;
-        first.compare(&second).map(|_| ())
+        compared([&first, &second], ["first", "second"].map(str::to_owned)).map(|_| ())
     })
 }
 

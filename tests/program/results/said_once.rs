@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use crate::page::numbers::Found;
 use crate::small_campaign::{campaign_without_debris, folder, mixed_failures};
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -45,6 +46,96 @@ fn with_intervals(text: &str) -> Vec<String> {
     found.collect()
 }
 
+/// An outcome of the table on a screen: what it is called, its unit, its median and its maximum.
+struct OutcomeRow {
+    title: String,
+    unit: String,
+    median: String,
+    max: String,
+}
+
+/// The table of outcomes on a screen of long lines.
+fn outcome_rows(screen: &str) -> Vec<OutcomeRow> {
+    let cells = |line: &str| {
+        let cells = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty());
+        cells.map(str::to_owned).collect::<Vec<String>>()
+    };
+    let mut lines = screen.lines().skip_while(|line| !line.starts_with("  outcome "));
+    let heads = lines.next().map_or_else(Vec::new, cells);
+    let place = |name: &str| heads.iter().position(|head| head == name);
+    let (Some(median), Some(max)) = (place("median"), place("max")) else { return Vec::new() };
+    let row = |cells: Vec<String>| {
+        let (title, unit) = cells[0].rsplit_once(", ").unwrap_or((&cells[0], ""));
+        let value = |place: usize| cells[place].split(" [").next().unwrap_or_default().to_owned();
+        let [title, unit] = [title, unit].map(str::to_owned);
+        OutcomeRow { title, unit, median: value(median), max: value(max) }
+    };
+    lines.map(cells).take_while(|cells| cells.len() == heads.len()).map(row).collect()
+}
+
+/// The numbers of the page below its pictures are those of the `screen`, each with its unit, which the axis of the
+/// large figure has too.
+fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found: &Found) {
+    for (at, _) in page.match_indices("median ").filter(|_| !screen.contains(" more outcome")) {
+        let rest = &page[at..];
+        let said: String = rest.chars().take(120).collect();
+        let number = |text: Option<&str>| text?.split([',', ' ']).next()?.parse::<f64>().ok();
+        let Some((_, after)) = said.split_once(", max ") else { continue };
+        let [median, max] = [number(said.strip_prefix("median ")), number(Some(after))];
+        let Some((median, max)) = median.zip(max) else { continue };
+        // beside an interval a number has as many digits as that supports
+        let near = |shown: &str, value: f64| {
+            shown.parse::<f64>().is_ok_and(|shown| (shown - value).abs() <= 6e-3 * value.abs().max(shown.abs()))
+        };
+        let is_unit = |unit: &str| after[after.find(' ').map_or(0, |at| at + 1)..].starts_with(&unit.to_lowercase());
+        let is_it = |row: &OutcomeRow| near(&row.median, median) && near(&row.max, max) && is_unit(&row.unit);
+        assert!(rows.iter().any(is_it), "{name}: {said}");
+    }
+    for figure in found.data["figures"].as_array().unwrap() {
+        let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+        let is_of_it = |row: &&OutcomeRow| {
+            text(&figure["name"]).starts_with("histogram_") && text(&figure["title"]).to_lowercase() == row.title
+        };
+        for row in rows.iter().filter(is_of_it) {
+            assert_eq!(text(&figure["x"]["unit"]), row.unit, "{name}: {}", row.title);
+        }
+    }
+}
+
+/// The law of a comparison with the same campaign of another seed: each requirement is called as in both results, with
+/// their verdicts and numbers; what one screen says the long one and the file say too.
+fn compares(scratch: &ScratchFolder, name: &str, samples: &str, first: &Value) {
+    let run = |arguments: &str| {
+        let output = scratch.command(arguments).env("COLUMNS", "2000").output().unwrap();
+        assert!(output.status.code().is_some_and(|code| ![2, 4].contains(&code)), "{name}: {arguments}: {output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    run(&format!("campaign {name} {samples} --seed 5 --out other --overwrite --no-report"));
+    let second: Value = serde_json::from_str(&scratch.text("other/summary.json")).unwrap();
+    let brief = run("compare r other");
+    let (plain_brief, verbose) = (plain(&brief), plain(&run("compare r other --verbose --out c.json")));
+    let file: Value = serde_json::from_str(&scratch.text("c.json")).unwrap();
+    let list = |summary: &Value| summary["requirements"]["list"].as_array().unwrap().clone();
+    for (place, (one, other)) in list(first).iter().zip(list(&second)).enumerate() {
+        for requirement in [one, &other] {
+            let (value, _) = requirement["found"].as_str().unwrap().split_once(" [").unwrap_or_default();
+            let judged = format!("{} {value}", requirement["verdict"].as_str().unwrap());
+            assert!(verbose.contains(&plain(judged.trim_end())), "{name}: {judged}: {verbose}");
+        }
+        assert!(verbose.contains(&plain(one["in_short"].as_str().unwrap())), "{name}: {verbose}");
+        let compared = &file["requirements"][place];
+        assert_eq!([&compared["first"], &compared["second"]], [&one["verdict"], &other["verdict"]], "{name}");
+    }
+    for line in brief.lines().filter(|line| !line.contains("--verbose")) {
+        let words = plain(line);
+        let cells = line.split("  ").map(plain).filter(|cell| !cell.is_empty());
+        assert!(verbose.contains(&words) || cells.into_iter().all(|cell| verbose.contains(&cell)), "{name}: {line}");
+    }
+    for found in with_intervals(&plain_brief) {
+        assert!(verbose.contains(&found), "{name}: {found}: {verbose}");
+    }
+}
+
 /// The law of one campaign, the file `name` in `scratch`.
 fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     let run = |arguments: &str| {
@@ -63,7 +154,8 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     let summary: Value = serde_json::from_str(&json).unwrap();
     let page = scratch.text("r/report.html");
     let page = plain(&untagged(page.split("<script").next().unwrap()));
-    let (brief, junit) = (plain(&body(&brief)), plain(&scratch.text("j.xml")));
+    let brief_text = brief;
+    let (brief, junit) = (plain(&body(&brief_text)), plain(&scratch.text("j.xml")));
     let has = |place: &str, text: &str, said: &str| {
         assert!(
             text.contains(&plain(said).trim_end_matches('.').to_owned()),
@@ -77,6 +169,7 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
             has(place, text, short);
         }
         has("screen", &brief, found);
+        has("page", &page, found);
         has("long screen", &verbose, says);
         has("page", &page, says);
         if one["verdict"] != "PASS" {
@@ -101,6 +194,9 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     for found in with_intervals(&brief) {
         has("long screen", &verbose, &found);
     }
+    let rows = outcome_rows(&brief_text);
+    of_page(name, (&rows, &brief), &page, &Found::of_page(&scratch.text("r/report.html")));
+    compares(scratch, name, samples, &summary);
     for column in texts(&summary["observables"], "name").into_iter().filter(|column| column.contains('_')) {
         assert!(!brief.contains(column), "{name}: {column} is no name for people: {brief}");
     }

@@ -23,25 +23,3 @@ pub fn origin(plan: &Plan, column: usize) -> String {
         "follows the other components".to_owned()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::campaign::Overrides;
-
-    /// Law: a number in the unit of the parameter is shown in the unit in which it was written; a shape has no unit.
-    #[test]
-    fn amounts_have_the_unit_that_was_written() {
-        let text = include_str!("../../campaigns/pyramid.toml").replace(
-            "distribution = \"normal\"\nstd = \"0.1 deg\"",
-            "distribution = \"gamma\"\nshape = 2.0\nscale = \"0.1 deg\"",
-        );
-        let plan = Plan::from_text("pyramid", &text, Overrides::default()).expect("valid");
-        let names = |column: usize| plan.dispersions.columns()[column].parameter.name();
-        let of =
-            |name: &str| (0..plan.dispersions.columns().len()).find(|column| names(*column) == name).expect("a column");
-        assert_eq!(origin(&plan, of("wheels.w1.tilt_rad")), "gamma, shape 2, scale 0.1 deg, from 0 deg");
-        let spin = origin(&plan, of("initial.angular_velocity_rad_s"));
-        assert!(spin.ends_with("magnitude uniform, 1 deg/s to 6 deg/s"), "{spin}");
-    }
-}

@@ -1,19 +1,16 @@
 //! The dispersions of a plan in words and numbers, as `check` and `sample` show them.
 
-use std::fmt::Write as _;
-
 use crate::campaign::{Plan, SceneDraws, ShownUnit};
-use crate::cli::screen::width;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
 use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
+use crate::findings::finding::{Finding, Kind};
 use crate::findings::names::unit_of_input;
 use crate::findings::number::{counted, short, trimmed};
-use crate::report::origin_text::origin;
+use crate::findings::origin::origin;
 use crate::sampling::{Design, Replaced, SampleId};
 use crate::table::Table;
-use crate::table::text::{Align, Text};
-use crate::table::wrapped::wrapped;
+use crate::table::text::Align;
 
 /// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
 const DRAWS: u64 = 10_000;
@@ -21,18 +18,20 @@ const DRAWS: u64 = 10_000;
 /// Fewer draws have a range and no percentiles.
 const FEW: u64 = 100;
 
-/// Nominal value and distribution of each dispersed parameter, a line each: its components together where they have one
+/// A sentence on what is dispersed, or a table of it.
+fn about(sentence: String) -> Finding {
+    Finding::new(Kind::Note, "dispersions", "Dispersions", sentence)
+}
+
+fn nothing() -> Vec<Finding> {
+    vec![about("none: every sample is the nominal scene".to_owned())]
+}
+
+/// Distribution and nominal value of each dispersed parameter: its components together where they have one
 /// distribution.
-///
-/// # Errors
-/// What writing to `text` returns.
-pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
+pub fn list(plan: &Plan) -> Vec<Finding> {
     let columns = plan.dispersions.columns();
-    if columns.is_empty() {
-        return writeln!(text, "{NONE}");
-    }
-    let mut table = Table::with([("", Align::Title), ("", Align::Sentence)]);
-    let (mut first, mut lines) = (0, String::new());
+    let (mut first, mut list) = (0, if columns.is_empty() { nothing() } else { Vec::new() });
     while first < columns.len() {
         let (parameter, said) = (columns[first].parameter, origin(plan, first));
         let is_alike = |index: &usize| columns[*index].parameter == parameter && origin(plan, *index) == said;
@@ -54,48 +53,31 @@ pub fn list(text: &mut String, plan: &Plan) -> std::fmt::Result {
         let (unit, ends) = (format!(" {}", shown.unit), |rest: &str| rest.is_empty() || rest.starts_with([' ', ',']));
         let is_said = said.match_indices(&unit).any(|(at, _)| ends(&said[at + unit.len()..]));
         let unit = if is_said { "" } else { unit.trim_end() };
-        let said = format!("{said}, nominal {nominal}{unit}");
-        lines += &wrapped(&format!("  {name}  {said}\n"), width());
-        table.row([name, said]);
+        list.push(about(format!("  {name}  {said}, nominal {nominal}{unit}")));
         first += count;
     }
-    // rather close to each other than in several lines each
-    text.push_str(&if Text::of(&table).width() > width() { lines } else { table.text(width()) });
-    correlations(text, plan)
+    list.extend(correlations(plan));
+    list
 }
 
-/// Adds a sentence in lines of the screen's width.
-fn line(text: &mut String, sentence: &str) {
-    text.push_str(&wrapped(&format!("{sentence}\n"), width()));
-}
-
-/// What is said where nothing is dispersed.
-const NONE: &str = "none: every sample is the nominal scene";
-
-/// Nominal value, percentiles of the draws, and distribution of each dispersed number, to `text`; draws again for that.
-///
-/// # Errors
-/// What writing to `text` returns.
-pub fn table(text: &mut String, plan: &Plan) -> std::fmt::Result {
-    let drawn = DrawnScenes::spread(plan, DRAWS);
+/// Nominal value, percentiles of the draws, and distribution of each dispersed number; draws again for that.
+pub fn drawn(plan: &Plan) -> Vec<Finding> {
     let mut percentiles = Percentiles::new(plan);
-    percentiles.add(&drawn);
-    table_of(text, plan, &percentiles)
+    percentiles.add(&DrawnScenes::spread(plan, DRAWS));
+    of_percentiles(plan, &percentiles)
 }
 
 /// The same of samples that were drawn already.
-///
-/// # Errors
-/// What writing to `text` returns.
-pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt::Result {
+pub fn of_percentiles(plan: &Plan, drawn: &Percentiles) -> Vec<Finding> {
     let columns = plan.dispersions.columns();
     if columns.is_empty() {
-        return writeln!(text, "{NONE}");
+        return nothing();
     }
+    let mut list = Vec::new();
     if *plan.dispersions.design() != Design::DEFAULT {
         let dimensions = plan.dispersions.dimensions().len();
         let (design, samples) = (plan.design.name(), plan.samples);
-        line(text, &format!("design: {design}, {samples} samples, {dimensions} random dimensions"));
+        list.push(about(format!("design: {design}, {samples} samples, {dimensions} random dimensions")));
     }
     let of_columns = columns.iter().map(|column| column.parameter.component_name(column.component));
     let magnitudes = magnitudes(plan);
@@ -108,19 +90,14 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
     let of_columns = (0..columns.len()).map(|column| unit_of_input(plan, column));
     let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
     // few draws have no percentiles of one in a hundred
-    let is_few = drawn.count() < FEW;
-    let what = if is_few { "range" } else { "percentiles" };
-    line(text, &format!("{what} of {} (sample 0 is nominal)", counted(drawn.count(), "draw")));
-    let (heads, ps) = if is_few {
-        (vec!["least", "largest"], vec![0.0, 1.0])
-    } else {
-        (vec!["1%", "50%", "99%"], vec![0.01, 0.5, 0.99])
+    let (what, heads, ps): (_, &[_], &[_]) = match drawn.count() < FEW {
+        true => ("range", &["least", "largest"], &[0.0, 1.0]),
+        false => ("percentiles", &["1%", "50%", "99%"], &[0.01, 0.5, 0.99]),
     };
     let ends = [("parameter", Align::Title), ("unit", Align::Left), ("nominal", Align::Right)].into_iter();
-    let heads =
-        ends.chain(heads.into_iter().map(|head| (head, Align::Right))).chain([("distribution", Align::Sentence)]);
+    let heads = ends.chain(heads.iter().map(|head| (*head, Align::Right))).chain([("distribution", Align::Sentence)]);
     let mut table = Table::with(heads);
-    let percentiles = drawn.quantiles(&ps);
+    let percentiles = drawn.quantiles(ps);
     for row in order(plan, &magnitudes) {
         let shown = &units[row];
         let unit = if shown.unit.is_empty() { "-".to_owned() } else { shown.unit.clone() };
@@ -132,27 +109,26 @@ pub fn table_of(text: &mut String, plan: &Plan, drawn: &Percentiles) -> std::fmt
         let cells = [names[row].clone(), unit, short(shown.value(drawn.nominal()[row]))];
         table.row(cells.into_iter().chain(values).chain([origin]));
     }
-    text.push_str(&table.text(width()));
+    let said = about(format!("{what} of {} (sample 0 is nominal)", counted(drawn.count(), "draw")));
+    list.push(Finding { table: Some(table), ..said });
     if !drawn.is_exact() {
-        line(text, "percentiles of so many draws are within 0.05% of their distance from the nominal value");
+        let said = "percentiles of so many draws are within 0.05% of their distance from the nominal value";
+        list.push(about(said.to_owned()));
     }
-    correlations(text, plan)
+    list.extend(correlations(plan));
+    list
 }
 
 /// The parameters that are correlated, and the matrices that are used in place of those that no numbers have.
-fn correlations(text: &mut String, plan: &Plan) -> std::fmt::Result {
-    for correlation in &plan.correlated {
+fn correlations(plan: &Plan) -> Vec<Finding> {
+    let of = |correlation: &crate::sampling::correlation::Correlation| {
         let name = |(parameter, component): &(crate::scene::Parameter, Option<usize>)| match component {
             Some(component) => parameter.component_name(*component),
             None => parameter.name().to_owned(),
         };
-        let names: Vec<String> = correlation.parameters.iter().map(name).collect();
-        line(text, &format!("correlated: {}", names.join(", ")));
-    }
-    for replaced in plan.dispersions.replaced_correlations() {
-        writeln!(text, "{}", nearest(replaced))?;
-    }
-    Ok(())
+        about(format!("correlated: {}", correlation.parameters.iter().map(name).collect::<Vec<_>>().join(", ")))
+    };
+    plan.correlated.iter().map(of).chain(plan.dispersions.replaced_correlations().iter().map(nearest)).collect()
 }
 
 /// The rows of the table: the columns in their order, each magnitude, which are counted after them, below the last
@@ -169,9 +145,11 @@ fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     rows
 }
 
-/// The numbers that sample `sample` applies beside the nominal ones, in the units in which they are shown. Nothing
-/// where nothing is dispersed.
-pub fn shown(plan: &Plan, sample: SampleId) -> String {
+/// Digits of a number that a sample applies: what is measured has no more.
+const SHOWN_DIGITS: usize = 6;
+
+/// The numbers that sample `sample` applies beside the nominal ones, in the units in which they are shown.
+pub fn shown(plan: &Plan, sample: SampleId) -> Table<'static> {
     let mut draws = SceneDraws::new(plan);
     // a sample that is not physical applies its numbers too
     let _ = draws.scene(sample);
@@ -183,43 +161,34 @@ pub fn shown(plan: &Plan, sample: SampleId) -> String {
         let nominal = format!("nominal {}", number(column.nominal));
         table.row([column.parameter.component_name(column.component), number(*value), nominal]);
     }
-    Text::of(&table).spaced(0, 2).lines(width())
+    table
 }
 
-/// Digits of a number that a sample applies: what is measured has no more.
-const SHOWN_DIGITS: usize = 6;
-
-/// The numbers that sample `sample` applies, in all digits; with the mass properties that follow from them, where they
-/// are physical. Nothing where nothing is dispersed.
-pub fn applied(plan: &Plan, sample: SampleId) -> String {
-    let columns = plan.dispersions.columns();
+/// The same in all digits, with the mass properties that follow from them, where they are physical.
+pub fn applied(plan: &Plan, sample: SampleId) -> Table<'static> {
     let mut draws = SceneDraws::new(plan);
     let scene = draws.scene(sample);
     let mut table = Table::with([("", Align::Left), ("", Align::Right), ("", Align::Whole)]);
-    for (column, value) in columns.iter().zip(draws.applied()) {
+    for (column, value) in plan.dispersions.columns().iter().zip(draws.applied()) {
         let nominal = format!("nominal {:?}", column.nominal);
         table.row([column.parameter.component_name(column.component), format!("{value:?}"), nominal]);
     }
-    if let Ok(scene) = scene {
-        let values = mass_properties(&scene);
-        MASS_COLUMNS
-            .iter()
-            .zip(values)
-            .for_each(|([name, ..], value)| table.row([(*name).to_owned(), format!("{value:?}")]));
+    for ([name, ..], value) in MASS_COLUMNS.iter().zip(scene.iter().flat_map(mass_properties)) {
+        table.row([(*name).to_owned(), format!("{value:?}")]);
     }
-    Text::of(&table).spaced(0, 2).lines(usize::MAX)
+    table
 }
 
 /// The matrix that is used in place of one that no numbers have.
-pub fn nearest(replaced: &Replaced) -> String {
+fn nearest(replaced: &Replaced) -> Finding {
     let change = replaced.asked.iter().flatten().zip(replaced.used.iter().flatten());
     let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));
     let mut table = Table::with(replaced.names.iter().map(|_| ("", Align::Right)));
     replaced.used.iter().for_each(|row| table.row(row.iter().map(|r| format!("{r:.6}"))));
-    format!(
-        "nearest_psd: correlations of the normal scores changed by up to {}; used for {}:\n{}",
+    let said = format!(
+        "nearest_psd: correlations of the normal scores changed by up to {}; used for {}:",
         short(largest),
-        replaced.names.join(", "),
-        Text::of(&table).spaced(2, 1).lines(usize::MAX).trim_end()
-    )
+        replaced.names.join(", ")
+    );
+    Finding { table: Some(table), ..about(said) }
 }

@@ -1,18 +1,15 @@
-//! The keys in which two plans differ, as a table ([`text`]) or as phrases ([`phrases`]): those that changed alike
-//! once, and what only one plan has by its table.
+//! The keys in which two plans differ, as a [`table`] or as [`phrases`]: those that changed alike once, and what only
+//! one plan has by its table.
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
 use crate::findings::number::counted;
-use crate::report::compared::Compared;
 use crate::table::Table;
 use crate::table::text::Align;
 use crate::table::wrapped::fitted;
 
-/// Most letters of a value where not every key is shown.
-const LONGEST_VALUE: usize = 24;
-/// Fewer keys are all shown.
-const FEW: usize = 4;
+/// Most letters of a value.
+const LONGEST_VALUE: usize = 40;
 /// In place of the value of a key that a plan does not have, and of the values of several that it has.
 const ABSENT: &str = "-";
 const THERE: &str = "there";
@@ -25,31 +22,19 @@ struct Line {
     values: [String; 2],
 }
 
-/// The table in lines of `width` characters with at most `most` rows; nothing where the plans are the same.
-pub fn text(compared: Compared<'_>, most: usize, width: usize) -> String {
-    let all = lines(compared.keys, Some(compared.plans));
-    if all.is_empty() {
-        return "  the plans are the same\n".to_owned();
-    }
+/// The table: the key, its value before and after.
+pub fn table(keys: &[KeyDifference], plans: [&Plan; 2]) -> Table<'static> {
     let heads = [("changed in the file", Align::Title), ("before", Align::Whole), ("after", Align::Whole)];
     let mut table = Table::with(heads);
-    // both values beside each other below their key
-    let longest = if most < all.len().max(FEW) { LONGEST_VALUE } else { width.saturating_sub(10) / 2 };
-    for Line { key, count, values } in all.iter().take(most) {
-        let key = if *count > 1 { format!("{key} ({count} keys)") } else { key.clone() };
-        let [first, second] = values.each_ref().map(|value| fitted(value, longest, |text| text.chars().count()));
+    for Line { key, count, values } in lines(keys, Some(plans)) {
+        let key = if count > 1 { format!("{key} ({count} keys)") } else { key };
+        let [first, second] = values.each_ref().map(|value| fitted(value, LONGEST_VALUE, |text| text.chars().count()));
         table.row([key, first, second]);
     }
-    let left: usize = all.iter().skip(most).map(|line| line.count).sum();
-    let more = match left {
-        0 => String::new(),
-        1 => "  and 1 more key\n".to_owned(),
-        left => format!("  and {left} more keys\n"),
-    };
-    table.text(width) + &more
+    table
 }
 
-/// The same as phrases, at most `most` and one that counts the other keys; `plans` where both can be read.
+/// The differences as phrases, at most `most` and one that counts the other keys; `plans` where both can be read.
 pub fn phrases(keys: &[KeyDifference], plans: Option<[&Plan; 2]>, most: usize) -> Vec<String> {
     let all = lines(keys, plans);
     let phrase = |Line { key, values: [before, after], .. }: &Line| match (before.as_str(), after.as_str()) {

@@ -1,0 +1,66 @@
+//! [`compared`]: two finished results compared, and the comparison as a file.
+
+use std::path::Path;
+
+use crate::analysis::comparison::compare;
+use crate::analysis::comparison_table;
+use crate::analysis::pairing::ResultRows;
+use crate::findings::compared::Compared;
+use crate::report::comparison_json;
+use crate::storage::atomic;
+use crate::storage::columnar::{Packing, encoded};
+use crate::storage::identity::provenance;
+use crate::workflow::error::WorkflowError;
+use crate::workflow::results::Results;
+
+/// Compares what the rows of both say, sample by sample where both drew the same ones; `names` is what they are called.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result<Compared<'r>, WorkflowError> {
+    let [first, second] = results;
+    let rows = results.map(|one| ResultRows { plan: one.plan(), reader: one.rows() });
+    let comparison = compare(rows[0], rows[1], first.threads()).map_err(WorkflowError::files)?;
+    let ends = [first.end()?.verdicts, second.end()?.verdicts];
+    Ok(Compared::new(names, [first.plan(), second.plan()], comparison, ends))
+}
+
+/// The formats of the file of a comparison.
+#[derive(Clone, Copy, Debug)]
+pub enum ComparisonFormat {
+    Json,
+    Parquet,
+}
+
+impl ComparisonFormat {
+    /// The format that the extension of `path` names.
+    ///
+    /// # Errors
+    /// Where it names neither.
+    pub fn of(path: &Path) -> Result<Self, WorkflowError> {
+        match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("json") => Ok(ComparisonFormat::Json),
+            Some("parquet") => Ok(ComparisonFormat::Parquet),
+            _ => Err(WorkflowError::Input(format!(
+                "--out {}: a comparison is written as .json or .parquet; choose one of these",
+                path.display()
+            ))),
+        }
+    }
+
+    /// Writes `compared` to `path`.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn write(self, compared: &Compared<'_>, path: &Path) -> Result<(), WorkflowError> {
+        let failed = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
+        let bytes = match self {
+            ComparisonFormat::Json => comparison_json::text(compared).into_bytes(),
+            ComparisonFormat::Parquet => {
+                let table = comparison_table::table(&compared.comparison);
+                encoded(&table, provenance(compared.plans[0]), Packing::Zstd).map_err(|error| failed(&error))?
+            }
+        };
+        atomic::write_bytes(path, &bytes).map_err(|error| failed(&error))
+    }
+}
