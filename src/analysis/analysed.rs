@@ -62,7 +62,11 @@ pub fn computed(
     threads: Option<NonZeroUsize>,
 ) -> Result<Analysed, RowsError> {
     let ended = &gathered.tally.statuses;
-    let statistics = statistics::compute(plan, reader, ended, Some(gathered.columns), threads)?;
+    let mut survey = gathered.survey;
+    let shown: Vec<String> = survey.outcomes.iter().map(|one| one.quantity.name().to_owned()).collect();
+    let counted = (Some(gathered.columns), &shown[..]);
+    let mut statistics = statistics::compute(plan, reader, ended, counted, threads)?;
+    survey.describe(plan, &mut statistics, &gathered.first_rows);
     let verdicts = verdicts::assess(plan, ended, &gathered.requirements, gathered.bands.as_ref());
     let verdicts = verdicts.with_quantiles(&statistics);
     let failures = match statistics.loss().is_big() {
@@ -76,7 +80,7 @@ pub fn computed(
         verdicts,
         statistics,
         bands: gathered.bands,
-        survey: gathered.survey,
+        survey,
         missions: gathered.missions,
         tally: gathered.tally,
     })

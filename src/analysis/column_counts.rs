@@ -65,7 +65,7 @@ pub const REFERENCE_ROWS: usize = 16;
 
 /// The range of these values, over their median, below which they are sketched about it. Others are told apart by
 /// themselves, to a hundredth of their standard deviation, with a third of the memory.
-const CLOSE: f64 = 0.25;
+pub(super) const CLOSE: f64 = 0.25;
 
 /// What the values of `observed` are sketched about: for each the median of its values in the first rows of a campaign,
 /// which are in `parts`; zero where these have none, or differ by more than a quarter of it. The value of the nominal

@@ -214,7 +214,7 @@ pub fn compare(
 ) -> Result<Comparison, RowsError> {
     let of = |ResultRows { plan, reader, .. }: ResultRows<'_>| {
         let ended = of_files(&StatusCounter::new(plan), reader, threads)?;
-        statistics::compute(plan, reader, &ended, None, threads)
+        statistics::compute(plan, reader, &ended, (None, &[]), threads)
     };
     let statistics = [of(first)?, of(second)?];
     let ended = [statuses(first)?, statuses(second)?];

@@ -45,6 +45,7 @@ pub fn comparison(rows: [&[[f64; 3]]; 2], are_pairs: bool) -> Comparison {
                 quantiles: Vec::new(),
                 spread: None,
                 required: Vec::new(),
+                sketch: None,
             });
             let lacks = values.each_ref().map(|values| move |row: usize| Some(values[row].is_nan()));
             let absence = Absence::of([&lacks[0], &lacks[1]], ranges.clone(), &pairs);

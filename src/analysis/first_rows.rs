@@ -45,6 +45,14 @@ pub struct RowTable {
     pub(super) is_ok: Vec<bool>,
 }
 
+impl RowTable {
+    /// The values of an observable of `plan`; `None` of one that is not kept.
+    pub(super) fn column(&self, plan: &Plan, name: &str) -> Option<&[f64]> {
+        let place = FirstRows::new(plan).observed.iter().position(|one| one.quantity.name() == name)?;
+        Some(&self.observables[place])
+    }
+}
+
 /// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it
 /// names none).
 #[derive(Debug)]

@@ -15,7 +15,7 @@ use std::num::NonZeroUsize;
 
 use crate::analysis::accumulator::of_files;
 use crate::analysis::column_counts::{
-    Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, is_exact, references,
+    CLOSE, Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, is_exact, references,
 };
 use crate::analysis::observed::Observed;
 use crate::analysis::order_statistics::{AskedQuantile, CommonRanks, Order, QuantileStatistic, of_quantile};
@@ -58,6 +58,8 @@ pub struct ColumnStatistics {
     pub spread: Option<f64>,
     /// Those of the requirements on it, each with its requirement, which runs without a value violate.
     pub required: Vec<(Requirement, QuantileStatistic)>,
+    /// Its distribution, where a page shows that.
+    pub sketch: Option<Sketch>,
 }
 
 impl ColumnStatistics {
@@ -132,7 +134,8 @@ impl Statistics {
 }
 
 /// The statistics of `plan`, whose runs ended as `ended` says: of what was counted of the first of the [`batches`] of
-/// its observables, if it was, and else from the files of its rows, on `threads` threads (`None`: one per core).
+/// its observables, if it was, and else from the files of its rows, on `threads` threads (`None`: one per core). Those
+/// called `shown` have their sketches.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -140,7 +143,7 @@ pub fn compute(
     plan: &Plan,
     reader: &RowsReader,
     ended: &Statuses,
-    mut counted: Option<Collected>,
+    (mut counted, shown): (Option<Collected>, &[String]),
     threads: Option<NonZeroUsize>,
 ) -> Result<Statistics, RowsError> {
     let population = Population::of(plan);
@@ -153,7 +156,10 @@ pub fn compute(
         let with_value = collected.columns.first().map_or(0, |column| column.moments.count());
         let common = CommonRanks::new(plan, left, with_value + loss.missing);
         let lost = &collected.lost[..];
-        let describe = |(observed, counts)| described(plan, (left, loss, lost), observed, counts, &common);
+        let describe = |(observed, counts): (&Observed, ColumnCounts)| {
+            let is_shown = shown.iter().any(|name| name == observed.quantity.name());
+            described(plan, (left, loss, lost), (observed, is_shown), counts, &common)
+        };
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
     };
     for batch in batches(plan) {
@@ -177,7 +183,7 @@ pub fn compute(
 fn described(
     plan: &Plan,
     (population, loss, lost): (Population, Loss, &[u64]),
-    observed: &Observed,
+    (observed, is_shown): (&Observed, bool),
     mut collected: ColumnCounts,
     common: &CommonRanks,
 ) -> ColumnStatistics {
@@ -211,6 +217,7 @@ fn described(
     }
     steps.sort_by(|a, b| a.value.total_cmp(&b.value));
     let moments = collected.moments;
+    let sketch = is_shown.then(|| if is_sketched { whole.clone() } else { sketched(&values, &moments) });
     let count = moments.count();
     let asked = |p: f64| {
         let ranks = population.has_intervals().then(|| common.of(count + all_lost, p, confidence));
@@ -318,7 +325,16 @@ fn described(
         quantiles: quantiles.iter().map(quantile).collect(),
         spread: order.quantile(SPREAD[1]).zip(order.quantile(SPREAD[0])).filter(|_| is_audited).map(|(b, a)| b - a),
         required: required.iter().map(|(one, asked)| ((*one).clone(), quantile(asked))).collect(),
+        sketch,
     }
+}
+
+/// The sketch of `values`: about their mean, where they are close to each other.
+fn sketched(values: &[f64], moments: &Moments) -> Sketch {
+    let range = moments.max().zip(moments.min()).map_or(0.0, |(max, min)| max - min);
+    let mut sketch = Sketch::about(moments.mean().filter(|mean| range < CLOSE * mean.abs()).unwrap_or(0.0));
+    sketch.add_all(values);
+    sketch
 }
 
 /// What lost runs leave of a mean with the interval `mean_interval`.
@@ -419,7 +435,7 @@ mod tests {
         collector.merge(&mut collected, collector.count(&part).expect("counted"));
         let (ended, counted) = (collected.0, collector.1.finish(collected.1));
         let reader = RowsReader::new(&Disk, Vec::new());
-        let found = compute(&plan, &reader, &ended, Some(counted), None).expect("statistics");
+        let found = compute(&plan, &reader, &ended, (Some(counted), &[]), None).expect("statistics");
         let column = found.column(&name).expect("the column");
         assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
         assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
@@ -480,7 +496,7 @@ mod tests {
             counted.into_iter().for_each(|(_, part)| collector.merge(&mut collected, part));
             let mut columns = collector.finish(collected).columns;
             let common = CommonRanks::new(&plan, population, columns[0].moments.count());
-            described(&plan, (population, Loss::default(), &[0]), &observed[0], columns.remove(0), &common)
+            described(&plan, (population, Loss::default(), &[0]), (&observed[0], false), columns.remove(0), &common)
         };
         for offset in [0.0, 1.0, -1.0, 1e3, -1e5, 1e9, -1e9] {
             let value = |k: usize| offset + score(k);

@@ -1,19 +1,21 @@
-//! [`Survey`]: what the page takes from the rows: counts, a thinned table, exceedance of the main outcomes, the worst
-//! runs.
+//! [`Survey`]: what the page takes from the rows: a thinned table, the worst runs, audits; with the sketches that the
+//! statistics have of the main outcomes.
 //!
 //! Its memory does not depend on the number of parts. Rows of the thinned table are chosen by a hash of the sample's
 //! number: neither a design's order nor the number of parts matters, and the same samples are chosen of the same
 //! campaign.
 
 use crate::analysis::accumulator::Accumulator;
-use crate::analysis::first_rows::explained;
+use crate::analysis::first_rows::{RowTable, explained};
 use crate::analysis::observed::Observed;
 use crate::analysis::order_statistics::AskedQuantile;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
+use crate::analysis::statistics::Statistics;
 use crate::analysis::statuses::Statuses;
 use crate::analysis::worst_runs::WorstRuns;
+use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
 use crate::observables::Group;
@@ -45,8 +47,7 @@ pub struct SurveyedOutcome {
     pub is_outcome: bool,
     /// Whether it is an error of the computation.
     pub is_error: bool,
-    /// Its magnitudes if it is an error, else its values, about that of the nominal run; over the dispersed runs that
-    /// are ok.
+    /// Its values over the dispersed runs that are ok.
     pub sketch: Sketch,
     pub worst: WorstRuns,
     /// Its value in the nominal run; NaN where that has none.
@@ -58,8 +59,6 @@ pub struct SurveyedOutcome {
     pub growth: Vec<[f64; 7]>,
     /// Dispersed runs that are physical and were not computed.
     pub lost: u64,
-    /// The number of runs at which quantiles are noted next.
-    next_growth: u64,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -166,7 +165,6 @@ pub struct Surveyor {
 #[derive(Clone, Debug)]
 pub struct SurveyedPart {
     counted: Vec<SampleId>,
-    lost: Vec<SampleId>,
     outcomes: Vec<Vec<f64>>,
     /// Those of the nominal run.
     nominal: Option<Vec<f64>>,
@@ -195,7 +193,6 @@ impl Surveyor {
             confidence: plan.analysis.confidence,
             growth: Vec::new(),
             lost: 0,
-            next_growth: FIRST_GROWTH,
         };
         let estimate = STATE_ERROR_ESTIMATE.name();
         let has_estimate = observed.iter().any(|column| column.quantity.name() == estimate);
@@ -234,8 +231,6 @@ impl Accumulator for Surveyor {
         let done = |row: &usize| statuses[*row] == Status::Done;
         let is_counted = |row: &usize| samples[*row].0 > 0 || !self.has_dispersed;
         let counted: Vec<usize> = (0..samples.len()).filter(done).filter(is_counted).collect();
-        let is_lost = |row: &usize| !matches!(statuses[*row], Status::Done | Status::InvalidSample);
-        let lost = (0..samples.len()).filter(is_lost).filter(is_counted);
         let kept: Vec<usize> = (0..samples.len()).filter(|row| self.thinning.keeps(samples[*row])).collect();
         let taken = |column: &[f64], rows: &[usize]| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
         let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, RowsError>>()?;
@@ -252,7 +247,6 @@ impl Accumulator for Surveyor {
         Ok(SurveyedPart {
             outcomes: columns.iter().map(|column| taken(column, &counted)).collect(),
             counted: counted.iter().map(|row| samples[*row]).collect(),
-            lost: lost.map(|row| samples[row]).collect(),
             nominal: nominal.map(|row| columns.iter().map(|column| column[row]).collect()),
             thinned: Thinned {
                 samples: kept.iter().map(|row| samples[*row].0).collect(),
@@ -267,13 +261,9 @@ impl Accumulator for Surveyor {
     fn merge(&self, whole: &mut Survey, part: SurveyedPart) {
         for (outcome, value) in whole.outcomes.iter_mut().zip(part.nominal.unwrap_or_default()) {
             outcome.nominal = value;
-            // the first row of all
-            if !outcome.is_error && value.is_finite() {
-                outcome.sketch = Sketch::about(value);
-            }
         }
         for (outcome, values) in whole.outcomes.iter_mut().zip(&part.outcomes) {
-            outcome.add(&part.counted, values, &part.lost);
+            part.counted.iter().zip(values).for_each(|(sample, value)| outcome.worst.add(*sample, *value));
         }
         whole.thinned.extend(part.thinned);
         whole.audited += part.audits.len() as u64;
@@ -304,8 +294,20 @@ impl Survey {
     pub fn finished(mut self, statuses: Statuses) -> Self {
         self.thin_audits();
         self.statuses = statuses;
-        self.outcomes.iter_mut().for_each(SurveyedOutcome::finish);
         self
+    }
+
+    /// The outcomes, each with the sketch that `statistics` have of it, and with its quantiles in the `first` rows of
+    /// `plan`, where it is one of these.
+    pub(super) fn describe(&mut self, plan: &Plan, statistics: &mut Statistics, first: &RowTable) {
+        let lost = statistics.loss().missing;
+        for outcome in &mut self.outcomes {
+            let column = statistics.columns.iter_mut().find(|one| one.quantity.name() == outcome.quantity.name());
+            outcome.sketch = column.and_then(|column| column.sketch.take()).unwrap_or_default();
+            outcome.lost = lost;
+            let values = first.column(plan, outcome.quantity.name()).filter(|_| outcome.is_outcome);
+            outcome.growth = values.map_or_else(Vec::new, |values| outcome.grown(values, &first.is_ok));
+        }
     }
 
     /// The outcome called `name`.
@@ -322,42 +324,37 @@ impl SurveyedOutcome {
         are_ends && values.iter().all(|value| value.is_nan() || *value == 0.0 || *value == 1.0)
     }
 
-    /// Adds the values of `samples`, NaN is none, and runs that are `lost`.
-    fn add(&mut self, samples: &[SampleId], values: &[f64], lost: &[SampleId]) {
-        samples.iter().zip(values).for_each(|(sample, value)| self.worst.add(*sample, *value));
-        let shown = |value: f64| if self.is_error { value.abs() } else { value };
-        let known = samples.iter().zip(values).filter(|(_, value)| !value.is_nan());
-        let (of, counted): (Vec<&SampleId>, Vec<f64>) = known.map(|(sample, value)| (sample, shown(*value))).unzip();
-        let mut at = 0;
-        while at < counted.len() {
-            let end = counted.len().min(at + (self.next_growth - self.sketch.count()) as usize);
-            self.sketch.add_all(&counted[at..end]);
-            at = end;
-            if self.sketch.count() == self.next_growth {
-                let before = of.get(at).map_or(lost.len(), |next| lost.partition_point(|sample| sample < next));
-                self.grow(self.lost + before as u64);
+    /// Its quantiles in the first of the runs with `values`, NaN where one has none, four steps to a doubling; and in
+    /// all runs.
+    fn grown(&self, values: &[f64], is_ok: &[bool]) -> Vec<[f64; 7]> {
+        let mut sketch = Sketch::about(Some(self.nominal).filter(|value| value.is_finite()).unwrap_or(0.0));
+        let (mut rows, mut lost, mut next) = (Vec::new(), 0, FIRST_GROWTH);
+        for (value, is_ok) in values.iter().zip(is_ok) {
+            lost += u64::from(!is_ok);
+            if value.is_nan() {
+                continue;
+            }
+            sketch.add(*value);
+            if sketch.count() == next {
+                rows.push(self.quantiles(&sketch, lost));
+                next = (next as f64 * libm::pow(2.0, 0.25)) as u64 + 1;
             }
         }
-        self.lost += lost.len() as u64;
-    }
-
-    fn finish(&mut self) {
-        let is_new = self.growth.last().is_none_or(|last| last[0] < self.sketch.count() as f64);
+        let is_new = rows.last().is_none_or(|last: &[f64; 7]| last[0] < self.sketch.count() as f64);
         if is_new && self.sketch.count() >= FIRST_GROWTH {
-            self.grow(self.lost);
+            rows.push(self.quantiles(&self.sketch, self.lost));
         }
+        rows
     }
 
-    /// Notes the quantiles of the runs so far, without those that are `lost`.
-    fn grow(&mut self, lost: u64) {
+    /// The quantiles of the runs in `sketch`, without those that are `lost`.
+    fn quantiles(&self, sketch: &Sketch, lost: u64) -> [f64; 7] {
         const HIGH: f64 = 0.99;
-        let (count, ranks) = (self.sketch.count(), self.sketch.ranks());
+        let (count, ranks) = (sketch.count(), sketch.ranks());
         let [low, high] = interval([count, lost], &ranks, HIGH, self.confidence);
         let of = |p: f64| ranks.quantile(p).unwrap_or(f64::NAN);
         let above = count - ranks.at_most(0.5)[1];
-        self.growth.push([count as f64, of(0.5), of(HIGH), low, high, above as f64, lost as f64]);
-        // four steps to a doubling
-        self.next_growth = (count as f64 * libm::pow(2.0, 0.25)) as u64 + 1;
+        [count as f64, of(0.5), of(HIGH), low, high, above as f64, lost as f64]
     }
 }
 

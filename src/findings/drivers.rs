@@ -14,11 +14,11 @@ use crate::findings::finding::{Figures, Finding, Kind, Number};
 use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::number::{self, brief, counted, outward, share, short};
+use crate::findings::requirement;
 use crate::math::normal;
 use crate::sampling::Design;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::contingency::Occurrence;
-use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 use crate::statistics::share_within::FEWEST_OTHERS;
 
@@ -81,14 +81,10 @@ fn limit(plan: &Plan, requirement: usize) -> String {
     let one = &plan.analysis.requirements[requirement];
     let observed = Observed::named(plan, one.observable().into_iter());
     let unit = observed.first().map_or("", |observed| observed.quantity.unit());
-    let (word, value) = match one.limit {
-        GateLimit::AtMost(value) => ("at most", value),
-        GateLimit::AtLeast(value) => ("at least", value),
-    };
+    let value = one.limit.value();
     let shown = plan.analysis.display.of(one.name(), if unit == "1" { "" } else { unit });
-    let shown = shown.of_time(value.abs(), Some(value));
     let never = if one.never_meets { " (no value meets it)" } else { "" };
-    format!("{word} {}{never}", format!("{} {}", number::written(shown.written(value)), shown.unit).trim_end())
+    requirement::limit_text(one.limit, &shown.of_time(value.abs(), Some(value))) + never
 }
 
 /// The runs in which the event of `outcome` occurs: "the runs that fail", "the worst 5% of runs".

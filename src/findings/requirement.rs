@@ -155,6 +155,12 @@ pub fn title(one: &Assessment) -> String {
     }
 }
 
+/// A limit as it was written, in the unit `shown`: "at most 2 deg".
+pub fn limit_text(limit: GateLimit, shown: &ShownUnit) -> String {
+    let word = if matches!(limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
+    format!("{word} {} {}", written(shown.written(limit.value())), shown.unit).trim_end().to_owned()
+}
+
 /// When the limit holds, of a requirement over time.
 fn times(one: &Assessment) -> String {
     let Some(band) = one.requirement.band() else { return String::new() };

@@ -30,7 +30,7 @@ fn described_of(plan: &Plan, groups: &[Vec<f64>], lost: &[u64]) -> ColumnStatist
     let loss = Loss { missing, runs: missing + counts.moments.count(), outside: 0 };
     let population = Population::of(plan).after(loss);
     let common = CommonRanks::new(plan, population, loss.runs);
-    described(plan, (population, loss, lost), &Observed::all(plan)[0], counts, &common)
+    described(plan, (population, loss, lost), (&Observed::all(plan)[0], false), counts, &common)
 }
 
 /// A plan that requires something of the mean of its first observable, which is within [0, 2].

@@ -1,9 +1,10 @@
 //! The limits in figures over time: those of requirements, and those of actuators.
 
 use crate::campaign::{Plan, ShownUnit};
+use crate::findings::number::typeset;
+use crate::findings::requirement::limit_text;
 use crate::report::figure::Mark;
 use crate::report::page::readable::with_unit;
-use crate::statistics::gate::GateLimit;
 
 /// A limit that is larger than the values by this factor is outside of the axis, and named at its edge.
 const FAR: f64 = 3.0;
@@ -19,14 +20,13 @@ pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) ->
     let mut marks: Vec<Mark> = Vec::new();
     for requirement in plan.analysis.requirements.iter().filter(|one| names.iter().any(|name| name == one.name())) {
         let (name, at) = (requirement.name(), requirement.limit.value());
-        let shown = plan.analysis.display.of(name, unit);
-        let word = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
+        let limit = limit_text(requirement.limit, &plan.analysis.display.of(name, unit));
         let when = match name {
             name if name.contains("_launch_") => " at launch".to_owned(),
             name if name.contains("_final_") => " at the end".to_owned(),
             _ => requirement.times(),
         };
-        let label = format!("{word} {}{when}", with_unit(shown.written(at), &shown.unit));
+        let label = typeset(&(limit + &when));
         let mark = Mark::Limit { label, at, vertical: false };
         if !marks.contains(&mark) {
             marks.push(mark);

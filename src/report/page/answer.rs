@@ -193,7 +193,7 @@ impl<'f> Row<'f> {
         let yes = self.outcome.and_then(|one| one.number("yes"));
         let picture = match (yes, self.figure) {
             (Some(yes), _) => pictures::shares(yes),
-            (None, Some(figure)) => pictures::histogram(figure),
+            (None, Some(figure)) => pictures::histogram(figure, "at "),
             (None, None) => String::new(),
         };
         let below = self.outcome.map_or_else(String::new, pictures::said_of);

@@ -2,18 +2,14 @@
 //! both fit.
 
 use crate::campaign::Plan;
-use crate::findings::names;
-use crate::findings::names::sentence;
-use crate::findings::names::unit_of_input;
+use crate::findings::names::{self, sentence, unit_of_input};
 use crate::findings::origin::origin;
 use crate::math::incomplete_gamma::incomplete_gamma;
 use crate::report::escaped::escaped;
 use crate::report::figure::{Figure, Mark};
+use crate::report::page::pictures::histogram;
 use crate::report::page::readable::with_unit;
 
-/// Size of a small histogram, pixels.
-const WIDTH: f64 = 132.0;
-const HEIGHT: f64 = 26.0;
 /// Fewest samples that are expected in a class of the test.
 const FEWEST: f64 = 5.0;
 
@@ -35,7 +31,7 @@ pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
             data-figure=\"{}\"></div></details>\n",
             escaped(&column.parameter.component_name(column.component)),
             escaped(&sentence(&names::of_input(plan, index))),
-            small(figure),
+            histogram(figure, "nominal"),
             escaped(&with_unit(shown.value(column.nominal), &shown.unit)),
             escaped(&origin(plan, index)),
             escaped(&fit),
@@ -107,38 +103,6 @@ fn fit(figure: &Figure) -> Option<f64> {
     }
     let distance: f64 = classes.iter().map(|[seen, asked]| (seen - asked) * (seen - asked) / asked).sum();
     Some(incomplete_gamma(0.5 * end as f64, 0.5 * distance).upper)
-}
-
-/// Bars, what was expected as a line, and the nominal value as a line across.
-fn small(figure: &Figure) -> String {
-    let (observed, expected) = counts(figure);
-    let highest = observed.iter().chain(&expected).copied().fold(0.0, f64::max).max(1.0);
-    let step = WIDTH / observed.len().max(1) as f64;
-    let up = |count: f64| HEIGHT - (HEIGHT - 2.0) * count / highest;
-    let mut inside = String::new();
-    for (place, count) in observed.iter().enumerate().filter(|(_, count)| **count > 0.0) {
-        let (x, y) = (step * place as f64, up(*count));
-        inside += &format!(
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\"/>",
-            (step - 0.5).max(0.5),
-            HEIGHT - y
-        );
-    }
-    if !expected.is_empty() {
-        let point = |(place, count): (usize, &f64)| format!("{:.1},{:.1}", step * (place as f64 + 0.5), up(*count));
-        let points: Vec<String> = expected.iter().enumerate().map(point).collect();
-        inside += &format!("<polyline points=\"{}\"/>", points.join(" "));
-    }
-    let edges =
-        figure.marks.iter().find_map(|mark| if let Mark::Bars { edges, .. } = mark { Some(edges) } else { None });
-    let nominal = figure.marks.iter().find_map(|mark| if let Mark::Limit { at, .. } = mark { Some(*at) } else { None });
-    if let (Some(edges), Some(nominal)) = (edges, nominal)
-        && let Some(bar) = edges.windows(2).position(|ends| (ends[0]..=ends[1]).contains(&nominal))
-    {
-        let x = step * (bar as f64 + (nominal - edges[bar]) / (edges[bar + 1] - edges[bar]));
-        inside += &format!("<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"0\" y2=\"{HEIGHT}\"/>");
-    }
-    format!("<svg class=\"small\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" aria-hidden=\"true\">{inside}</svg>")
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ use crate::run::StateField;
 const ROUND_OFF: f64 = 1e-12;
 
 /// A quantity of one or several components over time, as the replay shows it.
+#[derive(Default)]
 struct LiveNumber {
     name: String,
     /// The column whose unit it has: one that a requirement may be about.
@@ -76,10 +77,9 @@ fn pointing_error(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         name: sentence(&names::of_quantity(&quantity)),
         column: quantity.name().to_owned(),
         unit: "rad",
-        components: Vec::new(),
         is_held: true,
-        words: None,
         values,
+        ..LiveNumber::default()
     })
 }
 
@@ -89,9 +89,8 @@ fn rate(run: &SingleRun, points: usize) -> LiveNumber {
         column: "angular_rate_rad_s".to_owned(),
         unit: "rad/s",
         components: ["s1", "s2", "s3"].map(str::to_owned).to_vec(),
-        is_held: false,
-        words: None,
         values: (0..points).flat_map(|point| run.table.at::<3>(StateField::Rate, point)).collect(),
+        ..LiveNumber::default()
     }
 }
 
@@ -104,9 +103,8 @@ fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         column: format!("rate_{first}_rad_s"),
         unit: "rad/s",
         components: wheels.iter().map(ToString::to_string).collect(),
-        is_held: false,
-        words: None,
         values: (0..points).flat_map(at).collect(),
+        ..LiveNumber::default()
     })
 }
 
@@ -140,15 +138,7 @@ fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Opti
         Some(_) => ("Propellant used", "propellant_kg", "kg"),
         None => ("Impulse of the thrusters", "impulse_total_n_s", "N s"),
     };
-    Some(LiveNumber {
-        name: name.to_owned(),
-        column: column.to_owned(),
-        unit,
-        components: Vec::new(),
-        is_held: false,
-        words: None,
-        values: used,
-    })
+    Some(LiveNumber { name: name.to_owned(), column: column.to_owned(), unit, values: used, ..LiveNumber::default() })
 }
 
 /// Distance and speed relative to the debris, of the centres of mass.
@@ -160,10 +150,8 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
         name: name.to_owned(),
         column: column.to_owned(),
         unit,
-        components: Vec::new(),
-        is_held: false,
-        words: None,
         values: apart(fields),
+        ..LiveNumber::default()
     };
     let list = [
         ("Distance to the debris", "debris_distance_m", "m", [StateField::DebrisPosition, StateField::ComPosition]),
@@ -178,10 +166,10 @@ fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         name: "Sunlight".to_owned(),
         column: "sun_hidden_fraction".to_owned(),
         unit: "",
-        components: Vec::new(),
         is_held: true,
         words: Some(["full", "part shadow", "in shadow"]),
         values: sky::hidden(run, points)?,
+        ..LiveNumber::default()
     })
 }
 

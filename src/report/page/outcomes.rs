@@ -7,11 +7,13 @@ use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::findings::names;
 use crate::findings::names::sentence;
+use crate::findings::number::typeset;
+use crate::findings::requirement::limit_text;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::report::histogram::counts;
 use crate::report::page::errors::{NO_INTERVAL, all_having, histogram, interval_label, magnitude, shown_rows};
 use crate::report::page::fates::{self, Fate};
-use crate::report::page::readable::{number, with_unit};
+use crate::report::page::readable::number;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::sketch::{Sketch, middle};
 
@@ -155,9 +157,8 @@ fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
     let of = |requirement: &&Requirement| requirement.observable() == Some(outcome.quantity.name());
     let shown = plan.analysis.display.of(outcome.quantity.name(), outcome.quantity.unit());
     let mark = |requirement: &Requirement| {
-        let word = if matches!(requirement.limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
-        let at = requirement.limit.value();
-        Mark::Limit { label: format!("{word} {}", with_unit(shown.written(at), &shown.unit)), at, vertical: true }
+        let (label, at) = (typeset(&limit_text(requirement.limit, &shown)), requirement.limit.value());
+        Mark::Limit { label, at, vertical: true }
     };
     let mut marks: Vec<Mark> = Vec::new();
     for one in plan.analysis.requirements.iter().filter(of).map(mark) {

@@ -124,11 +124,11 @@ fn of_number(number: &Number, span: Span) -> String {
     picture("scale", HEIGHT + WORDS, &typeset(&format!("{} {}", number.name, number.text())), &inside)
 }
 
-/// A histogram as a small picture, with the limits on its axis and the runs that miss one in another colour; empty of
-/// another figure.
-pub fn histogram(figure: &Figure) -> String {
+/// A histogram as a small picture, with the vertical lines on its axis whose names begin with `lines`, the runs that
+/// miss a limit in another colour, and what is expected as a curve; empty of another figure.
+pub fn histogram(figure: &Figure, lines: &str) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
-        Mark::Limit { label, at, vertical: true } if label.starts_with("at ") => Some(*at),
+        Mark::Limit { label, at, vertical: true } if label.starts_with(lines) => Some(*at),
         _ => None,
     });
     let limits: Vec<f64> = limits.collect();
@@ -160,6 +160,13 @@ pub fn histogram(figure: &Figure) -> String {
                 (to - from - 0.4).max(0.6),
             );
         }
+    }
+    for mark in &figure.marks {
+        let Mark::Line { x, y, .. } = mark else { continue };
+        let up = |count: f64| HEIGHT - (HEIGHT - 2.0) * (count / highest).min(1.0);
+        let point = |(x, y): (&f64, &f64)| format!("{:.1},{:.1}", at(*x), up(*y));
+        let points: Vec<String> = x.iter().zip(y).map(point).collect();
+        inside += &format!("<polyline points=\"{}\"/>", points.join(" "));
     }
     inside += &format!("<line class=\"axis\" x1=\"0\" x2=\"{WIDTH}\" y1=\"{HEIGHT}\" y2=\"{HEIGHT}\"/>");
     let is_shown = |limit: &&f64| (span.ends[0]..=span.ends[1]).contains(*limit);

@@ -119,13 +119,13 @@ fn limits_are_those_of_the_file() {
     near(&of("wheel_speed"), &[("limit 125.7\u{a0}rad/s", 40.0 * core::f64::consts::PI)]);
     near(&of("thrust"), &[("limit of p2, p3 10\u{a0}N", 10.0), ("limit of p1 20\u{a0}N", 20.0)]);
     near(&of("debris_distance_m"), &[("keep-out 5\u{a0}m", 5.0), ("station 10\u{a0}m", 10.0)]);
-    near(&of("impulse_n_s"), &[("at most 4000\u{a0}N s", 4000.0)]);
-    near(&of("debris_relative_speed_m_s"), &[("at most 5\u{a0}cm/s at launch", 5.0)]);
-    near(&of("spin_axis_debris_angle_rad"), &[("at most 2\u{a0}deg at launch", 2.0)]);
-    near(&of("angular_rate_rad_s"), &[("at most 0.2\u{a0}deg/s at launch", 0.2)]);
+    near(&of("impulse_n_s"), &[("at most 4000 N s", 4000.0)]);
+    near(&of("debris_relative_speed_m_s"), &[("at most 5 cm/s at launch", 5.0)]);
+    near(&of("spin_axis_debris_angle_rad"), &[("at most 2 deg at launch", 2.0)]);
+    near(&of("angular_rate_rad_s"), &[("at most 0.2 deg/s at launch", 0.2)]);
     let found = page("limits-of-slew", SLEW_CLOSED);
     let figure = found.figure("pointing_error_rad");
-    near(&limits(figure), &[("at most 0.1\u{a0}deg at the end", 0.1)]);
+    near(&limits(figure), &[("at most 0.1 deg at the end", 0.1)]);
     // between degrees and hundredths of one: by decades
     assert!(figure["y"]["log"] == true && figure["y"]["unit"] == "deg", "{}", figure["y"]);
     assert_eq!(found.figure("wheel_speed")["y"]["range"][0], 0.0);

@@ -85,7 +85,10 @@ fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found:
         let Some((median, max)) = median.zip(max) else { continue };
         // beside an interval a number has as many digits as that supports
         let near = |shown: &str, value: f64| {
-            shown.parse::<f64>().is_ok_and(|shown| (shown - value).abs() <= 6e-3 * value.abs().max(shown.abs()))
+            let (digits, power) = shown.split_once('e').unwrap_or((shown, "0"));
+            let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+            let place = 10f64.powi(power.parse::<i32>().unwrap_or(0) - decimals);
+            shown.parse::<f64>().is_ok_and(|shown| (shown - value).abs() <= 0.51 * place + 6e-3 * value.abs())
         };
         let is_unit = |unit: &str| after[after.find(' ').map_or(0, |at| at + 1)..].starts_with(&unit.to_lowercase());
         let is_it = |row: &OutcomeRow| near(&row.median, median) && near(&row.max, max) && is_unit(&row.unit);
@@ -153,7 +156,8 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     assert_eq!(body(&brief.replace(name, "r/plan.toml")), body(&again), "{name}");
     let summary: Value = serde_json::from_str(&json).unwrap();
     let page = scratch.text("r/report.html");
-    let page = plain(&untagged(page.split("<script").next().unwrap()));
+    let page = page.split("<script").next().unwrap().replace("</summary>", " </summary>");
+    let page = plain(&untagged(&page));
     let brief_text = brief;
     let (brief, junit) = (plain(&body(&brief_text)), plain(&scratch.text("j.xml")));
     let has = |place: &str, text: &str, said: &str| {
