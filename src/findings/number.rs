@@ -130,6 +130,8 @@ fn at_place(value: f64, place: i32, largest: f64) -> String {
 
 /// No `f64` tells more.
 const MOST_DIGITS: i32 = 15;
+/// How many more digits than its interval supports an estimate has that would be zero without them.
+const MOST_MORE: i32 = 2;
 /// Numbers of one sign whose sizes differ by more have their own digits each.
 const MOST_RATIO: f64 = 100.0;
 
@@ -160,6 +162,11 @@ fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Opt
     let mut place = place_of(half).max(coarsest);
     while place > least_place && reaches(place) {
         place -= 1;
+    }
+    // an estimate near zero is not shown as zero for want of a digit or two
+    let own = libm::floor(libm::log10(value.abs()) + 1e-12);
+    if rounded(value, place, None) == 0.0 && own >= f64::from(place - MOST_MORE) {
+        place = own as i32;
     }
     let place = place.max(least_place);
     let text = |one: f64| one.is_finite().then(|| at_place(one, place, most));
@@ -333,7 +340,9 @@ mod tests {
             (3.0, [f64::NAN; 2], "3"),
             (2.0, [f64::NAN, 2.456], "2.00 [?, 2.46]"),
             (3.332_248e-16, [f64::NAN, 3.332_272e-16], "3.33e-16 [?, 3.34e-16]"),
-            (4e-6, [-1.3e-4, 1.5e-4], "0.0e-4 [-1.3e-4, 1.5e-4]"),
+            (4e-6, [-1.3e-4, 1.5e-4], "4e-6 [-1.30e-4, 1.50e-4]"),
+            (4e-9, [-1.3e-4, 1.5e-4], "0.0e-4 [-1.3e-4, 1.5e-4]"),
+            (-3.47, [-106.0, 173.0], "-3 [-106, 173]"),
             (12_345.6, [11_000.0, 14_000.0], "12300 [11000, 14000]"),
             (1.07e-13, [9.1e-14, 1.2e-13], "1.07e-13 [9.1e-14, 1.20e-13]"),
             (3e-12, [1e-15, 1.234e-9], "3.00e-12 [1.00e-15, 1.24e-9]"),

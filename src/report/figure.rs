@@ -243,6 +243,17 @@ impl Mark {
         Mark::Line { label: label.into(), hue, dash, x, y }
     }
 
+    /// The area between the curves `ends`.
+    pub fn area(label: impl Into<String>, (hue, opacity): (Hue, f64), x: Vec<f64>, ends: [Vec<f64>; 2]) -> Self {
+        let [low, high] = ends;
+        Mark::Band { label: label.into(), hue, opacity, x, low, high, stacked: false }
+    }
+
+    /// Points that show no samples.
+    pub fn points(label: impl Into<String>, (hue, shape): (Hue, PointShape), x: Vec<f64>, y: Vec<f64>) -> Self {
+        Mark::Points { label: label.into(), hue, shape, x, y, samples: Vec::new() }
+    }
+
     /// Its name in the legend; empty where that does not name it.
     pub fn legend(&self) -> &str {
         match self {
@@ -257,29 +268,29 @@ impl Mark {
         }
     }
 
+    /// Its ordinates, where it has some.
+    fn ordinates(&self) -> Vec<&[f64]> {
+        match self {
+            Mark::Line { y, .. } | Mark::Points { y, .. } => vec![y],
+            Mark::Band { low, high, .. } => vec![low, high],
+            Mark::Bars { heights, .. } => vec![heights],
+            Mark::Whiskers { .. } | Mark::Limit { .. } | Mark::Flight { .. } | Mark::Matrix { .. } => Vec::new(),
+        }
+    }
+
     /// The largest magnitude of its ordinates.
     pub fn largest(&self) -> f64 {
-        let of = |values: &[f64]| {
-            values.iter().filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()))
-        };
-        match self {
-            Mark::Line { y, .. } | Mark::Points { y, .. } => of(y),
-            Mark::Band { low, high, .. } => of(low).max(of(high)),
-            Mark::Bars { heights, .. } => of(heights),
-            Mark::Whiskers { .. } | Mark::Limit { .. } | Mark::Flight { .. } | Mark::Matrix { .. } => 0.0,
-        }
+        let all = self.ordinates().into_iter().flatten().filter(|value| value.is_finite());
+        all.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
 
     /// Whether there is anything to see.
     fn is_visible(&self) -> bool {
         let any = |values: &[f64]| values.iter().any(|value| value.is_finite());
         match self {
-            Mark::Line { y, .. } | Mark::Points { y, .. } => any(y),
-            Mark::Band { low, high, .. } => any(low) && any(high),
             Mark::Bars { heights, .. } => heights.iter().any(|height| *height > 0.0),
-            Mark::Whiskers { x, .. } => any(x),
-            Mark::Limit { .. } | Mark::Flight { .. } => false,
-            Mark::Matrix { values } => any(values),
+            Mark::Whiskers { x: values, .. } | Mark::Matrix { values } => any(values),
+            _ => !self.ordinates().is_empty() && self.ordinates().into_iter().all(any),
         }
     }
 }
@@ -350,17 +361,19 @@ impl Figure {
 
     /// A figure with a title and marks only; half as wide as the page.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis, marks: Vec<Mark>) -> Self {
-        Figure {
-            name: String::new(),
-            section: FigureSection::Time,
-            title: title.into(),
-            caption: String::new(),
-            columns: 6,
-            is_over_time: false,
-            x,
-            y,
-            marks,
-        }
+        Figure::of(FigureSection::Time, [String::new(), title.into(), String::new()], [x, y], marks)
+    }
+
+    /// A figure with its name, title and caption; half as wide as the page.
+    pub fn of<T: Into<String>>(section: FigureSection, said: [T; 3], [x, y]: [Axis; 2], marks: Vec<Mark>) -> Self {
+        let [name, title, caption] = said.map(Into::into);
+        Figure { name, section, title, caption, columns: 6, is_over_time: false, x, y, marks }
+    }
+
+    /// The same in so many columns of twelve.
+    #[must_use]
+    pub fn wide(self, columns: u8) -> Self {
+        Figure { columns, ..self }
     }
 
     /// Whether it shows anything; a figure that does not is left out of the page.

@@ -5,8 +5,9 @@ use core::f64::consts::PI;
 use crate::campaign::Plan;
 use crate::findings::names;
 use crate::findings::origin::origin;
+use crate::report::expected::Expected;
 use crate::report::figure::{Axis, Figure, FigureSection, Mark};
-use crate::report::{histogram, marginal};
+use crate::report::histogram;
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
@@ -37,7 +38,7 @@ impl DrawnInputs {
         let name = names::of_input(plan, index);
         let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
         let values: Vec<f64> = self.columns[index].iter().copied().filter(|x| x.is_finite()).collect();
-        let expected = marginal::of_column(plan, index);
+        let expected = Expected::of_column(plan, index);
         let line = match expected.as_ref().map(|expected| expected.values().is_some()) {
             None => "",
             Some(false) => " Line: expected counts of the requested distribution.",

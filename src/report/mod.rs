@@ -6,7 +6,7 @@
 //! - [`figure_files`]: figures as files.
 //! - `escaped`: text within markup.
 //! - [`simulation_figure`], [`precision_figure`]: figures of commands. [`inputs`] (in [`histogram`]s, with
-//!   [`expected_counts`], of numbers drawn together by [`marginal`]), [`over_time`]: those of the page too.
+//!   [`expected`] counts), [`over_time`]: those of the page too.
 //! - `surroundings`: Sun, shadow, field and the place below on an orbit.
 //! - [`comparison_json`]: two results compared, for programs.
 //! - [`time_table`]: one run over time on a terminal.
@@ -14,14 +14,13 @@
 
 pub mod comparison_json;
 mod escaped;
-pub mod expected_counts;
+pub mod expected;
 pub mod figure;
 pub mod figure_files;
 pub mod histogram;
 pub mod index_page;
 pub mod inputs;
 pub mod junit;
-pub mod marginal;
 pub mod over_time;
 pub mod page;
 pub mod precision_figure;

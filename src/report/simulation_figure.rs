@@ -85,8 +85,8 @@ mod tests {
         assert!(left_out(&plan, &run).contains(&"Linear momentum in F_e".to_owned()), "{:?}", left_out(&plan, &run));
     }
 
-    /// Law: every curve is the column that its panel and its label name: states and energies as they are, their sum,
-    /// and changes that are zero at the start and in balance throughout.
+    /// Law: every curve is the column that its panel and its label name: states and energies as they are, and their
+    /// sum.
     #[test]
     fn curves_are_their_columns() {
         let text = include_str!("../../campaigns/spin_sweep.toml");
@@ -105,11 +105,9 @@ mod tests {
         let mut seen = 0;
         for panel in simulation_figure("x".to_owned(), &plan, &run).figures {
             let title = panel.title.split(" (").next().expect("a title").to_owned();
-            let mut balance = vec![0.0; series.rows()];
             for mark in &panel.marks {
                 let Mark::Line { label, x, y, .. } = mark else { continue };
                 assert_eq!(*x, column("time_s".to_owned()), "{title}");
-                let of_wheel = label.trim_start_matches("wheel ").trim_start_matches("the ");
                 let known = match title.as_str() {
                     "Angular velocity of the body, in F_s" => column(format!("omega_se_s_{label}_rad_s")),
                     "Attitude quaternion of the body, F_s to F_e" => column(format!("q_es_{label}")),
@@ -130,18 +128,11 @@ mod tests {
                         let body = body.trim_start_matches("wheel ");
                         column(format!("energy_{body}_j"))
                     }
-                    title if title.starts_with("Energy transfer") => {
-                        let values = column(format!("energy_com_{of_wheel}_j"));
-                        balance.iter_mut().zip(y).for_each(|(balance, change)| *balance += change);
-                        values.iter().map(|value| value - values[0]).collect()
-                    }
                     _ => continue, // momenta are not columns of a file
                 };
                 assert_eq!(*y, known, "{label} of {title}");
                 seen += 1;
             }
-            let largest = panel.marks.iter().map(Mark::largest).fold(0.0, f64::max);
-            assert!(balance.iter().all(|balance| balance.abs() <= 1e-6 * largest), "{title}");
         }
         assert!(seen > 20, "{seen} curves");
     }

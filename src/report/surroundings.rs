@@ -6,7 +6,9 @@ use core::f64::consts::TAU;
 use crate::dynamics::earth_rotation::{TURNS_PER_SECOND, turns_at};
 use crate::dynamics::effects::solar_pressure::Light;
 use crate::dynamics::magnetic_field::MagneticField;
+use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dot, norm, scaled};
+use crate::run::StateField;
 use crate::scene::Scene;
 
 /// What is around a spacecraft of one scene, at any time (s) and place (F_e, m).
@@ -53,4 +55,13 @@ impl Surroundings {
 /// rad/s.
 pub fn turning_rate(position: [f64; 3], velocity: [f64; 3]) -> f64 {
     norm(cross(position, velocity)) / dot(position, position)
+}
+
+/// The share of the Sun that the Earth hides at the first `points` points of `run`; `None` where that is not known.
+pub fn hidden(run: &SingleRun, points: usize) -> Option<Vec<f64>> {
+    let around = Surroundings::of(&run.scene)?;
+    let at = |point: usize| {
+        around.sun(run.grid.times()[point], run.table.at(StateField::ComPosition, point)).map(|(_, hidden)| hidden)
+    };
+    (0..points).map(at).collect()
 }

@@ -63,15 +63,7 @@ impl Curves<'_> {
         let strip = |(row, span): (usize, [f64; 2])| {
             let at = rows.iter().position(|other| *other == row).unwrap_or(0) as f64;
             let [low, high] = [at - HALF, at + HALF].map(|end| vec![end; 2]);
-            Mark::Band {
-                label: String::new(),
-                hue: listed.hue,
-                opacity: 0.6,
-                x: span.to_vec(),
-                low,
-                high,
-                stacked: false,
-            }
+            Mark::area("", (listed.hue, 0.6), span.to_vec(), [low, high])
         };
         let marks = visits.into_iter().map(strip).collect();
         let caption = "Phases of guidance in the nominal run.".to_owned();

@@ -60,16 +60,8 @@ impl<'a> Curves<'a> {
     /// On the page of `plan`: of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those
     /// that turn.
     pub fn of_page(plan: &'a Plan, run: Option<&'a SingleRun>, bands: &'a [TimeBands], wheels: &'a [Name]) -> Self {
-        Curves {
-            plan,
-            run,
-            bands,
-            wheels,
-            traits: Traits::of(plan, wheels),
-            place: Place::Page,
-            order: Vec::new(),
-            flown: Vec::new(),
-        }
+        let (traits, place) = (Traits::of(plan, wheels), Place::Page);
+        Curves { plan, run, bands, wheels, traits, place, order: Vec::new(), flown: Vec::new() }
     }
 
     /// The same with the figures that bear on the observables and series `asked` first, in their order.
@@ -86,17 +78,7 @@ impl<'a> Curves<'a> {
 
     /// In a plot of the run `run` of `plan`.
     pub fn of_plot(plan: &'a Plan, run: &'a SingleRun) -> Self {
-        let wheels = &run.request.wheels[..];
-        Curves {
-            plan,
-            run: Some(run),
-            bands: &[],
-            wheels,
-            traits: Traits::of(plan, wheels),
-            place: Place::Plot,
-            order: Vec::new(),
-            flown: Vec::new(),
-        }
+        Curves { place: Place::Plot, ..Curves::of_page(plan, Some(run), &[], &run.request.wheels) }
     }
 
     /// Whether they are in a plot of one run, and not on a page.
@@ -173,7 +155,7 @@ impl<'a> Curves<'a> {
         let last = times.partition_point(|time| *time <= bands.times.last().copied().unwrap_or(0.0));
         let area = |curves: &[&[f64]], label: String, opacity: f64, hue: Hue| {
             let [x, low, high] = within(&times[..last], curves, &bands.times);
-            Mark::Band { label, hue, opacity, x, low, high, stacked: false }
+            Mark::area(label, (hue, opacity), x, [low, high])
         };
         let mut marks = Vec::new();
         if all.len() > 1 {
@@ -190,10 +172,7 @@ impl<'a> Curves<'a> {
         let piece = |piece: Range<usize>| {
             let (x, y) = (times[piece.clone()].to_vec(), values[piece].to_vec());
             match envelope(&x, &y).filter(|_| self.place == Place::Page) {
-                Some([x, low, high]) => {
-                    let label = format!("{name}, its envelope");
-                    Mark::Band { label, hue, opacity: 0.4, x, low, high, stacked: false }
-                }
+                Some([x, low, high]) => Mark::area(format!("{name}, its envelope"), (hue, 0.4), x, [low, high]),
                 None => Mark::line(name, hue, dash, x, y),
             }
         };
@@ -411,30 +390,17 @@ pub(super) fn lines(label: &str, (hue, dash): (Hue, Dash), x: &[f64], y: &[f64])
 
 /// The area between two curves, in pieces where these are null.
 pub(super) fn areas(label: &str, (hue, opacity): (Hue, f64), x: &[f64], [low, high]: [&Vec<f64>; 2]) -> Vec<Mark> {
-    let area = |piece: Range<usize>| Mark::Band {
-        label: label.to_owned(),
-        hue,
-        opacity,
-        x: x[piece.clone()].to_vec(),
-        low: low[piece.clone()].to_vec(),
-        high: high[piece].to_vec(),
-        stacked: false,
+    let area = |piece: Range<usize>| {
+        let ends = [low, high].map(|end| end[piece.clone()].to_vec());
+        Mark::area(label, (hue, opacity), x[piece].to_vec(), ends)
     };
     pieces(x.len(), |point| low[point].is_finite() && high[point].is_finite()).into_iter().map(area).collect()
 }
 
 pub(super) fn over_time(name: &str, title: &str, caption: String, y: Axis, marks: Vec<Mark>) -> Figure {
-    Figure {
-        name: name.to_owned(),
-        section: FigureSection::Time,
-        title: title.to_owned(),
-        caption,
-        columns: 6,
-        is_over_time: true,
-        x: Axis::linear("time", "s"),
-        y,
-        marks,
-    }
+    let said = [name.to_owned(), title.to_owned(), caption];
+    let figure = Figure::of(FigureSection::Time, said, [Axis::linear("time", "s"), y], marks);
+    Figure { is_over_time: true, ..figure }
 }
 
 #[cfg(test)]

@@ -65,39 +65,14 @@ impl Curves<'_> {
         self.bodies([Series::ComBody, Series::ComWheel]).into_iter().filter_map(figure).collect()
     }
 
-    /// The changes of the energies of a run, as curves.
-    fn transfer_in_plot(&self, listed: &ListedFigure) -> Figure {
-        let energies: Vec<(String, Hue, Vec<f64>)> = self
-            .bodies([Series::ComBody, Series::ComWheel])
-            .into_iter()
-            .map(|(series, name, hue)| (name, hue, self.nominal(series)))
-            .filter(|(.., values)| values.iter().any(|value| *value != 0.0))
-            .collect();
-        let size = energies.iter().flat_map(|(.., values)| values).fold(0.0, |size: f64, value| value.abs().max(size));
-        let line = |(name, hue, values): &(String, Hue, Vec<f64>)| {
-            Mark::line(name.as_str(), *hue, Dash::Solid, self.times(), changes(values))
-        };
-        let marks: Vec<Mark> = energies.iter().map(line).collect();
-        let mut axis = Axis::linear(listed.quantity, "J");
-        if size > 0.0 && marks.iter().all(|mark| mark.largest() < ROUNDING * size) {
-            // what rounding makes of constants looks constant
-            axis = axis.within(-100.0 * ROUNDING * size, 100.0 * ROUNDING * size);
-        }
-        let title = format!("{}: since the start, about the centre of mass", listed.title);
-        over_time("energy_transfer", &title, String::new(), axis, marks)
-    }
-
-    /// Energy transfer between body and wheels in the nominal run: over time, as a phase plot, and its spectrum.
+    /// Energy transfer between body and wheels in the nominal run: over time, and its spectrum.
     pub(super) fn transfer(&self, listed: &ListedFigure) -> Vec<Figure> {
         let (times, body) = (self.times(), changes(&self.nominal(Series::ComBody)));
         let wheels: Vec<Vec<f64>> =
             (0..self.wheels.len()).map(|index| changes(&self.nominal(Series::ComWheel.of_wheel(index)))).collect();
-        if self.is_plot() {
-            return vec![self.transfer_in_plot(listed)];
-        }
-        if body.len() < 2 || wheels.is_empty() || is_constant(&body) {
-            return Vec::new();
-        }
+        let size = self.nominal(Series::ComBody).iter().fold(0.0, |size: f64, value| value.abs().max(size));
+        // what rounding makes of constants is no transfer
+        let is_constant = body.iter().all(|change| change.abs() <= ROUNDING * size);
         let named = || self.wheels.iter().enumerate().zip(&wheels);
         let bodies = named().map(|((index, name), y)| (format!("wheel {name}"), Hue::Wheel(index), y));
         let mut marks = stacked(&times, bodies.chain([("body".to_owned(), Hue::Body, &body)]));
@@ -105,36 +80,19 @@ impl Curves<'_> {
         if let Some(bands) = self.band("exchange_body_j") {
             for (label, quantile) in [("body, 5% of runs", 0), ("body, 95% of runs", 4)] {
                 let (x, y) = (bands.times.clone(), bands.quantiles[quantile].clone());
-                marks.push(Mark::Line { label: label.to_owned(), hue: Hue::Body, dash: Dash::Dashed, x, y });
+                marks.push(Mark::line(label, Hue::Body, Dash::Dashed, x, y));
             }
         }
-        let change = || Axis::linear("change of energy", "J");
+        if is_constant {
+            marks.clear();
+        }
         let caption = "Change of kinetic energy about the centre of mass since the start, of the nominal run: gains \
             are on top of each other above \
                        zero, losses below. Without motor torque and thrust both heights are equal at all times.";
-        let transfer = over_time("energy_transfer", listed.title, caption.to_owned(), change(), marks);
-
-        let phase = named().map(|((index, name), y)| Mark::Line {
-            label: format!("wheel {name}"),
-            hue: Hue::Wheel(index),
-            dash: Dash::Solid,
-            x: body.clone(),
-            y: y.clone(),
-        });
-        let phase = Figure {
-            name: "energy_phase".to_owned(),
-            section: FigureSection::Time,
-            title: "Energy of each wheel against that of the body".to_owned(),
-            caption: "Changes since the start, nominal run: a straight line of slope -1 is a transfer between this \
-                wheel and the body alone."
-                .to_owned(),
-            columns: 6,
-            is_over_time: false,
-            x: Axis::linear("change of energy of the body", "J"),
-            y: Axis::linear("change of energy of the wheel", "J"),
-            marks: phase.collect(),
-        };
-        [transfer, phase].into_iter().chain(spectrum(&times, &body)).collect()
+        let spectrum = if is_constant || self.is_plot() { None } else { spectrum(&times, &body) };
+        let transfer =
+            over_time("energy_transfer", listed.title, caption.to_owned(), Axis::linear(listed.quantity, "J"), marks);
+        [transfer].into_iter().chain(spectrum).collect()
     }
 }
 
@@ -159,29 +117,18 @@ fn changes(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| value - values[0]).collect()
 }
 
-fn is_constant(values: &[f64]) -> bool {
-    values.iter().all(|value| *value == values[0])
-}
-
 /// The spectrum of the energy of the body, with its dominant frequency.
 fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
     let (frequencies, amplitudes) = amplitudes(times, body)?;
     let peak = dominant(&frequencies, &amplitudes)?;
     let marks = vec![
-        Mark::Line { label: "amplitude".to_owned(), hue: Hue::Body, dash: Dash::Solid, x: frequencies, y: amplitudes },
+        Mark::line("amplitude", Hue::Body, Dash::Solid, frequencies, amplitudes),
         Mark::Limit { label: format!("dominant: {} Hz", short(peak)), at: peak, vertical: true },
     ];
-    Some(Figure {
-        name: "energy_spectrum".to_owned(),
-        section: FigureSection::Time,
-        title: "Spectrum of the energy transfer".to_owned(),
-        caption: "Amplitude of the energy of the body, nominal run (Hann window; the mean is removed).".to_owned(),
-        columns: 6,
-        is_over_time: false,
-        x: Axis::linear("frequency", "Hz"),
-        y: Axis::linear("amplitude", "J"),
-        marks,
-    })
+    let caption = "Amplitude of the energy of the body, nominal run (Hann window; the mean is removed).";
+    let said = ["energy_spectrum", "Spectrum of the energy transfer", caption];
+    let axes = [Axis::linear("frequency", "Hz"), Axis::linear("amplitude", "J")];
+    Some(Figure::of(FigureSection::Time, said, axes, marks))
 }
 
 #[cfg(test)]

@@ -127,17 +127,12 @@ pub fn histogram(
     // how many runs have no value is a number here, not a clause
     let meaning = meaning.split_once("; null if").map_or(meaning.to_owned(), |(meaning, _)| format!("{meaning}."));
     let caption = format!("{}. {meaning}", having(survey, &outcome.sketch, values.len())).trim_end().to_owned();
-    Figure {
-        name: format!("histogram_{}", outcome.quantity.name()),
+    Figure::of(
         section,
-        title,
-        caption,
-        columns: 6,
-        is_over_time: false,
-        x: axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),
-        y: Axis::linear("runs", ""),
+        [format!("histogram_{}", outcome.quantity.name()), title, caption],
+        [axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()), Axis::linear("runs", "")],
         marks,
-    }
+    )
 }
 
 /// What an axis of an outcome says: of errors that have a sign, that it shows their magnitudes.
@@ -152,76 +147,54 @@ pub fn interval_label(confidence: f64) -> String {
     format!("{}% interval", percent(confidence))
 }
 
-/// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
-fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
-    let (x, y, low, high) = tail(&outcome.sketch, outcome.lost, outcome.confidence);
-    let label = interval_label(outcome.confidence);
-    let mut marks = Vec::new();
-    if has_intervals {
-        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
-    }
-    marks.push(Mark::Line {
-        label: "fraction of runs above".to_owned(),
-        hue: Hue::Total,
-        dash: Dash::Solid,
-        x: x.clone(),
-        y: y.clone(),
-    });
-    let last = |values: &[f64]| values.last().copied().into_iter().collect::<Vec<f64>>();
-    let (x, y) = (last(&x), last(&y));
-    marks.push(Mark::Points {
-        label: "largest".to_owned(),
-        hue: Hue::Total,
-        shape: PointShape::Disc,
-        x,
-        y,
-        samples: outcome.worst.runs.first().map(|(sample, _)| sample.0 as f64).into_iter().collect(),
-    });
-    let interval = if has_intervals {
-        format!(" Band: Clopper-Pearson, {}.", interval_label(outcome.confidence))
-    } else {
-        format!(" {NO_INTERVAL}")
-    };
-    Figure {
-        name: format!("tail_{}", outcome.quantity.name()),
-        section: FigureSection::Numerics,
-        title: format!("Tail of {}", names::of_quantity(&outcome.quantity)),
-        caption: format!(
-            "Fraction of {} runs with at least this value, at ranks spaced by decades.{interval}",
-            outcome.sketch.count()
-        ),
-        columns: 6,
-        is_over_time: false,
-        x: Axis::log(magnitude(outcome), outcome.quantity.unit()).showing(outcome.quantity.name()),
-        y: Axis::log("fraction of runs", ""),
-        marks,
-    }
-}
+/// Values, fractions, and the ends of their intervals.
+pub type Curve = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 
-/// Values of ascending size, the fraction of runs that reach them, and the ends of its interval wherever `lost` runs
-/// are.
-fn tail(sketch: &Sketch, lost: u64, confidence: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
-    let count = sketch.count();
-    let mut ranks: Vec<u64> = (0..)
-        .map(|k| libm::pow(10.0, f64::from(k) / RANKS_PER_DECADE) as u64)
-        .take_while(|rank| *rank < count)
-        .collect();
-    ranks.push(count);
-    ranks.dedup();
-    let ranks_of = sketch.ranks();
-    let smallest = sketch.max().unwrap_or(0.0) / TAIL_RANGE;
-    let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for rank in ranks.into_iter().rev() {
-        let Some(value) = ranks_of.bounds(count + 1 - rank).map(middle).filter(|value| *value > smallest) else {
-            continue;
-        };
-        let [low, high] = share_interval(rank, [count, lost], confidence);
+/// The fraction of the runs that have at most the value of each of the ranks, or, counted from the largest value, at
+/// least that; the ends of its interval wherever lost runs are. By ascending value, those above `least`.
+pub fn curve(outcome: &SurveyedOutcome, ranks: impl Iterator<Item = u64>, is_from_largest: bool, least: f64) -> Curve {
+    let (count, sketched) = (outcome.sketch.count(), outcome.sketch.ranks());
+    let mut found = Curve::default();
+    for rank in ranks {
+        let place = if is_from_largest { count + 1 - rank } else { rank };
+        let Some(value) = sketched.bounds(place).map(middle).filter(|value| *value > least) else { continue };
+        let [low, high] = share_interval(rank, [count, outcome.lost], outcome.confidence);
         found.0.push(value);
         found.1.push(rank as f64 / count as f64);
         found.2.push(low);
         found.3.push(high);
     }
     found
+}
+
+/// A curve of fractions called `label`, with the band of its intervals where there are some.
+pub fn with_band(outcome: &SurveyedOutcome, label: &str, (x, y, low, high): Curve, has_intervals: bool) -> Vec<Mark> {
+    let interval = interval_label(outcome.confidence);
+    let band = has_intervals.then(|| Mark::area(interval, (Hue::Total, 0.15), x.clone(), [low, high]));
+    band.into_iter().chain([Mark::line(label, Hue::Total, Dash::Solid, x, y)]).collect()
+}
+
+/// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
+fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
+    let count = outcome.sketch.count();
+    let rank = |k: u32| libm::pow(10.0, f64::from(k) / RANKS_PER_DECADE) as u64;
+    let mut ranks: Vec<u64> = (0..).map(rank).take_while(|rank| *rank < count).chain([count]).collect();
+    ranks.dedup();
+    let smallest = outcome.sketch.max().unwrap_or(0.0) / TAIL_RANGE;
+    let found = curve(outcome, ranks.into_iter().rev(), true, smallest);
+    let [x, y] = [&found.0, &found.1].map(|values| values.last().copied().into_iter().collect());
+    let samples = outcome.worst.runs.first().map(|(sample, _)| sample.0 as f64).into_iter().collect();
+    let mut marks = with_band(outcome, "fraction of runs above", found, has_intervals);
+    marks.push(Mark::Points { label: "largest".to_owned(), hue: Hue::Total, shape: PointShape::Disc, x, y, samples });
+    let interval = match has_intervals {
+        true => format!("Band: Clopper-Pearson, {}.", interval_label(outcome.confidence)),
+        false => NO_INTERVAL.to_owned(),
+    };
+    let (column, name) = (outcome.quantity.name(), names::of_quantity(&outcome.quantity));
+    let caption = format!("Fraction of {count} runs with at least this value, at ranks spaced by decades. {interval}");
+    let x = Axis::log(magnitude(outcome), outcome.quantity.unit()).showing(column);
+    let said = [format!("tail_{column}"), format!("Tail of {name}"), caption];
+    Figure::of(FigureSection::Numerics, said, [x, Axis::log("fraction of runs", "")], marks)
 }
 
 /// The estimate of a run's error against its audit.
@@ -235,39 +208,20 @@ fn audits(survey: &Survey) -> Option<Figure> {
         return None;
     }
     let below = shown.iter().filter(|audit| audit[2] > audit[1]).count();
+    let caption = format!(
+        "{} of {} audited runs, each compared with a reference solution. Above the diagonal the estimate is too small: \
+         {below} of those shown.",
+        shown.len(),
+        survey.audited
+    );
+    let said = ["audits".to_owned(), "Estimated error against the true one".to_owned(), caption];
     let [low, high] = [0.5 * ends[0], 2.0 * ends[1]];
-    Some(Figure {
-        name: "audits".to_owned(),
-        section: FigureSection::Numerics,
-        title: "Estimated error against the true one".to_owned(),
-        caption: format!(
-            "{} of {} audited runs, each compared with a reference solution. Above the diagonal the estimate is too \
-            small: {below} of those shown.",
-            shown.len(),
-            survey.audited
-        ),
-        columns: 6,
-        is_over_time: false,
-        x: Axis::log("state error estimate", "").within(low, high),
-        y: Axis::log("audited state error", "").within(low, high),
-        marks: vec![
-            Mark::Line {
-                label: "estimate = truth".to_owned(),
-                hue: Hue::Reference,
-                dash: Dash::Dashed,
-                x: vec![low, high],
-                y: vec![low, high],
-            },
-            Mark::Points {
-                label: "audited runs".to_owned(),
-                hue: Hue::Total,
-                shape: PointShape::Disc,
-                x: shown.iter().map(|audit| audit[1]).collect(),
-                y: shown.iter().map(|audit| audit[2]).collect(),
-                samples: shown.iter().map(|audit| audit[0]).collect(),
-            },
-        ],
-    })
+    let axes = ["state error estimate", "audited state error"].map(|name| Axis::log(name, "").within(low, high));
+    let [samples, x, y] = [0, 1, 2].map(|place| shown.iter().map(|audit| audit[place]).collect());
+    let (label, hue, shape) = ("audited runs".to_owned(), Hue::Total, PointShape::Disc);
+    let diagonal = Mark::line("estimate = truth", Hue::Reference, Dash::Dashed, vec![low, high], vec![low, high]);
+    let marks = vec![diagonal, Mark::Points { label, hue, shape, x, y, samples }];
+    Some(Figure::of(FigureSection::Numerics, said, axes, marks))
 }
 
 /// Whether the balance of any run is off by more than the tolerance that its method follows explains, or the error of

@@ -117,23 +117,26 @@ fn tornado(
             (part(event), format!("{}: which runs {}", sentence(&quantity), verb(plan, name, event, u64::MAX)))
         }
     };
-    Figure {
-        name: format!("influence_{name}{part}"),
-        section: FigureSection::Influence,
-        title,
-        caption: format!("{meaning}. Of {} runs.{strongest}", first.map_or(0, |one| one.rows)),
-        columns: 4,
-        is_over_time: false,
-        x: Axis::linear(measure, "").within(0.0, end),
-        y: Axis::names(inputs.iter().map(|(name, _)| names::of_input_column(plan, name)).collect()),
-        marks: vec![Mark::Whiskers {
+    Figure::of(
+        FigureSection::Influence,
+        [
+            format!("influence_{name}{part}"),
+            title,
+            format!("{meaning}. Of {} runs.{strongest}", first.map_or(0, |one| one.rows)),
+        ],
+        [
+            Axis::linear(measure, "").within(0.0, end),
+            Axis::names(inputs.iter().map(|(name, _)| names::of_input_column(plan, name)).collect()),
+        ],
+        vec![Mark::Whiskers {
             label: interval_label(outcome.confidence),
             hue: Hue::Total,
             x: columns[0].clone(),
             low: columns[1].clone(),
             high: columns[2].clone(),
         }],
-    }
+    )
+    .wide(4)
 }
 
 /// The share of the runs in which `event` of an outcome occurs, in classes of an input; `None` where the shown runs do
@@ -182,17 +185,22 @@ fn conditional(
     let (verb, of_input) = (verb(plan, name, event, u64::MAX), names::of_input(plan, input));
     let column = &plan.dispersions.columns()[input];
     let unit = if shown.unit.is_empty() { String::new() } else { format!(", {}", shown.unit) };
-    Some(Figure {
-        name: format!("shares_{name}_{}", column.parameter.column_name(column.component)),
-        section: FigureSection::Influence,
-        title: format!("{} by {of_input}", sentence(&names::of_quantity(&outcome.quantity))),
-        caption: format!("{}, in classes of {of_input}{unit}.", of_runs(rows.len(), computed(survey))),
-        columns: 4,
-        is_over_time: false,
-        x: Axis::linear(format!("share of runs that {verb}"), "").within(0.0, (1.05 * largest).clamp(0.01, 1.0)),
-        y: Axis::names(classes.into_iter().map(|(name, _)| name).collect()),
-        marks: vec![Mark::Whiskers { label: interval_label(outcome.confidence), hue: Hue::Failed, x, low, high }],
-    })
+    Some(
+        Figure::of(
+            FigureSection::Influence,
+            [
+                format!("shares_{name}_{}", column.parameter.column_name(column.component)),
+                format!("{} by {of_input}", sentence(&names::of_quantity(&outcome.quantity))),
+                format!("{}, in classes of {of_input}{unit}.", of_runs(rows.len(), computed(survey))),
+            ],
+            [
+                Axis::linear(format!("share of runs that {verb}"), "").within(0.0, (1.05 * largest).clamp(0.01, 1.0)),
+                Axis::names(classes.into_iter().map(|(name, _)| name).collect()),
+            ],
+            vec![Mark::Whiskers { label: interval_label(outcome.confidence), hue: Hue::Failed, x, low, high }],
+        )
+        .wide(4),
+    )
 }
 
 /// An outcome against an input.
@@ -239,59 +247,45 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     }
     let label = magnitude(outcome);
     let axis = if is_log { Axis::log } else { Axis::linear };
-    Figure {
-        name: format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
-        section: FigureSection::Influence,
-        title: format!("{} against {name}", sentence(&names::of_quantity(&outcome.quantity))),
-        caption: format!("{}.", having(survey, &outcome.sketch, kept.len())),
-        columns: 4,
-        is_over_time: false,
-        x: Axis::linear(name, unit).showing(column.parameter.name()),
-        y: axis(label, outcome.quantity.unit()).showing(outcome.quantity.name()),
+    Figure::of(
+        FigureSection::Influence,
+        [
+            format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
+            format!("{} against {name}", sentence(&names::of_quantity(&outcome.quantity))),
+            format!("{}.", having(survey, &outcome.sketch, kept.len())),
+        ],
+        [
+            Axis::linear(name, unit).showing(column.parameter.name()),
+            axis(label, outcome.quantity.unit()).showing(outcome.quantity.name()),
+        ],
         marks,
-    }
+    )
+    .wide(4)
 }
 
 /// Convergence of the median and of a high quantile of an outcome with the number of runs.
 pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let growth = &outcome.growth;
     let column = |place: usize| growth.iter().map(|row| row[place]).collect::<Vec<f64>>();
-    let line = |label: &str, hue, place| Mark::Line {
-        label: label.to_owned(),
-        hue,
-        dash: Dash::Solid,
-        x: column(0),
-        y: column(place),
-    };
+    let line = |label: &str, hue, place| Mark::line(label, hue, Dash::Solid, column(0), column(place));
     let mut marks = Vec::new();
     let bounded: Vec<&[f64; 7]> = growth.iter().filter(|row| row[3].is_finite() && row[4].is_finite()).collect();
     if has_intervals && !bounded.is_empty() {
         let of = |place: usize| bounded.iter().map(|row| row[place]).collect::<Vec<f64>>();
-        marks.push(Mark::Band {
-            label: interval_label(outcome.confidence),
-            hue: Hue::Wheel(0),
-            opacity: 0.15,
-            x: of(0),
-            low: of(3),
-            high: of(4),
-            stacked: false,
-        });
+        marks.push(Mark::area(interval_label(outcome.confidence), (Hue::Wheel(0), 0.15), of(0), [of(3), of(4)]));
     }
     let band = if marks.is_empty() { "" } else { "; where the band begins, N bounds the quantile from both sides" };
     marks.push(line("99% quantile", Hue::Wheel(0), 2));
     marks.push(line("median", Hue::Body, 1));
     let (quantity, unit): (&Quantity, &str) = (&outcome.quantity, outcome.quantity.unit());
-    Figure {
-        name: format!("convergence_{}", quantity.name()),
-        section: FigureSection::Statistics,
-        title: format!("Convergence of {}", names::of_quantity(quantity)),
-        caption: format!(
-            "Quantiles of the first N dispersed runs that were computed, in the order of their numbers{band}."
-        ),
-        columns: 6,
-        is_over_time: false,
-        x: Axis::log("runs N", ""),
-        y: Axis::linear(names::of_quantity(quantity), unit).showing(quantity.name()),
+    Figure::of(
+        FigureSection::Statistics,
+        [
+            format!("convergence_{}", quantity.name()),
+            format!("Convergence of {}", names::of_quantity(quantity)),
+            format!("Quantiles of the first N dispersed runs that were computed, in the order of their numbers{band}."),
+        ],
+        [Axis::log("runs N", ""), Axis::linear(names::of_quantity(quantity), unit).showing(quantity.name())],
         marks,
-    }
+    )
 }

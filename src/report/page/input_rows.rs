@@ -108,10 +108,10 @@ fn fit(figure: &Figure) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::expected_counts::Asked;
+    use crate::report::expected::Expected;
     use crate::report::histogram::of_input;
+    use crate::sampling::distribution::Quantile;
     use crate::sampling::distribution::normal::NormalQuantile;
-    use crate::sampling::distribution::{Distribution, Quantile};
 
     /// Even numbers in (0, 1) by the multiplier of M. Park and S. Miller (1988).
     fn even(count: usize, seed: u64) -> Vec<f64> {
@@ -128,10 +128,11 @@ mod tests {
     /// distribution has none.
     #[test]
     fn fits_are_judged() {
-        let asked = Distribution::Normal(NormalQuantile { mean: 1.0, std: 2.0 });
+        let asked = NormalQuantile { mean: 1.0, std: 2.0 };
+        let asked = Expected::of_quantile(|u| asked.quantile(u));
         let p = |other: NormalQuantile, seed: u64| {
             let drawn: Vec<f64> = even(1000, seed).into_iter().map(|u| other.quantile(u)).collect();
-            fit(&of_input("x", "", &drawn, 1.0, Some(&Asked::Number(&asked)))).expect("a fit")
+            fit(&of_input("x", "", &drawn, 1.0, Some(&asked))).expect("a fit")
         };
         let right: Vec<f64> = (0..200).map(|seed| p(NormalQuantile { mean: 1.0, std: 2.0 }, seed)).collect();
         let small = right.iter().filter(|p| **p < 0.05).count();

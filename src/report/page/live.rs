@@ -11,7 +11,7 @@ use crate::findings::names::sentence;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
 use crate::report::page::payload::Payload;
-use crate::report::page::sky;
+use crate::report::surroundings;
 use crate::run::StateField;
 
 /// What is smaller than this share of the largest value of a number over the run is round-off.
@@ -168,7 +168,7 @@ fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
         unit: "",
         is_held: true,
         words: Some(["full", "part shadow", "in shadow"]),
-        values: sky::hidden(run, points)?,
+        values: surroundings::hidden(run, points)?,
         ..LiveNumber::default()
     })
 }

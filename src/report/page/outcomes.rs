@@ -11,18 +11,15 @@ use crate::findings::number::typeset;
 use crate::findings::requirement::limit_text;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::report::histogram::counts;
-use crate::report::page::errors::{NO_INTERVAL, all_having, histogram, interval_label, magnitude, shown_rows};
+use crate::report::page::errors::{Curve, NO_INTERVAL, all_having, curve, histogram, magnitude, shown_rows, with_band};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::number;
 use crate::statistics::gate::GateLimit;
-use crate::statistics::sketch::{Sketch, middle};
 
 /// Points of a cumulative curve, at most.
 const MOST_POINTS: u64 = 400;
 /// Values up to which the curve is drawn in steps; of more none is seen.
 const MOST_STEPS: usize = 100;
-/// Values, fractions, and the ends of their intervals.
-type Curve = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 /// Fewer runs than this have no distribution to be seen.
 const FEWEST_RUNS: u64 = 8;
 /// Most outcomes whose cumulative curves stand beside their distributions.
@@ -106,16 +103,11 @@ fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure 
     let growth = &outcome.growth;
     let x: Vec<f64> = growth.iter().map(|row| row[0]).collect();
     let y: Vec<f64> = growth.iter().map(|row| row[5] / row[0]).collect();
-    let mut marks = Vec::new();
-    if has_intervals {
-        let of = |row: &[f64; 7]| [row[5], row[0], row[6]].map(|count| count as u64);
-        let ends = growth.iter().map(of);
-        let ends = ends.map(|[above, count, lost]| share_interval(above, [count, lost], outcome.confidence));
-        let (low, high): (Vec<f64>, Vec<f64>) = ends.map(|[low, high]| (low, high)).unzip();
-        let label = interval_label(outcome.confidence);
-        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
-    }
-    marks.push(Mark::line("share of runs", Hue::Total, Dash::Solid, x, y));
+    let of = |row: &[f64; 7]| [row[5], row[0], row[6]].map(|count| count as u64);
+    let ends = growth.iter().map(of);
+    let ends = ends.map(|[above, count, lost]| share_interval(above, [count, lost], outcome.confidence));
+    let (low, high): (Vec<f64>, Vec<f64>) = ends.map(|[low, high]| (low, high)).unzip();
+    let mut marks = with_band(outcome, "share of runs", (x, y, low, high), has_intervals);
     let asked = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(outcome.quantity.name()));
     marks.extend(asked.filter_map(|one| match (one.statement, one.limit) {
         (Statement::Fraction(at), GateLimit::AtLeast(least)) if 0.0 < least && least <= 1.0 => {
@@ -127,20 +119,20 @@ fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure 
     // shares that are all near 1 are seen from the tenth below them
     let from = if lowest > 0.5 { (libm::floor(10.0 * lowest - 0.2) / 10.0).max(0.0) } else { 0.0 };
     let name = names::of_quantity(&outcome.quantity);
-    Figure {
-        name: format!("share_{}", outcome.quantity.name()),
-        section: FigureSection::Outcome,
-        title: format!("{}: share of runs", sentence(&name)),
-        caption: format!(
-            "Of the first N dispersed runs that were computed. {}",
-            if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL }
-        ),
-        columns: 4,
-        is_over_time: false,
-        x: Axis::log("runs N", ""),
-        y: Axis::linear("share of runs", "").within(from, 1.0),
+    Figure::of(
+        FigureSection::Outcome,
+        [
+            format!("share_{}", outcome.quantity.name()),
+            format!("{}: share of runs", sentence(&name)),
+            format!(
+                "Of the first N dispersed runs that were computed. {}",
+                if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL }
+            ),
+        ],
+        [Axis::log("runs N", ""), Axis::linear("share of runs", "").within(from, 1.0)],
         marks,
-    }
+    )
+    .wide(4)
 }
 
 /// The lowest ordinate of a mark of shares.
@@ -223,38 +215,37 @@ fn cumulative(
     row: Option<&ColumnStatistics>,
     has_intervals: bool,
 ) -> Figure {
-    let (x, y, low, high) = stepped(curve(&outcome.sketch, outcome.lost, outcome.confidence));
-    let mut marks = Vec::new();
-    if has_intervals {
-        let label = interval_label(outcome.confidence);
-        marks.push(Mark::Band { label, hue: Hue::Total, opacity: 0.15, x: x.clone(), low, high, stacked: false });
-    }
-    marks.push(Mark::line("fraction of runs", Hue::Total, Dash::Solid, x, y));
+    let count = outcome.sketch.count();
+    let steps = count.min(MOST_POINTS);
+    let ranks = (1..=steps).map(|step| (step * count).div_ceil(steps));
+    let curve = stepped(curve(outcome, ranks, false, f64::NEG_INFINITY));
+    let mut marks = with_band(outcome, "fraction of runs", curve, has_intervals);
     for (place, [p, value, from, to]) in marked(plan, outcome, row).into_iter().enumerate() {
         let hue = Hue::Curve(place + 2);
         let label = if p == 0.5 { "median".to_owned() } else { format!("{}% quantile", number(100.0 * p)) };
         if has_intervals && from.is_finite() && to.is_finite() {
             marks.push(Mark::line(label.clone(), hue, Dash::Solid, vec![from, to], vec![p, p]));
         }
-        let (x, y, samples) = (vec![value], vec![p], Vec::new());
-        marks.push(Mark::Points { label, hue, shape: PointShape::Disc, x, y, samples });
+        marks.push(Mark::points(label, (hue, PointShape::Disc), vec![value], vec![p]));
     }
     marks.extend(limits(plan, outcome));
     let what = magnitude(outcome);
     let is_log = outcome.is_error && outcome.sketch.min().is_some_and(|min| min > 0.0);
     let axis = if is_log { Axis::log } else { Axis::linear };
     let interval = if has_intervals { "Band: Clopper-Pearson." } else { NO_INTERVAL };
-    Figure {
-        name: format!("{CUMULATIVE}{}", outcome.quantity.name()),
-        section: FigureSection::Outcome,
-        title: format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
-        caption: format!("Fraction of {} with at most this value. {interval}", all_having(survey, &outcome.sketch)),
-        columns: 6,
-        is_over_time: false,
-        x: axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),
-        y: Axis::linear("fraction of runs", "").within(0.0, 1.0),
+    Figure::of(
+        FigureSection::Outcome,
+        [
+            format!("{CUMULATIVE}{}", outcome.quantity.name()),
+            format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
+            format!("Fraction of {} with at most this value. {interval}", all_having(survey, &outcome.sketch)),
+        ],
+        [
+            axis(what, outcome.quantity.unit()).showing(outcome.quantity.name()),
+            Axis::linear("fraction of runs", "").within(0.0, 1.0),
+        ],
         marks,
-    }
+    )
 }
 
 /// The same in steps where the values are few: the fraction rises at a value, and not on the way to it.
@@ -269,23 +260,6 @@ fn stepped(curve: Curve) -> Curve {
     let rows: Vec<(usize, usize)> = rows.collect();
     let of = |values: &[f64]| rows.iter().map(|(_, k)| values[*k]).collect();
     (rows.iter().map(|(k, _)| x[*k]).collect(), of(y), of(low), of(high))
-}
-
-/// Values of ascending size, the fraction of runs up to each, and the ends of its interval wherever `lost` runs are.
-fn curve(sketch: &Sketch, lost: u64, confidence: f64) -> Curve {
-    let count = sketch.count();
-    let (steps, ranks) = (count.min(MOST_POINTS), sketch.ranks());
-    let mut found = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for step in 1..=steps {
-        let rank = (step * count).div_ceil(steps);
-        let Some(value) = ranks.bounds(rank).map(middle) else { continue };
-        let [low, high] = share_interval(rank, [count, lost], confidence);
-        found.0.push(value);
-        found.1.push(rank as f64 / count as f64);
-        found.2.push(low);
-        found.3.push(high);
-    }
-    found
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::ensemble::SingleRun;
 use crate::math::vector::{norm, scaled};
 use crate::report::page::payload::Payload;
-use crate::report::surroundings::{Surroundings, turning_rate};
+use crate::report::surroundings::{Surroundings, hidden, turning_rate};
 use crate::run::StateField;
 
 /// Between two points that are drawn the orbit turns by this angle at most, rad, unless the run has fewer.
@@ -54,13 +54,4 @@ pub fn directions(run: &SingleRun, points: usize, payload: &mut Payload) -> Opti
         drawn["hidden"] = payload.singles(&hidden);
     }
     Some(drawn)
-}
-
-/// The share of the Sun that the Earth hides at the first `points` points of `run`; `None` where that is not known.
-pub fn hidden(run: &SingleRun, points: usize) -> Option<Vec<f64>> {
-    let around = Surroundings::of(&run.scene)?;
-    let at = |point: usize| {
-        around.sun(run.grid.times()[point], run.table.at(StateField::ComPosition, point)).map(|(_, hidden)| hidden)
-    };
-    (0..points).map(at).collect()
 }

@@ -87,7 +87,9 @@ fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found:
         let near = |shown: &str, value: f64| {
             let (digits, power) = shown.split_once('e').unwrap_or((shown, "0"));
             let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-            let place = 10f64.powi(power.parse::<i32>().unwrap_or(0) - decimals);
+            // "-40" beside an interval of hundreds has one digit
+            let zeros = if decimals == 0 { digits.len() - digits.trim_end_matches('0').len() } else { 0 };
+            let place = 10f64.powi(power.parse::<i32>().unwrap_or(0) - decimals + zeros as i32);
             shown.parse::<f64>().is_ok_and(|shown| (shown - value).abs() <= 0.51 * place + 6e-3 * value.abs())
         };
         let is_unit = |unit: &str| after[after.find(' ').map_or(0, |at| at + 1)..].starts_with(&unit.to_lowercase());
