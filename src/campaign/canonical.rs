@@ -96,7 +96,7 @@ impl Plan {
             lines.rows(&format!("[{header}]"), rows, |key| {
                 let path = format!("{header}.{key}");
                 let is_written = match path.as_str() {
-                    "campaign.samples" => whole || self.design.depends_on_samples().is_some(),
+                    "campaign.samples" => whole || self.design.facts().depends_on_samples.is_some(),
                     path => whole || !Self::OUTSIDE_ROWS.contains(&path),
                 };
                 self.setting(&path).filter(|_| is_written)

@@ -10,7 +10,7 @@ pub fn draw_alike(first: &Plan, second: &Plan) -> bool {
     let [one, other] = [first, second].map(|plan| plan.dispersions.dimensions());
     first.seed == second.seed
         && first.design == second.design
-        && (first.samples == second.samples || first.design.depends_on_samples().is_none())
+        && (first.samples == second.samples || first.design.facts().depends_on_samples.is_none())
         && (one == other || one.iter().any(|name| other.contains(name)))
 }
 

@@ -282,7 +282,7 @@ fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document
     if let (Some(samples), Some(written), Some(design)) =
         (overrides.samples, spec.settings("campaign").count("samples"), &spec.design)
         && samples != written
-        && let Some([why, remedy]) = design.depends_on_samples()
+        && let Some([why, remedy]) = design.facts().depends_on_samples
     {
         let allowed = format!(
             "left out with design {:?}, {why}: with other than the file's {written} samples every row would be another",

@@ -181,7 +181,7 @@ pub fn applied(plan: &Plan, sample: SampleId) -> Table<'static> {
 
 /// The matrix that is used in place of one that no numbers have.
 fn nearest(replaced: &Replaced) -> Finding {
-    let change = replaced.asked.iter().flatten().zip(replaced.used.iter().flatten());
+    let change = replaced.written.iter().flatten().zip(replaced.used.iter().flatten());
     let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));
     let mut table = Table::with(replaced.names.iter().map(|_| ("", Align::Right)));
     replaced.used.iter().for_each(|row| table.row(row.iter().map(|r| format!("{r:.6}"))));

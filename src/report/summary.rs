@@ -78,7 +78,7 @@ pub fn json(plan: &Plan, analysed: &Analysed, findings: &Findings) -> String {
     let replaced = plan.dispersions.replaced_correlations();
     if !replaced.is_empty() {
         let list = replaced.iter();
-        let list = list.map(|one| json!({ "parameters": one.names, "asked": one.asked, "used": one.used }));
+        let list = list.map(|one| json!({ "parameters": one.names, "asked": one.written, "used": one.used }));
         value["nearest_correlations_of_scores"] = list.collect();
     }
     if !missions.is_empty() {

@@ -1,8 +1,8 @@
-//! [`Correlation`]: a `[[correlate]]` table as written; `copulas`: all of them together as dependence of dimensions.
+//! [`Correlation`]: a `[[correlate]]` table as written; [`copulas`]: the dependence that all of them specify.
 //!
-//! A table says how pairs of components depend on each other: all pairs of its parameters (a square matrix), or each
-//! component of one parameter with each of another (a block; for two numbers, one number). Tables with a component in
-//! common make one matrix; pairs that none of them names are independent.
+//! A table correlates all pairs of components of its parameters (a square matrix), or each component of one parameter
+//! with each of another (a block; one number for two components). Tables with a common component make one matrix; other
+//! pairs are independent.
 
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::{Distribution, Quantile};
@@ -10,10 +10,10 @@ use super::error::{DispersionError, Table, error_of};
 use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
 
-/// What the numbers of a table are.
+/// The kind of numbers in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Correlations of the normal scores: of the values where these are normal.
+    /// Correlations of the normal scores, and of normal values.
     Scores,
     Ranks,
     Covariance,
@@ -32,10 +32,10 @@ impl Measure {
     }
 }
 
-/// How the numbers of a table are written.
+/// The numbers of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Numbers {
-    /// One, of two numbers.
+    /// One, for two components.
     One(f64),
     /// Rows: a square matrix of all components, or the block of one parameter with another.
     Rows(Matrix),
@@ -49,25 +49,25 @@ pub struct Correlation {
     pub measure: Measure,
     /// The numbers, in the order of the parameters and their components.
     pub numbers: Numbers,
-    /// Whether a matrix that is not positive semidefinite is replaced by the nearest that is.
+    /// Whether a matrix that is not positive semidefinite is replaced by the nearest one that is.
     pub nearest_psd: bool,
 }
 
-/// A correlation matrix that was replaced by the nearest that exists.
+/// A correlation matrix replaced by the nearest that exists.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replaced {
     /// The components, in the order of the matrix.
     pub names: Vec<String>,
-    /// The correlations of the normal scores that were asked.
-    pub asked: Matrix,
-    /// The correlations of the normal scores that are used.
+    /// The correlations of the normal scores in the file.
+    pub written: Matrix,
+    /// The correlations of the normal scores in use.
     pub used: Matrix,
 }
 
-/// A diagonal or a pair of mirror images that differ by more are two different numbers, not one in two roundings.
+/// Two numbers that differ by more are not one number in two roundings.
 const SAME: f64 = 1e-9;
 
-/// A component with the dimension and the distribution that a `[[disperse]]` table gives it.
+/// The dimension and the distribution of a component.
 type Drawn<'d> = (usize, &'d Distribution);
 
 struct Pairs {
@@ -81,8 +81,8 @@ struct Pairs {
     scores: Vec<(usize, usize, f64)>,
 }
 
-/// The dependence that the tables of `list` ask for. `drawn` gives the dimension and the distribution of a component,
-/// if it has a distribution of one number. Also which matrices were replaced, and what is wrong.
+/// The dependence that the tables of `list` specify, the replaced matrices, and the errors. `drawn` gives the dimension
+/// and the distribution of a component that has a distribution of one number.
 pub(super) fn copulas<'d>(
     list: &[Correlation],
     drawn: impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
@@ -116,7 +116,7 @@ pub(super) fn copulas<'d>(
     (copulas, replaced, errors)
 }
 
-/// The dependence of the components of tables that belong together; and the matrix that was replaced, if it was.
+/// The dependence of the components of tables that share some; and the matrix that was replaced.
 fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError> {
     let mut components: Vec<&(usize, String)> = Vec::new();
     for component in group.iter().flat_map(|pairs| &pairs.components) {
@@ -139,7 +139,7 @@ fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError
     let Some(last) = group.last().filter(|_| !group.iter().any(|pairs| pairs.nearest_psd)) else {
         let used = nearest_correlation(&matrix);
         let names = components.iter().map(|(_, name)| name.clone()).collect();
-        return Ok((Copula::new(dimensions, &used), Some(Replaced { names, asked: matrix, used })));
+        return Ok((Copula::new(dimensions, &used), Some(Replaced { names, written: matrix, used })));
     };
     let together = if group.len() > 1 { ", with the other tables of its parameters" } else { "" };
     let allowed = format!(
@@ -151,7 +151,7 @@ fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError
 }
 
 impl Pairs {
-    /// That a pair of components is named by an earlier table too.
+    /// The error of a pair of components that an earlier table correlates too.
     fn named_twice(&self, earlier: &[Pairs]) -> Option<DispersionError> {
         let same =
             |(a, b, _): &(usize, usize, f64), (c, d, _): &(usize, usize, f64)| (a, b) == (c, d) || (a, b) == (d, c);
@@ -170,12 +170,12 @@ impl Pairs {
 }
 
 impl Correlation {
-    /// The components that it is about.
+    /// The components of its parameters.
     pub fn components(&self) -> Vec<(Parameter, usize)> {
         self.parameters.iter().flat_map(components_of).collect()
     }
 
-    /// What table `index` says.
+    /// The scores of table `index`.
     fn pairs<'d>(
         &self,
         index: usize,
@@ -191,7 +191,7 @@ impl Correlation {
         let n = components.len();
         let first = self.parameters.first().map_or(0, |parameter| components_of(parameter).len());
         let is_pair = self.parameters.len() == 2;
-        // rows and columns of the components that the numbers are of
+        // rows and columns that the numbers are for
         let (rows, matrix) = match &self.numbers {
             Numbers::One(number) if n == 2 => (0..1, vec![vec![*number]]),
             Numbers::One(number) => {
@@ -281,7 +281,7 @@ impl Correlation {
         Ok(found)
     }
 
-    /// What each number is divided by to be a correlation; that the diagonal of a `square` matrix is right.
+    /// The divisor that makes each number a correlation, after a check of the diagonal of a `square` matrix.
     fn scales(
         &self,
         index: usize,
@@ -324,7 +324,7 @@ impl Correlation {
         Ok(scales)
     }
 
-    /// The correlation of the normal scores for the number `r` of two distributions; or what it must be, and the
+    /// The correlation of the normal scores of two distributions for the number `r`; or what it must be, and the
     /// remedy.
     fn score(&self, r: f64, a: &Distribution, b: &Distribution) -> Result<f64, (String, &'static str)> {
         if r.abs() > 1.0 + SAME {
@@ -344,7 +344,7 @@ impl Correlation {
     }
 }
 
-/// The components of a parameter, or the one that is meant.
+/// All components of a parameter, or one.
 pub(super) fn components_of((parameter, component): &(Parameter, Option<usize>)) -> Vec<(Parameter, usize)> {
     match component {
         Some(component) => vec![(*parameter, *component)],

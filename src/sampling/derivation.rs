@@ -1,6 +1,7 @@
-//! [`Derivation`]: a `[[derive]]` table as written, and its way to [`Derived`] columns.
+//! [`Derivation`]: a `[[derive]]` table as written; [`Derived`]: a column computed from others.
 
 use super::columns::Columns;
+use super::correlation::components_of;
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error_of};
 use super::expression::Expression;
 use crate::scene::parameter::Shape;
@@ -10,13 +11,13 @@ use crate::scene::{Parameter, SceneInput};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivation {
     pub parameter: Parameter,
-    /// The component that is meant, if not all are.
+    /// One component; `None` for all.
     pub component: Option<usize>,
     pub expression: String,
 }
 
 impl Derivation {
-    /// The numbers that the expression is made of.
+    /// The numbers in the expression.
     pub fn inputs(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
         let Ok(expression) = Expression::parse(&self.expression) else { return Vec::new() };
         let found = expression.variables().iter().filter_map(|name| Parameter::find(scene, name));
@@ -24,28 +25,27 @@ impl Derivation {
     }
 }
 
-/// A column that is computed from others.
+/// A column computed from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
     pub column: usize,
     expression: Expression,
-    /// What each variable of the expression is.
+    /// The source of each variable of the expression.
     sources: Vec<DerivedInput>,
     pub text: String,
 }
 
-/// Where a variable's value comes from.
+/// The source of a variable's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DerivedInput {
-    /// A column of the draw.
     Column(usize),
-    /// A value that is the same in every sample.
+    /// The same in every sample.
     Nominal(f64),
 }
 
 impl Derived {
     /// The value, where `column` gives the values of other columns.
-    #[inline]
+    /// The value, given the values of other columns.
     pub fn value(&self, column: impl Fn(usize) -> f64) -> f64 {
         self.expression.value(|index| match self.sources[index] {
             DerivedInput::Column(index) => column(index),
@@ -54,12 +54,11 @@ impl Derived {
     }
 }
 
-/// How far the value of an expression at the nominal scene may be from the nominal value, relative to the larger of the
-/// two.
+/// Allowed relative difference between the expression at the nominal scene and the nominal value.
 const NOMINAL_SLACK: f64 = 1e-9;
 
-/// The columns of `list`, added to `columns`, in an order in which each comes after what it is made of; and what is
-/// wrong. `is_drawn` tells whether a component has a distribution.
+/// The columns of `list`, added to `columns`, each after its sources; and the errors. `is_drawn` tells whether a
+/// component has a distribution.
 pub(super) fn derived(
     list: &[Derivation],
     columns: &mut Columns,
@@ -68,14 +67,11 @@ pub(super) fn derived(
 ) -> (Vec<Derived>, Vec<DispersionError>) {
     let mut found = Vec::new();
     let mut errors = Vec::new();
-    // what is to be computed: index of the table, parameter and component, expression
+    // index of the table, parameter and component, expression
     let mut open: Vec<(usize, (Parameter, usize), Expression, &str)> = Vec::new();
     for (index, derivation) in list.iter().enumerate() {
         let parameter = derivation.parameter;
-        let components: Vec<usize> = match derivation.component {
-            Some(component) => vec![component],
-            None => (0..parameter.width()).collect(),
-        };
+        let components = components_of(&(parameter, derivation.component));
         let mut refuse = |key, value: String, allowed: String, remedy: &str| {
             errors.push(error_of(Table::Derive(index), key, value, allowed, remedy));
         };
@@ -87,7 +83,7 @@ pub(super) fn derived(
                 continue;
             }
         };
-        for component in components {
+        for (_, component) in components {
             let shown = format!("{:?}", parameter.component_name(component));
             let is_taken = is_drawn(columns, (parameter, component))
                 || open.iter().any(|(_, target, ..)| *target == (parameter, component));
@@ -110,7 +106,7 @@ pub(super) fn derived(
             break;
         }
     }
-    // variables as parameters; what is wrong with them
+    // errors of variables
     open.retain(|(index, _, expression, _)| {
         let wrong = expression.variables().iter().find_map(|name| variable(name, nominal).err().map(|why| (name, why)));
         if let Some((name, (allowed, remedy))) = &wrong {
@@ -170,7 +166,7 @@ pub(super) fn derived(
     (found, errors)
 }
 
-/// The parameter that a name in an expression means, and its nominal value; or what it must be and the remedy.
+/// The parameter behind a name in an expression, and its nominal value; or what it must be and the remedy.
 fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64), (String, String)> {
     let Some((parameter, component)) = Parameter::find(nominal, name) else {
         let allowed = "a numeric key of scene or initial state, one component of it".to_owned();

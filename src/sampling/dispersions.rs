@@ -1,4 +1,4 @@
-//! [`Dispersions`]: every dispersion of a campaign, checked against the nominal scene and ready to be drawn by a
+//! [`Dispersions`]: the dispersions of a campaign, checked against the nominal scene and ready for a
 //! [`super::Sampler`].
 
 use super::columns::{Column, Columns};
@@ -15,19 +15,19 @@ use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
 
-/// What a campaign says about one parameter.
+/// A `[[disperse]]` table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersion {
-    /// The parameter; the first one of a distribution that names its parameters itself.
+    /// The parameter; the first one of a distribution that names its parameters.
     pub parameter: Parameter,
-    /// The component that is meant, if not all are.
+    /// One component; `None` for all.
     pub component: Option<usize>,
-    /// The distribution of its components: of each alone, or of all together.
+    /// The distribution of each component, or of all together.
     pub distribution: WrittenDistribution,
 }
 
 impl Dispersion {
-    /// The components that it writes.
+    /// The components that it disperses.
     pub fn components(&self) -> Vec<(Parameter, usize)> {
         match self.distribution.written.columns() {
             [] => components_of(&(self.parameter, self.component)),
@@ -36,21 +36,20 @@ impl Dispersion {
     }
 }
 
-/// What is to be drawn, as written.
+/// The draws of a campaign, as written.
 #[derive(Clone, Copy, Debug)]
 pub struct Draws<'a> {
     pub seed: u64,
-    /// Number of samples, sample 0 included; `None` where the file does not say.
+    /// Number of samples in the file, sample 0 included.
     pub samples: Option<u64>,
-    /// Where the samples are in the unit cube.
     pub design: &'a Design,
     pub disperse: &'a [Dispersion],
     pub correlate: &'a [Correlation],
-    /// Parameters that follow from others.
+    /// Parameters computed from others.
     pub derive: &'a [Derivation],
 }
 
-/// Every dispersion of a campaign, ready to be drawn.
+/// The dispersions of a campaign, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersions {
     seed: u64,
@@ -60,7 +59,7 @@ pub struct Dispersions {
     pub(super) assigned: Vec<Assigned>,
     /// The name of each dimension.
     pub(super) dimensions: Vec<String>,
-    /// Columns whose values are in a file, and these values.
+    /// Columns with values from a file.
     pub(super) tabled: Vec<(usize, Arc<[f64]>)>,
     pub(super) copulas: Vec<Copula>,
     replaced: Vec<Replaced>,
@@ -71,7 +70,7 @@ impl Dispersions {
     /// Checks `draws` against the `nominal` scene; all errors at once.
     ///
     /// # Errors
-    /// Everything that is wrong with `draws`.
+    /// All that is wrong with `draws`.
     pub fn new(draws: Draws<'_>, nominal: &SceneInput) -> Result<Self, Vec<DispersionError>> {
         let mut these = Dispersions {
             seed: draws.seed,
@@ -92,7 +91,7 @@ impl Dispersions {
         for column in draws.design.columns() {
             errors.extend(these.add_tabled(column, nominal).err());
         }
-        // the rest says nothing new where distributions are missing
+        // without all distributions the rest gives follow-up errors
         if errors.is_empty() {
             let scalar = |component| match these.distribution_at(component) {
                 Some(Assigned { first, map: Transform::Scalar(distribution), .. })
@@ -123,32 +122,30 @@ impl Dispersions {
         self.columns.list()
     }
 
-    /// Number of samples, sample 0 included: the file's, or that of a design with a size of its own.
+    /// Number of samples, sample 0 included: from the file, or the size of the design.
     pub fn samples(&self) -> u64 {
         self.samples
     }
 
-    /// Where the samples are in the unit cube.
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// The distribution that writes a column, if one does: a component of a quaternion may only change with the others.
+    /// The distribution of a column; a component of a quaternion may only follow the others.
     pub fn distribution_of(&self, column: usize) -> Option<&Transform> {
         self.assigned_to(column).map(|assigned| &assigned.map)
     }
 
-    /// The same with all columns that the distribution writes.
+    /// The distribution of a column with all columns that it writes.
     pub fn assigned_to(&self, column: usize) -> Option<&Assigned> {
         self.assigned.iter().find(|assigned| assigned.columns.contains(&column))
     }
 
-    /// All distributions, with the numbers that they take and the columns that they write.
     pub fn assigned(&self) -> &[Assigned] {
         &self.assigned
     }
 
-    /// The distribution of a column that is one random number of its own, as it is drawn.
+    /// The distribution of a column with one random number.
     pub fn scalar_of(&self, column: usize) -> Option<&Distribution> {
         match self.distribution_of(column) {
             Some(Transform::Scalar(distribution)) if distribution.dimensions() == 1 => Some(distribution),
@@ -156,12 +153,12 @@ impl Dispersions {
         }
     }
 
-    /// The expression that a column follows, if it does.
+    /// The expression of a derived column.
     pub fn expression_of(&self, column: usize) -> Option<&str> {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())
     }
 
-    /// The correlation matrices that were replaced by the nearest that exist.
+    /// The correlation matrices replaced by the nearest that exist.
     pub fn replaced_correlations(&self) -> &[Replaced] {
         &self.replaced
     }
@@ -176,8 +173,7 @@ impl Dispersions {
         &self.dimensions
     }
 
-    /// The distribution of each dimension: dimensions of one distribution have one number, counted from zero without
-    /// gaps.
+    /// The distribution of each dimension, numbered from zero without gaps.
     pub fn factors(&self) -> Vec<usize> {
         let random = self.assigned.iter().map(|assigned| assigned.map.dimensions()).filter(|count| *count > 0);
         random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()
@@ -195,7 +191,7 @@ impl Dispersions {
         assigned_to(&self.assigned, &self.columns, component)
     }
 
-    /// A parameter that is a column of the design's file.
+    /// Adds a parameter in a column of the design's file.
     fn add_tabled(&mut self, data: &DataColumn, nominal: &SceneInput) -> Result<(), DispersionError> {
         let refused = |allowed: &str, remedy: &str| {
             Err(error_of(Table::Design, "parameters", format!("{:?}", data.target_name()), allowed, remedy))
@@ -251,7 +247,7 @@ impl Dispersions {
         Ok(())
     }
 
-    /// The column of a component; a quaternion is normalised as a whole, and all of it is recorded.
+    /// The column of a component; quaternions are normalised, and so recorded, as a whole.
     fn add_column(&mut self, (parameter, component): (Parameter, usize), nominal: &SceneInput) -> usize {
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
@@ -261,7 +257,7 @@ impl Dispersions {
         self.columns.add(parameter, component, nominal)
     }
 
-    /// That the components exist and no distribution writes them yet.
+    /// Checks that the components exist and have no distribution yet.
     fn check_components(
         &self,
         index: usize,
@@ -291,23 +287,24 @@ impl Dispersions {
     }
 }
 
-/// The one of `assigned` that writes a component.
+/// The distribution among `assigned` that writes a component.
 fn assigned_to<'a>(assigned: &'a [Assigned], columns: &Columns, component: (Parameter, usize)) -> Option<&'a Assigned> {
     let column = columns.find(component)?;
     assigned.iter().find(|assigned| assigned.columns.contains(&column))
 }
 
-/// The number of samples, where it fits the design.
+/// The number of samples, checked against the design.
 fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -> Result<u64, DispersionError> {
     let (name, count) = (design.name(), drawn.dimensions.len());
     let refused =
         |table, key, value: String, allowed: String, remedy: &str| Err(error_of(table, key, value, allowed, remedy));
-    if count > design.max_dimensions() {
-        let allowed = format!("a design for {count} random dimensions; this one has {}", design.max_dimensions());
+    let facts = design.facts();
+    if count > facts.max_dimensions {
+        let allowed = format!("a design for {count} random dimensions; this one has {}", facts.max_dimensions);
         let remedy = "disperse fewer numbers, or use random or latin_hypercube";
         return refused(Table::Design, "kind", format!("{name:?}"), allowed, remedy);
     }
-    if let (Some([allowed, remedy]), false) = (design.excludes_correlation(), drawn.copulas.is_empty()) {
+    if let (Some([allowed, remedy]), false) = (facts.excludes_correlation, drawn.copulas.is_empty()) {
         return refused(Table::Design, "kind", format!("{name:?}"), allowed.to_owned(), remedy);
     }
     let factors = drawn.factors();
@@ -320,7 +317,7 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
             let allowed = format!("a design of at most {MAX_SAMPLES} samples");
             refused(Table::Design, "kind", format!("{name:?}"), allowed, "write fewer levels")
         }
-        // where none is written and none follows, the file is at fault, and its reader says so
+        // a file without a number that needs one is refused by its reader
         (None, Size::Any) => Ok(1),
         (Some(samples), Size::Points(points)) if samples - 1 > points => {
             let allowed =

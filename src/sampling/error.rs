@@ -1,6 +1,6 @@
-//! [`DispersionError`]: why a campaign's dispersions cannot be drawn.
+//! [`DispersionError`]: the reason why a campaign's dispersions cannot be drawn.
 
-/// Which table of a campaign file an error is about.
+/// A table of a campaign file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Table {
     /// A `[[disperse]]` table, counted from zero.
@@ -27,24 +27,24 @@ impl std::fmt::Display for Table {
     }
 }
 
-/// Why a campaign's dispersions cannot be drawn.
+/// A key that keeps a campaign from being drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{table}.{key}{}: must be {allowed}; {remedy}", .value.as_ref().map_or(" is missing".to_owned(),
     |value| format!(" = {value}")))]
 pub struct DispersionError {
     pub table: Table,
-    /// Its key that is wrong: `parameter`, `std`, ...
+    /// The wrong key: `parameter`, `std`, ...
     pub key: &'static str,
-    /// What it is; `None` where the key is missing.
+    /// Its value; `None` if the key is missing.
     pub value: Option<String>,
-    /// What it must be (to follow the words `must be`).
+    /// Allowed values (to follow the words `must be`).
     pub allowed: String,
     pub remedy: String,
 }
 
-/// What a key must be that is drawn.
+/// The condition on a drawn key.
 pub const HAS_KEY: &str = "a key that the scene has";
-/// What to do where it is none.
+/// The remedy for a key that the scene does not have.
 pub const GIVE_KEY: &str =
     "give it a nominal value in its table (of debris: add a [debris] table), or disperse another key";
 

@@ -1,19 +1,17 @@
 //! Layer 2: random draws. Streams, designs, distributions, dispersions; a draw is a pure function of (seed, sample,
 //! parameter).
 //!
-//! A draw is made in five steps, each in a module of its own:
-//! 1. [`design`]: for each sample and each random dimension a number u in (0, 1); the random design takes them from
-//!    [`stream`];
+//! A draw takes five steps:
+//! 1. [`design`]: u in (0, 1) for each sample and random dimension, for the random design from [`stream`];
 //! 2. [`copula`]: dependence between the u of several dimensions;
-//! 3. [`distribution`]: from u to values, one quantile function each, for one number; one map each, for directions and
-//!    attitudes;
-//! 4. [`expression`]: values that follow from others;
-//! 5. [`dispersions`]: which distribution writes what ([`mod@transform`]), checked against the nominal scene;
-//!    [`sampler`]: values into the scene, and what was applied out of it.
+//! 3. [`distribution`]: from u to values;
+//! 4. [`expression`]: values derived from others;
+//! 5. [`dispersions`]: distributions assigned to columns ([`mod@transform`]) and checked against the nominal scene;
+//!    [`sampler`]: values written into the scene, and read back as applied.
 //!
-//! [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables as written; [`rank`]: rank correlations;
-//! [`columns`]: the numbers that a draw writes. [`keys`]: the keys of distributions and designs, as data; [`error`]:
-//! why something cannot be drawn.
+//! - [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables; [`rank`]: rank correlations;
+//! - [`columns`]: the numbers that a draw writes;
+//! - [`keys`]: the keys of distributions and designs; [`error`]: why something cannot be drawn.
 
 pub mod columns;
 pub mod copula;

@@ -1,13 +1,12 @@
-//! Spearman's rank correlation of two numbers whose normal scores have the correlation r, and the r that gives a rank
+//! Spearman's rank correlation of two numbers with normal scores of correlation r, and the r for a given rank
 //! correlation.
 //!
-//! The rank of a value in a large sample is its grade G: the probability of smaller values and half of that of the
-//! value itself. Of two continuous distributions the grades are the u of the copula, and r = 2 sin(pi rho/6)
-//! ([`score_correlation`]). The grade of a discrete distribution is a step function of the score; with steps d_i at
-//! scores a_i, e_j at b_j and the bivariate normal density phi_2, dE[G H]/dr = sum d_i e_j phi_2(a_i, b_j; r) (R. L.
-//! Plackett, *Biometrika* 41 (1954) 351), integrated here from 0 to r over theta = asin r (Z. Drezner & G. O.
-//! Wesolowsky, *J. Stat. Comput. Simul.* 35 (1990) 101). A discrete distribution reaches less than rank correlation 1
-//! unless both have the same steps.
+//! In a large sample the rank of a value is its grade G: the probability of smaller values and half of its own. Grades
+//! of continuous distributions are the u of the copula, and r = 2 sin(pi rho/6) ([`score_correlation`]). The grade of a
+//! discrete distribution is a step function of the score; with steps d_i at scores a_i, e_j at b_j and the bivariate
+//! normal density phi_2, dE[G H]/dr = sum d_i e_j phi_2(a_i, b_j; r) (R. L. Plackett, *Biometrika* 41 (1954) 351),
+//! integrated from 0 to r over theta = asin r (Z. Drezner & G. O. Wesolowsky, *J. Stat. Comput. Simul.* 35 (1990) 101).
+//! Discrete distributions reach rank correlation 1 only with the same steps.
 
 use super::copula::score_correlation;
 use super::distribution::{Distribution, Quantile};
@@ -17,20 +16,19 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 /// The grade of a value as a function of its normal score.
 #[derive(Clone, Debug, PartialEq)]
 enum Grades {
-    /// That of a continuous distribution: the normal probability.
+    /// The normal probability.
     Continuous,
     /// Steps: probability below each, score, height.
     Steps(Vec<[f64; 3]>),
 }
 
-/// Discrete values that are less probable than this are joined with their neighbours: the rank correlation changes by
-/// about its square.
+/// Less probable discrete values are joined with their neighbours: the rank correlation changes by about its square.
 const FINEST: f64 = 1.0 / 64.0;
 /// Intervals of Simpson's rule: errors below 1e-7 where the steps are apart by more than 0.01.
 const INTERVALS: u32 = 128;
-/// Most steps of regula falsi; it converges in ten.
+/// Most steps of regula falsi (ten are usual).
 const MOST_STEPS: u32 = 60;
-/// How near the rank correlation found is to the one asked.
+/// Tolerance of the rank correlation.
 const NEAR: f64 = 1e-9;
 
 impl Grades {
@@ -38,7 +36,7 @@ impl Grades {
         let Some(cumulative) = distribution.steps() else { return Grades::Continuous };
         let (mut kept, mut last) = (Vec::new(), 0.0);
         for (index, p) in cumulative.iter().enumerate() {
-            // a value is kept apart where it, or the next one, is probable enough
+            // a value is kept if it, or the next one, is probable enough
             let next = cumulative.get(index + 1).copied().unwrap_or(1.0);
             if p - last >= FINEST || next - p >= FINEST {
                 kept.push(*p);
@@ -122,8 +120,8 @@ fn covariance(a: &Grades, b: &Grades, theta: f64) -> f64 {
     (0..=INTERVALS).map(term).sum::<f64>() * width / 3.0
 }
 
-/// The correlation of the normal scores with which `a` and `b` have the rank correlation `rank`; or, where they cannot
-/// have it, the lowest and the highest that they can have.
+/// The correlation of the normal scores that gives `a` and `b` the rank correlation `rank`; or the lowest and the
+/// highest rank correlation that they can have.
 pub(super) fn scores_of_ranks(rank: f64, a: &Distribution, b: &Distribution) -> Result<f64, [f64; 2]> {
     let (a, b) = (Grades::of(a), Grades::of(b));
     if a == Grades::Continuous && b == Grades::Continuous {
@@ -182,17 +180,6 @@ mod tests {
         covariance(&a, &b, libm::asin(r)) / (a.deviation() * b.deviation())
     }
 
-    /// Two values at even chances: E[G H] by the orthant probability 1/4 + asin(r)/(2 pi) (W. F. Sheppard 1899), so
-    /// rho = 2 asin(r)/pi.
-    #[test]
-    fn even_chances_have_the_orthant_probability() {
-        let coin = choice(&[1.0, 1.0]);
-        for r in [-0.95, -0.3, 0.1, 0.5, 0.99] {
-            // some roundings; measured: 3.3e-16
-            assert!((rank(&coin, &coin, r) - 2.0 * libm::asin(r) / PI).abs() < 3e-15, "{r}");
-        }
-    }
-
     /// Known: the density of Plackett integrated in closed form for continuous distributions, and mpmath's bivariate
     /// normal probabilities (double integrals, 30 digits) for steps.
     #[test]
@@ -222,15 +209,6 @@ mod tests {
         // measured: no difference
         assert!((scores_of_ranks(high, &skewed, &coin).expect("the end") - 1.0).abs() < 1e-12);
         assert_eq!(scores_of_ranks(1.0, &coin, &coin), Ok(1.0));
-    }
-
-    /// Many values are like a continuous distribution.
-    #[test]
-    fn a_thousand_values_are_nearly_continuous() {
-        let many = choice(&[1.0; 1000]);
-        let r = scores_of_ranks(0.6, &many, &many).expect("within reach");
-        // ties of a thousandth of the values; measured: 2.7e-4
-        assert!((r - score_correlation(0.6)).abs() < 1e-3, "{r}");
     }
 
     /// Weights of one, of the other (none: a normal distribution), r, rank correlation.

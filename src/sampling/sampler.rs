@@ -1,7 +1,7 @@
-//! [`Sampler`]: draws samples of [`Dispersions`] into scenes, eight consecutive ones at a time.
+//! [`Sampler`]: draws samples of [`Dispersions`] into scenes, in blocks of eight.
 //!
-//! What is recorded is what was applied: values are written into the scene, made valid as a whole (a quaternion is
-//! renormalised) and read back. A draw that is physically impossible is not drawn again: the scene refuses it later.
+//! Recorded values are applied values: written into the scene, made valid as a whole (a quaternion is renormalised) and
+//! read back. A physically impossible draw is not repeated: the scene refuses it later.
 
 use super::columns::Column;
 use super::design::{BLOCK, PointSource, Points};
@@ -13,27 +13,27 @@ use super::transform::{Assigned, Transform};
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
-/// Draws samples; owned by one worker. What it keeps only makes neighbours cheap: a draw depends on the sample alone.
+/// Draws samples, for one worker. State only makes neighbours cheap: a draw depends on the sample alone.
 #[derive(Debug)]
 pub struct Sampler<'a> {
     dispersions: &'a Dispersions,
     points: Points,
-    /// The block whose draws are in `values`.
+    /// The block in `values`.
     block: Option<u64>,
     /// Numbers u of the block, dimension by dimension.
     u: Vec<[f64; BLOCK]>,
-    /// Which of these keep their nominal values; only in a design of one at a time.
+    /// Dimensions at their nominal values; only in a design of one at a time.
     nominal: Vec<[bool; BLOCK]>,
-    /// Normal scores of the block, dimension by dimension; those of dimensions that no copula has mean nothing.
+    /// Normal scores of the block; arbitrary for dimensions without a copula.
     scores: Vec<[f64; BLOCK]>,
     correlated: Vec<bool>,
     /// Values of the block, column by column.
     values: Vec<[f64; BLOCK]>,
-    /// The values of one draw of a distribution of several numbers.
+    /// One draw of a joint distribution.
     together: Vec<f64>,
-    /// Parameters that are normalised as a whole once they are written.
+    /// Parameters that are normalised as a whole.
     normalised: Vec<Parameter>,
-    /// Those of them that a file gives as a whole: recorded values keep their bits.
+    /// Parameters among them that a file gives as a whole: recorded values keep their bits.
     recorded: Vec<Parameter>,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Sampler<'a> {
             nominal: vec![[false; BLOCK]; dispersions.dimensions.len()],
             scores: vec![[0.0; BLOCK]; dispersions.dimensions.len()],
             correlated: correlated(dispersions),
-            // columns that no distribution writes keep their nominal
+            // columns without a distribution keep their nominal value
             values: dispersions.columns().iter().map(|column| [column.nominal; BLOCK]).collect(),
             together: vec![0.0; most_together(dispersions)],
             normalised: normalised(dispersions),
@@ -62,11 +62,11 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Writes every dispersed number of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and
-    /// what was applied into `applied`, one number a column. Sample 0 is nominal.
+    /// Writes the dispersed numbers of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and the
+    /// applied values into `applied`, one a column. Sample 0 is nominal.
     ///
     /// # Panics
-    /// Where `applied` is not as long as [`Dispersions::columns`].
+    /// If `applied` is not as long as [`Dispersions::columns`].
     pub fn draw(&mut self, sample: SampleId, scene: &mut SceneInput, applied: &mut [f64]) {
         let columns = self.dispersions.columns();
         assert_eq!(applied.len(), columns.len(), "one applied value a column");
@@ -95,7 +95,7 @@ impl<'a> Sampler<'a> {
         self.read_back(scene, applied);
     }
 
-    /// Records the parameters that were normalised as a whole as they are in `scene`.
+    /// Records parameters that were normalised as they are in `scene`.
     fn read_back(&self, scene: &SceneInput, applied: &mut [f64]) {
         for parameter in &self.normalised {
             let columns = self.dispersions.columns().iter();
@@ -108,7 +108,7 @@ impl<'a> Sampler<'a> {
     /// Draws the samples of `block`.
     fn fill(&mut self, block: u64) {
         self.points.fill(block, &mut self.u);
-        let some_stay = self.dispersions.design().leaves_nominal();
+        let some_stay = self.dispersions.design().facts().leaves_nominal;
         if some_stay {
             self.note_nominals();
         }
@@ -137,7 +137,7 @@ impl<'a> Sampler<'a> {
         for (column, rows) in &self.dispersions.tabled {
             for (lane, value) in self.values[*column].iter_mut().enumerate() {
                 let row = (block * BLOCK as u64 + lane as u64).checked_sub(1).and_then(|row| usize::try_from(row).ok());
-                // beyond the last row there is no sample: the scene refuses what is not a number
+                // no sample exists beyond the last row: the scene refuses NaN
                 *value = row.and_then(|row| rows.get(row).copied()).unwrap_or(f64::NAN);
             }
         }
@@ -164,8 +164,8 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Notes where a dimension keeps its nominal value, and puts the median there: while one dimension of a
-    /// distribution of several varies, the others are at their median.
+    /// Notes dimensions at their nominal value and puts the median there: while one dimension of a joint distribution
+    /// varies, the others are at their median.
     fn note_nominals(&mut self) {
         for (u, nominal) in self.u.iter_mut().zip(&mut self.nominal) {
             for (u, nominal) in u.iter_mut().zip(nominal) {
@@ -177,7 +177,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Gives the columns of each distribution none of whose dimensions varies their nominal values.
+    /// Gives columns nominal values if no dimension of their distribution varies.
     fn keep_nominals(&mut self) {
         for assigned in self.dispersions.assigned.iter().filter(|assigned| assigned.map.dimensions() > 0) {
             let dimensions = assigned.first..assigned.first + assigned.map.dimensions();
@@ -192,7 +192,7 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Which dimensions a copula has.
+/// Whether each dimension is in a copula.
 fn correlated(dispersions: &Dispersions) -> Vec<bool> {
     let mut correlated = vec![false; dispersions.dimensions.len()];
     dispersions
@@ -208,7 +208,7 @@ fn most_together(dispersions: &Dispersions) -> usize {
     dispersions.assigned.iter().map(|assigned| assigned.columns.len()).max().unwrap_or(0)
 }
 
-/// The quaternions all of whose numbers are in a file.
+/// The quaternions that a file gives as a whole.
 fn recorded(dispersions: &Dispersions) -> Vec<Parameter> {
     let is_row = |column| matches!(dispersions.distribution_of(column), Some(Transform::Joint(Joint::Bootstrap(_))));
     let tabled = dispersions.columns().iter().enumerate();

@@ -1,20 +1,20 @@
-//! [`Transform`]: from numbers u in (0, 1) to values; [`Assigned`]: which u it takes, and which columns it writes.
+//! [`Transform`]: from u in (0, 1) to values; [`Assigned`]: the u that it takes and the columns that it writes.
 
 use super::distribution::{Distribution, Joint, Map, NumberWords, Quantile};
 
-/// A distribution with the numbers u that it takes, and the columns that it writes.
+/// A distribution with the u that it takes and the columns that it writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assigned {
-    /// The index of the `[[disperse]]` table that it is from.
+    /// The index of its `[[disperse]]` table.
     pub table: usize,
-    /// Its first dimension; it takes as many as its distribution needs, one after the other.
+    /// Its first dimension; further ones follow.
     pub first: usize,
-    /// The columns that it writes, in the order of the distribution's values.
+    /// Its columns, in the order of the distribution's values.
     pub columns: Vec<usize>,
     pub map: Transform,
 }
 
-/// From numbers u in (0, 1) to values.
+/// From u in (0, 1) to values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transform {
     /// One u, one value.
@@ -23,7 +23,7 @@ pub enum Transform {
 }
 
 impl Transform {
-    /// Number of u that it takes.
+    /// Number of u.
     pub fn dimensions(&self) -> usize {
         match self {
             Transform::Scalar(distribution) => distribution.dimensions(),
@@ -31,7 +31,7 @@ impl Transform {
         }
     }
 
-    /// In words; `words` writes its numbers.
+    /// In words.
     pub fn text(&self, words: NumberWords<'_>) -> String {
         match self {
             Transform::Scalar(distribution) => distribution.text(words),

@@ -7,6 +7,7 @@
 
 use crate::support::scenes::Uniform;
 use spindrift::math::normal;
+use spindrift::sampling::design::replicates::Sequence;
 use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial::{self, Decision};
 use spindrift::statistics::gate::{GateLimit, mean_gate};

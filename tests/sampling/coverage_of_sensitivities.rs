@@ -10,6 +10,7 @@
 //! runs, 1,000 of 1,000 and 300 of 8,000.
 
 use spindrift::math::normal::quantile;
+use spindrift::sampling::design::replicates::Sequence;
 use spindrift::sampling::design::saltelli::Saltelli;
 use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial;

@@ -232,7 +232,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     // what is used is said: in the plan, whose text reads back to it
     let [replaced] = repaired.dispersions.replaced_correlations() else { panic!("one matrix was replaced") };
     // half a unit of the last digit that the paper prints; measured: 0.76069
-    assert!((replaced.used[0][1] - 0.7607).abs() < 5e-5 && replaced.asked[0][1] == 1.0);
+    assert!((replaced.used[0][1] - 0.7607).abs() < 5e-5 && replaced.written[0][1] == 1.0);
     assert!(repaired.text().contains("# nearest correlation of the normal scores, which is used: [[1.0, 0.76"));
     assert_eq!(
         Plan::from_text("t.toml", &repaired.text(), Overrides::default()).expect("legal").hash(),

@@ -2,12 +2,7 @@
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::sampling::Design;
-use spindrift::sampling::design::halton::HaltonDesign;
-use spindrift::sampling::design::latin::LatinHypercubeDesign;
-use spindrift::sampling::design::random::RandomDesign;
 use spindrift::sampling::design::replicates::Replicates;
-use spindrift::sampling::design::saltelli::SaltelliDesign;
-use spindrift::sampling::design::sobol::SobolDesign;
 use spindrift::sampling::design::{Dimensions, PointSource, Points};
 use std::collections::BTreeMap;
 
@@ -226,10 +221,10 @@ fn sequences_integrate_smooth_functions_faster() {
         (slope(&errors), errors[3].1)
     };
     let [random, latin, sobol, halton] = [
-        Design::Random(RandomDesign),
-        Design::LatinHypercube(LatinHypercubeDesign(Replicates::ONE)),
-        Design::Sobol(SobolDesign(Replicates::ONE)),
-        Design::Halton(HaltonDesign(Replicates::ONE)),
+        Design::Random(()),
+        Design::LatinHypercube(Replicates::ONE),
+        Design::Sobol(Replicates::ONE),
+        Design::Halton(Replicates::ONE),
     ]
     .map(|design| fall(&design));
     println!("slope and rms error at 4096: random {random:?}, latin {latin:?}, sobol {sobol:?}, halton {halton:?}");
@@ -250,11 +245,11 @@ fn numbers_are_pinned() {
     let names: Vec<String> = ["initial.angular_velocity_rad_s.x", "fuselage.density_kg_m3"].map(str::to_owned).to_vec();
     let mut found = Vec::new();
     for design in [
-        Design::Random(RandomDesign),
-        Design::LatinHypercube(LatinHypercubeDesign(Replicates::ONE)),
-        Design::Sobol(SobolDesign(Replicates::ONE)),
-        Design::Halton(HaltonDesign(Replicates::ONE)),
-        Design::Saltelli(SaltelliDesign),
+        Design::Random(()),
+        Design::LatinHypercube(Replicates::ONE),
+        Design::Sobol(Replicates::ONE),
+        Design::Halton(Replicates::ONE),
+        Design::Saltelli(()),
     ] {
         let mut points =
             Points::new(&design, Dimensions { seed: 20260101, samples: 4097, names: &names, factors: &[0, 1] });

@@ -173,7 +173,7 @@ fn draws_follow_their_distributions() {
     assert!(distance(draws(&Distribution::Pert(PertQuantile::new(0.0, 1.0, 4.0))), pert) < CRITICAL);
 
     let rayleigh = |scale: f64| move |x: f64| 1.0 - (-0.5 * (x / scale).powi(2)).exp();
-    let values = draws(&Distribution::Rayleigh(RayleighQuantile::new(0.02)));
+    let values = draws(&Distribution::Rayleigh(RayleighQuantile { scale: 0.02 }));
     assert!(distance(values.iter().copied(), rayleigh(0.02)) < CRITICAL);
     assert!(distance(values.iter().copied(), rayleigh(0.0204)) > CRITICAL, "a scale off by 2% is found");
 
@@ -212,7 +212,7 @@ fn quantiles_rise() {
     let mut laws: Vec<Distribution> = vec![
         Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }),
         Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)),
-        Distribution::Rayleigh(RayleighQuantile::new(0.02)),
+        Distribution::Rayleigh(RayleighQuantile { scale: 0.02 }),
         Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 4.0, max: 4.0 }),
         Distribution::Choice(ChoiceQuantile::new(&[4.0, 1.0], &[0.25, 0.75])),
         Distribution::Empirical(EmpiricalQuantile::new(&[3.0, 1.0, 2.0], Interpolation::None)),

@@ -1,11 +1,7 @@
 //! Replicates of a design: each is a design of its kind, and independent of the others.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::sampling::design::halton::HaltonDesign;
-use spindrift::sampling::design::latin::LatinHypercubeDesign;
-use spindrift::sampling::design::random::RandomDesign;
 use spindrift::sampling::design::replicates::Replicates;
-use spindrift::sampling::design::sobol::SobolDesign;
 use spindrift::sampling::design::{BLOCK, Dimensions, PointSource, Points};
 use spindrift::sampling::{Design, SampleId};
 
@@ -18,11 +14,7 @@ fn names() -> Vec<String> {
 /// The designs with so many replicates.
 fn designs(replicates: u64) -> [Design; 3] {
     let replicates = Replicates::of(replicates).expect("a number of replicates");
-    [
-        Design::LatinHypercube(LatinHypercubeDesign(replicates)),
-        Design::Sobol(SobolDesign(replicates)),
-        Design::Halton(HaltonDesign(replicates)),
-    ]
+    [Design::LatinHypercube(replicates), Design::Sobol(replicates), Design::Halton(replicates)]
 }
 
 /// The numbers of the samples 1 ... `points`, sample by sample.
@@ -100,7 +92,7 @@ fn one_replicate_is_the_design() {
     for (one, many) in designs(1).into_iter().zip(designs(4)) {
         assert_eq!(one.replicates(), 1);
         assert_ne!(numbers(&one, 3, 64), numbers(&many, 3, 64));
-        if one.depends_on_samples().is_none() {
+        if one.facts().depends_on_samples.is_none() {
             assert_eq!(numbers(&many, 3, 64), numbers(&many, 3, 128)[..64]);
         }
     }
@@ -138,7 +130,7 @@ fn means_of_replicates_are_independent_and_vary_little() {
     const COUNT: u64 = 256;
     /// Quantile of the normal distribution at 1 - 0.5e-4.
     const ERRORS: f64 = 3.9;
-    let random = numbers(&Design::Random(RandomDesign), 3, 64 * COUNT);
+    let random = numbers(&Design::Random(()), 3, 64 * COUNT);
     let random: Vec<f64> = random
         .chunks_exact(64)
         .map(|points| points.iter().map(|p| p.iter().map(|x| 0.5 + x).product::<f64>()).sum::<f64>() / 64.0)

@@ -1,31 +1,27 @@
 //! `halton`: Halton's sequence (*Numer. Math.* 2 (1960) 84) with random digit permutations.
 //!
-//! The number of a point in the dimension of base b is its radical inverse, in which each digit is replaced by its
-//! image under a random permutation of 0..b, another for each digit (A. B. Owen, *A randomized Halton algorithm in R*
-//! (2017)). Without it neighbouring large bases are nearly proportional to each other; one random line a d + c for each
-//! digit, which is cheaper, leaves correlations of 0.5 between pairs in 12 dimensions with 256 points. Digits continue
-//! beyond those of the point, so that each number is uniform, down to about 2^-52.
+//! The number of a point in the dimension of base b is its radical inverse, each digit replaced by its image under an
+//! independent random permutation of 0..b (A. B. Owen, *A randomized Halton algorithm in R* (2017)). Unscrambled,
+//! neighbouring large bases are nearly proportional; a random line a d + c for each digit is cheaper, but leaves
+//! correlations of 0.5 between pairs in 12 dimensions with 256 points. Digits continue beyond those of the point, down
+//! to about 2^-52.
 
 use super::hash::{below, keyed};
-use super::replicates::{REPLICATES, Replicates, by_replicate};
+use super::replicates::Sequence;
 use super::sobol::MAX_DIMENSIONS;
-use super::traits::{BLOCK, Dimensions, Kind, PointSource};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Written};
 use crate::sampling::stream::key;
 
-/// Number of cells of the finest digit that is scrambled, at most: half a cell is still seen next to one.
+/// Most cells of the finest scrambled digit: half a cell still shows next to one.
 const FINEST: u64 = 1 << 52;
 
 #[derive(Clone, Debug)]
 struct Radix {
     base: u64,
-    /// The permutation of each digit, `base` numbers one after the other; the first digit is the point's lowest, the
-    /// fraction's highest. Bases are below 2^16 in all dimensions that there are.
+    /// The permutation of each digit, `base` images each, from the lowest digit of the point. Bases are below 2^16.
     permutations: Vec<u16>,
     /// The weight of each digit.
     weights: Vec<u64>,
-    /// What the images of zero of this digit and all after it add up to.
+    /// Sum of the images of zero of this digit and all after it.
     rests: Vec<u64>,
     cells: f64,
 }
@@ -36,16 +32,18 @@ pub struct Halton {
     dimensions: Vec<Radix>,
 }
 
-impl Halton {
-    /// The sequence for the dimensions `names`: bases by position (the primes in order), scrambling by seed and name.
-    pub fn new(seed: u64, names: &[String]) -> Self {
+impl Sequence for Halton {
+    const NAME: &'static str = "halton";
+    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
+
+    /// Bases are the primes in order.
+    fn new(seed: u64, names: &[String]) -> Self {
         let bases = primes(names.len());
         let dimensions = names.iter().zip(bases).map(|(name, base)| Radix::new(base, key(seed, name, *b"halton  ")));
         Halton { dimensions: dimensions.collect() }
     }
 
-    /// The number in (0, 1) of a point.
-    pub fn number(&self, dimension: usize, point: u64) -> f64 {
+    fn number(&self, dimension: usize, point: u64) -> f64 {
         self.dimensions[dimension].number(point)
     }
 }
@@ -114,69 +112,21 @@ fn primes(count: usize) -> Vec<u64> {
     primes
 }
 
-/// The parts of a period of three dimensions that have to be there, or their effects are bound: measured over
-/// interactions of two (`false_names`), a third is named as seldom as stated from a quarter on.
+/// Least part of a period of three dimensions that separates their effects: from a quarter on, a third input is named
+/// as seldom as stated (measured over interactions of two, `false_names`).
 const PARTS: u64 = 4;
 
-/// Three of the first `dimensions` dimensions, the last, whose leading digits do not go evenly through their
-/// combinations in so many points: these come back after as many points as the product of the three bases.
+/// The last three of `dimensions` dimensions, if the points do not cover the combinations of their leading digits
+/// evenly: these repeat after the product of the three bases.
 pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
     let last: [usize; 3] = core::array::from_fn(|back| dimensions.wrapping_sub(1 + back));
     let period: u64 = primes(dimensions).iter().rev().take(3).product();
     (dimensions > 2 && period > PARTS * points).then_some(last)
 }
 
-/// The points of all replicates.
-#[derive(Clone, Debug)]
-pub struct HaltonPoints(Vec<Halton>);
-
-impl PointSource for HaltonPoints {
-    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
-        by_replicate(&self.0, block, u, Halton::number);
-    }
-}
-
-/// Halton's sequence, scrambled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HaltonDesign(pub Replicates);
-
-impl Kind for HaltonDesign {
-    const NAME: &'static str = "halton";
-    const KEYS: &'static [Row] = &[REPLICATES];
-    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
-    type Points = HaltonPoints;
-
-    fn of(written: &Written) -> Self {
-        HaltonDesign(Replicates::of_written(written))
-    }
-
-    fn written(&self) -> Written {
-        self.0.written()
-    }
-
-    fn replicates(&self) -> u64 {
-        self.0.count()
-    }
-
-    fn check(&self, _dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-        self.0.check(samples)
-    }
-
-    fn points(&self, dimensions: Dimensions<'_>) -> HaltonPoints {
-        let replicates = self.0.names(dimensions.names);
-        HaltonPoints(replicates.iter().map(|names| Halton::new(dimensions.seed, names)).collect())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn bases_are_the_primes() {
-        assert_eq!(primes(10), [2, 3, 5, 7, 11, 13, 17, 19, 23, 29]);
-        assert_eq!(primes(512)[511], 3671);
-    }
 
     /// The largest correlation between two of the numbers of the first points.
     fn worst_correlation(number: impl Fn(usize, u64) -> f64, dimensions: usize, points: u64) -> f64 {
@@ -199,9 +149,8 @@ mod tests {
     }
 
     /// Law: the largest correlation over all pairs is what random permutations of another generator give (mean over 8
-    /// seeds; its standard deviation over seeds is at most 15% of it, 5% of the mean, so a quarter more is five
-    /// standard deviations). Power: random lines in place of permutations give 0.5 and 0.8 in 12 and 56 dimensions, two
-    /// to six times as much.
+    /// seeds, standard deviation at most 5%; a quarter more is five of them). Power: random lines in place of
+    /// permutations give 0.5 and 0.8 in 12 and 56 dimensions, two to six times as much.
     #[test]
     fn pairs_are_as_uncorrelated_as_random_permutations_make_them() {
         use rand::seq::SliceRandom;
@@ -226,18 +175,6 @@ mod tests {
             }
             println!("{dimensions} dimensions, {points} points: {ours:.3}, random permutations {theirs:.3}");
             assert!(ours < 1.25 * theirs, "{dimensions}: {ours} {theirs}");
-        }
-    }
-
-    #[test]
-    fn numbers_stay_inside_for_any_point() {
-        let names: Vec<String> = (0..512).map(|k| format!("d{k}")).collect();
-        let halton = Halton::new(1, &names);
-        for dimension in 0..512 {
-            for point in [0, 1, 12_345, 1 << 40, (1 << 53) - 1, u64::MAX] {
-                let u = halton.number(dimension, point);
-                assert!(u > 0.0 && u < 1.0, "{dimension} {point} {u}");
-            }
         }
     }
 }

@@ -1,16 +1,14 @@
 //! `latin_hypercube`: in each dimension one sample in each of n equal strata (M. D. McKay, R. J. Beckman & W. J.
 //! Conover, *Technometrics* 21 (1979) 239).
 //!
-//! The stratum of a sample follows from a keyed permutation of 0..n: a Feistel network over the next even number of
-//! bits, walked until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA 2002).
-//! So it takes no memory and any sample is found at once. Within its stratum the sample is where the random design
-//! would put it in the cube. n = samples - 1, since sample 0 is the nominal scene.
+//! The stratum of a sample is its image under a keyed permutation of 0..n: a Feistel network over the next even number
+//! of bits, walked until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA
+//! 2002), which takes no memory. Within its stratum a sample lies where the random design would put it in the cube. n =
+//! samples - 1, since sample 0 is the nominal scene.
 
 use super::hash::keyed;
 use super::replicates::{REPLICATES, Replicates};
-use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Written};
+use super::traits::{BLOCK, Dimensions, Facts, Kind, Options, PointSource, streams};
 use crate::sampling::stream::{Stream, key};
 
 /// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two
@@ -57,25 +55,13 @@ impl Permutation {
     }
 }
 
-/// The points of a Latin hypercube, or of several.
+/// The points of a Latin hypercube, or of replicates.
 #[derive(Debug)]
 pub struct LatinHypercube {
     strata: u64,
     /// The permutations of each dimension, one for each hypercube.
     permutations: Vec<Vec<Permutation>>,
     within: Vec<Stream>,
-}
-
-impl LatinHypercube {
-    /// `samples` samples with sample 0, for the dimensions `names`, in `replicates` hypercubes.
-    pub fn new(seed: u64, samples: u64, names: &[String], replicates: Replicates) -> Self {
-        let strata = (samples.saturating_sub(1) / replicates.count()).max(1);
-        let permutation = |name: &String| Permutation::new(strata, key(seed, name, *b"latin   "));
-        let scrambled = replicates.names(names);
-        let of_dimension = |dimension: usize| scrambled.iter().map(|names| permutation(&names[dimension])).collect();
-        let permutations = (0..names.len()).map(of_dimension).collect();
-        LatinHypercube { strata, permutations, within: streams(seed, names) }
-    }
 }
 
 impl PointSource for LatinHypercube {
@@ -96,41 +82,28 @@ impl PointSource for LatinHypercube {
     }
 }
 
-/// One sample in each of n equal strata of each dimension.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LatinHypercubeDesign(pub Replicates);
+impl Kind for LatinHypercube {
+    const FACTS: Facts = Facts {
+        depends_on_samples: Some([
+            "whose strata are 1/(samples - 1) wide",
+            "write samples in the file for a hypercube of that size, or use sobol, whose rows stay",
+        ]),
+        excludes_correlation: Some([
+            "a design for correlated parameters: with [[correlate]] only the first would stay stratified",
+            "delete [[correlate]], or use sobol",
+        ]),
+        ..Facts::new("latin_hypercube", &[REPLICATES], &[])
+    };
+    type Options = Replicates;
 
-impl Kind for LatinHypercubeDesign {
-    const NAME: &'static str = "latin_hypercube";
-    const KEYS: &'static [Row] = &[REPLICATES];
-    const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = Some([
-        "whose strata are 1/(samples - 1) wide",
-        "write samples in the file for a hypercube of that size, or use sobol, whose rows stay",
-    ]);
-    const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
-        "a design for correlated parameters: with [[correlate]] only the first would stay stratified",
-        "delete [[correlate]], or use sobol",
-    ]);
-    type Points = LatinHypercube;
-
-    fn of(written: &Written) -> Self {
-        LatinHypercubeDesign(Replicates::of_written(written))
-    }
-
-    fn written(&self) -> Written {
-        self.0.written()
-    }
-
-    fn replicates(&self) -> u64 {
-        self.0.count()
-    }
-
-    fn check(&self, _dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-        self.0.check(samples)
-    }
-
-    fn points(&self, dimensions: Dimensions<'_>) -> LatinHypercube {
-        LatinHypercube::new(dimensions.seed, dimensions.samples, dimensions.names, self.0)
+    fn points(replicates: &Replicates, dimensions: Dimensions<'_>) -> Self {
+        let Dimensions { seed, samples, names, .. } = dimensions;
+        let strata = (samples.saturating_sub(1) / replicates.replicates()).max(1);
+        let permutation = |name: &String| Permutation::new(strata, key(seed, name, *b"latin   "));
+        let scrambled = replicates.names(names);
+        let of_dimension = |dimension: usize| scrambled.iter().map(|names| permutation(&names[dimension])).collect();
+        let permutations = (0..names.len()).map(of_dimension).collect();
+        LatinHypercube { strata, permutations, within: streams(seed, names) }
     }
 }
 
@@ -160,30 +133,5 @@ mod tests {
         assert_eq!(counts.len(), 120);
         let chi: f64 = counts.values().map(|count| (f64::from(*count) - 200.0).powi(2) / 200.0).sum();
         assert!(chi < 172.4, "{chi}");
-    }
-
-    #[test]
-    fn each_stratum_holds_one_sample() {
-        let names: Vec<String> = ["a", "b", "c"].map(str::to_owned).to_vec();
-        for samples in [2, 9, 101, 4097] {
-            let (strata, mut points) = (samples - 1, LatinHypercube::new(5, samples, &names, Replicates::ONE));
-            let mut counts = vec![vec![0; strata as usize]; names.len()];
-            let mut u = vec![[0.0; BLOCK]; names.len()];
-            for block in 0..=samples / 8 {
-                points.fill(block, &mut u);
-                for lane in 0..BLOCK as u64 {
-                    let sample = block * 8 + lane;
-                    if sample >= 1 && sample < samples {
-                        for (counts, u) in counts.iter_mut().zip(&u) {
-                            counts[(u[lane as usize] * strata as f64) as usize] += 1;
-                        }
-                    }
-                }
-            }
-            for (name, counts) in names.iter().zip(&counts) {
-                let other = counts.iter().position(|count| *count != 1);
-                assert_eq!(other, None, "a stratum of {name} without exactly one of {samples} samples: {counts:?}");
-            }
-        }
     }
 }

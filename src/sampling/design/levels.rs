@@ -1,12 +1,11 @@
-//! [`Levels`]: the levels of a grid and of a design of one at a time.
+//! [`Levels`]: the levels of the designs `grid` and `one_at_a_time`.
 //!
-//! A level is a u: with n levels the middles of n equally likely intervals, (i + 1/2)/n, or the quantiles that the file
-//! lists. Levels are computed where they are needed, not stored: a file may ask for any number of them.
+//! A level is a value of u: the midpoints of n equally likely intervals, (i + 1/2)/n, or the listed quantiles. Levels
+//! are computed on demand, so their number costs no memory.
 
+use super::traits::{MAX_SAMPLES, Options};
 use crate::sampling::error::{DispersionError, Table, error_of};
 use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values, Written};
-
-use super::traits::MAX_SAMPLES;
 
 pub const LEVELS: [Row; 2] = [
     Row::new(
@@ -21,20 +20,19 @@ pub const LEVELS: [Row; 2] = [
     ),
 ];
 
-/// One of them is written.
 pub const ONE_OF_LEVELS: Rule = Rule::One(&[&["levels"], &["quantiles"]], "5", ALL_BUT_ONE);
 
 /// The levels of each dimension, as written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
-    /// So many in each (`levels = 5`, or `levels = [5, 3]` in the order of the file).
+    /// Their number (`levels = 5`, or `levels = [5, 3]` in the order of the file).
     Counts(Counts),
-    /// These quantiles of each (`quantiles = [0.05, 0.5, 0.95]`).
+    /// The same quantiles in each dimension (`quantiles = [0.05, 0.5, 0.95]`).
     Quantiles(Vec<f64>),
 }
 
 impl Levels {
-    /// Number of levels of a dimension; one, the median, where the list is too short.
+    /// Number of levels of a dimension; one, the median, if the list is too short.
     pub fn count(&self, dimension: usize) -> u64 {
         match self {
             Levels::Counts(Counts::All(count)) => *count,
@@ -51,16 +49,22 @@ impl Levels {
         }
     }
 
-    /// The levels that a file says.
-    pub(super) fn of(written: &Written) -> Self {
+    /// The running product or sum of the numbers of levels before each dimension.
+    pub(super) fn running(&self, dimensions: usize, first: u64, next: fn(u64, u64) -> u64) -> Vec<u64> {
+        let counts = (0..dimensions).map(|dimension| self.count(dimension));
+        counts.scan(first, |sum, count| Some(std::mem::replace(sum, next(*sum, count)))).collect()
+    }
+}
+
+impl Options for Levels {
+    fn read(written: &Written) -> Self {
         match written.get("levels") {
             Some(Value::Counts(counts)) => Levels::Counts(counts.clone()),
             _ => Levels::Quantiles(written.numbers("quantiles").unwrap_or_default().to_vec()),
         }
     }
 
-    /// What a file says of them.
-    pub(super) fn written(&self) -> Written {
+    fn written(&self) -> Written {
         let (key, value) = match self {
             Levels::Counts(counts) => ("levels", Value::Counts(counts.clone())),
             Levels::Quantiles(list) => ("quantiles", Value::Numbers(Values::Each(list.clone()))),
@@ -68,15 +72,15 @@ impl Levels {
         Written::default().with(key, value)
     }
 
-    /// That there is one number of levels for each dimension, where they are listed.
-    pub(super) fn check(&self, dimensions: usize) -> Result<(), DispersionError> {
-        if let Levels::Counts(Counts::Each(list)) = self
-            && list.len() != dimensions
-        {
-            let allowed = format!("one number, or {dimensions} in an array, as many as random dimensions");
-            let remedy = "write them in the order of the file's [[disperse]] tables";
-            return Err(error_of(Table::Design, "levels", format!("{list:?}"), allowed, remedy));
+    /// A list has one number of levels for each dimension.
+    fn check(&self, dimensions: usize, _samples: Option<u64>) -> Result<(), DispersionError> {
+        match self {
+            Levels::Counts(Counts::Each(list)) if list.len() != dimensions => {
+                let allowed = format!("one number, or {dimensions} in an array, as many as random dimensions");
+                let remedy = "write them in the order of the file's [[disperse]] tables";
+                Err(error_of(Table::Design, "levels", format!("{list:?}"), allowed, remedy))
+            }
+            _ => Ok(()),
         }
-        Ok(())
     }
 }

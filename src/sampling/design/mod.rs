@@ -1,26 +1,24 @@
-//! [`Design`]: where the samples are in the unit cube; [`Points`]: for each sample and each random dimension one number
-//! u in (0, 1), which distributions map to values. To add a design, write its file and add it to the list below.
+//! [`Design`]: the placement of samples in the unit cube; [`PointSource`]: u in (0, 1) of each sample and random
+//! dimension, which distributions map to values. A new design needs its file and a row of the list below.
 //!
-//! Sample 0 is the nominal scene in every design; sample k >= 1 is point k - 1 of the design. Each number is found from
-//! the sample's id alone: no permutation and no earlier point is stored.
+//! Sample 0 is the nominal scene; sample k >= 1 is point k - 1. Each number follows from the sample's id alone, without
+//! stored permutations or earlier points.
 //!
 //! | design | file | earlier rows stay when samples are added | draws stay when a dispersion is added or moved |
 //! | --- | --- | --- | --- |
 //! | random | [`random`] | yes | yes |
 //! | Latin hypercube | [`latin`] | no: the strata are 1/(samples - 1) wide | yes |
-//! | Sobol | [`sobol`] | yes | while those before it in the file stay |
-//! | Halton | [`halton`] | yes | while those before it in the file stay |
-//! | grid, one at a time | [`grid`], [`one_at_a_time`] | they have a size of their own | no |
+//! | Sobol | [`sobol`] | yes | unless it comes earlier in the file |
+//! | Halton | [`halton`] | yes | unless it comes earlier in the file |
+//! | grid, one at a time | [`grid`], [`one_at_a_time`] | size fixed by the design | no |
 //! | Saltelli | [`saltelli`] | yes, by whole blocks | no |
-//! | table | [`table`] | they have a size of their own | yes |
+//! | table | [`table`] | size fixed by the table | yes |
 //!
-//! Latin hypercube, Sobol and Halton may be several designs of their kind, each scrambled on its own: [`replicates`].
+//! Latin hypercube, Sobol and Halton designs may consist of independently scrambled [`replicates`].
 //!
-//! Dimensions are known by name (the component's, or the parameter's and a number for a distribution of several
-//! components). Samples come in blocks of eight consecutive ones, [`BLOCK`], the size of a block of ChaCha and of a
-//! call of the quantiles; a number never depends on what was asked before.
+//! Dimensions are known by name (the component's, or the parameter's with a number). Blocks of eight samples ([`BLOCK`])
+//! match a block of ChaCha and a call of the quantiles.
 
-mod enumerations;
 pub mod grid;
 pub mod halton;
 pub mod hash;
@@ -34,34 +32,117 @@ pub mod sobol;
 pub mod table;
 pub mod traits;
 
-pub use traits::{BLOCK, Dimensions, Kind, MAX_SAMPLES, NOMINAL, PointSource, Size};
+pub use traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, NOMINAL, Options, PointSource, Size};
 
-use self::grid::GridDesign;
-use self::halton::HaltonDesign;
-use self::latin::LatinHypercubeDesign;
-use self::one_at_a_time::OneAtATimeDesign;
-use self::random::RandomDesign;
-use self::saltelli::SaltelliDesign;
-use self::sobol::SobolDesign;
-use self::table::TableDesign;
+use self::grid::Grid;
+use self::halton::Halton;
+use self::latin::LatinHypercube;
+use self::one_at_a_time::OneAtATime;
+use self::random::Random;
+use self::replicates::Replicated;
+use self::saltelli::Saltelli;
+use self::sobol::Sobol;
+use self::table::TableRows;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, Row, Rule, Written};
 use crate::sampling::stream::SampleId;
 
-enumerations::designs! {
-    Random = RandomDesign,
-    LatinHypercube = LatinHypercubeDesign,
-    Sobol = SobolDesign,
-    Halton = HaltonDesign,
-    Grid = GridDesign,
-    OneAtATime = OneAtATimeDesign,
-    Saltelli = SaltelliDesign,
-    Table = TableDesign,
+/// Declares the enumeration of all designs and the calls that each passes on to its kind.
+macro_rules! designs {
+    ($($Name:ident = $Kind:ty),* $(,)?) => {
+        /// A design, with its options.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Design {
+            $(
+                #[doc = concat!("See [`", stringify!($Kind), "`].")]
+                $Name(<$Kind as Kind>::Options),
+            )*
+        }
+
+        impl Design {
+            /// The names in campaign files.
+            pub const NAMES: &'static [&'static str] = &[$(<$Kind as Kind>::FACTS.name),*];
+
+            /// The keys and the rules of the design called `name`.
+            pub fn keys_of(name: &str) -> Option<(&'static [Row], &'static [Rule])> {
+                let facts = [$(<$Kind as Kind>::FACTS),*].into_iter().find(|facts| facts.name == name)?;
+                Some((facts.keys, facts.rules))
+            }
+
+            /// The design called `name` with the keys `written`.
+            pub fn of(name: &str, written: &Written) -> Option<Self> {
+                $( if name == <$Kind as Kind>::FACTS.name {
+                    return Some(Self::$Name(Options::read(written)));
+                } )*
+                None
+            }
+
+            pub fn facts(&self) -> Facts {
+                match self { $( Self::$Name(_) => <$Kind as Kind>::FACTS, )* }
+            }
+
+            /// See [`Options::written`].
+            pub fn written(&self) -> Written {
+                match self { $( Self::$Name(options) => options.written(), )* }
+            }
+
+            /// See [`Options::replicates`].
+            pub fn replicates(&self) -> u64 {
+                match self { $( Self::$Name(options) => options.replicates(), )* }
+            }
+
+            /// See [`Options::columns`].
+            pub fn columns(&self) -> &[DataColumn] {
+                match self { $( Self::$Name(options) => options.columns(), )* }
+            }
+
+            /// See [`Kind::size`].
+            pub fn size(&self, dimensions: usize) -> Size {
+                match self { $( Self::$Name(options) => <$Kind as Kind>::size(options, dimensions), )* }
+            }
+
+            /// See [`Options::check`] and [`Kind::check`].
+            ///
+            /// # Errors
+            /// The key that does not fit.
+            pub fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+                match self { $( Self::$Name(options) => {
+                    options.check(dimensions.names.len(), samples)?;
+                    <$Kind as Kind>::check(dimensions, samples)
+                } )* }
+            }
+
+            fn points(&self, dimensions: Dimensions<'_>) -> Box<dyn PointSource> {
+                match self { $( Self::$Name(options) => Box::new(<$Kind as Kind>::points(options, dimensions)), )* }
+            }
+        }
+    };
+}
+
+designs! {
+    Random = Random,
+    LatinHypercube = LatinHypercube,
+    Sobol = Replicated<Sobol>,
+    Halton = Replicated<Halton>,
+    Grid = Grid,
+    OneAtATime = OneAtATime,
+    Saltelli = Saltelli,
+    Table = TableRows,
 }
 
 impl Design {
-    /// The design of a file that does not say.
-    pub const DEFAULT: Design = Design::Random(RandomDesign);
+    /// The design of a file without `[design]`.
+    pub const DEFAULT: Design = Design::Random(());
+
+    /// The name in campaign files.
+    pub fn name(&self) -> &'static str {
+        self.facts().name
+    }
+
+    /// Whether the number of samples follows from the design.
+    pub fn has_size(&self) -> bool {
+        self.size(0) != Size::Any
+    }
 
     /// The names of the designs that have the key `key`.
     pub fn names_with(key: &str) -> Vec<&'static str> {
@@ -69,8 +150,7 @@ impl Design {
         Self::NAMES.iter().copied().filter(has).collect()
     }
 
-    /// Whether the first samples represent the population as all do: those of a grid or of a list are others than the
-    /// last.
+    /// Whether the first samples represent the population as well as all samples do.
     pub fn begins_as_it_goes_on(&self) -> bool {
         match self {
             Design::Random(_) | Design::LatinHypercube(_) | Design::Sobol(_) | Design::Halton(_) => true,
@@ -78,8 +158,8 @@ impl Design {
         }
     }
 
-    /// Three of so many `dimensions` whose effects no test tells apart in `points` points ([`sobol::bound`],
-    /// [`halton::bound`]), where there are such.
+    /// Three of the `dimensions` whose effects no test separates in `points` points ([`sobol::bound`],
+    /// [`halton::bound`]).
     pub fn bound(&self, dimensions: usize, points: u64) -> Option<[usize; 3]> {
         let points = points / self.replicates();
         match self {
@@ -89,9 +169,25 @@ impl Design {
         }
     }
 
-    /// The replicate in which `sample` is, from zero ([`replicates`]); `None` for the nominal sample, which is in none.
+    /// The replicate of `sample`, from zero ([`replicates`]); `None` for the nominal sample.
     pub fn replicate_of(&self, sample: SampleId) -> Option<u64> {
         sample.0.checked_sub(1).map(|point| point % self.replicates())
+    }
+}
+
+/// The points of a [`Design`].
+#[derive(Debug)]
+pub struct Points(Box<dyn PointSource>);
+
+impl Points {
+    pub fn new(design: &Design, dimensions: Dimensions<'_>) -> Self {
+        Points(design.points(dimensions))
+    }
+}
+
+impl PointSource for Points {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+        self.0.fill(block, u);
     }
 }
 

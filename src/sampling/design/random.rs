@@ -1,23 +1,12 @@
 //! `random`: independent uniform numbers, one stream for each dimension.
 
-use super::traits::{BLOCK, Dimensions, Kind, PointSource, streams};
-use crate::sampling::keys::Written;
+use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, streams};
 use crate::sampling::stream::Stream;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RandomDesign;
-
 #[derive(Debug)]
-pub struct RandomPoints(Vec<Stream>);
+pub struct Random(Vec<Stream>);
 
-impl RandomPoints {
-    /// The points of these dimensions.
-    pub fn new(dimensions: Dimensions<'_>) -> Self {
-        RandomPoints(streams(dimensions.seed, dimensions.names))
-    }
-}
-
-impl PointSource for RandomPoints {
+impl PointSource for Random {
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
         for (stream, u) in self.0.iter_mut().zip(u) {
             stream.uniforms(block, u);
@@ -25,15 +14,11 @@ impl PointSource for RandomPoints {
     }
 }
 
-impl Kind for RandomDesign {
-    const NAME: &'static str = "random";
-    type Points = RandomPoints;
+impl Kind for Random {
+    const FACTS: Facts = Facts::new("random", &[], &[]);
+    type Options = ();
 
-    fn of(_written: &Written) -> Self {
-        RandomDesign
-    }
-
-    fn points(&self, dimensions: Dimensions<'_>) -> RandomPoints {
-        RandomPoints::new(dimensions)
+    fn points(_: &(), dimensions: Dimensions<'_>) -> Self {
+        Random(streams(dimensions.seed, dimensions.names))
     }
 }

@@ -1,42 +1,40 @@
-//! `saltelli`: blocks of samples from which first-order and total sensitivity indices are estimated (A. Saltelli et
-//! al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010) 259, section 3).
+//! `saltelli`: blocks of samples for first-order and total sensitivity indices (A. Saltelli et al., *Variance based
+//! sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010) 259, section 3).
 //!
-//! Two independent points A and B make k + 2 samples, k being the number of distributions: A, then A with the numbers
-//! of distribution 1 from B, ..., of distribution k from B, then B. So point j is member j mod (k + 2) of block j div
-//! (k + 2), and adding blocks leaves the earlier ones as they are.
+//! A block of k + 2 samples, k distributions, has two independent points A and B: A, then A with the numbers of
+//! distribution 1, ..., k from B, then B. Point j is member j mod (k + 2) of block j div (k + 2); adding blocks leaves
+//! the earlier ones unchanged.
 //!
-//! In each dimension, A and B are the two coordinates of a scrambled Sobol sequence of its own, which takes its points
-//! in an order of its own (A. B. Owen, *Latin supercube sampling for very high-dimensional simulations*, ACM TOMACS 8
-//! (1998) 71). One sequence for all dimensions was rejected: leading bits of three of its dimensions depend on each
-//! other, and scrambling keeps that. The first-order index of x in the exclusive or of x and y, which is 0, was then
-//! estimated as -1.
+//! In each dimension, A and B are the two coordinates of a scrambled Sobol sequence, in an order drawn for that
+//! dimension (A. B. Owen, *Latin supercube sampling for very high-dimensional simulations*, ACM TOMACS 8 (1998) 71).
+//! One sequence for all dimensions was rejected: leading bits of three dimensions depend on each other, and scrambling
+//! keeps that. The first-order index of x in the exclusive or of x and y, 0, was then estimated as -1.
 
 use super::hash::keyed;
 use super::latin::Permutation;
+use super::replicates::{Sequence, whole_blocks};
 use super::sobol::Sobol;
-use super::traits::{BLOCK, Dimensions, Kind, MAX_SAMPLES, PointSource, by_point};
-use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::Written;
+use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, by_point};
+use crate::sampling::error::DispersionError;
 use crate::sampling::stream::key;
 
 /// The points of the blocks.
 #[derive(Clone, Debug)]
 pub struct Saltelli {
-    /// Of each dimension: the sequence of A and B, and the key of its order.
+    /// The sequence of A and B in each dimension, and the key of its order.
     sequences: Vec<(Sobol, u64)>,
     /// The distribution of each dimension.
     factors: Vec<usize>,
     members: u64,
 }
 
-/// Number of samples of a block: that of the distributions in `factors` and two.
+/// Number of samples of a block: the number of distributions, and two.
 pub fn members(factors: &[usize]) -> u64 {
     factors.iter().max().map_or(0, |last| *last as u64 + 1) + 2
 }
 
 impl Saltelli {
-    /// Blocks for the dimensions `names`; dimension i belongs to distribution `factors[i]`, counted from zero without
-    /// gaps.
+    /// Blocks for the dimensions `names` of the distributions `factors`, numbered from zero without gaps.
     pub fn new(seed: u64, names: &[String], factors: &[usize]) -> Self {
         let sequence =
             |name: &String| (Sobol::new(seed, &[name.clone(), format!("{name}/B")]), key(seed, name, *b"saltelli"));
@@ -47,7 +45,7 @@ impl Saltelli {
         }
     }
 
-    /// The number of a point.
+    /// u of a point.
     pub fn number(&self, dimension: usize, point: u64) -> f64 {
         let (block, member) = (point / self.members, point % self.members);
         let from_b = member == self.members - 1 || member == self.factors[dimension] as u64 + 1;
@@ -56,8 +54,8 @@ impl Saltelli {
     }
 }
 
-/// Which point of a sequence `block` has, in the order that `key` chooses: the points from 2^m to 2^(m+1) are shuffled
-/// among themselves, for every m, so that the first 2^m blocks have the first 2^m points.
+/// The point of a sequence that `block` has in the order of `key`: points 2^m to 2^(m+1) are shuffled among themselves,
+/// for every m, so that the first 2^m blocks have the first 2^m points.
 fn place(key: u64, block: u64) -> u64 {
     let Some(level) = block.checked_ilog2() else { return 0 };
     let first = 1 << level;
@@ -70,40 +68,25 @@ impl PointSource for Saltelli {
     }
 }
 
-/// Blocks of samples for sensitivity indices.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SaltelliDesign;
+impl Kind for Saltelli {
+    const FACTS: Facts = Facts {
+        excludes_correlation: Some([
+            "a design for correlated parameters: indices of variance are defined for independent ones",
+            "delete [[correlate]], or use sobol",
+        ]),
+        ..Facts::new("saltelli", &[], &[])
+    };
+    type Options = ();
 
-impl Kind for SaltelliDesign {
-    const NAME: &'static str = "saltelli";
-    const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = Some([
-        "a design for correlated parameters: indices of variance are defined for independent ones",
-        "delete [[correlate]], or use sobol",
-    ]);
-    type Points = Saltelli;
-
-    fn of(_written: &Written) -> Self {
-        SaltelliDesign
-    }
-
-    fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+    fn check(dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
         let members = members(dimensions.factors);
-        match samples {
-            Some(samples) if samples > 1 && (samples - 1) % members != 0 => {
-                let below = 1 + (samples - 1) / members * members;
-                let allowed = format!(
-                    "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two \
-                    more"
-                );
-                let above = Some(below + members).filter(|above| *above <= MAX_SAMPLES);
-                let remedy = above.map_or(format!("write {below}"), |above| format!("write {below} or {above}"));
-                Err(error_of(Table::Campaign, "samples", samples.to_string(), allowed, remedy))
-            }
-            _ => Ok(()),
-        }
+        let allowed = format!(
+            "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two more"
+        );
+        whole_blocks(samples, members, allowed, "")
     }
 
-    fn points(&self, dimensions: Dimensions<'_>) -> Saltelli {
+    fn points(_: &(), dimensions: Dimensions<'_>) -> Self {
         Saltelli::new(dimensions.seed, dimensions.names, dimensions.factors)
     }
 }
@@ -112,10 +95,9 @@ impl Kind for SaltelliDesign {
 mod tests {
     use super::*;
 
-    /// Law: each member takes from B what it should, and the estimators of Saltelli 2010 give the known indices of a
-    /// sum of squares of uniform numbers, f = x1^2 + 2 x2^2 + 4 x3^2, that is shares of variance 1 : 4 : 16, to four
-    /// standard errors of independent blocks: sqrt(2 S/n) of a first-order index S, and of a total one 1.6% of it, the
-    /// error of the variance.
+    /// Law: the estimators of Saltelli 2010 give the known indices of f = x1^2 + 2 x2^2 + 4 x3^2 of uniform numbers,
+    /// shares of variance 1 : 4 : 16, to four standard errors of independent blocks: sqrt(2 S/n) for a first-order
+    /// index S, 1.6% (the error of the variance) for a total one.
     #[test]
     fn blocks_give_sensitivity_indices() {
         let names: Vec<String> = ["x1", "x2", "x3"].map(str::to_owned).to_vec();

@@ -2,19 +2,14 @@
 //!
 //! Directions: S. Joe & F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
 //! Comput. 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted
-//! (t,m,s)-nets and (t,s)-sequences* (1995): each bit of a point is flipped or not by a hash of the dimension's key and
-//! of the bits above it, so that all points that share those bits are flipped alike; done bit by bit for the leading
-//! 32, which tell any 2^32 points apart, and by one hash of these for the bits below. Point 0 is used, as it must be
-//! (A. B. Owen, *On dropping the first Sobol' point*, 2020): the scrambled sequence is best in 2^m points, which are
-//! 2^m + 1 samples with the nominal one.
+//! (t,m,s)-nets and (t,s)-sequences* (1995): a hash of the dimension's key and of the bits above decides whether a bit
+//! is flipped, bit by bit for the leading 32, by one hash for the bits below. Point 0 is used (A. B. Owen, *On dropping
+//! the first Sobol' point*, 2020): the sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
 
 use std::collections::HashMap;
 
 use super::hash::keyed;
-use super::replicates::{REPLICATES, Replicates, by_replicate};
-use super::traits::{BLOCK, Dimensions, Kind, PointSource};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Written};
+use super::replicates::Sequence;
 use crate::sampling::stream::{key, unit};
 
 /// Dimensions in the table of directions.
@@ -22,7 +17,7 @@ pub const MAX_DIMENSIONS: usize = 512;
 /// Bits that are scrambled one by one.
 const NESTED: u32 = 32;
 
-/// d, s, a, m_1 ... m_s of each dimension but the first; see the licence in the same folder.
+/// d, s, a, m_1 ... m_s of each dimension after the first; the licence is in the same folder.
 const DIRECTIONS: &str = include_str!("../../../assets/joe-kuo-6.512");
 
 /// The scrambled sequence in some dimensions.
@@ -32,19 +27,22 @@ pub struct Sobol {
     keys: Vec<u64>,
 }
 
-impl Sobol {
-    /// The sequence for the dimensions `names`, at most [`MAX_DIMENSIONS`]: directions by position, scrambling by seed
-    /// and name.
-    pub fn new(seed: u64, names: &[String]) -> Self {
+impl Sequence for Sobol {
+    const NAME: &'static str = "sobol";
+    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
+
+    /// Directions follow from the position of a dimension.
+    fn new(seed: u64, names: &[String]) -> Self {
         let keys = names.iter().map(|name| key(seed, name, *b"sobol   ")).collect();
         Sobol { directions: directions(names.len()), keys }
     }
 
-    /// The number in (0, 1) of a point.
-    pub fn number(&self, dimension: usize, point: u64) -> f64 {
+    fn number(&self, dimension: usize, point: u64) -> f64 {
         unit(scrambled(self.bits(dimension, point), self.keys[dimension]))
     }
+}
 
+impl Sobol {
     /// The point before scrambling, as a binary fraction of 64 bits.
     pub fn bits(&self, dimension: usize, point: u64) -> u64 {
         let directions = &self.directions[dimension];
@@ -83,25 +81,24 @@ fn directions(count: usize) -> Vec<[u64; 64]> {
     std::iter::once(first).chain(others).take(count).collect()
 }
 
-/// Leading bits of one dimension, and of each of the others, in [`bound`]: a test has at most nine cells of an input,
-/// and the bits below the second of two inputs make 4% of their product, for normal numbers.
+/// Numbers of leading bits of one dimension and of the other two in [`bound`]: a test has at most nine cells of an
+/// input, and the bits below the second of two inputs make 4% of their product, for normal numbers.
 const BITS: [u32; 2] = [3, 2];
-/// Correlation of two functions of leading bits, from which on their dimensions are bound: a sixteenth of the variance.
+/// Correlation of two functions of leading bits above which their dimensions are bound: a sixteenth of the variance.
 const BOUND: f64 = 0.25;
 
-/// Three of the first `dimensions` dimensions (the last two may be one) where, in the first `points` points, leading
-/// bits of the first are those of the product of the other two, or their opposites. Scrambling flips leading bits of
-/// all points alike, and so keeps this: an input that does nothing then seems to do what an interaction of two others
-/// does. `None` where there are none.
+/// Three dimensions (the last two may be one) whose leading bits are bound in the first `points` points: those of the
+/// first equal the product of the others', or its opposite. Scrambling flips leading bits of all points alike and keeps
+/// this, so an input without effect appears to have the effect of an interaction of the other two.
 pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
-    // the parity of some leading bits of a dimension is that of these bits of the point's number
+    // the parity of some leading bits of a dimension is the parity of these bits of the point's number
     let parities = |directions: &[u64; 64], bits: u32| -> Vec<u64> {
         let of_bit = |bit: u32| (0..64).fold(0, |mask, k| mask | (directions[k] >> (63 - bit) & 1) << k);
         let of_set = |set: u32| (0..bits).filter(|bit| set >> bit & 1 == 1).fold(0, |mask, bit| mask ^ of_bit(bit));
         (1..1 << bits).map(of_set).collect()
     };
     let least = BOUND * points as f64;
-    // a sum of signs over all points is at most 2^m, m being the number of zeros at the end of the mask
+    // a sum of signs over all points is at most 2^m, m being the number of trailing zeros of the mask
     let zeros = (1_u64 << libm::log2(least.max(1.0)).ceil() as u32) - 1;
     let is_bound = |mask: u64| {
         let period = (mask & mask.wrapping_neg()).saturating_mul(2);
@@ -136,58 +133,16 @@ pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
 fn scrambled(bits: u64, key: u64) -> u64 {
     let mut flips = keyed(key, bits >> NESTED) >> NESTED;
     for level in 0..NESTED {
-        // the number of the node in the binary tree of leading bits: a one, and the bits above this one
+        // the node in the binary tree of leading bits: a one, and the bits above this one
         let node = (1u64 << level) | (bits >> 1 >> (63 - level));
-        // counters of the nodes are below 2^32, those of the bits below start there
+        // counters of the nodes are below 2^32; counters of the bits below start there
         flips |= (keyed(key ^ NODES, node) >> 63) << (63 - level);
     }
     bits ^ flips
 }
 
-/// Tells the key of the nodes from that of the bits below them.
+/// Separates the key of the nodes from that of the bits below them.
 const NODES: u64 = 0x6e6f_6465_735f_6f66;
-
-/// The points of all replicates.
-#[derive(Clone, Debug)]
-pub struct SobolPoints(Vec<Sobol>);
-
-impl PointSource for SobolPoints {
-    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
-        by_replicate(&self.0, block, u, Sobol::number);
-    }
-}
-
-/// Sobol's sequence, scrambled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SobolDesign(pub Replicates);
-
-impl Kind for SobolDesign {
-    const NAME: &'static str = "sobol";
-    const KEYS: &'static [Row] = &[REPLICATES];
-    const MAX_DIMENSIONS: usize = MAX_DIMENSIONS;
-    type Points = SobolPoints;
-
-    fn of(written: &Written) -> Self {
-        SobolDesign(Replicates::of_written(written))
-    }
-
-    fn written(&self) -> Written {
-        self.0.written()
-    }
-
-    fn replicates(&self) -> u64 {
-        self.0.count()
-    }
-
-    fn check(&self, _dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-        self.0.check(samples)
-    }
-
-    fn points(&self, dimensions: Dimensions<'_>) -> SobolPoints {
-        let replicates = self.0.names(dimensions.names);
-        SobolPoints(replicates.iter().map(|names| Sobol::new(dimensions.seed, names)).collect())
-    }
-}
 
 #[cfg(test)]
 mod tests {
@@ -197,9 +152,8 @@ mod tests {
         (0..count).map(|k| format!("d{k}")).collect()
     }
 
-    /// The points 1, 2, 3 and 1000 in the dimensions 1, 2, 3, 10, 100, 512 as scipy.stats.qmc.Sobol(512,
-    /// scramble=False, bits=62) has them (its points are in the order of Gray's code, so its point k ^ (k >> 1) is
-    /// meant), times 2^20.
+    /// Points 1, 2, 3 and 1000 in the dimensions 1, 2, 3, 10, 100, 512 of scipy.stats.qmc.Sobol(512, scramble=False,
+    /// bits=62), in the order of Gray's code (point k ^ (k >> 1)), times 2^20.
     #[test]
     fn unscrambled_points_are_those_of_scipy() {
         let sobol = Sobol::new(0, &names(512));
@@ -242,9 +196,8 @@ mod tests {
         }
     }
 
-    /// Known, from another program: among so many points, this is the largest number of dimensions none of which is
-    /// bound. Law: the numbers that are bound go with each other, and those that are not do not: the mean product of
-    /// the signs of leading bits is 1, or 0.
+    /// Known, from another program: the largest number of dimensions none of which is bound among so many points. Law:
+    /// the mean product of the signs of leading bits is 1 for bound dimensions and less for others.
     #[test]
     fn bound_dimensions_are_known() {
         for (points, most) in [(32, 2), (64, 2), (128, 3), (256, 3), (512, 5), (1024, 6), (2048, 10), (4096, 13)] {
@@ -265,19 +218,5 @@ mod tests {
         let most = triples.filter(|(i, of)| !of.contains(i)).map(|(i, of)| goes_with(i, of)).fold(0.0, f64::max);
         assert_eq!(most, 1.0, "twelve dimensions in 64 points");
         assert!(goes_with(2, [0, 1]) < 1.0);
-    }
-
-    /// H0: a scrambled point is uniform over seeds. Point 5 of dimension 3 in 16 cells over 16,000 seeds: chi-square
-    /// with 15 degrees of freedom, alpha = 1e-3: critical 37.7. Power: a bit that never flips leaves half of the cells
-    /// empty.
-    #[test]
-    fn a_scrambled_point_is_uniform_over_seeds() {
-        let mut counts = [0u32; 16];
-        for seed in 0..16_000 {
-            let sobol = Sobol { directions: directions(3), keys: vec![0, 0, key(seed, "x", *b"sobol   ")] };
-            counts[(sobol.number(2, 5) * 16.0) as usize] += 1;
-        }
-        let chi: f64 = counts.iter().map(|count| (f64::from(*count) - 1000.0).powi(2) / 1000.0).sum();
-        assert!(chi < 37.7, "{chi}");
     }
 }

@@ -1,36 +1,41 @@
-//! `table`: the rows of a file, for the parameters that are its columns; other parameters are drawn as by the random
-//! design.
+//! `table`: the rows of a file, for the parameters in its columns; other parameters are drawn as in the random design.
 
-use super::random::RandomPoints;
-use super::traits::{Dimensions, Kind, Size};
-use crate::sampling::keys::{DataColumn, FILE_OF_PARAMETERS, Row, Value, Written};
+use super::random::Random;
+use super::traits::{BLOCK, Dimensions, Facts, Kind, Options, PointSource, Size};
+use crate::sampling::keys::{DataColumn, FILE_OF_PARAMETERS, Value, Written};
 
-#[derive(Clone, Debug, PartialEq)]
-pub struct TableDesign(pub Vec<DataColumn>);
+#[derive(Debug)]
+pub struct TableRows(Random);
 
-impl Kind for TableDesign {
-    const NAME: &'static str = "table";
-    const KEYS: &'static [Row] = &[FILE_OF_PARAMETERS];
-    const HAS_SIZE: bool = true;
-    type Points = RandomPoints;
-
-    fn of(written: &Written) -> Self {
-        TableDesign(written.columns().to_vec())
+impl Options for Vec<DataColumn> {
+    fn read(written: &Written) -> Self {
+        written.columns().to_vec()
     }
 
     fn written(&self) -> Written {
-        Written::default().with("file", Value::Columns(self.0.clone()))
-    }
-
-    fn size(&self, _dimensions: usize) -> Size {
-        self.0.first().map_or(Size::Any, |column| Size::Points(column.values.len() as u64))
+        Written::default().with("file", Value::Columns(self.clone()))
     }
 
     fn columns(&self) -> &[DataColumn] {
-        &self.0
+        self
+    }
+}
+
+impl PointSource for TableRows {
+    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
+        self.0.fill(block, u);
+    }
+}
+
+impl Kind for TableRows {
+    const FACTS: Facts = Facts::new("table", &[FILE_OF_PARAMETERS], &[]);
+    type Options = Vec<DataColumn>;
+
+    fn size(columns: &Vec<DataColumn>, _dimensions: usize) -> Size {
+        columns.first().map_or(Size::Any, |column| Size::Points(column.values.len() as u64))
     }
 
-    fn points(&self, dimensions: Dimensions<'_>) -> RandomPoints {
-        RandomPoints::new(dimensions)
+    fn points(_: &Vec<DataColumn>, dimensions: Dimensions<'_>) -> Self {
+        TableRows(Random::points(&(), dimensions))
     }
 }

@@ -1,98 +1,131 @@
-//! What every design implements.
+//! [`Kind`]: what every design implements; [`Options`]: the keys that designs share.
 
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, Row, Rule, Written};
 use crate::sampling::stream::Stream;
 use std::fmt::Debug;
 
-/// Samples of a block: block b has the samples 8 b ... 8 b + 7.
+/// Samples of a block: block b holds samples 8 b to 8 b + 7.
 pub const BLOCK: usize = 8;
 
 /// Largest number of samples of a campaign: ids stay exact in a double.
 pub const MAX_SAMPLES: u64 = 1 << 53;
 
-/// In place of u where a dimension keeps its nominal value.
+/// Stands for u where a dimension keeps its nominal value.
 pub const NOMINAL: f64 = f64::NAN;
 
-/// What a design is made for: the random dimensions of a campaign.
+/// The random dimensions of a campaign.
 #[derive(Clone, Copy, Debug)]
 pub struct Dimensions<'a> {
     pub seed: u64,
     /// Number of samples, sample 0 included.
     pub samples: u64,
-    /// The names of the dimensions.
     pub names: &'a [String],
-    /// To which distribution each dimension belongs, counted from zero without gaps.
+    /// The distribution of each dimension, numbered from zero without gaps.
     pub factors: &'a [usize],
 }
 
 /// The number of points of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// As many as there are samples; the file must say.
+    /// As many as the file asks for.
     Any,
     Points(u64),
     /// More than can be numbered.
     TooMany,
 }
 
-pub trait Kind: Clone + Debug + PartialEq {
+/// The properties of a kind of design that do not depend on its options.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts {
     /// The name in campaign files.
-    const NAME: &'static str;
-    const KEYS: &'static [Row] = &[];
-    /// What its keys have to do with each other.
-    const RULES: &'static [Rule] = &[];
-    /// Whether the design has a size of its own, so that the file need not give the number of samples.
-    const HAS_SIZE: bool = false;
+    pub name: &'static str,
+    pub keys: &'static [Row],
+    /// Rules between keys.
+    pub rules: &'static [Rule],
     /// Whether a dimension may keep its nominal value ([`NOMINAL`]).
-    const LEAVES_NOMINAL: bool = false;
-    /// Most random dimensions that the design has numbers for.
-    const MAX_DIMENSIONS: usize = usize::MAX;
-    /// Why another number of samples changes every row, if it does; and the remedy.
-    const DEPENDS_ON_SAMPLES: Option<[&'static str; 2]> = None;
-    /// Why parameters cannot be correlated, if they cannot; and the remedy.
-    const EXCLUDES_CORRELATION: Option<[&'static str; 2]> = None;
-    type Points: PointSource;
+    pub leaves_nominal: bool,
+    pub max_dimensions: usize,
+    /// Why a different number of samples changes every row, and the remedy.
+    pub depends_on_samples: Option<[&'static str; 2]>,
+    /// Why parameters cannot be correlated, and the remedy.
+    pub excludes_correlation: Option<[&'static str; 2]>,
+}
 
-    /// The design of what a file says.
-    fn of(written: &Written) -> Self;
-
-    /// What a file says of it.
-    fn written(&self) -> Written {
-        Written::default()
+impl Facts {
+    /// A design for any number of dimensions and samples, correlated or not.
+    pub const fn new(name: &'static str, keys: &'static [Row], rules: &'static [Rule]) -> Self {
+        Facts {
+            name,
+            keys,
+            rules,
+            leaves_nominal: false,
+            max_dimensions: usize::MAX,
+            depends_on_samples: None,
+            excludes_correlation: None,
+        }
     }
+}
 
-    /// Number of points for so many random dimensions.
-    fn size(&self, _dimensions: usize) -> Size {
-        Size::Any
-    }
+/// The values of a design's keys.
+pub trait Options: Clone + Debug + PartialEq {
+    fn read(written: &Written) -> Self;
 
-    /// How many designs of the kind it consists of.
+    fn written(&self) -> Written;
+
+    /// Number of independently scrambled designs.
     fn replicates(&self) -> u64 {
         1
     }
 
-    /// What else keeps it from having these dimensions and samples (if the file gives a number).
+    /// Checks the options against the number of dimensions and the number of samples in the file.
     ///
     /// # Errors
-    /// What it is.
-    fn check(&self, _dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
+    /// The key that does not fit.
+    fn check(&self, _dimensions: usize, _samples: Option<u64>) -> Result<(), DispersionError> {
         Ok(())
     }
 
-    /// The columns of a file whose rows it takes.
+    /// The columns of a data file whose rows are the samples.
     fn columns(&self) -> &[DataColumn] {
         &[]
     }
-
-    /// The points, for one worker.
-    fn points(&self, dimensions: Dimensions<'_>) -> Self::Points;
 }
 
-/// The points of a design, for one worker. What it keeps only makes neighbours cheap.
+impl Options for () {
+    fn read(_written: &Written) -> Self {}
+
+    fn written(&self) -> Written {
+        Written::default()
+    }
+}
+
+/// A kind of design.
+pub trait Kind: PointSource + Sized {
+    const FACTS: Facts;
+    type Options: Options;
+
+    /// Number of points in so many random dimensions.
+    fn size(_options: &Self::Options, _dimensions: usize) -> Size {
+        Size::Any
+    }
+
+    /// Checks the number of samples in the file against the dimensions.
+    ///
+    /// # Errors
+    /// Where the design has no such number of samples.
+    fn check(_dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
+        Ok(())
+    }
+
+    /// The points, for one worker.
+    fn points(options: &Self::Options, dimensions: Dimensions<'_>) -> Self;
+}
+
+/// The points of a design, for one worker. State only makes neighbours cheap.
 pub trait PointSource: Debug {
-    /// The numbers of the samples of `block`, dimension by dimension; [`NOMINAL`] where a dimension keeps its nominal
-    /// value. What is there for sample 0 means nothing.
+    /// Writes u of the samples of `block`, dimension by dimension, or [`NOMINAL`]. The values of sample 0 are
+    /// arbitrary.
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]);
 }
 

@@ -1,5 +1,4 @@
-//! `about_axis`: the nominal attitude turned about an `axis` of the body by an angle with a distribution of its own
-//! (`[disperse.angle_rad]`).
+//! `about_axis`: the nominal attitude turned about a body `axis` by a random angle (`[disperse.angle_rad]`).
 
 use super::target::JointTarget;
 use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
@@ -8,11 +7,11 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row};
 use std::marker::PhantomData;
 
-/// The distribution; that of the angle is one of the list `N`.
+/// The distribution; `N` lists the distributions of the angle.
 #[derive(Clone, Copy, Debug)]
 pub struct AboutAxis<N>(PhantomData<N>);
 
-/// Ready to be drawn: q = q_0 (x) exp(angle axis/2).
+/// q = q_0 (x) exp(angle axis/2).
 #[derive(Clone, Debug, PartialEq)]
 pub struct AboutAxisMap<Q> {
     nominal: [f64; 4],

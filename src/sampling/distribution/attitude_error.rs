@@ -11,8 +11,7 @@ use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values};
 #[derive(Clone, Copy, Debug)]
 pub struct AttitudeError;
 
-/// Ready to be drawn: q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the frame of the
-/// body.
+/// q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeErrorMap {
     nominal: [f64; 4],
@@ -21,8 +20,8 @@ pub struct AttitudeErrorMap {
 }
 
 impl AttitudeErrorMap {
-    /// About `nominal` (a unit quaternion), with the covariance `covariance`, rad^2, symmetric and positive
-    /// semidefinite; `None` where it is not (to 1e-12 of its trace).
+    /// About the unit quaternion `nominal`, with `covariance`, rad^2; `None` if that is not symmetric positive
+    /// semidefinite (to 1e-12 of its trace).
     pub fn new(nominal: [f64; 4], covariance: [[f64; 3]; 3]) -> Option<Self> {
         Some(AttitudeErrorMap { nominal, factor: factor(covariance)? })
     }
@@ -120,10 +119,10 @@ pub fn rotation(theta: [f64; 3]) -> [f64; 4] {
     [cosine, x, y, z]
 }
 
-/// The lower Cholesky factor of a symmetric positive semidefinite matrix; `None` where it is not one. A pivot that is
-/// zero to rounding has a column of zeros.
+/// The lower Cholesky factor of a symmetric positive semidefinite matrix; `None` for other matrices. A pivot that is
+/// zero to rounding gives a column of zeros.
 fn factor(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    /// Entries come from files: twelve digits of them are meant.
+    /// Entries come from files, with twelve digits.
     const SLACK: f64 = 1e-12;
     let slack = SLACK * (m[0][0].abs() + m[1][1].abs() + m[2][2].abs());
     let symmetric = [(0, 1), (0, 2), (1, 2)].into_iter().all(|(i, j)| (m[i][j] - m[j][i]).abs() <= slack);

@@ -1,4 +1,4 @@
-//! `bernoulli`: another `value` with some `probability`, else the nominal value.
+//! `bernoulli`: a different `value` with some `probability`, else the nominal value.
 
 use super::choice::ChoiceQuantile;
 use super::target::Target;

@@ -1,5 +1,5 @@
-//! `choice`: one of a list of `values`, with `weights`, else all alike. The values are sorted, so that quantiles rise
-//! with u and a rank correlation is one of values.
+//! `choice`: one of a list of `values`, with `weights` or equal ones. Values are sorted, so that quantiles rise with u
+//! and a rank correlation of u is one of values.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
@@ -10,7 +10,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug)]
 pub struct Choice;
 
-/// Ready to be drawn: one of a list of values.
+/// One of a list of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChoiceQuantile {
     values: Arc<[f64]>,
@@ -19,7 +19,7 @@ pub struct ChoiceQuantile {
 }
 
 impl ChoiceQuantile {
-    /// `values` with `weights` in proportion; at least one is above zero.
+    /// `values` with relative `weights`; at least one is above zero.
     pub fn new(values: &[f64], weights: &[f64]) -> Self {
         let mut pairs: Vec<(f64, f64)> = values.iter().copied().zip(weights.iter().copied()).collect();
         pairs.retain(|(_, weight)| *weight > 0.0);
@@ -34,11 +34,11 @@ impl ChoiceQuantile {
     }
 }
 
-/// Different values of which all but one are listed in words, at most.
+/// Most values listed in words besides the last.
 const LISTED: usize = 4;
 
 impl ChoiceQuantile {
-    /// The different values, each with its probability.
+    /// Each different value with its probability.
     fn shares(&self) -> Vec<(f64, f64)> {
         let mut shares: Vec<(f64, f64)> = Vec::new();
         let mut before = 0.0;
@@ -135,19 +135,5 @@ mod tests {
             [1., 1., 2., 2., 3., 3.]
         );
         assert_eq!(choice.values[..], [1.0, 2.0, 3.0], "what has no weight is never drawn");
-    }
-
-    #[test]
-    fn a_choice_says_its_values_and_their_probabilities() {
-        let text = |values: &[f64], weights: &[f64]| {
-            let number = |x: f64| x.to_string();
-            ChoiceQuantile::new(values, weights).text(NumberWords { number: &number, angle: &number, amount: &number })
-        };
-        assert_eq!(text(&[1.0, 0.0], &[3.0, 1.0]), "0 with probability 25%, else 1");
-        assert_eq!(text(&[1.0, 0.0], &[1.0, 3.0]), "1 with probability 25%, else 0");
-        assert_eq!(text(&[2.0, 1.0, 2.0], &[1.0, 3.0, 0.0]), "2 with probability 25%, else 1");
-        assert_eq!(text(&[2.0, 1.0, 2.0, 4.0], &[1.0, 4.0, 1.0, 2.0]), "1 (50%), 2 (25%) or 4 (25%)");
-        assert_eq!(text(&[7.0, 7.0], &[1.0, 1.0]), "always 7");
-        assert_eq!(text(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], &[1.0; 6]), "one of 6 values, 1 to 6");
     }
 }

@@ -1,4 +1,4 @@
-//! `empirical`: as a `column` of a `file`, with `interpolation` between its values or none.
+//! `empirical`: distributed as a `column` of a `file`, with or without `interpolation` between its values.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
@@ -6,10 +6,10 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row, Value};
 use std::sync::Arc;
 
-/// What lies between the values of a file.
+/// The distribution between the values of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Nothing: each draw is a value of the file, each as likely as the others.
+    /// Each draw is a value of the file, all equally likely.
     None,
     /// A uniform distribution between neighbours.
     Linear,
@@ -18,7 +18,7 @@ pub enum Interpolation {
 #[derive(Clone, Copy, Debug)]
 pub struct Empirical;
 
-/// Ready to be drawn: as the values of a list, each with the same weight.
+/// Equally likely values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmpiricalQuantile {
     /// Ascending, at least one.
@@ -27,7 +27,7 @@ pub struct EmpiricalQuantile {
 }
 
 impl EmpiricalQuantile {
-    /// The distribution of `values`, at least one.
+    /// At least one value.
     pub fn new(values: &[f64], interpolation: Interpolation) -> Self {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);
@@ -55,9 +55,8 @@ impl Scalar for Empirical {
 }
 
 impl Quantile for EmpiricalQuantile {
-    /// The value at `u`: the smallest with at least the fraction u of the values at or below it, or with linear
-    /// interpolation that at position u (n - 1), counted from zero (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361,
-    /// types 1 and 7).
+    /// The smallest value with at least the fraction u of the values at or below it, or with linear interpolation the
+    /// value at position u (n - 1), from zero (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361, types 1 and 7).
     fn quantile(&self, u: f64) -> f64 {
         let last = self.values.len() - 1;
         match self.interpolation {
@@ -84,22 +83,5 @@ impl Quantile for EmpiricalQuantile {
     fn text(&self, words: NumberWords<'_>) -> String {
         let [low, high] = [f64::EPSILON, 1.0 - f64::EPSILON].map(|u| (words.amount)(self.quantile(u)));
         format!("as {} values of a file, {low} to {high}", self.values.len())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_empirical_distribution_gives_its_values_back() {
-        let steps = EmpiricalQuantile::new(&[5.0, 1.0, 2.0], Interpolation::None);
-        assert_eq!([0.01, 0.33, 0.34, 0.66, 0.67, 0.99].map(|u| steps.quantile(u)), [1.0, 1.0, 2.0, 2.0, 5.0, 5.0]);
-        let lines = EmpiricalQuantile::new(&[5.0, 1.0, 2.0], Interpolation::Linear);
-        assert_eq!([0.25, 0.5, 0.75].map(|u| lines.quantile(u)), [1.5, 2.0, 3.5]);
-        let wide = EmpiricalQuantile::new(&[-1.7e308, 1.7e308], Interpolation::Linear);
-        // half an ulp of numbers of this size, 1e292; measured: exactly that
-        assert!((wide.quantile(0.75) - 0.85e308).abs() < 2e292, "a width beyond the largest number");
-        assert_eq!(EmpiricalQuantile::new(&[4.0], Interpolation::Linear).quantile(0.3), 4.0);
     }
 }

@@ -1,6 +1,5 @@
-//! What is done for each distribution of the list: `distributions!` makes the enumerations over all of them.
+//! [`distributions!`]: the enumerations over all distributions, which pass each call on to its member.
 
-/// Declares the enumerations over all distributions, and passes each call on to the one that is meant.
 macro_rules! distributions {
     (one number: $($Scalar:ident),* ; several together: $($Name:ident = $Together:ty),* $(,)?) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +21,7 @@ macro_rules! distributions {
             pub const NAMES: &'static [&'static str] =
                 &[$(<$Scalar as Scalar>::NAME,)* $(<$Together as Together>::NAME,)*];
 
-            /// Whether each component of a parameter has it by itself.
+            /// Whether each component of a parameter has this distribution by itself.
             pub const fn is_of_one_number(self) -> bool {
                 match self {
                     $( Self::$Scalar => true, )*
@@ -37,7 +36,7 @@ macro_rules! distributions {
                 }
             }
 
-            /// What the keys have to do with each other.
+            /// Rules between keys.
             pub const fn rules(self) -> &'static [Rule] {
                 match self {
                     $( Self::$Scalar => <$Scalar as Scalar>::RULES, )*
@@ -48,7 +47,7 @@ macro_rules! distributions {
             /// The distribution of each component; `None` for one of all components together.
             ///
             /// # Errors
-            /// What about its numbers does not fit the target.
+            /// The numbers that do not fit the target.
             pub fn distributions(self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>, DispersionError> {
                 Ok(match self {
                     $( Self::$Scalar => {
@@ -61,7 +60,7 @@ macro_rules! distributions {
             /// The map of all components together; `None` for a distribution of one number.
             ///
             /// # Errors
-            /// What is wrong with target or numbers.
+            /// The target or the numbers that do not fit.
             pub fn joint(self, target: &JointTarget<'_>) -> Result<Option<Joint>, DispersionError> {
                 Ok(match self {
                     $( Self::$Scalar => None, )*
@@ -70,7 +69,7 @@ macro_rules! distributions {
             }
         }
 
-        /// A distribution of one number, ready to be drawn: one quantile function.
+        /// A distribution of one number: a quantile function.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Distribution {
             $(
@@ -113,7 +112,7 @@ macro_rules! distributions {
             }
         }
 
-        /// A distribution of several numbers together, ready to be drawn.
+        /// A joint distribution of several numbers.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Joint {
             $(

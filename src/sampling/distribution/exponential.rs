@@ -1,5 +1,5 @@
-//! `exponential`: from `min` (0 where it is not written) on, with density proportional to exp(-x/`scale`): a delay, the
-//! time to an event. Mean `min` + `scale`.
+//! `exponential`: above `min` (default 0) with density proportional to exp(-x/`scale`), such as a delay. Mean `min` +
+//! `scale`.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};

@@ -1,5 +1,5 @@
-//! `gamma`: from `min` (0 where it is not written) on, with density proportional to x^(`shape` - 1) exp(-x/`scale`).
-//! Mean `min` + `shape` `scale`. From a table of its quantiles ([`super::of_score`]) of ln x.
+//! `gamma`: above `min` (default 0) with density proportional to x^(`shape` - 1) exp(-x/`scale`). Mean `min` + `shape`
+//! `scale`. Tabulated ([`super::of_score`]) as ln x.
 
 use super::of_score::OfScore;
 use super::target::Target;
@@ -21,18 +21,17 @@ pub struct GammaQuantile {
     log: OfScore,
 }
 
-/// Allowed shapes: below, the distribution is a spike at its end; above, a normal one.
+/// Allowed shapes: below, the distribution is a spike at its end; above, it is normal.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
 
 impl GammaQuantile {
-    /// The distribution of `shape` from 0.01 to 1e4 and `scale` > 0, from `min` on.
+    /// With `shape` from 0.01 to 1e4 and `scale` > 0.
     pub fn new(shape: f64, scale: f64, min: f64) -> Self {
         let log = OfScore::new(&|p, q| log_quantile(p, q, shape), shape);
         GammaQuantile { shape, scale, min, log }
     }
 
-    /// The value at the normal score `z`; relative error of what is above `min` below 1e-12 (test
-    /// `quantiles_are_those_of_mpmath`).
+    /// The value at the normal score `z`; relative error above `min` below 1e-12 (test `quantiles_are_those_of_mpmath`).
     fn at_score(&self, z: f64) -> f64 {
         self.min + self.scale * libm::exp(self.log.value(z))
     }

@@ -1,5 +1,4 @@
-//! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` and `median`, else the nominal
-//! value.
+//! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` about `median` (default: nominal).
 
 use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar, each_score};

@@ -14,7 +14,6 @@ pub(super) const SPREAD: [Row; 3] = [
     Row { multiple_of: Some(("std", 3.0)), ..Row::amounts("three_sigma", "Three times the standard deviation") },
 ];
 
-/// One of them is written.
 pub(super) const ONE_SPREAD: Rule = Rule::One(&[&["std"], &["relative_std"], &["three_sigma"]], "0.1", ALL_BUT_ONE);
 
 #[derive(Clone, Copy, Debug)]

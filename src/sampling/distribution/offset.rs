@@ -1,4 +1,4 @@
-//! `offset`: the same difference from the nominal value in every sample but the nominal one, `offset` or
+//! `offset`: a fixed difference from the nominal value in every sample but the nominal one, `offset` or
 //! `relative_offset`.
 
 use super::target::Target;
@@ -9,7 +9,7 @@ use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 #[derive(Clone, Copy, Debug)]
 pub struct Offset;
 
-/// Ready to be drawn: always this value; takes no u.
+/// Always this value; takes no u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed(pub f64);
 

@@ -11,14 +11,8 @@ pub struct Rayleigh;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayleighQuantile {
-    scale: f64,
-}
-
-impl RayleighQuantile {
-    /// With `scale` > 0.
-    pub fn new(scale: f64) -> Self {
-        RayleighQuantile { scale }
-    }
+    /// Above 0.
+    pub scale: f64,
 }
 
 impl Scalar for Rayleigh {
@@ -30,7 +24,7 @@ impl Scalar for Rayleigh {
 
     fn quantiles(target: &Target<'_>) -> Result<Vec<RayleighQuantile>, DispersionError> {
         let scale = target.each("scale")?;
-        target.all(|k| Ok(RayleighQuantile::new(scale[k])))
+        target.all(|k| Ok(RayleighQuantile { scale: scale[k] }))
     }
 }
 

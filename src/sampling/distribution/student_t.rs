@@ -1,6 +1,5 @@
-//! `student_t`: about the nominal value, with `degrees_of_freedom` and `scale`, or `relative_scale` (Student,
-//! *Biometrika* 6 (1908) 1): an error whose tails are heavier than normal. From a table of its quantiles
-//! ([`super::of_score`]) of asinh(t/sqrt(nu)).
+//! `student_t`: about the nominal value, with `degrees_of_freedom` and `scale` or `relative_scale` (Student,
+//! *Biometrika* 6 (1908) 1): heavier tails than normal. Tabulated ([`super::of_score`]) as asinh(t/sqrt(nu)).
 
 use super::of_score::OfScore;
 use super::target::Target;
@@ -28,9 +27,9 @@ pub struct StudentTQuantile {
 const DEGREES: std::ops::RangeInclusive<f64> = 0.5..=1e4;
 
 impl StudentTQuantile {
-    /// The distribution of `degrees_of_freedom` from 0.5 to 1e4 about `middle`.
+    /// With `degrees_of_freedom` from 0.5 to 1e4 about `middle`.
     pub fn new(degrees_of_freedom: f64, middle: f64, scale: f64) -> Self {
-        // t^2 = nu (1 - x)/x where the smaller tail is I_x(nu/2, 1/2)/2 (DLMF 8.17); the median, at 0, is exact
+        // t^2 = nu (1 - x)/x at the smaller tail I_x(nu/2, 1/2)/2 (DLMF 8.17); the median, 0, is exact
         let tail = |p: f64| {
             libm::asinh(libm::exp(-0.5 * logit_quantile(2.0 * p, 1.0 - 2.0 * p, 0.5 * degrees_of_freedom, 0.5)))
         };

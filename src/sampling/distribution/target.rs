@@ -1,5 +1,5 @@
-//! [`Target`]: the components that a distribution is for, and the checks that distributions share; [`JointTarget`], the
-//! same for distributions of several numbers together.
+//! [`Target`]: the components of a distribution of one number, with common checks; [`JointTarget`]: the target of a
+//! joint distribution.
 
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{Presence, Row, Values, Written};
@@ -7,10 +7,10 @@ use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
 use crate::scene::schema::Limit;
 
-/// The nominal values of the components that a distribution is for.
+/// The components that have a distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Target<'a> {
-    /// Which `[[disperse]]` table, counted from zero.
+    /// The `[[disperse]]` table, counted from zero.
     pub index: usize,
     /// One value for each component.
     pub nominals: &'a [f64],
@@ -19,7 +19,7 @@ pub struct Target<'a> {
     pub written: &'a Written,
 }
 
-/// The remedy where a logarithm is taken.
+/// The remedy for the logarithm of a number that is not positive.
 pub(super) const LOGARITHM: &str = "a logarithm needs a positive number";
 
 pub(super) type Numbers = Result<Vec<f64>, DispersionError>;
@@ -36,13 +36,11 @@ impl Target<'_> {
         Err(error(self.index, key, value, allowed, remedy))
     }
 
-    /// One value for each component.
     pub(super) fn all<T>(&self, of: impl Fn(usize) -> Result<T, DispersionError>) -> Result<Vec<T>, DispersionError> {
         (0..self.nominals.len()).map(of).collect()
     }
 
-    /// The numbers of `key`, one for each component, within the limit of its row: the written ones, else those that
-    /// hold by default.
+    /// The numbers of `key`, or their default, one for each component, within the limit of the row.
     pub(super) fn each(&self, key: &'static str) -> Numbers {
         let row = self.rows.iter().find(|row| row.key == key);
         let list = match (self.written.values(key), row.map(|row| row.presence)) {
@@ -57,7 +55,7 @@ impl Target<'_> {
         }
     }
 
-    /// One number for each component, or what is wrong.
+    /// One finite number for each component.
     fn spread_out(&self, key: &'static str, values: &Values) -> Numbers {
         let width = self.nominals.len();
         let list = match values {
@@ -75,7 +73,7 @@ impl Target<'_> {
         }
     }
 
-    /// The medians: the numbers of `key`, where they are amounts, else the nominals, all above zero.
+    /// The medians, all above zero: the numbers of `key`, if it gives medians, else the nominal values.
     pub(super) fn positive_or_nominal(&self, key: &'static str) -> Numbers {
         let is_median = |row: &Row| row.key == key && row.presence == Presence::OrNominal;
         if self.written.has(key) && self.rows.iter().any(is_median) {
@@ -91,7 +89,7 @@ impl Target<'_> {
         }
     }
 
-    /// The numbers of the key `absolute` in the parameter's unit, or those of `relative` as fractions of the nominals.
+    /// The numbers of `absolute` in the parameter's unit, or `relative` times the nominal values.
     pub(super) fn amounts(&self, absolute: &'static str, relative: &'static str) -> Numbers {
         if self.written.has(absolute) {
             return self.each(absolute);
@@ -105,7 +103,7 @@ impl Target<'_> {
         Ok(fractions.iter().zip(self.nominals).map(|(x, nominal)| x * nominal.abs()).collect())
     }
 
-    /// `min` < `max` for each component.
+    /// `min` < `max`, component by component.
     pub(super) fn ends(&self) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
         let (min, max) = (self.each("min")?, self.each("max")?);
         match min.iter().zip(&max).find(|(min, max)| min >= max) {
@@ -117,7 +115,7 @@ impl Target<'_> {
         }
     }
 
-    /// The most likely value of each component, between its ends.
+    /// The most likely value of each component, within its ends.
     pub(super) fn mode(&self, min: &[f64], max: &[f64]) -> Numbers {
         let modes = self.each("mode")?;
         for ((mode, min), max) in modes.iter().zip(min).zip(max) {
@@ -130,13 +128,13 @@ impl Target<'_> {
     }
 }
 
-/// The vector or attitude that a distribution of several numbers is for.
+/// The vector or attitude that has a joint distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct JointTarget<'a> {
-    /// Which `[[disperse]]` table, counted from zero.
+    /// The `[[disperse]]` table, counted from zero.
     pub index: usize,
     pub parameter: Parameter,
-    /// The component that was named, which is wrong.
+    /// The component that the file names; wrong for a joint distribution.
     pub component: Option<usize>,
     /// The nominal values of all components.
     pub nominals: &'a [f64],
@@ -155,7 +153,7 @@ impl JointTarget<'_> {
         Err(error(self.index, key, value, allowed, remedy))
     }
 
-    /// An error of this target: a key that must be there is missing.
+    /// An error of this target: a missing key.
     pub(super) fn lacks<T>(
         &self,
         key: &'static str,
@@ -165,7 +163,7 @@ impl JointTarget<'_> {
         Err(DispersionError { value: None, ..error(self.index, key, "", allowed, remedy) })
     }
 
-    /// The nominal attitude, where the target is one as a whole.
+    /// The nominal attitude of a target that is a whole attitude.
     pub(super) fn attitude(&self, distribution: &str) -> Result<[f64; 4], DispersionError> {
         match <[f64; 4]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && self.parameter.shape() == Shape::Quaternion => Ok(nominal),
@@ -173,21 +171,21 @@ impl JointTarget<'_> {
         }
     }
 
-    /// The nominal vector, where the target is one as a whole.
+    /// The nominal vector of a target that is a whole vector.
     pub(super) fn vector(&self, distribution: &str) -> Result<[f64; 3], DispersionError> {
         let parameter = self.parameter;
         let is_vector = parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"];
-        // pure numbers that are no direction are factors and shears
+        // pure numbers are factors and shears, except for directions
         let is_vector = is_vector && (parameter.unit() != "1" || self.is_direction());
         match <[f64; 3]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && is_vector => Ok(nominal),
-            // of a component of a vector, the vector is meant
+            // a component stands for its vector
             _ if is_vector => self.misplaced("a vector (x, y, z)", distribution, &parameter.name()),
             _ => self.misplaced("a vector (x, y, z)", distribution, "initial.angular_velocity_rad_s"),
         }
     }
 
-    /// Whether the length of the vector has no effect: an axis of a wheel, a direction of a thruster.
+    /// Whether the length has no effect: an axis of a wheel, a direction of a thruster.
     pub(super) fn is_direction(&self) -> bool {
         self.parameter.facts().limit == Limit::Direction
     }
@@ -199,7 +197,7 @@ impl JointTarget<'_> {
         self.refused("parameter", format!("{name:?}"), allowed, remedy)
     }
 
-    /// An axis of any length but zero; one whose square would overflow or vanish is divided by its largest component.
+    /// `axis`, which is not zero, scaled by its largest component if its square would overflow or vanish.
     pub(super) fn axis(&self, axis: [f64; 3]) -> Result<[f64; 3], DispersionError> {
         let largest = axis.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
         if largest == 0.0 {

@@ -1,4 +1,4 @@
-//! `truncated_normal`: normal about the nominal value under the condition that it lies between two bounds.
+//! `truncated_normal`: normal about the nominal value, conditional on two bounds.
 
 use super::normal::{ONE_SPREAD, SPREAD};
 use super::target::Target;
@@ -7,7 +7,7 @@ use crate::math::normal::{probability, quantile, quantiles};
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, Written};
 
-/// The keys of a lower and of an upper bound: absolute, relative, in sigmas.
+/// The keys of the lower and of the upper bound: absolute, relative, in sigmas.
 const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];
 const UPPER_KEYS: [&str; 3] = ["upper", "relative_upper", "upper_sigmas"];
 const BOTH_KEYS: [&str; 6] = [LOWER_KEYS[0], LOWER_KEYS[1], LOWER_KEYS[2], UPPER_KEYS[0], UPPER_KEYS[1], UPPER_KEYS[2]];
@@ -20,17 +20,16 @@ const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
 #[derive(Clone, Copy, Debug)]
 pub struct TruncatedNormal;
 
-/// The key that stands for both bounds in a message.
+/// The key that messages name for both bounds.
 fn cut_key(written: &Written) -> &'static str {
     ["sigmas"].into_iter().chain(BOTH_KEYS).find(|key| written.has(key)).unwrap_or("lower")
 }
 
-/// Ready to be drawn: normal under the condition that the value lies between two bounds. Truncated, not clamped: the
-/// bounds carry no probability.
+/// Normal, conditional on two bounds: truncated, not clamped, so the bounds carry no probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruncatedNormalQuantile {
     mean: f64,
-    /// Negative where the distribution is reflected, so that the interval lies at or below the mean or about it.
+    /// Negative if the distribution is reflected, so that the interval lies at or below the mean or about it.
     std: f64,
     lower: f64,
     upper: f64,
@@ -41,20 +40,19 @@ pub struct TruncatedNormalQuantile {
 }
 
 impl TruncatedNormalQuantile {
-    /// The normal distribution of `mean` and `std` > 0 between `lower` < `upper` (either may be infinite); `None` where
-    /// less than [`TruncatedNormalQuantile::LEAST`] of the distribution lies between the bounds.
+    /// With `std` > 0, `lower` < `upper` (either may be infinite); `None` if less than
+    /// [`TruncatedNormalQuantile::LEAST`] of the distribution lies between them.
     pub fn new(mean: f64, std: f64, lower: f64, upper: f64) -> Option<Self> {
         let (a, b) = ((lower - mean) / std, (upper - mean) / std);
-        // In an upper tail probabilities are 1 minus something and lose their digits: reflect it to a lower tail.
+        // upper tails are 1 minus something and lose their digits: reflect them
         let (std, a, b) = if a > 0.0 { (-std, -b, -a) } else { (std, a, b) };
         let (below, above) = (probability(a), probability(-b));
-        // each form where it does not cancel
+        // two forms, each without cancellation
         let between = if b <= 0.0 { probability(b) - below } else { 1.0 - below - above };
         (between >= Self::LEAST).then_some(TruncatedNormalQuantile { mean, std, lower, upper, below, above, between })
     }
 
-    /// A distribution of width zero, at its mean; a nominal that is not a number is the scene's error, and is reported
-    /// as such.
+    /// A distribution of zero width at its mean.
     fn fixed(mean: f64) -> Self {
         TruncatedNormalQuantile {
             mean,
@@ -67,8 +65,7 @@ impl TruncatedNormalQuantile {
         }
     }
 
-    /// The least probability between the bounds: further out than about 8.2 standard deviations the scene that is asked
-    /// for has nothing to do with its nominal.
+    /// The least probability between the bounds: beyond some 8.2 standard deviations a scene is unlike its nominal.
     pub const LEAST: f64 = 1e-16;
 
     /// The quantile of the lower tail after reflection.
@@ -76,7 +73,7 @@ impl TruncatedNormalQuantile {
     fn reflected(&self, u: f64) -> f64 {
         let p = self.below + u * self.between;
         let z = if p <= 0.5 { quantile(p) } else { -quantile(self.above + (1.0 - u) * self.between) };
-        // The conditional distribution has no probability outside; this catches a last bit only.
+        // the clamp catches a last bit only
         (self.mean + self.std * z).clamp(self.lower, self.upper)
     }
 }
@@ -153,7 +150,7 @@ fn truncated(
         let remedy = "move the bounds to the nominal, or widen them";
         error(target.index, cut_key(target.written), format!("{lower:?} to {upper:?}"), allowed, remedy)
     };
-    // A nominal that is not a number is the scene's error, and is reported as such.
+    // a nominal that is not a number is an error of the scene
     if !(mean + std).is_finite() {
         return Ok(TruncatedNormalQuantile::fixed(mean));
     }

@@ -1,5 +1,5 @@
-//! `weibull`: from `min` (0 where it is not written) on, with distribution function 1 - exp(-(x/`scale`)^`shape`) (W.
-//! Weibull, *J. Appl. Mech.* 18 (1951) 293): times to failure, extremes.
+//! `weibull`: above `min` (default 0) with distribution function 1 - exp(-(x/`scale`)^`shape`) (W. Weibull, *J. Appl.
+//! Mech.* 18 (1951) 293): times to failure, extremes.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
@@ -18,7 +18,7 @@ pub struct WeibullQuantile {
     pub min: f64,
 }
 
-/// Allowed shapes: below, most values vanish or overflow; above, all are the scale.
+/// Allowed shapes: below, most values vanish or overflow; above, all equal the scale.
 const SHAPES: std::ops::RangeInclusive<f64> = 0.05..=1e4;
 
 impl Scalar for Weibull {

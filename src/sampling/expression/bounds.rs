@@ -1,9 +1,8 @@
-//! What the text of an expression says of its values: whether it is a condition, whether it always has one, and in
-//! which range they are.
+//! Properties of an expression's values that follow from its text: condition, total function, range.
 
 use super::{Binary, Expression, Function, Step};
 
-/// The range of what is not known.
+/// An unknown range.
 const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 impl Expression {
@@ -33,7 +32,7 @@ impl Expression {
         stack == [true]
     }
 
-    /// Whether it is a number wherever its variables are (but for overflow): it has no quotient, power, root or
+    /// Whether it is a number wherever its variables are (barring overflow): it has no quotient, power, root or
     /// logarithm.
     pub fn is_total(&self) -> bool {
         const TOTAL: [&str; 5] = ["sin", "cos", "tan", "atan", "abs"];
@@ -44,9 +43,8 @@ impl Expression {
         })
     }
 
-    /// A range that holds every value, where `variable` gives the range of the variable at each place: that of interval
-    /// arithmetic, which takes each occurrence of a variable for one of its own. Functions other than `abs`, powers,
-    /// and quotients are not followed: they can be anything.
+    /// A range that holds every value, by interval arithmetic over the ranges of the variables (each occurrence counts
+    /// as a variable of its own). Functions other than `abs`, powers and quotients can be anything.
     pub fn range(&self, variable: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
         let mut stack: Vec<[f64; 2]> = Vec::new();
         for step in &self.steps {
@@ -91,16 +89,16 @@ impl Expression {
 }
 
 impl Binary {
-    /// Whether it compares two numbers: its value is 1 or 0.
+    /// Whether its value is 1 or 0 by comparison.
     fn compares(self) -> bool {
         use Binary::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
         matches!(self, Less | LessOrEqual | Greater | GreaterOrEqual | Equal | NotEqual)
     }
 
-    /// The range of its value, where the operands have the ranges `a` and `b`.
+    /// The range of its value, given the ranges of the operands.
     fn range(self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
         let truth = |always: bool, never: bool| [f64::from(u8::from(always)), f64::from(u8::from(!never))];
-        // whether x < y for all of them, and for none
+        // x < y for all, and for none
         let less = |x: [f64; 2], y: [f64; 2]| truth(x[1] < y[0], x[0] >= y[1]);
         let at_most = |x: [f64; 2], y: [f64; 2]| truth(x[1] <= y[0], x[0] > y[1]);
         let is_apart = a[1] < b[0] || b[1] < a[0];
@@ -113,7 +111,7 @@ impl Binary {
             Binary::Subtract => [a[0] - b[1], a[1] - b[0]],
             Binary::Multiply => {
                 let products = [a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]];
-                // a product of zero and infinity is not known
+                // zero times infinity is unknown
                 let is_known = products.iter().all(|product| !product.is_nan());
                 let least = products.iter().copied().fold(f64::INFINITY, f64::min);
                 if is_known { [least, products.iter().copied().fold(f64::NEG_INFINITY, f64::max)] } else { ANYTHING }
@@ -146,7 +144,7 @@ mod tests {
         }
     }
 
-    /// Law: what may have no value says so.
+    /// Law: a total expression has a value everywhere.
     #[test]
     fn what_is_total_has_a_value() {
         for text in ["a", "-a + 2 * b", "if(a < b and b > 1, sin(a), atan2(a, b))", "min(abs(a), cos(b))"] {
@@ -159,8 +157,7 @@ mod tests {
         }
     }
 
-    /// Law: the range holds every value, and what it says can never be is never so; it is the exact range where every
-    /// variable stands there once.
+    /// Law: the range holds every value, and excludes impossible ones; it is exact if every variable occurs once.
     #[test]
     fn ranges_hold_every_value() {
         let ranges = [[0.0, f64::INFINITY], [0.0, 2.0], [-3.0, -1.0]];
