@@ -1,7 +1,7 @@
-//! [`Accumulator`]: what is gathered from rows in one pass over their parts.
+//! [`Accumulator`]: gathers data from rows in one pass over their parts.
 //!
-//! A part is counted on any thread, and merged in the order of the parts: no bit depends on threads, nor on where the
-//! rows are read from.
+//! A part is counted on any thread and merged in the order of the parts: no bit depends on threads, nor on the source
+//! of the rows.
 
 use std::num::NonZeroUsize;
 
@@ -15,7 +15,7 @@ pub trait Accumulator: Sync {
 
     fn nothing(&self) -> Self::Whole;
 
-    /// What a part adds, on any thread; each part is counted once.
+    /// Counts a part, on any thread, once.
     ///
     /// # Errors
     /// Where a column cannot be read.
@@ -25,7 +25,7 @@ pub trait Accumulator: Sync {
     fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart);
 }
 
-/// Two things in one pass.
+/// Two accumulators in one pass.
 impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
     type Whole = (A::Whole, B::Whole);
     type OfPart = (A::OfPart, B::OfPart);
@@ -44,7 +44,7 @@ impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
     }
 }
 
-/// What `accumulator` gathers from the files of `reader`, on `threads` threads (`None`: one per core).
+/// Runs `accumulator` over the files of `reader`, on `threads` threads (`None`: one per core).
 ///
 /// # Errors
 /// Where a file cannot be read.

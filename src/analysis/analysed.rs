@@ -1,9 +1,7 @@
-//! [`Analysed`]: what is made of the rows of a campaign once they are on the disk: statistics, sensitivities, verdicts.
-//! It depends on plan and files only.
+//! [`Analysed`]: statistics, sensitivities and verdicts of a campaign; a function of its plan and files.
 
 use std::num::NonZeroUsize;
 
-use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::ending::Ending;
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
@@ -22,36 +20,29 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 pub struct Analysed {
     pub statistics: Statistics,
     pub verdicts: Verdicts,
-    /// Of what drives the main observables.
+    /// Drivers of the main observables.
     pub sensitivities: Vec<InputSensitivity>,
-    /// Over time, where the campaign has bands.
+    /// Quantiles over time.
     pub bands: Option<Bands>,
-    /// Whether the campaign has enough samples, where it has `[stop]`.
+    /// The last look of `[stop]`.
     pub stopping: Option<Stopping>,
-    /// What the page shows of the rows.
+    /// The data of the page.
     pub survey: Survey,
-    /// How missions ended, under a control loop.
+    /// Ends of missions under a control loop.
     pub missions: Missions,
-    /// How runs ended, and the audits.
+    /// Ends of runs, and the audits.
     pub tally: Tally,
-    /// What drives whether a run is computed, where many are not.
+    /// Drivers of whether a run is computed, if many are not.
     pub failures: Vec<InputSensitivity>,
 }
 
 impl Analysed {
-    /// How the campaign ended.
     pub fn ending(&self) -> Ending {
-        Ending {
-            rows: self.tally.statuses.runs(),
-            failed: self.tally.statuses.runs() - self.tally.statuses.ok(),
-            not_covered: self.tally.audits.as_ref().map_or(0, AuditTally::not_covered),
-            verdicts: self.verdicts.clone(),
-            stopping: self.stopping.clone(),
-        }
+        Ending::new(&self.tally, self.verdicts.clone(), self.stopping.clone())
     }
 }
 
-/// What was `gathered` from the rows of `plan` says.
+/// Analyses the data `gathered` from the rows of `plan`.
 ///
 /// # Errors
 /// Where a file cannot be read.

@@ -1,28 +1,27 @@
-//! Requirements at each time: what the bands of a campaign say of them.
+//! Verdicts on requirements over time, from the bands of a campaign.
 //!
-//! A limit holds at every point of the bands in an interval for a share of the runs, which may be other runs at another
-//! point. How many runs are within it at a point is known up to the bucket that the limit is in: both bounds must
-//! decide, so that no verdict rests on where in a bucket a run is.
+//! A limit holds at every point of the bands in an interval for a share of the runs, not necessarily the same runs at
+//! each point. The number of runs within it is known up to the bucket of the limit: both bounds must decide.
 
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::order_statistics::among_values;
 use crate::analysis::population::Population;
-use crate::analysis::row_verdicts::Asked;
+use crate::analysis::row_verdicts::Judged;
 use crate::campaign::requirement::BandSubject;
 use crate::campaign::{ShownUnit, Statement};
 use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// What `bands` say of what is `asked` about `band`, of `runs` that count.
+/// The verdict of `bands` on a requirement on `band`, over `runs` that count.
 pub(super) fn over_time(
-    asked: Asked<'_>,
+    judged: Judged<'_>,
     band: &BandSubject,
     bands: Option<&Bands>,
     runs: u64,
     population: Population,
 ) -> Assessment {
-    let Asked { requirement, confidences, failed, .. } = asked;
+    let Judged { requirement, confidences, failed, .. } = judged;
     let found = bands.and_then(|bands| bands.find(&band.series).map(|series| (bands, series)));
     let points: Vec<(usize, f64)> = found.map_or_else(Vec::new, |(bands, _)| {
         bands.times().iter().copied().enumerate().filter(|(_, time)| band.contains(*time)).collect()
@@ -36,7 +35,7 @@ pub(super) fn over_time(
         Statement::Mean => f64::NAN,
     };
     let (mut gate, worst) = points_gate(&within, target, confidences);
-    let mut interval = points_gate(&within, target, [asked.of_an_end(); 2]).0.bounds;
+    let mut interval = points_gate(&within, target, [judged.of_an_end(); 2]).0.bounds;
     let mut reason = None;
     if population != Population::Independent {
         gate = Gate { decision: Decision::Undecided(None), bounds: [f64::NAN; 2], ..gate };

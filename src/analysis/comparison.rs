@@ -1,24 +1,22 @@
-//! [`Comparison`]: two results compared, observable by observable: shifts of their statistics, and tests whether chance
-//! explains them.
+//! [`Comparison`]: the observables of two results: shifts of statistics, and tests whether chance explains them.
 //!
-//! Where both results drew the same samples, about whichever nominal values, they are compared sample by sample (common
-//! random numbers): a difference that is small beside the spread of the runs is then seen. Statistics are of all rows,
-//! tests of distributions and of pairs of the first [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
+//! If both results drew the same samples, about any nominal values, runs are compared in pairs (common random numbers),
+//! which shows differences that are small beside the spread. Statistics are of all rows, tests of distributions and of
+//! pairs of the first [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
 //!
-//! An observable of independent samples has two tests, of its mean and of its distribution: its p-value is twice the
-//! smaller of both (Bonferroni). Of pairs it has that of its distribution in both results ([`marginals`]): a mean of
-//! differences is normal only where no rare one is large, and differences of a quantity that is wrapped to one period
-//! have such. Two more tests, of the pairs' differences ([`signed_ranks`], [`spread_of_pairs`]), tell whether the runs
-//! moved one way, or apart. The share of runs without a value has a test of its own ([`fisher`], of pairs [`mcnemar`]).
-//! There are many observables: p-values are adjusted by Holm's method. Where nothing differs, the probability that any
-//! observable is called shifted is then at most [`Comparison::level`], and so are that of being called moved and that
-//! of any change of a share without a value.
+//! The p-value of independent samples is twice the smaller one of a test of means and one of distributions
+//! (Bonferroni). Pairs have a test of both marginal distributions ([`marginals`]): a mean of differences is normal only
+//! without rare large ones, which a wrapped quantity has. Tests of the differences of pairs ([`signed_ranks`],
+//! [`spread_of_pairs`]) show whether runs moved one way, or apart; [`fisher`], for pairs [`mcnemar`], tests the share of
+//! runs without a value. P-values are adjusted for the number of observables (Holm): if nothing differs, any observable
+//! is called shifted, moved, or changed in its share without a value with probability [`Comparison::level`] each.
 
 use std::num::NonZeroUsize;
 
 use crate::analysis::accumulator::of_files;
 use crate::analysis::observed::Observed;
 use crate::analysis::pairing::{MOST_ROWS, ResultRows, first_dispersed, pairs, statuses};
+use crate::analysis::statistic::{STATISTICS, Statistic};
 use crate::analysis::statistics::{self, ColumnStatistics, Statistics};
 use crate::analysis::statuses::StatusCounter;
 use crate::campaign::Requirement;
@@ -31,35 +29,34 @@ use crate::statistics::two_sample::{
 };
 use crate::storage::rows_reader::RowsError;
 
-/// Columns that are read at a time.
+/// Columns read at a time.
 const AT_A_TIME: usize = 16;
 
 /// The shift of one statistic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shift {
-    /// Which statistic: `mean`, `standard deviation`, `p95`.
+    /// Name: `mean`, `standard deviation`, `p95`.
     pub statistic: String,
-    /// Its value in the first result.
+    /// Values in the first result and in the second.
     pub first: f64,
-    /// Its value in the second.
     pub second: f64,
-    /// The magnitude of their difference, in units of [`ColumnComparison::scale`].
+    /// Magnitude of the difference in units of [`ColumnComparison::scale`].
     pub relative: f64,
 }
 
-/// Runs without something, in both results.
+/// Runs without a value, or not computed, in both results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Absence {
-    /// In how many of how many runs, in the first result and in the second.
+    /// Runs without, of all runs, in the first result and in the second.
     pub of: [Occurrence; 2],
-    /// Probability of a difference as large as this one by chance.
+    /// Probability of so large a difference by chance.
     pub p_value: f64,
-    /// The same, adjusted for the number of observables.
+    /// Adjusted for the number of observables.
     pub adjusted_p_value: f64,
 }
 
 impl Absence {
-    /// `lacks`: of each row of each result whether it is without, `None` of a row that does not count.
+    /// `lacks` tells whether a row of a result is without; `None` for a row that does not count.
     pub(super) fn of(
         lacks: [&dyn Fn(usize) -> Option<bool>; 2],
         rows: [std::ops::Range<usize>; 2],
@@ -81,7 +78,7 @@ impl Absence {
         Absence { of, p_value, adjusted_p_value: 1.0 }
     }
 
-    /// The shares of runs, in the first result and in the second.
+    /// The shares of runs without, in both results.
     pub fn shares(&self) -> [f64; 2] {
         self.of.map(|of| of.events as f64 / of.runs.max(1) as f64)
     }
@@ -92,30 +89,28 @@ impl Absence {
 pub struct ColumnComparison {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// What shifts are relative to: the standard deviation in the first result; where that is 0 the magnitude of its
-    /// mean, or 1.
+    /// The unit of shifts: the standard deviation in the first result; if that is 0, the magnitude of its mean, or 1.
     pub scale: f64,
-    /// The shift of each statistic that both results have.
+    /// The shifts of the statistics that both results have.
     pub shifts: Vec<Shift>,
-    /// The shift of the mean with its interval: of pairs, or by Welch's test.
+    /// The shift of the mean with its interval, of pairs or by Welch's test.
     pub mean: Option<Difference>,
-    /// P-value of the distributions: of [`marginals`] of the pairs, or of Kolmogorov and Smirnov's test.
+    /// P-value of the distributions, by [`marginals`] or the test of Kolmogorov and Smirnov.
     pub distribution_p_value: Option<f64>,
-    /// P-value of the pairs' differences being of one sign; `None` without pairs, or where none differs.
+    /// P-value of the pairs' differences being symmetric; `None` without pairs, or if none differs.
     pub moved_p_value: Option<f64>,
-    /// P-value of the values of one result spreading more than those of the other in the pairs; `None` as of the other
-    /// one.
+    /// P-value of equal spreads in the pairs.
     pub spread_p_value: Option<f64>,
-    /// Twice the smaller one of both, adjusted for the number of observables.
+    /// Twice the smaller one of these two, adjusted for the number of observables.
     pub adjusted_moved_p_value: Option<f64>,
-    /// Dispersed runs that are `ok` and have no value.
+    /// Dispersed `ok` runs without a value.
     pub absence: Absence,
     pub differing_pairs: u64,
-    /// Whether a requirement of either plan names it.
+    /// Whether a requirement of either plan names the observable.
     pub is_required: bool,
-    /// P-value of what decides whether it is shifted; `None` where there is none.
+    /// P-value that decides whether the observable is shifted.
     pub p_value: Option<f64>,
-    /// The same, adjusted for the number of observables.
+    /// Adjusted for the number of observables.
     pub adjusted_p_value: Option<f64>,
 }
 
@@ -124,25 +119,25 @@ impl ColumnComparison {
         self.shifts.iter().max_by(|a, b| a.relative.total_cmp(&b.relative))
     }
 
-    /// The magnitude of that; 0 where there is none.
+    /// The magnitude of the largest shift, or 0.
     pub fn largest_relative(&self) -> f64 {
         self.largest().map_or(0.0, |shift| shift.relative)
     }
 
-    /// Whether any statistic is shifted by more than `tolerance`, or the share of runs without a value is; what is not
-    /// a number in one result only is.
+    /// Whether a statistic, or the share of runs without a value, is shifted by more than `tolerance`; NaN in one result
+    /// only is.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         let [first, second] = self.absence.shares();
         (second - first).abs() > tolerance || !self.shifts.iter().all(|shift| shift.relative <= tolerance)
     }
 
-    /// The p-value of the pairs' differences: of their signs and of their spread.
+    /// The p-value of the differences of pairs: of their signs and of their spread.
     pub fn p_of_pairs(&self) -> Option<f64> {
         let (signs, spread) = self.moved_p_value.zip(self.spread_p_value)?;
         Some((2.0 * signs.min(spread)).min(1.0))
     }
 
-    /// Whether the pairs show a change of spread rather than one of place.
+    /// Whether the spread of the pairs changed rather than their place.
     pub fn moves_apart(&self) -> bool {
         self.moved_p_value.zip(self.spread_p_value).is_some_and(|(signs, spread)| spread < signs)
     }
@@ -151,56 +146,51 @@ impl ColumnComparison {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     pub statistics: [Statistics; 2],
-    /// Samples of both that were drawn alike and are `ok` in both; 0 where the results are not paired.
+    /// `ok` pairs of samples drawn alike; 0 if the results are not paired.
     pub pairs: u64,
-    /// Dispersed runs that are physical and not `ok`.
+    /// Dispersed, physical runs that are not `ok`.
     pub failures: Absence,
-    /// The observables that both have: the most significant first, and before all others those that a requirement
-    /// names.
+    /// The observables of both results, required ones first, then by significance.
     pub columns: Vec<ColumnComparison>,
-    /// The observables that only one has: of the first, of the second.
+    /// The observables that only the first, or only the second, result has.
     pub alone: [Vec<String>; 2],
 }
 
 impl Comparison {
-    /// The shift of the fraction of runs that are `ok`.
+    /// The shift of the fraction of `ok` runs.
     pub fn shift_of_ok(&self) -> f64 {
         let [first, second] = self.statistics.each_ref().map(|of| of.ok() as f64 / of.samples().max(1) as f64);
         second - first
     }
 
-    /// Whether any statistic, or the fraction of runs that are `ok`, is shifted by more than `tolerance`; what is not a
-    /// number in one result only is.
+    /// Whether a statistic, or the fraction of `ok` runs, is shifted by more than `tolerance`; NaN in one result only is.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         self.shift_of_ok().abs() > tolerance || self.columns.iter().any(|column| column.is_beyond(tolerance))
     }
 
-    /// The probability that any observable is called shifted where none is: one less the confidence of the intervals,
-    /// and at most a tenth.
+    /// The probability of a false alarm: one less the confidence of the intervals, at most a tenth.
     pub fn level(&self) -> f64 {
         (1.0 - self.statistics[0].confidence).min(MOST_LEVEL)
     }
 
-    /// Whether chance does not explain the difference between the values of an observable.
+    /// Whether chance does not explain the shift of an observable.
     pub fn is_shifted(&self, column: &ColumnComparison) -> bool {
         column.largest_relative() > 0.0 && column.adjusted_p_value.is_some_and(|p| p <= self.level())
     }
-}
 
-impl Comparison {
-    /// Whether the runs of an observable moved, each a little, most of them one way, or apart, and chance does not
-    /// explain it, while the test of distributions does not see it.
+    /// Whether the runs of an observable moved, each a little and mostly one way, or apart, beyond chance, though the
+    /// test of distributions does not show it.
     pub fn is_moved(&self, column: &ColumnComparison) -> bool {
         !self.is_shifted(column) && column.adjusted_moved_p_value.is_some_and(|p| p <= self.level())
     }
 
-    /// Whether chance does not explain how many runs are without something in one result and in the other.
+    /// Whether chance does not explain the difference of two shares.
     pub fn is_changed(&self, absence: &Absence) -> bool {
         absence.adjusted_p_value <= self.level()
     }
 }
 
-/// Largest probability of a false alarm, whatever the confidence of the intervals.
+/// Largest probability of a false alarm.
 const MOST_LEVEL: f64 = 0.1;
 
 /// Compares `first` with `second`.
@@ -266,8 +256,7 @@ pub fn compare(
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })
 }
 
-/// The values of observables for the first samples, indexed by sample; NaN for a run without one or one that is not
-/// `ok`.
+/// The values of observables in the first samples; NaN for a run without a value or not `ok`.
 fn values<'o>(
     result: ResultRows<'_>,
     observed: impl Iterator<Item = &'o Observed> + Clone,
@@ -277,7 +266,7 @@ fn values<'o>(
         let part = part?;
         let statuses = part.statuses()?;
         for (column, observed) in columns.iter_mut().zip(observed.clone()) {
-            let values = observed.values(&part)?.into_iter().zip(&statuses);
+            let values = observed.column(&part)?.into_owned().into_iter().zip(&statuses);
             column.extend(values.map(|(value, status)| if *status == Status::Done { value } else { f64::NAN }));
         }
     }
@@ -303,8 +292,9 @@ pub(super) fn compared(
         let relative = if first == second { 0.0 } else { (second - first).abs() / scale };
         shifts.push(Shift { statistic, first, second, relative });
     };
-    shift("mean".to_owned(), moments.map(|of| of.mean()));
-    shift("standard deviation".to_owned(), moments.map(|of| of.standard_deviation()));
+    for Statistic { words, value, .. } in STATISTICS.iter().filter(|one| one.is_compared) {
+        shift((*words).to_owned(), statistics.map(value));
+    }
     for quantile in &statistics[0].quantiles {
         if let Some(other) = statistics[1].quantiles.iter().find(|other| other.p == quantile.p) {
             shift(format!("p{}", percent(quantile.p)), [quantile.value, other.value]);
@@ -332,11 +322,9 @@ pub(super) fn compared(
 pub(super) struct Tests {
     pub(super) mean: Option<Difference>,
     distribution: Option<f64>,
-    /// Of the signs of the differences of pairs.
     pub(super) moved: Option<f64>,
-    /// Of the spread of the values of pairs.
     spread: Option<f64>,
-    /// What decides whether it is shifted.
+    /// Decides whether the observable is shifted.
     pub(super) p_value: Option<f64>,
     differing: u64,
 }
@@ -376,8 +364,8 @@ pub(super) fn tested(
     }
 }
 
-/// The p-value of two tests of one hypothesis. A test of means that saw no spread has none to judge a shift by: then
-/// the other one decides.
+/// The p-value of two tests of one hypothesis. A test of means without spread has none to judge a shift by; the other
+/// one then decides.
 pub(super) fn of_both(mean: Option<Difference>, distribution: Option<f64>) -> Option<f64> {
     let mean = mean.filter(|found| found.shift.value == 0.0 || found.shift.lower < found.shift.upper);
     match (mean.map(|found| found.p_value), distribution) {
@@ -386,8 +374,8 @@ pub(super) fn of_both(mean: Option<Difference>, distribution: Option<f64>) -> Op
     }
 }
 
-/// Adjusts the p-values of `columns` for their number, those of each question for itself, and sorts them: required ones
-/// first, then by significance, then by the largest shift.
+/// Adjusts the p-values of `columns`, question by question, and sorts them: required ones first, then by significance,
+/// then by the largest shift.
 pub(super) fn adjust(columns: &mut [ColumnComparison], failures: &mut Absence) {
     let absences = || columns.iter().map(|column| column.absence.p_value).chain([failures.p_value]);
     let absences = holm(&absences().collect::<Vec<f64>>());
@@ -401,7 +389,7 @@ pub(super) fn adjust(columns: &mut [ColumnComparison], failures: &mut Absence) {
         column.adjusted_p_value = column.p_value.and_then(|_| adjusted.next());
         column.adjusted_moved_p_value = column.p_of_pairs().and_then(|_| moved.next());
     }
-    // a p-value that underflows is no better than another one: the shift decides
+    // a p-value that underflows is no better than another: the shift decides
     columns.sort_by(|a, b| {
         let p = |column: &ColumnComparison| column.p_value.unwrap_or(1.0);
         let by_p = p(a).total_cmp(&p(b)).then_with(|| b.largest_relative().total_cmp(&a.largest_relative()));

@@ -1,9 +1,9 @@
-//! A comparison of two results as a table, one row for each observable.
+//! A comparison of two results as a table of observables.
 
 use crate::analysis::comparison::{ColumnComparison, Comparison};
 use crate::table::Table;
 
-/// The table, in the order of the comparison: the most significant observable first.
+/// The table, in the order of the comparison.
 pub fn table(comparison: &Comparison) -> Table<'_> {
     let rows = &comparison.columns;
     let mut table = Table::of(rows);

@@ -1,6 +1,6 @@
-//! `observables.parquet`: the values of the observables that the file derives (`[[observable]]`), sample by sample.
+//! `observables.parquet`: the derived observables (`[[observable]]`), sample by sample.
 //!
-//! They follow from the rows: a changed expression makes this file anew, and runs nothing again.
+//! They follow from the rows: a changed expression needs no new run.
 
 use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
@@ -22,7 +22,7 @@ pub enum DerivedTableError {
     Encoding(#[from] EncodingError),
 }
 
-/// The file of the campaign `plan`, from the files of its rows, part by part; `None` where its file derives nothing.
+/// The file of the campaign `plan`, from its rows, part by part; `None` without derived observables.
 ///
 /// # Errors
 /// [`DerivedTableError`].
@@ -48,7 +48,7 @@ pub fn encoded(plan: &Plan, reader: &RowsReader) -> Result<Option<Vec<u8>>, Deri
         let statuses: Vec<Status> = part.statuses()?;
         let fixed = [Values::Count(samples), Values::words(statuses.iter().map(|status| status.name()))];
         let values = |one: &Observed| {
-            let mut values = one.values(&part)?;
+            let mut values = one.column(&part)?.into_owned();
             let failed = values.iter_mut().zip(&statuses).filter(|(_, status)| **status != Status::Done);
             failed.for_each(|(value, _)| *value = f64::NAN);
             Ok::<_, RowsError>(Values::Real(values.into()))

@@ -1,55 +1,53 @@
-//! What drives an outcome: the ranking of its inputs, for its spread and for an event of it. What screen, cards and
-//! charts say follows from [`rankings`] alone.
+//! Drivers of an outcome: the ranking of its inputs, for its spread and for its events. Screen, cards and charts follow
+//! from [`rankings`] alone.
 
 use crate::analysis::effects::{Dependence, OnEvent};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 
-/// Least share of the variance, or squared rank correlation, of an input that is called a driver of the spread: a share
-/// without which the standard deviation is 5% smaller.
+/// Least share of the variance, or squared rank correlation, of a driver of the spread: without it the standard
+/// deviation is 5% smaller.
 pub const LEAST_SHARE: f64 = 0.1;
-/// An interval of a share that is wider says so little that the share is not said.
+/// Widest interval of a share that is shown.
 const MOST_WIDTH: f64 = 0.7;
 
 impl InputSensitivity {
-    /// The share of the variance that the input explains: the total index, where the design gives it; else the
-    /// first-order index.
+    /// The share of the variance: the total index if the design gives one, else the first-order index.
     pub fn share(&self) -> Option<Estimate> {
         self.total.or(self.first_order)
     }
 
-    /// Whether the rows show, at the level `alpha`, that it acts on the spread, and that it matters. A design without a
-    /// population has neither tests nor intervals: the shares decide.
+    /// Whether the rows show, at the level `alpha`, that it acts on the spread notably. Without a population, and so
+    /// without tests and intervals, the shares decide.
     pub fn drives_spread(&self, alpha: f64) -> bool {
         let rank = self.spearman.map_or(0.0, |r| r.value * r.value);
         let is_shown = match (self.p_value, self.share()) {
             (Some(p_value), _) => p_value <= alpha,
             (None, share) => share.is_none_or(|share| share.lower > 0.0 || share.lower.is_nan()),
         };
-        // what a test shows in few rows is not small
+        // a significant effect in few rows is not small
         let is_known = self.p_value.is_none() || self.share().is_some();
         is_shown && (!is_known || self.share().map_or(rank, |share| share.value.max(rank)) >= LEAST_SHARE)
     }
 }
 
-/// Whether the interval of a share says something of it.
+/// Whether the interval of a share is informative.
 pub fn is_known(share: &Estimate) -> bool {
     share.upper - share.lower <= MOST_WIDTH
 }
 
-/// Least risk ratio, or its inverse, of a value that is called a driver of an event: of many runs small ratios are
-/// certain, and matter to nobody.
+/// Least risk ratio, or its inverse, of a value that drives an event: many runs make small ratios certain.
 const LEAST_RATIO: f64 = 1.5;
-/// The same of the chance of [`Dependence::Shift`], as its distance from one half.
+/// Least distance from one half of the chance in [`Dependence::Shift`].
 pub const LEAST_CHANCE: f64 = 0.1;
 
-/// What is asked of an outcome.
+/// A question about an outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
-    /// What its spread comes from.
+    /// The source of its spread.
     Spread,
-    /// What decides whether an event occurs.
+    /// The causes of an event.
     Event(Event),
 }
 
@@ -57,28 +55,27 @@ pub enum Question {
 #[derive(Clone, Copy, Debug)]
 pub struct Ranked<'a> {
     pub input: &'a InputSensitivity,
-    /// What it means for the event; `None` of a spread.
+    /// Its effect on the event; `None` for a spread.
     pub effect: Option<&'a OnEvent>,
-    /// Its share of the variance, of the outcome or of whether the event occurs; `None` if the rows are too few for
-    /// one.
+    /// Its share of the variance, of the outcome or of the event; `None` if the rows are too few.
     pub share: Option<Estimate>,
-    /// Whether the rows show that it acts, and that it matters.
+    /// Whether it acts, notably.
     pub is_driver: bool,
 }
 
 impl Ranked<'_> {
-    /// The name of the input that may act in place of this one.
+    /// The input that may act instead.
     pub fn instead(&self) -> Option<&str> {
         self.effect.map_or(&self.input.instead, |effect| &effect.instead).as_deref()
     }
 
-    /// Whether its share is known, or all that there is.
+    /// Whether its share is known, or has no interval.
     fn has_share(&self) -> bool {
         self.share.is_some_and(|share| is_known(&share) || share.lower.is_nan())
     }
 
-    /// What inputs are ranked by: their shares if these are known (`by_share`), else what a parabola explains. For an
-    /// event, shares, if there are any, else tests.
+    /// The criterion of the ranking: shares if all are known (`by_share`), else the share that a parabola explains. For
+    /// an event, shares if there are any, else tests.
     fn strength(&self, by_share: bool) -> f64 {
         let share = self.share.map(|share| share.value);
         let found = match self.effect {
@@ -90,7 +87,7 @@ impl Ranked<'_> {
     }
 }
 
-/// The inputs of an outcome: first its drivers, then the others, each the strongest first.
+/// The inputs of an outcome: its drivers, then the others, each in descending strength.
 #[derive(Clone, Debug)]
 pub struct Ranking<'a> {
     pub question: Question,
@@ -103,9 +100,9 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// The rankings of an outcome: of each of its events, and of its spread, unless it has few values and the event is its
-/// spread. The tail is asked only if something drives it that does not drive the spread. `alpha`: the probability that
-/// an outcome without any influence has a driver.
+/// The rankings of an outcome: for each of its events, and for its spread unless the event is the spread of few values.
+/// The tail is ranked only if it has a driver that the spread has not. `alpha`: the probability of a driver of an
+/// outcome without influences.
 pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> Vec<Ranking<'a>> {
     let of = || all.iter().filter(|one| one.observable == outcome);
     let on_event = |input: &'a InputSensitivity, event: Event| {
@@ -141,7 +138,7 @@ pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> V
     for event in events {
         let inputs = sorted(of().filter_map(|input| on_event(input, event)).collect());
         let drives_spread = |name: &str| spread.iter().any(|ranked| ranked.is_driver && ranked.input.input == name);
-        // what the rows do not tell from a driver of the spread is not new
+        // an input that the rows do not separate from a driver of the spread is not new
         let is_known =
             |ranked: &Ranked<'_>| drives_spread(&ranked.input.input) || ranked.instead().is_some_and(drives_spread);
         let is_new = |ranked: &Ranked<'_>| ranked.is_driver && !is_known(ranked);

@@ -1,5 +1,5 @@
-//! Whether inputs act on an outcome, tested: on its spread, and on an [`Event`] of it. Tests by ranks and of tables,
-//! which assume nothing of any distribution; p-values are those of all inputs together (Holm).
+//! Tests of the effect of inputs on the spread of an outcome and on an [`Event`] of it: by ranks and of tables, without
+//! assumptions on distributions; p-values are adjusted for all inputs (Holm).
 
 use crate::analysis::event::{Event, are_few, distinct};
 use crate::statistics::conditional::conditional_test;
@@ -8,21 +8,19 @@ use crate::statistics::correlation::{Estimate, ascending_order, mid_ranks, mid_r
 use crate::statistics::rank_tests::{kruskal_wallis, mann_whitney, spearman_test, turns};
 use crate::statistics::two_sample::holm;
 
-/// Cells of an input with many values, at most, in which the observable's ranks are compared; and rows in a cell, at
-/// least.
+/// Most cells of an input with many values, and least rows in a cell.
 const CELLS: [usize; 2] = [9, 8];
-/// Share of equal values of an observable above which ranks tell little: the test then asks whether it is another one,
-/// and exactly.
+/// Share of equal values of an observable above which ranks tell little, and an exact test of being different is made.
 const MANY_EQUAL: f64 = 0.1;
-/// The same of an input: all other values are one group.
+/// Share of equal values of an input above which all other values are one group.
 const MOSTLY_EQUAL: f64 = 0.5;
 
-/// How an observable goes with an input.
+/// The trend of an observable with an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     Rises,
     Falls,
-    /// It rises in a part of the input's range and falls in another.
+    /// Rising in a part of the input's range and falling in another.
     NotMonotonic,
 }
 
@@ -31,30 +29,29 @@ pub enum Direction {
 pub struct Level {
     /// The value; `None` for all values but the most frequent one.
     pub value: Option<f64>,
-    /// In how many of its runs the event occurs.
+    /// Runs in which the event occurs.
     pub of: Occurrence,
 }
 
-/// How an event depends on an input.
+/// The dependence of an event on an input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dependence {
-    /// Of an input with few values: each in ascending order; which of them differs most from the others, and the risk
-    /// ratio of that.
+    /// On an input with few values, ascending.
     Levels {
         levels: Vec<Level>,
-        /// The index of the one that differs most.
+        /// The index of the level that differs most.
         most: usize,
-        /// How many times as often the event occurs there as in the other runs.
+        /// Risk ratio of the event there against the other runs.
         ratio: Estimate,
     },
-    /// Of an input with many values: the event comes with large or with small ones.
+    /// On an input with many values: the event comes with large or with small ones.
     Shift {
         /// The chance that a run with the event has the larger value than one without.
         chance: f64,
         /// Medians of the input with the event and without.
         medians: [f64; 2],
     },
-    /// Of an input with many values: the event comes with those far from (or near to) the middle ones.
+    /// On an input with many values: the event comes with distance from the middle, or closeness to it.
     Distance {
         /// The chance that a run with the event is farther from the middle.
         chance: f64,
@@ -65,22 +62,21 @@ pub enum Dependence {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnEvent {
     pub event: Event,
-    /// Share of the variance of whether it occurs; `None` if the rows are too few for one.
+    /// Share of the variance of its occurrence; `None` if the rows are too few.
     pub share: Option<Estimate>,
-    /// Probability of a dependence as strong as this one where no input has any, of all inputs together.
+    /// P-value of independence, adjusted for all inputs.
     pub p_value: f64,
-    /// How it depends on the input.
     pub dependence: Dependence,
-    /// The correlated input that may act in place of this one: the rows do not tell the two apart.
+    /// The correlated input that the rows do not separate from this one.
     pub instead: Option<String>,
 }
 
-/// An input in the forms that the tests need.
+/// An input prepared for the tests.
 #[derive(Clone, Debug)]
 pub struct TestedInput {
     values: Vec<f64>,
     order: Vec<usize>,
-    /// The group of each row, and the value of each group; of an input with few values.
+    /// The group of each row, and the value of each group, of an input with few values.
     groups: Option<(Vec<usize>, Vec<Option<f64>>)>,
     ranks: Vec<f64>,
     /// Ranks of the distances from the middle rank.
@@ -88,7 +84,7 @@ pub struct TestedInput {
 }
 
 impl TestedInput {
-    /// Of an input with these values, row by row, and their ascending order; `None` where it does not vary.
+    /// From the values row by row, and their ascending order; `None` if constant.
     pub fn new(values: &[f64], order: &[usize]) -> Option<Self> {
         let known = distinct(values, order);
         let frequent = known.iter().max_by_key(|(_, count)| *count).filter(|_| known.len() > 1)?;
@@ -115,7 +111,7 @@ impl TestedInput {
         self.groups.is_some()
     }
 
-    /// In how many runs of each group the event occurs.
+    /// The runs of each group in which the event occurs.
     fn levels(&self, marked: &[bool]) -> Option<Vec<Level>> {
         let (groups, labels) = self.groups.as_ref()?;
         let none = Occurrence { events: 0, runs: 0 };
@@ -127,7 +123,7 @@ impl TestedInput {
         Some(levels)
     }
 
-    /// The p-value of the input's influence on the spread of an observable, alone among inputs.
+    /// The unadjusted p-value of the input's influence on the spread of an observable.
     fn p_of_spread(&self, y: &TestedSpread) -> f64 {
         let rows = self.values.len();
         if let Some(levels) = y.is_other.as_ref().and_then(|is_other| self.levels(is_other)) {
@@ -144,7 +140,7 @@ impl TestedInput {
         any.map_or(monotonic, |any| (2.0 * monotonic.min(any)).min(1.0))
     }
 
-    /// How an event depends on the input, and the p-value alone among inputs.
+    /// The dependence of an event on the input, with its unadjusted p-value.
     fn on_event(&self, marked: &[bool], confidence: f64) -> Option<(Dependence, f64)> {
         if let Some(levels) = self.levels(marked) {
             let (most, p_value) = of_levels(&levels);
@@ -167,15 +163,13 @@ impl TestedInput {
         Some((dependence, p_value))
     }
 
-    /// The p-value of an influence on an observable with these ranks beside that of `others`, with which the input is
-    /// correlated.
+    /// The p-value of an influence on an observable with these ranks, given the correlated inputs `others`.
     fn p_beside(&self, others: &[&TestedInput], y_ranks: &[f64]) -> f64 {
         let given: Vec<_> = others.iter().map(|one| (one.order.as_slice(), one.ranks.as_slice())).collect();
         conditional_test(y_ranks, &[&self.ranks, &self.distances], &given)
     }
 
-    /// How the observable with these values goes with the input; `None` where the rows do not show it at the level
-    /// `alpha`.
+    /// The trend of the observable `y` with the input; `None` if not significant at the level `alpha`.
     pub fn direction(&self, y: &[f64], alpha: f64) -> Option<Direction> {
         if turns(&self.order, &self.values, y, alpha) {
             return Some(Direction::NotMonotonic);
@@ -185,17 +179,17 @@ impl TestedInput {
     }
 }
 
-/// An observable in the forms that the tests of its spread need.
+/// An observable prepared for the tests of its spread.
 struct TestedSpread {
     ranks: Vec<f64>,
-    /// Whether a row has another value than the most frequent one, where that is so frequent that ranks tell little.
+    /// Rows that differ from the most frequent value, if that is so frequent that ranks tell little.
     is_other: Option<Vec<bool>>,
-    /// Rows with another value than the most frequent one.
+    /// The number of rows that differ from the most frequent value.
     others: usize,
 }
 
 impl TestedSpread {
-    /// Of an observable with these values; `None` where it does not vary, or has fewer than four rows.
+    /// `None` if constant, or of fewer than four rows.
     fn new(values: &[f64]) -> Option<Self> {
         let order = ascending_order(values);
         let known = distinct(values, &order);
@@ -219,8 +213,8 @@ fn rest(levels: &[Level], but: usize) -> Occurrence {
     })
 }
 
-/// Which level differs most from the others together, and the p-value of a difference like that of any of them:
-/// Fisher's exact test of each against the rest, by Bonferroni where there are more than two.
+/// The level that differs most from the others together, and the p-value of such a difference of any level: Fisher's
+/// exact test of each against the rest, with Bonferroni's correction beyond two.
 fn of_levels(levels: &[Level]) -> (usize, f64) {
     let share = |place: usize| levels[place].of.events as f64 / levels[place].of.runs.max(1) as f64;
     if levels.len() == 2 {
@@ -231,33 +225,32 @@ fn of_levels(levels: &[Level]) -> (usize, f64) {
     found.map_or((0, 1.0), |(most, p_value)| (most, (levels.len() as f64 * p_value).min(1.0)))
 }
 
-/// P-values by Holm, for so many questions `asked` of the same runs.
-fn of_all(p_values: &[Option<f64>], asked: usize) -> Vec<Option<f64>> {
-    let known: Vec<f64> = p_values.iter().flatten().map(|p| (asked as f64 * p).min(1.0)).collect();
+/// P-values adjusted by Holm, for `questions` about the same runs.
+fn of_all(p_values: &[Option<f64>], questions: usize) -> Vec<Option<f64>> {
+    let known: Vec<f64> = p_values.iter().flatten().map(|p| (questions as f64 * p).min(1.0)).collect();
     let mut adjusted = holm(&known).into_iter();
     p_values.iter().map(|p| p.and_then(|_| adjusted.next())).collect()
 }
 
-/// The p-value of each input's influence on the spread of an observable with the values `y`; `asked` questions are
-/// asked of the same runs.
-pub fn on_spread(inputs: &[Option<TestedInput>], y: &[f64], asked: usize) -> Vec<Option<f64>> {
+/// The p-value of each input's influence on the spread of the observable `y`, one of `questions` about the same runs.
+pub fn on_spread(inputs: &[Option<TestedInput>], y: &[f64], questions: usize) -> Vec<Option<f64>> {
     let Some(y) = TestedSpread::new(y) else { return vec![None; inputs.len()] };
     let p_values: Vec<Option<f64>> =
         inputs.iter().map(|input| input.as_ref().map(|input| input.p_of_spread(&y))).collect();
-    of_all(&p_values, asked)
+    of_all(&p_values, questions)
 }
 
-/// The effect of each input on an event that occurs in the rows that are `marked`; `share` gives that of the variance.
+/// The effect of each input on an event that occurs in the `marked` rows; `share` gives the shares of the variance.
 pub fn on_event(
     inputs: &[Option<TestedInput>],
     (event, marked): (Event, &[bool]),
     share: impl Fn(usize) -> Option<Estimate>,
-    asked: usize,
+    questions: usize,
     confidence: f64,
 ) -> Vec<Option<OnEvent>> {
     let found: Vec<Option<(Dependence, f64)>> =
         inputs.iter().map(|input| input.as_ref().and_then(|input| input.on_event(marked, confidence))).collect();
-    let p_values = of_all(&found.iter().map(|one| one.as_ref().map(|(_, p)| *p)).collect::<Vec<_>>(), asked);
+    let p_values = of_all(&found.iter().map(|one| one.as_ref().map(|(_, p)| *p)).collect::<Vec<_>>(), questions);
     let dependences = found.into_iter().map(|one| one.map(|(dependence, _)| dependence));
     let effects = dependences.zip(p_values).enumerate().map(|(input, (dependence, p_value))| {
         Some(OnEvent { event, share: share(input), p_value: p_value?, dependence: dependence?, instead: None })
@@ -265,15 +258,16 @@ pub fn on_event(
     effects.collect()
 }
 
-/// Raises the p-values of inputs that are correlated with others (`related`) and add nothing to those that the rows
-/// show, at the level `alpha`, so that only those are left that act of their own. Returns, for each input that is left,
-/// the one that the rows do not tell apart from it. `y`: the observable; `tests`: how many p-values there are.
+/// Raises the p-values of correlated inputs (`related`) that add nothing to the significant ones, at the level `alpha`,
+/// so that inputs with an effect of their own remain; gives for each of these the input that the rows do not separate
+/// from it. `tests`: the number of p-values.
 pub fn beside_others(
     inputs: &[Option<TestedInput>],
     y: &[f64],
     related: impl Fn(usize, usize) -> bool,
     p_values: &mut [Option<f64>],
-    (tests, alpha): (usize, f64),
+    tests: usize,
+    alpha: f64,
 ) -> Vec<Option<usize>> {
     let (ranks, mut instead) = (mid_ranks(y), vec![None; inputs.len()]);
     let p_beside = |one: usize, others: &[usize]| {

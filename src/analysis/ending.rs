@@ -1,5 +1,4 @@
-//! [`ending`]: how a campaign ended, from its rows alone: what its exit code and its list of verdicts follow from. It
-//! reads a few columns.
+//! [`ending`]: the end of a campaign, its exit code and verdicts, from a few columns of its rows.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -7,7 +6,7 @@ use std::path::PathBuf;
 use crate::analysis::accumulator::of_files;
 use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::stopping::{ObservedValues, Stopping, stopping};
-use crate::analysis::tally::TallyColumns;
+use crate::analysis::tally::{Tally, TallyColumns};
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
 use crate::campaign::Requirement;
 use crate::ensemble::Ensemble;
@@ -19,15 +18,23 @@ pub struct Ending {
     pub rows: u64,
     /// Number of runs that are not `ok`.
     pub failed: u64,
-    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
+    /// Uncovered audits of the estimates that break their promise.
     pub not_covered: u64,
-    /// Of the requirements, without the values of quantiles.
+    /// Without the values of quantiles.
     pub verdicts: Verdicts,
-    /// The last look, where it has `[stop]`.
+    /// The last look of `[stop]`.
     pub stopping: Option<Stopping>,
 }
 
-/// How the campaign `ensemble` ended, whose rows and the files of whose bands are given.
+impl Ending {
+    pub fn new(tally: &Tally, verdicts: Verdicts, stopping: Option<Stopping>) -> Self {
+        let rows = tally.statuses.runs();
+        let not_covered = tally.audits.as_ref().map_or(0, AuditTally::not_covered);
+        Ending { rows, failed: rows - tally.statuses.ok(), not_covered, verdicts, stopping }
+    }
+}
+
+/// The ending of the campaign `ensemble` with these rows and files of bands.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -48,11 +55,5 @@ pub fn ending(
     };
     let verdicts = assess(plan, &tally.statuses, &counted, bands.as_ref());
     let stopping = stopping(plan, plan.samples, &values, &verdicts);
-    Ok(Ending {
-        rows: tally.statuses.runs(),
-        failed: tally.statuses.runs() - tally.statuses.ok(),
-        not_covered: tally.audits.as_ref().map_or(0, AuditTally::not_covered),
-        verdicts,
-        stopping,
-    })
+    Ok(Ending::new(&tally, verdicts, stopping))
 }

@@ -1,33 +1,33 @@
-//! [`Event`]: what may or may not occur in a run, and is asked of an outcome beside its spread: whether a requirement
-//! is missed, a value of few, the tail.
+//! [`Event`]: a property of some runs that is explained besides the spread of an outcome: a missed requirement, one of
+//! few values, the tail.
 
 use crate::analysis::outcomes::is_worst_when_low;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::correlation::ascending_order;
 
-/// Values up to which an observable, or an input, has few: each is a group of its own.
+/// Most values of an observable or input that are treated as groups.
 pub const FEW: usize = 5;
-/// Rows for each of few values, at least: fewer runs have few values of anything.
+/// Least rows for each of few values.
 const ROWS_OF_EACH: usize = 4;
-/// Fewer events show the influence of no input that has many values ([`crate::statistics::rank_tests`]): the tail is
-/// asked instead.
+/// Fewer events show no influence of an input with many values ([`crate::statistics::rank_tests`]): the tail is
+/// explained instead.
 const FEWEST: usize = 4;
-/// Rows from which on a tail is asked, and the least number of rows in it.
+/// Least rows with a tail, and least rows in it.
 const ROWS_OF_TAIL: [usize; 2] = [100, 5];
-/// The tail where no requirement has another: the worst twentieth.
+/// The tail without a requirement: the worst twentieth.
 const TAIL: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Occurs {
-    /// A requirement is missed, by the runs that its verdict counts: which of the plan's, and whether all others on the
-    /// outcome are missed by the same runs.
+    /// A requirement is missed, by the runs of its verdict: its index in the plan, and whether all others on the outcome
+    /// are missed by the same runs.
     Missed { requirement: usize, is_only: bool },
-    /// An outcome of few values has another one than the most frequent, which is this.
+    /// An outcome of few values differs from the most frequent one, given here.
     OtherThan(f64),
-    /// An outcome of two values has the less frequent one, which is this.
+    /// An outcome of two values has the less frequent one, given here.
     Value(f64),
-    /// The outcome is among this share of the worst.
+    /// The outcome is in this share of the worst.
     Worst(f64),
 }
 
@@ -46,13 +46,13 @@ impl Occurs {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     pub occurs: Occurs,
-    /// In how many of all runs.
+    /// The runs in which it occurs.
     pub of: Occurrence,
-    /// Whether the outcome has few values, so that its spread is the event itself.
+    /// Whether the outcome has few values, so that the event is its spread.
     pub has_few_values: bool,
 }
 
-/// Values in ascending order with the number of rows of each; NaN is none.
+/// Values in ascending order with the number of rows of each, without NaN.
 pub fn distinct(values: &[f64], order: &[usize]) -> Vec<(f64, usize)> {
     let mut found: Vec<(f64, usize)> = Vec::new();
     for value in order.iter().map(|row| values[*row]).filter(|value| !value.is_nan()) {
@@ -69,15 +69,14 @@ pub fn are_few(distinct: usize, rows: usize) -> bool {
     (2..=FEW).contains(&distinct) && rows >= ROWS_OF_EACH * distinct
 }
 
-/// Whether an outcome with these values in so many rows has few.
+/// Whether an outcome with these values has few, or one.
 fn has_few(known: &[(f64, usize)], rows: usize) -> bool {
     are_few(known.len(), rows) || known.len() == 1
 }
 
 impl Event {
-    /// The events that runs miss requirements on the outcome `name` of `plan`, as verdicts count them, with these
-    /// values, row by row (`is_ok`: a run that is not misses all), and in which rows each occurs; none if there is none
-    /// to ask.
+    /// The events of missed requirements on the outcome `name` of `plan`, as verdicts count them, with these values row
+    /// by row (`is_ok`: other runs miss all), and the rows of each.
     pub fn missed(plan: &Plan, name: &str, values: &[f64], is_ok: &[bool]) -> Vec<(Event, Vec<bool>)> {
         let has_few_values = has_few(&distinct(values, &ascending_order(values)), values.len());
         let of_runs =
@@ -106,7 +105,7 @@ impl Event {
         (Event { occurs, of: Occurrence { events, runs: marked.len() as u64 }, has_few_values }, marked)
     }
 
-    /// The events of an outcome whose limits all meet, or all but a few; as [`Event::missed`].
+    /// The events of an outcome whose limits all or nearly all runs meet; as [`Event::missed`].
     pub fn of_values(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
         let known = distinct(values, &ascending_order(values));
         let has_few_values = has_few(&known, values.len());

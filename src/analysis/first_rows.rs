@@ -1,5 +1,4 @@
-//! [`FirstRows`]: the first rows of a campaign, from which follows which input matters: inputs, and the outcomes that
-//! are asked about.
+//! [`FirstRows`]: the first rows of a campaign, from which input sensitivities are estimated.
 
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,11 +13,11 @@ use crate::run::Status;
 use crate::sampling::Design;
 use crate::storage::rows_reader::RowsError;
 
-/// Most rows for observables that a campaign file names.
+/// Most rows for observables named in a campaign file.
 pub const MOST_ROWS: usize = 65_536;
-/// Most rows for the main observables, where the file names none.
+/// Most rows for the main observables of a file that names none.
 const FEWER_ROWS: usize = 16_384;
-/// The names of the observables, and how many rows they are from.
+/// The observables, and the number of their rows.
 fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     let named = named(plan);
     if !named.is_empty() {
@@ -35,7 +34,7 @@ fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     (of_motion, FEWER_ROWS)
 }
 
-/// The first rows of dispersed samples that are physical, in the order of the samples.
+/// The first rows of dispersed, physical samples.
 #[derive(Clone, Debug, Default)]
 pub struct RowTable {
     pub(super) samples: Vec<u64>,
@@ -53,14 +52,13 @@ impl RowTable {
     }
 }
 
-/// Keeps the first rows: inputs, and the observables that a campaign file requires or names (the main ones, where it
-/// names none).
+/// Keeps the first rows: inputs, and the observables that a file requires or names, else the main ones.
 #[derive(Debug)]
 pub struct FirstRows {
     inputs: Vec<String>,
     pub(super) observed: Vec<Observed>,
     most: usize,
-    /// Whether the rows are there, so that no further part adds any.
+    /// Whether all rows are there.
     is_full: AtomicBool,
 }
 
@@ -69,7 +67,7 @@ impl FirstRows {
     pub fn new(plan: &Plan) -> Self {
         let (names, most) = wanted(plan);
         let observed = Observed::named(plan, names.iter().map(String::as_str));
-        // the blocks of a `saltelli` design tell inputs by their places
+        // the blocks of a `saltelli` design identify inputs by their places
         let (inputs, most) = match plan.design {
             Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
             _ => (inputs(plan), most),
@@ -78,13 +76,13 @@ impl FirstRows {
     }
 }
 
-/// The names of the observables whose inputs are estimated; none where there are no inputs.
+/// The observables with estimated sensitivities; none without inputs.
 pub fn explained(plan: &Plan) -> Vec<String> {
     let observed = if inputs(plan).is_empty() { Vec::new() } else { FirstRows::new(plan).observed };
     observed.into_iter().map(|one| one.quantity.name().to_owned()).collect()
 }
 
-/// The columns of the inputs: what follows from other inputs by an expression is none.
+/// The columns of the inputs, without derived ones.
 pub(super) fn inputs(plan: &Plan) -> Vec<String> {
     let columns = plan.dispersions.columns().iter().enumerate();
     let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());

@@ -1,17 +1,17 @@
-//! [`InputSensitivity`]: what one input of a campaign means for one outcome.
+//! [`InputSensitivity`]: the effect of one input of a campaign on one outcome.
 
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::event::Occurs;
 use crate::statistics::correlation::Estimate;
 
-/// The name of the outcome whether a run is computed: 1 where it is `ok`, else 0.
+/// The outcome of being computed: 1 for an `ok` run, else 0.
 pub const COMPUTED: &str = "computed";
 
-/// What one input means for one observable. What does not apply is `None`.
+/// The effect of one input on one observable; `None` for measures that do not apply.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputSensitivity {
     pub observable: String,
-    /// The input: a column of the rows, or for a `saltelli` design what one distribution disperses.
+    /// A column of the rows, or for a `saltelli` design a distribution.
     pub input: String,
     pub rows: u64,
     pub pearson: Option<Estimate>,
@@ -19,33 +19,32 @@ pub struct InputSensitivity {
     /// Rank correlation with the other inputs held fixed.
     pub partial_rank: Option<Estimate>,
     pub regression: Option<Estimate>,
-    /// Share of the variance that the regression on all inputs explains, corrected for their number.
+    /// Share of the variance explained by the regression on all inputs, corrected for their number.
     pub r_squared: Option<Estimate>,
-    /// First-order index: share of the variance that this input explains alone.
+    /// First-order index: share of the variance explained by this input alone.
     pub first_order: Option<Estimate>,
-    /// Share of the variance that a parabola explains, the mean of that of the values and that of their ranks: what
-    /// orders inputs whose first-order index is not known.
+    /// Share of the variance explained by a parabola, averaged over values and ranks: orders inputs without a known
+    /// first-order index.
     pub parabola: Option<f64>,
-    /// Total index: share that this input and its interactions explain.
+    /// Total index: the share of this input with its interactions.
     pub total: Option<Estimate>,
-    /// Probability of an influence on the spread as strong as this one where no input has any, of all inputs together
-    /// (Holm).
+    /// P-value of no influence on the spread, adjusted for all inputs (Holm).
     pub p_value: Option<f64>,
-    /// How the observable goes with the input, where it is a driver of the spread and the rows show it.
+    /// Trend of the observable, for a driver of the spread.
     pub direction: Option<Direction>,
-    /// What the input means for the events of the observable.
+    /// Effects on the events of the observable.
     pub on_events: Vec<OnEvent>,
-    /// The correlated input that may drive the spread in place of this one: the rows do not tell the two apart.
+    /// The correlated input that the rows do not separate from this one as a driver.
     pub instead: Option<String>,
-    /// The input that it is most correlated with, and their rank correlation, where that is notable.
+    /// The input with the largest notable rank correlation, and that correlation.
     pub correlated_with: Option<(String, f64)>,
-    /// What to know about these numbers.
+    /// Caveats.
     pub note: Option<String>,
 }
 
 impl InputSensitivity {
-    /// The same without intervals: of rows that are not a sample of the population. Which runs miss a requirement is
-    /// known of all runs; that keeps its intervals if `has_all_missed`.
+    /// Removes the intervals, for rows that are not a sample of the population. Events of missed requirements, known
+    /// for all runs, keep theirs if `has_all_missed`.
     #[must_use]
     pub fn without_intervals(mut self, has_all_missed: bool) -> Self {
         let without = |one: Estimate| Estimate { lower: f64::NAN, upper: f64::NAN, ..one };

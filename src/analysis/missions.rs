@@ -1,5 +1,5 @@
-//! [`Missions`]: how the missions of a campaign under a control loop ended: launched, failed for a reason, or neither,
-//! each a share of the runs with its interval.
+//! [`Missions`]: ends of the missions of a campaign under a control loop: launched, failed for a reason, or neither, as
+//! shares of the runs with intervals.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::order_statistics::share_interval;
@@ -11,25 +11,25 @@ use crate::run::Status;
 use crate::scene::Name;
 use crate::storage::rows_reader::RowsError;
 
-/// One way in which missions ended.
+/// One end of missions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {
-    /// `launched`, the name of a failure, or `flying` where the run ended before either; `not_failed` in a loop that
-    /// launches nothing.
+    /// `launched`, the name of a failure, or `flying` if the run ended before either; `not_failed` in a loop without a
+    /// launch.
     pub end: &'static str,
-    /// Of `timeout`: the phases that took too long, with how many runs each, where that is known.
+    /// The phases that timed out, with their numbers of runs.
     pub phases: Vec<(Name, u64)>,
     pub count: u64,
     pub runs: u64,
-    /// Runs of those that were not computed, which may have ended in this way or not.
+    /// Runs that were not computed, with an unknown end.
     pub missing: u64,
-    /// The interval of the share at the confidence of the statistics, whatever the missing runs would have done; NaN
-    /// where samples are not independent.
+    /// Interval of the share at the confidence of the statistics, whatever the missing runs would do; NaN for dependent
+    /// samples.
     pub interval: [f64; 2],
 }
 
 impl MissionShare {
-    /// The least and the largest share of all runs that ended in this way: they differ by the missing ones.
+    /// The least and the largest share of all runs, which differ by the missing ones.
     pub fn shares(&self) -> [f64; 2] {
         [self.count, self.count + self.missing].map(|count| count as f64 / self.runs.max(1) as f64)
     }
@@ -46,19 +46,18 @@ pub struct MissionCounter {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissionCounts {
-    /// How many runs that are `ok` ended in each way: launched, flying, then by failure.
+    /// `ok` runs by end: launched, flying, then by failure.
     ends: [u64; 2 + Failure::NAMES.len()],
-    /// How many of them in each phase that took too long.
+    /// Timed-out runs by phase.
     timeouts: Vec<u64>,
-    /// How many physical samples have no such run.
+    /// Physical samples without an `ok` run.
     missing: u64,
 }
 
-/// How the missions of a campaign ended, those that occur, in the order of the codes.
+/// The ends of missions that occur, in the order of the codes.
 pub type Missions = Vec<MissionShare>;
 
 impl MissionCounter {
-    /// Of the runs of `plan`.
     pub fn new(plan: &Plan) -> Self {
         let spec = plan.loop_spec();
         MissionCounter {

@@ -1,18 +1,19 @@
-//! Layer 8: what the rows say.
+//! Layer 8: statistics and verdicts from rows.
 //!
-//! - [`analysed`]: all that follows is in one place. [`fold`]: one pass over the parts, of rows in memory or in files
-//!   ([`part_columns`]), in which everything that follows gathers what it needs, each by an [`accumulator`].
-//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]);
-//!   [`tally`]: how runs ended ([`statuses`]), the worst ones ([`worst_runs`]), audits ([`audit_tally`]).
-//! - [`verdicts`]: of the requirements, each an [`assessment`] (of a number of each run: `row_verdicts`; over time:
-//!   `band_verdicts`); [`mod@stopping`]: whether the rows are enough. [`mod@ending`]: how the campaign ended.
-//! - [`sensitivity`]: which input matters ([`input_sensitivity`]), from the [`first_rows`] (`block_indices`: of a
-//!   `saltelli` design); [`effects`]: tests whether it does, also of an [`event`]; [`drivers`]: the ranking of what the
-//!   rows show; [`noise_share`]: what noise within loops does.
-//! - [`statistics_table`], [`sensitivity_table`]: both as files.
-//! - [`comparison`]: two results, by the samples that both drew ([`pairing`]); [`comparison_table`]: as a file.
-//! - [`trajectories`]: which runs are retained, and their time series.
-//! - [`survey`]: what the page shows of the rows.
+//! - [`analysed`]: all results; [`fold`]: one pass over the parts, in memory or in files ([`part_columns`]), with an
+//!   [`accumulator`] for each result.
+//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]), with
+//!   their list ([`mod@statistic`]).
+//! - [`tally`]: ends of runs ([`statuses`]), worst runs ([`worst_runs`]), audits ([`audit_tally`]).
+//! - [`verdicts`]: requirements, each an [`assessment`] (`row_verdicts`, over time `band_verdicts`);
+//!   [`mod@stopping`]: looks of `[stop]`; [`mod@ending`]: the end of the campaign.
+//! - [`sensitivity`]: effects of inputs ([`input_sensitivity`]) from the [`first_rows`] (`block_indices`: of a
+//!   `saltelli` design); [`effects`]: their tests, also on an [`event`]; [`drivers`]: their ranking; [`noise_share`]:
+//!   noise within loops.
+//! - [`comparison`]: two results, in pairs of samples that both drew ([`pairing`]).
+//! - [`statistics_table`], [`sensitivity_table`], [`comparison_table`]: results as files.
+//! - [`trajectories`]: retained runs and their time series.
+//! - [`survey`]: the data of the page.
 //!
 //! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
 
@@ -48,6 +49,7 @@ pub mod sensitivity;
 pub mod sensitivity_table;
 #[cfg(test)]
 mod small_plan;
+pub mod statistic;
 pub mod statistics;
 pub mod statistics_table;
 pub mod statuses;

@@ -1,7 +1,5 @@
-//! Which share of the variance of the outcomes the noise within control loops makes: scenes of a campaign, each flown
-//! twice with noise of its own.
-//!
-//! Noise is no input: it is part of no first-order index, and of every total one.
+//! The share of noise within control loops in the variance of the outcomes: scenes of a campaign, each flown twice with
+//! different noise. Noise is not an input: it is in no first-order index, and in every total one.
 
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
@@ -20,19 +18,18 @@ use crate::statistics::share_within::{others, share_within};
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseShare {
     pub observable: String,
-    /// Scenes of which both runs have a value.
+    /// Scenes with a value in both runs.
     pub scenes: usize,
-    /// Runs of these scenes that have another value than the most frequent one.
+    /// Their runs that differ from the most frequent value.
     pub others: usize,
-    /// Noise as a share of the variance; `None` where these scenes do not vary, or too few of their runs do.
+    /// Share of noise in the variance; `None` without variance, or if too few runs vary.
     pub share: Option<Estimate>,
 }
 
-/// Samples of noise of which no campaign has scenes: those of the second flights.
+/// Noise samples of second flights, beyond all samples of a campaign.
 const SECOND: u64 = 1 << 63;
 
-/// The shares of the outcomes `names` of `plan`, by `scenes` of its dispersed samples, evenly spaced (all, where it has
-/// no more).
+/// The shares in the outcomes `names` of `plan`, from `scenes` evenly spaced dispersed samples (or all).
 ///
 /// # Errors
 /// Where threads could not be started.
@@ -49,7 +46,7 @@ pub fn noise_shares(
     let outcomes = Observed::named(plan, names.iter().map(String::as_str));
     let columns = plan.request().columns();
     let inputs = plan.dispersions.columns();
-    // the values of the outcomes in a run; NaN where it has none
+    // the outcomes of a run; NaN for none
     let values = |runs: &mut SingleRuns<'_>, sample: SampleId, noise: SampleId| -> Option<Vec<f64>> {
         let run = runs.run_with_noise_of(sample, noise).ok()?;
         let of = |name: &str| {

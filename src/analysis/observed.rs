@@ -1,8 +1,7 @@
-//! [`Observed`]: an observable of a campaign with the way to its values in the files of rows: a column, or an
-//! expression over columns.
+//! [`Observed`]: an observable of a campaign with the path to its values in rows: a column, or an expression over
+//! columns.
 //!
-//! A run that is `ok` has no value of it where what it is about never happened, or where it is not a number
-//! ([`Observed::undefined`]).
+//! An `ok` run has no value if its subject never happened, or if it is not a number ([`Observed::undefined`]).
 
 use std::borrow::Cow;
 
@@ -14,26 +13,26 @@ use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
 
-/// A column that an observable is computed from.
+/// A column in an observable.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     column: String,
     absence: Absence,
 }
 
-/// What it means that a run that is `ok` has no value in a column.
+/// The meaning of a missing value of an `ok` run in a column.
 #[derive(Clone, Debug, PartialEq)]
 enum Absence {
-    /// What the column is about never happened.
+    /// The subject of the column never happened.
     Never,
-    /// The same, unless this count of an event is absent too: then the quantity of the event is not a number.
+    /// The event never happened; if its count is missing too, its quantity is not a number.
     Event { count: String },
-    /// Of an extreme from `delay_s` after `after` on, the columns of the time and the count of an event: not a number,
-    /// unless that event never happened, or the run ended before.
+    /// An extreme from `delay_s` after `after` on (the columns of an event's time and count) is not a number, unless the
+    /// event never happened or the run ended before.
     Extreme { after: Option<[String; 2]>, delay_s: f64, end: End },
 }
 
-/// When runs end.
+/// The end of runs.
 #[derive(Clone, Debug, PartialEq)]
 enum End {
     At(f64),
@@ -42,7 +41,7 @@ enum End {
 }
 
 impl Absence {
-    /// That of `column` of the rows of `plan`.
+    /// For `column` of the rows of `plan`.
     fn of(plan: &Plan, column: &str) -> Self {
         let count = |event: &str| format!("{event}_count");
         let time = |event: &str| format!("{event}_time_s");
@@ -60,7 +59,7 @@ impl Absence {
         Absence::Extreme { after, delay_s: extreme.delay_s, end }
     }
 
-    /// The rows of `part` in which an absent value of such a column is not a number.
+    /// The rows of `part` in which a missing value is not a number.
     fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
         let rows = part.rows();
         Ok(match self {
@@ -82,7 +81,7 @@ impl Absence {
     }
 }
 
-/// The column that says when a run ended.
+/// The column with the end of a run.
 const TIME_REACHED: &str = "time_reached_s";
 
 #[derive(Clone, Debug, PartialEq)]
@@ -91,14 +90,14 @@ pub struct Observed {
     pub quantity: Quantity,
     /// Whether its values are counts.
     pub is_count: bool,
-    /// How it is computed from its sources, where no row has it.
+    /// The expression of a derived observable.
     derived: Option<Expression>,
-    /// The columns that are the variables of the expression; without one, its own column.
+    /// The variables of the expression, or its own column.
     sources: Vec<Source>,
 }
 
 impl Observed {
-    /// Every observable of `plan`: those of the rows in their order, then those that its file derives.
+    /// Every observable of `plan`: those in the rows, in order, then derived ones.
     pub fn all(plan: &Plan) -> Vec<Observed> {
         let request = plan.request();
         let known = KnownColumns::new(request);
@@ -126,12 +125,12 @@ impl Observed {
         all
     }
 
-    /// Whether no draw of `plan` enters it, so that every run has the same value.
+    /// Whether every run has the same value because no draw enters it.
     pub fn is_constant(&self, plan: &Plan) -> bool {
         self.sources.is_empty() || plan.dispersions.columns().is_empty()
     }
 
-    /// Its values in a part, row by row; NaN where a row has none.
+    /// The values in a part, row by row; NaN for none.
     ///
     /// # Errors
     /// Where they cannot be read.
@@ -142,13 +141,12 @@ impl Observed {
         Ok((0..part.rows()).map(value).collect())
     }
 
-    /// The columns of its sources.
     fn columns<'p>(&self, part: &'p impl PartColumns) -> Result<Vec<Cow<'p, [f64]>>, RowsError> {
         self.sources.iter().map(|source| part.numbers(&source.column)).collect()
     }
 
-    /// The rows of `part`, all of runs that are `ok`, in which it is not a number: the root of a negative number, or an
-    /// event whose quantity is none. In others that have no value, what it is about never happened.
+    /// The rows of `part`, all of `ok` runs, in which it is not a number: the root of a negative number, or an event
+    /// with such a quantity. In other rows without a value its subject never happened.
     ///
     /// # Errors
     /// Where its columns cannot be read.
@@ -170,23 +168,14 @@ impl Observed {
         Ok(found)
     }
 
-    /// The same as a list.
-    ///
-    /// # Errors
-    /// Where they cannot be read.
-    pub fn values(&self, part: &impl PartColumns) -> Result<Vec<f64>, RowsError> {
-        self.column(part).map(Cow::into_owned)
-    }
-
-    /// Its value in a row whose column of a name has the value `of`; `None` where the row has no such column.
+    /// The value in a row, given the values of its columns by name; `None` if a column is missing.
     pub fn value(&self, of: impl Fn(&str) -> Option<f64>) -> Option<f64> {
         let Some(expression) = &self.derived else { return of(self.quantity.name()) };
         let values: Vec<f64> = self.sources.iter().map(|source| of(&source.column)).collect::<Option<_>>()?;
         Some(known(expression, |place| values[place]))
     }
 
-    /// The range in which all its values are, as far as the text of its expression and the `bounded` of requirements on
-    /// its mean say.
+    /// The range of its values, from the expression and the `bounded` of requirements on its mean.
     pub fn range(&self, plan: &Plan) -> [f64; 2] {
         let not_negative = if self.is_count { 0.0 } else { f64::NEG_INFINITY };
         let of_text = match &self.derived {
@@ -199,8 +188,7 @@ impl Observed {
     }
 }
 
-/// The value of `expression`; NaN where one of its variables is not known, also behind `if` and beside what decides a
-/// condition.
+/// The value of `expression`; NaN if any of its variables is unknown, even one without influence.
 fn known(expression: &Expression, value: impl Fn(usize) -> f64) -> f64 {
     match (0..expression.variables().len()).any(|place| value(place).is_nan()) {
         true => f64::NAN,

@@ -1,5 +1,4 @@
-//! Quantiles of a column and their intervals from its order statistics: of few rows the values themselves, of many
-//! those of sketches.
+//! Quantiles of a column and their intervals by order statistics: from the values of few rows, from sketches of many.
 
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
@@ -18,15 +17,14 @@ pub struct QuantileStatistic {
     pub confidence: f64,
     /// The sample quantile (type 7).
     pub value: Option<f64>,
-    /// Ends of its interval, rounded outward; `None` where the runs do not bound it on that side, or no interval holds.
+    /// Ends of its interval, rounded outward; `None` for an open end, or without an interval.
     pub interval: [Option<f64>; 2],
-    /// Why it is not bounded on some side: too few runs, or runs that were not computed. Of a requirement, that it
-    /// counts runs without a value.
+    /// The reason of an open end: too few or lost runs. For a requirement: that runs without a value count.
     pub note: Option<String>,
 }
 
 impl QuantileStatistic {
-    /// Probability, quantile, and the ends of its interval; NaN for what there is none of.
+    /// Probability, quantile, and the ends of its interval; NaN for none.
     pub fn numbers(&self) -> [f64; 4] {
         let [value, low, high] = [self.value, self.interval[0], self.interval[1]].map(|end| end.unwrap_or(f64::NAN));
         [self.p, value, low, high]
@@ -35,7 +33,7 @@ impl QuantileStatistic {
 
 /// The order statistics of a group of values.
 pub enum Order {
-    /// The values; those that quantiles ask for are at their places in ascending order.
+    /// The values; only the places that quantiles need are in order.
     Exact(Vec<f64>),
     Sketched(Ranks),
 }
@@ -49,7 +47,7 @@ impl Order {
         }
     }
 
-    /// Bounds of the number of rank `rank`, from 1.
+    /// Bounds of the value of rank `rank`, from 1.
     pub fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
         match self {
             Order::Exact(values) => values.get(rank as usize - 1).map(|value| [*value; 2]),
@@ -66,7 +64,7 @@ impl Order {
             Order::Sketched(ranks) => {
                 let counts = std::iter::once(0).chain(ranks.buckets.iter().map(|bucket| bucket.up_to));
                 let steps = ranks.buckets.iter().zip(counts);
-                // a bucket has its ends from its group; of all groups they are those of the widest
+                // a bucket's ends are those of its group; of all groups those of the widest
                 steps
                     .map(|(bucket, before)| Step {
                         value: bucket.high,
@@ -80,7 +78,7 @@ impl Order {
     }
 }
 
-/// The ranks of the intervals of all quantiles for one number of values: that of most columns.
+/// Interval ranks of all quantiles for the usual number of values.
 pub struct CommonRanks {
     count: u64,
     confidence: f64,
@@ -88,14 +86,14 @@ pub struct CommonRanks {
 }
 
 impl CommonRanks {
-    /// Those of the quantiles of `plan` for `count` values.
+    /// For the quantiles of `plan` and `count` values.
     pub fn new(plan: &Plan, population: Population, count: u64) -> Self {
         let quantiles = plan.analysis.quantiles.iter().filter(|_| population.has_intervals());
         let ranks = quantiles.map(|p| (*p, interval_ranks(count, *p, plan.analysis.confidence)));
         CommonRanks { count, confidence: plan.analysis.confidence, ranks: ranks.collect() }
     }
 
-    /// Those of the `p`-quantile of `count` values.
+    /// For the `p`-quantile of `count` values.
     pub fn of(&self, count: u64, p: f64, confidence: f64) -> IntervalRanks {
         let mut known = self.ranks.iter().filter(|_| count == self.count && confidence == self.confidence);
         let known = known.find(|(of, _)| *of == p).map(|(_, ranks)| *ranks);
@@ -103,24 +101,23 @@ impl CommonRanks {
     }
 }
 
-/// A quantile that is asked for.
+/// A quantile to be estimated.
 #[derive(Clone, Copy)]
 pub struct AskedQuantile {
     pub p: f64,
     pub confidence: f64,
-    /// The ranks of its interval, where the population has intervals.
+    /// The ranks of its interval, if the population has intervals.
     pub ranks: Option<IntervalRanks>,
-    /// The quantile of the values that are there that it is; `None` where it is one of those that are missing.
+    /// The corresponding quantile of the known values; `None` if it is a missing one.
     of_values: Option<f64>,
-    /// Runs without a value that count as values beyond every other one, on the wrong side of a limit.
+    /// Runs without a value, counted beyond all others on the wrong side of a limit.
     pub missing: u64,
-    /// Runs that were not computed, whose values may be on either side of all others.
+    /// Runs that were not computed, with values on either side of all others.
     lost: u64,
 }
 
-/// The probability of the quantile of `count` values, at least one, that is the `p`-quantile of these and of `missing`
-/// ones that violate `limit`, each more than any of these does; `None` where that is a missing one. Quantiles are of
-/// type 7.
+/// The quantile of `count` values that is the `p`-quantile of these and of `missing` ones beyond `limit` and all
+/// others; `None` if that is a missing one. Quantiles are of type 7.
 pub fn among_values(p: f64, count: u64, missing: u64, limit: GateLimit) -> Option<f64> {
     if missing == 0 {
         return Some(p);
@@ -140,9 +137,8 @@ impl AskedQuantile {
         AskedQuantile { p, confidence, ranks, of_values: Some(p), missing: 0, lost: 0 }
     }
 
-    /// The same of `count` values where so many more runs are `lost`; `ranks` are those of all of them. The interval is
-    /// the hull of those of all runs, wherever the lost ones are: its lower end is as if they were all below, its upper
-    /// end as if they were all above.
+    /// For `count` values and `lost` runs; `ranks` count both. The interval is the hull of those of all runs: its lower
+    /// end takes lost runs for smallest, its upper end for largest.
     #[must_use]
     pub fn with_lost(self, count: u64, lost: u64) -> Self {
         let kept = |rank: u64| Some(rank).filter(|rank| (1..=count).contains(rank));
@@ -153,8 +149,7 @@ impl AskedQuantile {
         AskedQuantile { ranks, lost, ..self }
     }
 
-    /// The same of `count` values and of `missing` runs without one, which violate `limit`; `ranks` are those of all of
-    /// them.
+    /// For `count` values and `missing` runs that violate `limit`; `ranks` count both.
     #[must_use]
     pub fn with_missing(self, count: u64, missing: u64, limit: GateLimit) -> Self {
         let shift = if matches!(limit, GateLimit::AtLeast(_)) { missing } else { 0 };
@@ -164,7 +159,7 @@ impl AskedQuantile {
         AskedQuantile { ranks, of_values: among_values(self.p, count, missing, limit), missing, ..self }
     }
 
-    /// The places, from zero, of the order statistics that it needs of `count` values; some may be beyond the last.
+    /// The places, from zero, of its order statistics among `count` values; some may be beyond the last.
     pub fn places(&self, count: usize) -> impl Iterator<Item = usize> {
         let below = (count as f64 * self.of_values.unwrap_or(self.p)) as usize;
         // (count - 1) p, rounded, is between below - 1 and below + 1
@@ -173,13 +168,13 @@ impl AskedQuantile {
     }
 }
 
-/// The interval of the share of runs of which `successes` of `count` are one, wherever `lost` others are.
+/// The interval of a share with `successes` of `count`, wherever `lost` others are.
 pub fn share_interval(successes: u64, [count, lost]: [u64; 2], confidence: f64) -> [f64; 2] {
     let of = |successes: u64| interval(successes, count + lost, confidence);
     if lost == 0 { of(successes) } else { [of(successes)[0], of(successes + lost)[1]] }
 }
 
-/// What `missing` runs without a value are to a requirement.
+/// The effect of `missing` runs without a value on a requirement.
 pub fn without_value(missing: &str) -> String {
     match missing {
         "1" => "1 run without a value counts as a violation".to_owned(),
@@ -187,7 +182,7 @@ pub fn without_value(missing: &str) -> String {
     }
 }
 
-/// A quantile with the interval of independent samples, where they are.
+/// Estimates a quantile, with the interval of independent samples.
 pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     let AskedQuantile { p, confidence, ranks, of_values, missing, lost } = *asked;
     let value = of_values.and_then(|p| order.quantile(p));
@@ -207,7 +202,7 @@ pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     found
 }
 
-/// How many runs it takes to bound the `p`-quantile.
+/// The number of runs that bound the `p`-quantile.
 fn too_few(p: f64, confidence: f64) -> String {
     format!(
         "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
@@ -222,9 +217,8 @@ fn too_few(p: f64, confidence: f64) -> String {
 mod tests {
     use super::*;
 
-    /// Law: with missing values that violate the limit a quantile is that of all of them, the missing ones infinite on
-    /// the wrong side, and so are the ends of its interval; none where it is a missing one. The counter-test: of the
-    /// values alone it is another one.
+    /// Law: a quantile with missing values, and its interval, are those of all values with the missing ones infinite on
+    /// the wrong side of the limit; none at a missing one. The counter-test: among the values alone it differs.
     #[test]
     fn missing_values_violate() {
         let values: Vec<f64> = (1..=40).map(f64::from).collect();
@@ -254,9 +248,8 @@ mod tests {
         );
     }
 
-    /// Law: with lost runs the interval is the hull of the intervals of all values, the lost ones anywhere: below all,
-    /// above all, or between; it is open on a side where they reach the end. The counter-test: of the values alone it
-    /// is narrower.
+    /// Law: with lost runs the interval is the hull of those with the lost runs anywhere; open on a side that they
+    /// reach. The counter-test: among the values alone it is narrower.
     #[test]
     fn lost_runs_are_on_both_sides() {
         let values: Vec<f64> = (1..=200).map(f64::from).collect();

@@ -1,10 +1,10 @@
-//! What a campaign is about: the observables that its file requires or names, else those of the motion.
+//! The outcomes of a campaign: observables that its file requires or names, else those of the motion.
 
 use crate::campaign::{Plan, Requirement};
 use crate::statistics::gate::GateLimit;
 
-/// The outcomes of a campaign whose file names none, in the order of their worth: how energy moved, how the axis moved,
-/// what the body ends with.
+/// The outcomes of a campaign whose file names none, in the order of their worth: energy exchange, motion of the axis,
+/// final state.
 pub const OF_MOTION: [&str; 8] = [
     "exchange_body_peak_to_peak_j",
     "nutation_angle_max_rad",
@@ -16,18 +16,17 @@ pub const OF_MOTION: [&str; 8] = [
     "energy_error_max",
 ];
 
-/// How many of them are the outcomes.
+/// The number of default outcomes.
 const FEW: usize = 3;
 
-/// The observables that the file of `plan` requires, names for the summary, or derives, and the times of its events;
-/// each once, in this order.
+/// The observables that the file of `plan` requires, lists for the summary, or derives, and the times of its events.
 pub fn named(plan: &Plan) -> Vec<String> {
     let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
-    let asked = plan.analysis.summary_columns.iter().cloned();
+    let listed = plan.analysis.summary_columns.iter().cloned();
     let derived = plan.analysis.derived.iter().map(|derived| derived.name.clone());
     let mut names: Vec<String> = Vec::new();
     let events = plan.events.iter().map(|event| event.quantities()[0].name().to_owned());
-    for name in required.chain(asked).chain(derived).chain(events) {
+    for name in required.chain(listed).chain(derived).chain(events) {
         if !names.contains(&name) {
             names.push(name);
         }
@@ -35,7 +34,7 @@ pub fn named(plan: &Plan) -> Vec<String> {
     names
 }
 
-/// The outcomes of `plan`: those that its file names, else the first of the motion's that its rows have.
+/// The outcomes of `plan`: named ones, else the first of the motion in its rows.
 pub fn outcomes(plan: &Plan) -> Vec<String> {
     let named = named(plan);
     if !named.is_empty() {
@@ -46,7 +45,7 @@ pub fn outcomes(plan: &Plan) -> Vec<String> {
     OF_MOTION.iter().filter(has).take(FEW).map(|name| (*name).to_owned()).collect()
 }
 
-/// Whether small values of the observable `name` are the bad ones: every limit on it is a lower one.
+/// Whether small values of the observable `name` are bad: every limit on it is a lower one.
 pub fn is_worst_when_low(plan: &Plan, name: &str) -> bool {
     let mut of =
         plan.analysis.requirements.iter().filter(|requirement| requirement.observable() == Some(name)).peekable();

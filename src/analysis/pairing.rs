@@ -1,5 +1,4 @@
-//! [`ResultRows`]: the rows of a result. [`pairs`]: those of two results that are of one sample, drawn from the same
-//! random numbers.
+//! [`ResultRows`]: the rows of a result; [`pairs`]: rows of two results with the same draws.
 
 use crate::analysis::column_counts::MOST_EXACT;
 use crate::campaign::Plan;
@@ -7,7 +6,7 @@ use crate::campaign::common_draws::draw_alike;
 use crate::run::Status;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// So many rows are compared one by one: the nominal sample and the first [`MOST_EXACT`].
+/// Rows compared one by one: the nominal sample and the first [`MOST_EXACT`].
 pub const MOST_ROWS: usize = MOST_EXACT as usize + 1;
 
 /// A result: its plan and the files of its rows.
@@ -17,8 +16,8 @@ pub struct ResultRows<'r> {
     pub reader: &'r RowsReader,
 }
 
-/// The rows of the samples, among the first, that both results drew alike, of those with these `statuses`; none where
-/// they did not: the plans draw from other random numbers, and the values that were drawn differ.
+/// The rows, among the first, of samples that both results drew alike, with these `statuses`; none if random numbers
+/// and drawn values differ.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -35,8 +34,7 @@ pub fn pairs(
     Ok(shared)
 }
 
-/// Whether all dispersed values of the rows `shared` have the same bits in both results: drawn by other plans, or from
-/// the same table.
+/// Whether the dispersed values of the rows `shared` have the same bits in both results.
 fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool, RowsError> {
     let names = |plan: &Plan| -> Vec<String> {
         let columns = plan.dispersions.columns().iter();
@@ -63,7 +61,7 @@ fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[us
     Ok(true)
 }
 
-/// How the first rows ended. There are fewer than in the plan where the campaign was stopped.
+/// The statuses of the first rows, fewer than planned if the campaign was stopped.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -76,7 +74,7 @@ pub fn statuses(result: ResultRows<'_>) -> Result<Vec<Status>, RowsError> {
     Ok(statuses)
 }
 
-/// The first rows of each plan that are of the same dispersed sample.
+/// The rows of each plan with the same dispersed sample, among the first.
 fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
     let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_ROWS);
     let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());
@@ -92,7 +90,7 @@ fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
     shared
 }
 
-/// The first row that is not that of the nominal sample.
+/// The first dispersed row.
 pub fn first_dispersed(plan: &Plan) -> usize {
     usize::from(plan.dispersed_rows() < plan.rows())
 }
@@ -102,8 +100,7 @@ mod tests {
     use super::*;
     use crate::analysis::small_plan::small_plan;
 
-    /// Law: the rows of the same dispersed sample are compared, as many as both campaigns have; the nominal sample is
-    /// not.
+    /// Law: common dispersed samples are paired; the nominal sample is not.
     #[test]
     fn rows_of_the_same_sample_are_paired() {
         let plan = |samples: u64| small_plan(samples, "");

@@ -1,5 +1,4 @@
-//! [`PartColumns`]: the columns of one part by name, from its file or from the rows in memory. Both give the same
-//! numbers.
+//! [`PartColumns`]: the columns of a part by name, from its file or from rows in memory, with the same numbers.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -19,25 +18,25 @@ pub trait PartColumns {
     /// The numbers of the samples, row by row.
     ///
     /// # Errors
-    /// Where they cannot be read.
+    /// The column cannot be read.
     fn samples(&self) -> Result<Vec<SampleId>, RowsError>;
 
-    /// How each run ended.
+    /// The statuses of the runs.
     ///
     /// # Errors
-    /// Where that cannot be read.
+    /// The column cannot be read.
     fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError>;
 
-    /// Why runs are not `ok`: their rows, and their reasons.
+    /// The rows that are not `ok`, with reasons.
     ///
     /// # Errors
-    /// Where that cannot be read.
+    /// The column cannot be read.
     fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError>;
 
-    /// The numbers of the column `name`, row by row: counts as doubles, NaN where there is none.
+    /// The numbers of the column `name`: counts as doubles, NaN for none.
     ///
     /// # Errors
-    /// Where there is no such column of numbers, or it cannot be read.
+    /// There is no such column of numbers, or it cannot be read.
     fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError>;
 }
 
@@ -64,7 +63,7 @@ impl PartColumns for PartReader {
     }
 }
 
-/// Where a column is in a block of rows.
+/// The place of a column in a block of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Position {
     Parameter(usize),
@@ -79,7 +78,6 @@ enum Position {
 pub struct RowNames(HashMap<String, Position>);
 
 impl RowNames {
-    /// Those of `ensemble`.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let parameters = ensemble.plan().dispersions.columns().iter().enumerate().map(|(index, column)| {
             let name = parameter_quantity(column.parameter, column.component).name().to_owned();
@@ -98,7 +96,6 @@ impl RowNames {
         RowNames(parameters.chain(observables).chain(audits).chain(errors).collect())
     }
 
-    /// The columns of `rows`.
     pub fn of<'r>(&'r self, rows: &'r Rows) -> RowsInMemory<'r> {
         RowsInMemory { names: self, rows }
     }
@@ -135,7 +132,7 @@ impl PartColumns for RowsInMemory<'_> {
             audited.for_each(|(row, audit)| column[row] = value(audit));
             Cow::Owned(column)
         };
-        // what is not finite is absent in memory as in a file
+        // infinite numbers are absent in memory as in a file
         match self.names.0.get(name) {
             Some(Position::Parameter(index)) => Ok(Cow::Borrowed(self.rows.parameter(*index))),
             Some(Position::Observable(index)) => Ok(Cow::Borrowed(self.rows.observable(*index))),

@@ -1,14 +1,14 @@
-//! [`Population`]: how the samples of a design represent the population of runs, and so which intervals hold.
+//! [`Population`]: how the samples of a design represent the population of runs, and the intervals that hold.
 
 use crate::campaign::Plan;
 use crate::run::Status;
 use crate::sampling::{Design, SampleId};
 
-/// Stands for a design where `campaign.only` lists the samples.
+/// Stands for a design if `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";
 
-/// Runs of a population that have no numbers, because they were not computed to their end or not accurately. Samples
-/// that are not physical are no part of it.
+/// Runs of a population without numbers: not computed to their end, or not accurately. Samples that are not physical are
+/// outside of the population.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Loss {
     pub missing: u64,
@@ -18,12 +18,11 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// From this share of missing runs on a loss is big: not even the 95%-quantile of an outcome, the usual one, is
-    /// then bounded by the runs that are there, since all that are missing may be beyond it. Below, an interval takes
-    /// the loss for random.
+    /// Least share of missing runs of a big loss: the runs left do not bound the 95%-quantile, which all missing ones may
+    /// exceed. Below, an interval takes the loss for random.
     pub const BIG: f64 = 0.05;
 
-    /// Of the numbers of runs that ended with each status, in the order of [`Status::ALL`].
+    /// From the numbers of runs by status, in the order of [`Status::ALL`].
     pub fn of(statuses: &[u64; Status::ALL.len()]) -> Self {
         let counts = Status::ALL.iter().zip(statuses);
         counts.fold(Loss::default(), |loss, (status, count)| match status {
@@ -33,14 +32,13 @@ impl Loss {
         })
     }
 
-    /// How many of how many are missing, with what these are: neither the nominal run nor a sample that is not physical
-    /// is one of them.
+    /// The numbers in words.
     pub fn counts(self) -> String {
         let which = if self.outside > 0 { " that are physical" } else { "" };
         format!("{} of {} dispersed runs{which}", self.missing, self.runs)
     }
 
-    /// Whether so many runs are missing that what is left says little of all.
+    /// Whether the runs left say little of all.
     pub fn is_big(self) -> bool {
         self.missing > 0 && self.missing as f64 >= Self::BIG * self.runs as f64
     }
@@ -50,19 +48,19 @@ impl Loss {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Population {
     Independent,
-    /// So many independent replicates of a design whose samples are not independent of each other.
+    /// Independent replicates of a design with dependent samples.
     Replicated(u64),
-    /// Samples of it that are not independent of each other.
+    /// Dependent samples of the population.
     Dependent(&'static str),
-    /// Chosen samples: not one of a population.
+    /// Chosen samples, not of a population.
     Chosen(&'static str),
     Nominal,
-    /// What a big loss leaves.
+    /// After a big loss.
     Incomplete(Loss),
 }
 
 impl Population {
-    /// That of the samples of `plan`.
+    /// The population of the samples of `plan`.
     pub fn of(plan: &Plan) -> Self {
         let name = plan.design.name();
         match &plan.design {
@@ -77,13 +75,13 @@ impl Population {
         }
     }
 
-    /// The same, after a `loss`.
+    /// The population after a `loss`.
     #[must_use]
     pub fn after(self, loss: Loss) -> Self {
         if loss.is_big() && self.has_intervals() { Population::Incomplete(loss) } else { self }
     }
 
-    /// Number of groups of samples that are independent of each other; one where there are no replicates.
+    /// Number of mutually independent groups of samples; one without replicates.
     pub fn groups(self) -> usize {
         match self {
             Population::Replicated(replicates) => usize::try_from(replicates).unwrap_or(1).max(1),
@@ -100,18 +98,18 @@ impl Population {
         (sample.0.saturating_sub(1) % self.groups() as u64) as usize
     }
 
-    /// Whether `sample` is one of those that statistics are about.
+    /// Whether statistics count `sample`.
     pub fn contains(self, sample: SampleId) -> bool {
         self == Population::Nominal || sample.0 > 0
     }
 
-    /// The same as a clause: what the intervals are, or why there are none.
+    /// [`Population::intervals`] as a clause.
     pub fn about_intervals(self) -> String {
         let text = self.intervals();
         text.strip_prefix("none: ").map_or_else(|| format!("intervals: {text}"), |why| format!("no intervals: {why}"))
     }
 
-    /// What the intervals of statistics are, or why there are none, in words.
+    /// The kind of intervals, or why there are none, in words.
     pub fn intervals(self) -> String {
         match self {
             Population::Independent => {
@@ -144,8 +142,8 @@ impl Population {
 mod tests {
     use super::*;
 
-    /// Law: a loss is big from a twentieth of the physical runs on, whatever their failure; then, and only then, an
-    /// independent population has no intervals.
+    /// Law: a loss is big from a twentieth of the physical runs on; only then an independent population loses its
+    /// intervals.
     #[test]
     fn a_big_loss_leaves_no_intervals() {
         let place = |status: Status| Status::ALL.iter().position(|one| *one == status).expect("a status");
@@ -165,8 +163,7 @@ mod tests {
         }
     }
 
-    /// Law: statistics are about the dispersed samples, about the nominal one only where it is all there is; each
-    /// sample is in one group.
+    /// Law: statistics count the nominal sample only if it is alone; each sample is in one group.
     #[test]
     fn the_nominal_sample_is_no_part_of_a_population() {
         let [nominal, first] = [SampleId(0), SampleId(1)];

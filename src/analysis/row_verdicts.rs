@@ -1,4 +1,4 @@
-//! What was counted of one requirement on a number of each run, and what that says of it.
+//! Counts and verdict of one requirement on a number of each run.
 
 use crate::analysis::assessment::Assessment;
 use crate::analysis::population::Population;
@@ -12,22 +12,21 @@ use crate::statistics::gate::{
 use crate::statistics::mean::MOST_SHARE;
 use crate::statistics::moments::Moments;
 
-/// What is counted of one requirement in a group of samples.
+/// Counts of one requirement in a group of samples.
 #[derive(Clone, Debug, Default)]
 pub(super) struct GroupRuns {
     pub(super) runs: u64,
     pub(super) within: u64,
-    /// Runs whose value is not a number: nobody knows on which side of the limit they are.
+    /// Runs with a value that is not a number, on an unknown side of the limit.
     pub(super) undefined: u64,
     pub(super) moments: Moments,
 }
 
-/// What is counted of one requirement.
+/// Counts of one requirement.
 #[derive(Clone, Debug)]
 pub(super) struct RequirementRuns {
     pub(super) groups: Vec<GroupRuns>,
-    /// Runs without a value, which violate it: those that are not `ok`, and those in which what it is about never
-    /// happened.
+    /// Runs without a value, which violate it: not `ok`, or without the event that it is about.
     pub(super) missing: u64,
 }
 
@@ -52,11 +51,11 @@ impl RequirementRuns {
     }
 }
 
-/// What is asked of the runs.
+/// A requirement to be judged.
 #[derive(Clone, Copy)]
-pub(super) struct Asked<'r> {
+pub(super) struct Judged<'r> {
     pub requirement: &'r Requirement,
-    /// It passes at the first confidence, and fails at the second.
+    /// The confidences of a pass and of a failure.
     pub confidences: [f64; 2],
     /// Confidence of the two-sided interval.
     pub interval: f64,
@@ -64,22 +63,22 @@ pub(super) struct Asked<'r> {
     pub failed: u64,
 }
 
-impl Asked<'_> {
+impl Judged<'_> {
     /// The confidence of each end of the interval.
     pub(super) fn of_an_end(&self) -> f64 {
         0.5 + 0.5 * self.interval
     }
 }
 
-/// What `counts` say of a requirement; `is_constant`: every run has the same value.
+/// The verdict of `counts` on a requirement; `is_constant`: every run has the same value.
 pub(super) fn assessment(
-    asked: Asked<'_>,
+    judged: Judged<'_>,
     unit: String,
     counts: &RequirementRuns,
     population: Population,
     is_constant: bool,
 ) -> Assessment {
-    let Asked { requirement, confidences, .. } = asked;
+    let Judged { requirement, confidences, .. } = judged;
     let (runs, within) = (counts.sum(|group| group.runs), counts.sum(|group| group.within));
     let limit = requirement.limit;
     let mut whole = Moments::default();
@@ -96,14 +95,14 @@ pub(super) fn assessment(
     };
     let is_met = |estimate| target.map_or_else(|| limit.is_met(estimate), |target| estimate >= target);
     let mut gate = failing_at(confidences, is_met, at);
-    let mut interval = at(asked.of_an_end()).bounds;
+    let mut interval = at(judged.of_an_end()).bounds;
     let is_undecided = matches!(gate.decision, Decision::Undecided(_));
     let is_tailed = target.is_none() && requirement.bounded.is_none();
     let mut reason = (is_undecided && is_tailed && whole.count() > 1 && whole.min() == whole.max())
         .then(|| "all values are equal, and a rare event would not show".to_owned());
     let mut note = (is_tailed && whole.largest_share(2) > MOST_SHARE && !is_yes_or_no(&whole))
         .then(|| format!("heavy tail: one run makes {:.0}% of the variance", 100.0 * whole.largest_share(2)));
-    // a mean over all runs is not known where a run has no value
+    // a mean over all runs is unknown if a run has no value
     let undefined = counts.sum(|group| group.undefined);
     let missing = if target.is_none() { runs - whole.count() - undefined } else { 0 };
     let outside = requirement.bounded.and_then(|[low, high]| {
@@ -165,15 +164,14 @@ pub(super) fn assessment(
         runs,
         violations: runs - within,
         missing: counts.missing,
-        failed: asked.failed,
+        failed: judged.failed,
         worst: None,
         reason,
         note,
     }
 }
 
-/// The gate on the fraction of runs within the limit; where some are on no known side, one that decides wherever they
-/// are.
+/// The gate on the fraction of runs within the limit; it decides only if runs on an unknown side cannot change it.
 fn of_fraction(counts: &RequirementRuns, target: f64, confidence: f64, population: Population) -> Gate {
     let runs = counts.sum(|group| group.runs);
     let of = |within: &dyn Fn(&GroupRuns) -> u64| {
@@ -225,8 +223,8 @@ mod tests {
     use crate::statistics::gate::GateLimit;
 
     /// At 95%.
-    fn asked(requirement: &Requirement) -> Asked<'_> {
-        Asked { requirement, confidences: [0.95; 2], interval: 0.95, failed: 0 }
+    fn asked(requirement: &Requirement) -> Judged<'_> {
+        Judged { requirement, confidences: [0.95; 2], interval: 0.95, failed: 0 }
     }
 
     fn requirement(statement: Statement, limit: GateLimit) -> Requirement {
@@ -240,7 +238,7 @@ mod tests {
         }
     }
 
-    /// RequirementRuns of groups: runs, runs within the limit, values.
+    /// Groups of runs, runs within the limit, values.
     fn counts(groups: &[(u64, u64, &[f64])]) -> RequirementRuns {
         let mut counts = RequirementRuns::new(0);
         for (runs, within, values) in groups {
@@ -250,7 +248,7 @@ mod tests {
         counts
     }
 
-    /// Published: 59 runs within the limit show p95, 58 do not; a violation more and 59 do not.
+    /// Published: 59 runs within the limit show p95, 58 or a violation more do not.
     #[test]
     fn counts_decide() {
         let p95 = requirement(Statement::Quantile(0.95), GateLimit::AtMost(1.0));
@@ -265,9 +263,8 @@ mod tests {
         assert_eq!(of(0, 0).reason.as_deref(), Some("there are no runs that count"));
     }
 
-    /// Law: of 400 runs, however many are within, a bound is named exactly where the verdict is decided while the
-    /// two-sided interval has the limit in it; it is on the side of the limit that decides, and so it is for means on
-    /// both sides of a limit.
+    /// Law: of 400 runs, a bound is named exactly if the verdict is decided while the two-sided interval contains the
+    /// limit, on the side of the limit that decides; so for means on both sides of a limit.
     #[test]
     fn hidden_bounds_are_those_that_decide() {
         let p95 = requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0));
@@ -313,8 +310,8 @@ mod tests {
         }
     }
 
-    /// Law: a run without a value violates a requirement on the mean; designs without a population decide nothing, nor
-    /// do equal values of an observable that need not be constant.
+    /// Law: a run without a value violates a requirement on the mean; designs without a population, and equal values of
+    /// an observable that may vary, decide nothing.
     #[test]
     fn what_numbers_cannot_say_is_not_decided_by_them() {
         let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
@@ -338,9 +335,8 @@ mod tests {
         }
     }
 
-    /// Law: runs whose value is not a number decide nothing: the verdict is that of every number of them within the
-    /// limit, or UNDECIDED with the reason; a mean is UNDECIDED. The counter-test: as violations they would fail it, as
-    /// runs within the limit they would pass it.
+    /// Law: a verdict with values that are not numbers holds for every number of them within the limit, or is UNDECIDED
+    /// with the reason, as for every mean. The counter-test: violations would fail it, runs within the limit pass it.
     #[test]
     fn what_is_not_a_number_decides_nothing() {
         let share = requirement(Statement::Fraction(0.9), GateLimit::AtMost(1.0));
@@ -366,7 +362,7 @@ mod tests {
         assert_eq!((found.word(), found.reason.as_deref()), ("UNDECIDED", Some("x is not a number in 1 run")));
     }
 
-    /// Law: replicates decide by their spread, and by the least spread of counts where they agree.
+    /// Law: replicates decide by their spread, and by the least spread of counts if they agree.
     #[test]
     fn replicates_decide_by_their_spread() {
         let p90 = requirement(Statement::Fraction(0.9), GateLimit::AtMost(1.0));
@@ -385,12 +381,11 @@ mod tests {
         assert_eq!(independent.word(), "PASS", "the counter-test");
     }
 
-    /// Law: the interval of a share is Clopper and Pearson's, two-sided, whatever the confidence of the requirement;
-    /// that of the verdict is its own.
+    /// Law: the interval of a share is Clopper and Pearson's two-sided one, whatever the confidence of the requirement.
     #[test]
     fn intervals_are_two_sided() {
         let p95 = Requirement { confidence: 0.99, ..requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0)) };
-        let asked = Asked { requirement: &p95, confidences: [0.99; 2], interval: 0.9, failed: 0 };
+        let asked = Judged { requirement: &p95, confidences: [0.99; 2], interval: 0.9, failed: 0 };
         let counts = counts(&[(499, 490, &[])]);
         let found = assessment(asked, String::new(), &counts, Population::Independent, false);
         let [lower, upper] = found.interval;
@@ -402,9 +397,8 @@ mod tests {
         assert!((crate::statistics::binomial::at_least(490, 499, found.gate.bounds[0]) - 0.01).abs() < 1e-9);
     }
 
-    /// Law: bounds of the values decide a mean whatever its tail, also without a spread, and say nothing of a tail; a
-    /// value outside of them fails it, and says so. Without bounds the decision names the room that it leaves for rare
-    /// events: from its bound to the limit.
+    /// Law: bounds of the values decide a mean whatever its tail and without a spread; a value outside fails it. Without
+    /// bounds the decision names the room for rare events: from its bound to the limit.
     #[test]
     fn bounded_means_assume_no_tail() {
         let mean = |bounded, limit| Requirement { bounded, ..requirement(Statement::Mean, GateLimit::AtMost(limit)) };
@@ -436,7 +430,6 @@ mod tests {
                 outside.word() == "FAIL" && outside.reason.is_some_and(|reason| reason.contains("outside of bounded"))
             );
         }
-        // two values within [0, 1] say nothing
         assert_eq!(of(&mean(Some([0.0, 1.0]), 0.5), &[0.1, 0.2]).word(), "UNDECIDED");
     }
 }

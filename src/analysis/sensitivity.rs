@@ -1,7 +1,7 @@
-//! Which input of a campaign matters for which observable, from the files of its rows.
+//! Sensitivities of observables to the inputs of a campaign, from its rows.
 //!
-//! Correlations, regression and given-data indices from the runs that are `ok`, in the order of their samples;
-//! first-order and total indices of Sobol from the blocks of a `saltelli` design. A pure function of plan and files.
+//! Correlations, regression and given-data indices come from the `ok` runs in the order of their samples; first-order
+//! and total Sobol indices from the blocks of a `saltelli` design. A pure function of plan and files.
 
 use std::num::NonZeroUsize;
 
@@ -20,16 +20,15 @@ use crate::statistics::regression::{Regressors, independent_inputs};
 use crate::statistics::sensitivity::{Samples, first_order_index_in_order, has_tails, share_of_parabola};
 use crate::storage::parallel::in_parallel;
 
-/// A rank correlation of two inputs above this, and above what chance makes, is told.
+/// Least rank correlation of two inputs that is noted, if above chance.
 const NOTABLE_CORRELATION: f64 = 0.05;
-/// Ranks steady the order of inputs whose shares are not known, unless the tail of an input decides it.
+/// Weight of ranks in the order of inputs without known shares, unless the tail of an input decides it.
 const WEIGHT_OF_RANKS: f64 = 0.25;
-/// Standard deviations of a chance correlation, beyond which it is none: of 10,000 pairs one passes by chance in a
-/// thousand campaigns.
+/// Standard deviations of chance correlations: of 10,000 pairs one exceeds this in a thousand campaigns.
 const CHANCE: f64 = 5.5;
 
-/// What every input of `plan` means for the observables that its file requires or names (the main ones, where it names
-/// none), from its first rows. After a big `loss` the rows that are `ok` are no sample of all, and have no intervals.
+/// The sensitivities of the observables that the file of `plan` requires or names, else of the main ones, from its first
+/// rows. After a big `loss` the `ok` rows are no sample of all, and have no intervals.
 pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     let observed = FirstRows::new(plan).observed;
     let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
@@ -37,8 +36,7 @@ pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZer
     if loss.is_big() { found.into_iter().map(|one| one.without_intervals(true)).collect() } else { found }
 }
 
-/// What every input of `plan` means for whether a run is computed ([`COMPUTED`]), from its first rows; nothing where
-/// all are, or none.
+/// The sensitivity of being computed ([`COMPUTED`]), from the first rows; none if all are, or none is.
 pub fn of_failures(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     let is_computed = table.is_ok.iter().map(|is_ok| f64::from(u8::from(*is_ok))).collect();
     let varies = [true, false].iter().all(|flag| table.is_ok.contains(flag));
@@ -60,7 +58,7 @@ fn of_table(
         return untold(names, &inputs, table.samples.len() as u64, &note);
     }
     let all = Prepared::new(table.inputs.clone(), threads);
-    // other rows have other ranks
+    // a subset of rows has other ranks
     let has_failed = names != [COMPUTED] && table.is_ok.contains(&false);
     let ok: Vec<usize> = (0..table.is_ok.len()).filter(|row| table.is_ok[*row]).collect();
     let computed = has_failed.then(|| all.of_rows(&ok, threads));
@@ -68,7 +66,7 @@ fn of_table(
         None => all.explained(plan, &inputs, name, y),
         Some(computed) => {
             let missed = Event::missed(plan, name, y, &table.is_ok);
-            computed.explained_beside(plan, &inputs, name, &at(&ok, y), (&all, missed))
+            computed.explained_beside(plan, &inputs, name, &at(&ok, y), &all, missed)
         }
     };
     let work: Vec<_> = names.iter().zip(observables).collect();
@@ -80,7 +78,7 @@ fn at(rows: &[usize], values: &[f64]) -> Vec<f64> {
     rows.iter().map(|row| values[*row]).collect()
 }
 
-/// Inputs of which nothing is estimated, and why.
+/// Inputs without estimates, and why.
 fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<InputSensitivity> {
     let of = |name: &&str, input: &String| InputSensitivity {
         observable: (*name).to_owned(),
@@ -92,19 +90,19 @@ fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<Input
     names.iter().flat_map(|name| inputs.iter().map(move |input| of(name, input))).collect()
 }
 
-/// Inputs in all forms that are needed.
+/// Inputs prepared for all estimates.
 pub struct Prepared {
     rows: usize,
-    /// Which inputs vary and are no linear combination of those before them, as values and as ranks.
+    /// Inputs that vary and are no linear combination of those before them, as values and as ranks.
     kept: [Vec<bool>; 2],
     values: Vec<Vec<f64>>,
     standardised: Vec<Vec<f64>>,
     ranks: Vec<Vec<f64>>,
-    /// Those that are kept; `None` where there are none.
+    /// The kept inputs, as values and as ranks.
     regressors: [Option<Regressors>; 2],
     orders: Vec<Vec<usize>>,
     tested: Vec<Option<TestedInput>>,
-    /// Which have many values, and tails that the rows may not show.
+    /// Inputs with many values and tails that the rows may not show.
     with_tails: Vec<bool>,
     /// Rank correlations of the inputs.
     correlations: Vec<Vec<f64>>,
@@ -127,7 +125,6 @@ impl Forms {
 }
 
 impl Prepared {
-    /// Of inputs with these values.
     pub fn new(values: Vec<Vec<f64>>, threads: Option<NonZeroUsize>) -> Self {
         let forms = in_parallel(values.iter().collect(), threads, |input| Forms::of(input));
         let (mut scaled, mut ranks, mut orders, mut tested) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -137,7 +134,7 @@ impl Prepared {
             orders.push(form.order);
             tested.push(form.tested);
         }
-        // of values and of ranks
+        // as values and as ranks
         let of = |columns: &Vec<Vec<f64>>| {
             let kept = independent_inputs(columns);
             let inputs = columns.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(column, _)| column.clone());
@@ -160,19 +157,19 @@ impl Prepared {
         }
     }
 
-    /// Whether two inputs have a notable correlation: one that `[[correlate]]` asks for, or one beyond chance.
+    /// Whether two inputs have a notable correlation, from `[[correlate]]` or beyond chance.
     fn is_notable(&self, plan: &Plan, names: &[String], [one, other]: [usize; 2]) -> bool {
-        let is_asked = || {
+        let is_written = || {
             plan.correlated.iter().any(|table| {
                 let columns: Vec<String> = table.components().iter().map(|(of, at)| of.column_name(*at)).collect();
                 [one, other].iter().all(|input| columns.contains(&names[*input]))
             })
         };
         let r = self.correlations[one][other].abs();
-        one != other && r > NOTABLE_CORRELATION && (r > CHANCE / libm::sqrt(self.rows as f64) || is_asked())
+        one != other && r > NOTABLE_CORRELATION && (r > CHANCE / libm::sqrt(self.rows as f64) || is_written())
     }
 
-    /// The greatest notable correlation of input `index` with another.
+    /// The input with the greatest notable correlation with input `index`.
     fn correlated_with(&self, plan: &Plan, names: &[String], index: usize) -> Option<(String, f64)> {
         let others = (0..names.len()).filter(|other| self.is_notable(plan, names, [index, *other]));
         let r = |other: &usize| self.correlations[index][*other];
@@ -180,9 +177,8 @@ impl Prepared {
         Some((names[other].clone(), r(&other)))
     }
 
-    /// The first-order index of input `index`. Of an input that does not vary in these rows nothing is known, and so of
-    /// no share. Rows that are not seen of an input with tails may make the share of the others of an outcome that has
-    /// no bounds as small as can be.
+    /// The first-order index of input `index`: unknown if some input does not vary in these rows. Unseen rows of an
+    /// input with tails may make the shares of others as small as can be, unless the outcome is bounded.
     fn first_order(&self, plan: &Plan, index: usize, y: &[f64], is_bounded: bool) -> Option<Estimate> {
         let (order, x) = (&self.orders[index], &self.values[index]);
         let found = first_order_index_in_order(order, x, y, samples(plan), plan.analysis.confidence)?;
@@ -193,41 +189,41 @@ impl Prepared {
         Some(if all_vary { Estimate { lower, ..found } } else { Estimate { lower: 0.0, upper: 1.0, ..found } })
     }
 
-    /// Tests of inputs that are correlated, one beside the others; and the names of those that the rows do not tell
-    /// apart from each.
+    /// Tests each correlated input given the others; returns the names of inputs that the rows do not separate.
     fn beside_others(
         &self,
-        (plan, names): (&Plan, &[String]),
+        plan: &Plan,
+        names: &[String],
         y: &[f64],
         p_values: &mut [Option<f64>],
-        asked: usize,
+        questions: usize,
     ) -> Vec<Option<String>> {
         let related = |one: usize, other: usize| self.is_notable(plan, names, [one, other]);
-        let level = (asked * names.len(), 1.0 - plan.analysis.confidence);
-        let instead = beside_others(&self.tested, y, related, p_values, level);
+        let tests = questions * names.len();
+        let instead = beside_others(&self.tested, y, related, p_values, tests, 1.0 - plan.analysis.confidence);
         instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
     }
 
-    /// The same of some of the rows.
+    /// The inputs in some of the rows.
     fn of_rows(&self, rows: &[usize], threads: Option<NonZeroUsize>) -> Self {
         Prepared::new(self.values.iter().map(|input| at(rows, input)).collect(), threads)
     }
 
-    /// What every input means for an observable with the values `y`, NaN where a row has none: for its spread, and for
-    /// the event of it.
+    /// The sensitivities of an observable with the values `y`, NaN for none, in its spread and in its events.
     pub fn explained(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
         let missed = Event::missed(plan, observable, y, &vec![true; y.len()]);
-        self.explained_beside(plan, names, observable, y, (self, missed))
+        self.explained_beside(plan, names, observable, y, self, missed)
     }
 
-    /// The same, with the events that requirements are missed, in the rows of `all`.
+    /// [`Prepared::explained`], with the events of missed requirements in the rows of `all`.
     fn explained_beside(
         &self,
         plan: &Plan,
         names: &[String],
         observable: &str,
         y: &[f64],
-        (all, missed): (&Prepared, Vec<(Event, Vec<bool>)>),
+        all: &Prepared,
+        missed: Vec<(Event, Vec<bool>)>,
     ) -> Vec<InputSensitivity> {
         let has_tests = !matches!(Population::of(plan), Population::Chosen(_) | Population::Nominal);
         let (rows, events) = match missed {
@@ -235,9 +231,9 @@ impl Prepared {
             none if none.is_empty() => (self, Event::of_values(plan, observable, y)),
             missed => (all, missed),
         };
-        // the spread, and the events
-        let asked = events.len() + usize::from(events.iter().all(|(event, _)| !event.has_few_values));
-        let tests = has_tests.then_some(asked);
+        // the events, and the spread
+        let questions = events.len() + usize::from(events.iter().all(|(event, _)| !event.has_few_values));
+        let tests = has_tests.then_some(questions);
         let mut found = if y.iter().all(|value| value.is_finite()) {
             self.sensitivities(plan, names, observable, y, tests)
         } else {
@@ -246,25 +242,26 @@ impl Prepared {
             of_finite.sensitivities(plan, names, observable, &at(&finite, y), tests)
         };
         for (event, marked) in events {
-            let effects = rows.on_event((plan, names), (event, &marked), asked);
+            let effects = rows.on_event(plan, names, (event, &marked), questions);
             found.iter_mut().zip(effects).for_each(|(one, effect)| one.on_events.extend(effect));
         }
-        // chosen samples have correlations with each other, and none in a population
+        // chosen samples correlate with each other, not within a population
         if has_tests { found } else { found.into_iter().map(|one| one.without_intervals(false)).collect() }
     }
 
-    /// The effects on an event that occurs in the rows that are marked, one of `asked` questions.
+    /// The effects on an event that occurs in the marked rows, one of `questions`.
     fn on_event(
         &self,
-        (plan, names): (&Plan, &[String]),
+        plan: &Plan,
+        names: &[String],
         (event, marked): (Event, &[bool]),
-        asked: usize,
+        questions: usize,
     ) -> Vec<Option<OnEvent>> {
         let indicator: Vec<f64> = marked.iter().map(|is_marked| f64::from(*is_marked)).collect();
         let share = |input: usize| self.first_order(plan, input, &indicator, true);
-        let mut effects = on_event(&self.tested, (event, marked), share, asked, plan.analysis.confidence);
+        let mut effects = on_event(&self.tested, (event, marked), share, questions, plan.analysis.confidence);
         let mut p_values: Vec<Option<f64>> = effects.iter().map(|one| one.as_ref().map(|one| one.p_value)).collect();
-        let instead = self.beside_others((plan, names), &indicator, &mut p_values, asked);
+        let instead = self.beside_others(plan, names, &indicator, &mut p_values, questions);
         for (effect, (p_value, instead)) in effects.iter_mut().zip(p_values.into_iter().zip(instead)) {
             if let Some((effect, p_value)) = effect.as_mut().zip(p_value) {
                 (effect.p_value, effect.instead) = (p_value, instead);
@@ -273,20 +270,19 @@ impl Prepared {
         effects
     }
 
-    /// What every input means for an observable with the values `y`, one of `asked` questions; without tests where that
-    /// is `None`.
+    /// The sensitivities of an observable with the values `y`, one of `questions`; `None`: without tests.
     fn sensitivities(
         &self,
         plan: &Plan,
         names: &[String],
         observable: &str,
         y: &[f64],
-        asked: Option<usize>,
+        questions: Option<usize>,
     ) -> Vec<InputSensitivity> {
         let confidence = plan.analysis.confidence;
         let population = Population::of(plan);
-        let mut p_values = asked.map_or_else(|| vec![None; names.len()], |asked| on_spread(&self.tested, y, asked));
-        let instead = self.beside_others((plan, names), y, &mut p_values, asked.unwrap_or(1));
+        let mut p_values = questions.map_or_else(|| vec![None; names.len()], |count| on_spread(&self.tested, y, count));
+        let instead = self.beside_others(plan, names, y, &mut p_values, questions.unwrap_or(1));
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
         let varies = scaled.iter().any(|value| *value != 0.0);
         let regressor = |which: usize| self.regressors[which].as_ref().filter(|_| varies);
@@ -298,8 +294,8 @@ impl Prepared {
         };
         let of_input = |(index, name): (usize, &String)| {
             let input_varies = self.standardised[index].iter().any(|value| *value != 0.0);
-            let is_asked = varies && input_varies && self.rows > 3;
-            let correlated = |x: &[f64], y: &[f64]| is_asked.then(|| correlation(x, y, 0, confidence));
+            let both_vary = varies && input_varies && self.rows > 3;
+            let correlated = |x: &[f64], y: &[f64]| both_vary.then(|| correlation(x, y, 0, confidence));
             let partial = rank.as_ref().zip(place(1, index)).map(|(of, at)| of.partial(at, confidence));
             let coefficient = linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficient(at, confidence));
             let correlated_with = self.correlated_with(plan, names, index);
@@ -310,14 +306,14 @@ impl Prepared {
                 pearson: correlated(&self.standardised[index], &scaled),
                 spearman: correlated(&self.ranks[index], &ranked),
                 partial_rank: partial,
-                // an end that the rows do not bound is none
+                // an open end is none
                 regression: coefficient.map(|of| {
                     let [lower, upper] = [of.lower, of.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
                     Estimate { lower, upper, ..of }
                 }),
                 r_squared,
                 first_order: self.first_order(plan, index, y, false),
-                parabola: is_asked.then(|| {
+                parabola: both_vary.then(|| {
                     let of = |y: &[f64]| share_of_parabola(&self.standardised[index], y);
                     let ranks = if self.with_tails.contains(&true) { 0.0 } else { WEIGHT_OF_RANKS };
                     (1.0 - ranks) * of(&scaled) + ranks * of(&ranked)
@@ -340,13 +336,13 @@ impl Prepared {
     }
 }
 
-/// Whether an input with these values has more than a few, and tails. Of many inputs one passes by chance: the limits
-/// are higher than those of the outcome.
+/// Whether an input has many values, and tails. The limits are higher than for the outcome, since one of many inputs
+/// may pass them by chance.
 fn tails_of(values: &[f64], tested: Option<&TestedInput>) -> bool {
     tested.is_some_and(|tested| !tested.has_few_values()) && has_tails(values, [1.5; 2])
 }
 
-/// How the samples of `plan` fill the space of the inputs.
+/// The uniformity of the samples of `plan` in the space of inputs.
 fn samples(plan: &Plan) -> Samples {
     match plan.design {
         Design::Sobol(_) | Design::Halton(_) => Samples::Even,

@@ -1,17 +1,16 @@
-//! `sensitivity.parquet`: what each input means for each observable, one row for each pair.
+//! `sensitivity.parquet`: sensitivities, one row for each pair of observable and input.
 
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 use crate::table::Table;
 
-/// A measure of sensitivity: name of its column, meaning, value.
+/// A measure of sensitivity: column, meaning, value.
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
 
-/// A number of an estimate: suffix of its column, what it is, value.
+/// A number of an estimate: suffix of its column, meaning, value.
 type EstimatePart = (&'static str, &'static str, fn(Estimate) -> f64);
 
-/// The estimate itself, and the ends of its interval.
 const PARTS: [EstimatePart; 3] = [
     ("", "", |estimate| estimate.value),
     ("_lower", ": lower end of its interval", |estimate| estimate.lower),

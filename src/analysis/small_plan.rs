@@ -1,4 +1,4 @@
-//! The plan of the tests in `analysis`: a free body whose rates about two axes are dispersed.
+//! The plan of tests in `analysis`: a free body with dispersed rates about two axes.
 
 use crate::campaign::{Overrides, Plan};
 
@@ -31,7 +31,7 @@ distribution = "normal"
 std = 0.05
 "#;
 
-/// The plan with so many samples; `design` is a line of the campaign file, or nothing.
+/// The plan with so many samples; `design` is a line of the campaign file.
 pub(super) fn small_plan(samples: u64, design: &str) -> Plan {
     let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
     Plan::from_text("small.toml", &TEXT.replace("DESIGN", design), overrides).expect("a plan")

@@ -1,15 +1,13 @@
-//! [`Statistics`]: what the runs of a campaign say of every observable, from the files of its rows.
+//! [`Statistics`]: the statistics of every observable of a campaign, from its rows.
 //!
-//! A pure function of plan and files: it can be made again without running anything. Counts and extremes are exact.
-//! Moments are merged in the order of the parts, and the contents of sketches are counts, so that no bit depends on
-//! threads. Up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows quantiles are those of the values
-//! themselves; beyond, those of sketches, with their bound. A few columns are read at a time: memory does not depend on
-//! the number of rows.
+//! A pure function of plan and files. Counts and extremes are exact, moments are merged in the order of the parts, and
+//! sketches hold counts, so that no bit depends on threads. Quantiles are exact up to
+//! [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows, and come from sketches beyond, with their bound. A
+//! few columns are read at a time: memory does not depend on the number of rows.
 //!
-//! The nominal sample 0 is no part of it where there are others. A run that is not `ok` is counted and has no part in
-//! any estimate, but in the quantiles of requirements, which it violates. Intervals hold whatever its value would have
-//! been: on either side of all others, and for a mean within the range of the observable, if it has one. Where many
-//! runs are not `ok` ([`Loss`]), numbers have no intervals.
+//! The nominal sample 0 counts only if it is alone. A run that is not `ok` is counted and left out of estimates, except
+//! for the quantiles of requirements, which it violates. Intervals hold whatever its value would be, for a mean within
+//! the range of the observable. After a big [`Loss`] numbers have no intervals.
 
 use std::num::NonZeroUsize;
 
@@ -32,67 +30,66 @@ use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// What the runs say of one observable.
+/// The statistics of one observable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnStatistics {
     /// Name, unit and meaning.
     pub quantity: Quantity,
     /// Whether its values are counts.
     pub is_count: bool,
-    /// Runs that are `ok` and have no value of it.
+    /// `ok` runs without a value.
     pub without_value: u64,
-    /// Of the runs that are `ok` and have a value.
+    /// Over `ok` runs with a value.
     pub moments: Moments,
-    /// Ends of the interval of the mean; `None` where the runs do not bound it on that side, or no interval holds.
+    /// Ends of the interval of the mean; `None` for an open end, or without an interval.
     pub mean_interval: [Option<f64>; 2],
     /// Standard error of the mean: of independent samples, or of replicates.
     pub mean_error: Option<f64>,
-    /// Ends of the interval of the standard deviation, as of independent samples; `None` as for the mean.
+    /// Ends of the interval of the standard deviation, for independent samples; `None` as for the mean.
     pub deviation_interval: [Option<f64>; 2],
-    /// What keeps these runs from telling mean and standard deviation: no spread, few runs for the skewness, a heavy
-    /// tail.
+    /// The reason why mean and standard deviation are uncertain: no spread, few runs for the skewness, a heavy tail.
     pub note: Option<String>,
     /// The quantiles of the plan, ascending.
     pub quantiles: Vec<QuantileStatistic>,
-    /// Difference of the 95% and 5% quantiles, of a campaign with audits.
+    /// Difference of the 95% and 5% quantiles, in a campaign with audits.
     pub spread: Option<f64>,
-    /// Those of the requirements on it, each with its requirement, which runs without a value violate.
+    /// The quantiles of its requirements, which runs without a value violate.
     pub required: Vec<(Requirement, QuantileStatistic)>,
     /// Its distribution, where a page shows that.
     pub sketch: Option<Sketch>,
 }
 
 impl ColumnStatistics {
-    /// The quantiles of the plan as numbers, see [`QuantileStatistic::numbers`].
+    /// The quantiles as numbers, see [`QuantileStatistic::numbers`].
     pub fn quantile_numbers(&self) -> Vec<[f64; 4]> {
         self.quantiles.iter().map(QuantileStatistic::numbers).collect()
     }
 }
 
-/// The quantiles between which the spread of an observable is.
+/// The quantiles whose difference is the spread.
 const SPREAD: [f64; 2] = [0.05, 0.95];
 
-/// What the runs of a campaign say.
+/// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
-    /// How the samples represent the population.
+    /// The population of the samples.
     pub population: Population,
     pub confidence: f64,
-    /// How many of the samples that statistics are about ended with each status, in the order of [`Status::ALL`].
+    /// Numbers of counted samples by status, in the order of [`Status::ALL`].
     pub statuses: [u64; Status::ALL.len()],
-    /// Bound of the error of quantiles, relative to their magnitude or to their distance from a typical value,
-    /// whichever is smaller; 0 where they are exact.
+    /// Error bound of quantiles, relative to the smaller of their magnitude and their distance from a typical value; 0
+    /// if exact.
     pub quantile_error: f64,
     pub columns: Vec<ColumnStatistics>,
 }
 
 impl Statistics {
-    /// The number of samples that statistics are about.
+    /// Number of counted samples.
     pub fn samples(&self) -> u64 {
         self.statuses.iter().sum()
     }
 
-    /// How many of them are `ok`.
+    /// Number of `ok` samples among them.
     pub fn ok(&self) -> u64 {
         Status::ALL
             .iter()
@@ -102,7 +99,7 @@ impl Statistics {
             .sum()
     }
 
-    /// The quantile that `requirement` is about.
+    /// The quantile of `requirement`.
     pub fn required(&self, requirement: &Requirement) -> Option<&QuantileStatistic> {
         let column = self.column(requirement.observable()?)?;
         column.required.iter().find(|(one, _)| one == requirement).map(|(_, quantile)| quantile)
@@ -117,7 +114,7 @@ impl Statistics {
         self.columns.iter().find(|column| column.quantity.name() == name)
     }
 
-    /// How failed runs are treated, in words.
+    /// The treatment of failed runs, in words.
     pub fn treatment(&self) -> String {
         match self.samples() - self.ok() {
             0 => "every run was computed".to_owned(),
@@ -133,8 +130,8 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan`, whose runs ended as `ended` says: of what was counted of the first of the [`batches`] of
-/// its observables, if it was, and else from the files of its rows, on `threads` threads (`None`: one per core). Those
+/// The statistics of `plan` with the statuses `ended`, from `counted`, the counts of the first of the [`batches`] of its
+/// observables, and from the files of its rows, on `threads` threads (`None`: one per core). Those
 /// called `shown` have their sketches.
 ///
 /// # Errors
@@ -149,7 +146,7 @@ pub fn compute(
     let population = Population::of(plan);
     let is_exact = is_exact(plan);
     let loss = ended.loss();
-    // of the runs that have numbers
+    // of the runs with numbers
     let left = population.after(loss);
     let mut columns = Vec::new();
     let mut describe = |observed: &[Observed], collected: Collected| {
@@ -337,7 +334,7 @@ fn sketched(values: &[f64], moments: &Moments) -> Sketch {
     sketch
 }
 
-/// What lost runs leave of a mean with the interval `mean_interval`.
+/// The effect of lost runs on a mean with the interval `mean_interval`.
 fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
     let lost = match lost {
         1 => "1 run was not computed".to_owned(),
@@ -351,7 +348,7 @@ fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
     }
 }
 
-/// Whether values with these moments are all 0 or 1: x (1 - x), which is never negative between, has the mean 0.
+/// Whether values with these moments are all 0 or 1: the mean of x (1 - x), which is positive between, is 0.
 pub fn is_yes_or_no(moments: &Moments) -> bool {
     let (Some(mean), Some(deviation)) = (moments.mean(), moments.standard_deviation()) else { return false };
     let count = moments.count() as f64;
@@ -359,7 +356,7 @@ pub fn is_yes_or_no(moments: &Moments) -> bool {
     moments.min() == Some(0.0) && moments.max() == Some(1.0) && (mean - of_square).abs() < 1e-9 * mean
 }
 
-/// What keeps runs with these moments from telling their mean and standard deviation.
+/// The reason why mean and standard deviation are uncertain.
 fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
     let skewness = moments.count().gt(&1).then(|| moments.skewness().unwrap_or(0.0))?;
     let share = moments.largest_share(2);
@@ -419,8 +416,7 @@ mod tests {
         }
     }
 
-    /// Law: statistics are those of the values of dispersed runs that are ok; the nominal run and failed runs are left
-    /// out, and counted.
+    /// Law: statistics are those of dispersed `ok` runs; the nominal run and failed runs are counted and left out.
     #[test]
     fn statistics_are_of_dispersed_runs_that_are_ok() {
         let plan = small_plan(7, "");
@@ -445,7 +441,7 @@ mod tests {
         assert_eq!(found.treatment(), "1 of 6 dispersed runs were not computed and are left out");
     }
 
-    /// Law: values are yes or no if and only if each is 0 or 1 and both occur.
+    /// Law: values are yes or no exactly if each is 0 or 1 and both occur.
     #[test]
     fn yes_or_no_is_known_from_moments() {
         for (values, known) in [
@@ -460,9 +456,8 @@ mod tests {
         }
     }
 
-    /// Law: beyond the exact ones, quantiles are within a hundredth of a standard deviation, whatever the offset of the
-    /// values is, also far from the value of the nominal run; a median of zeros is zero; the order in which parts are
-    /// counted changes no bit.
+    /// Law: sketched quantiles are within a hundredth of a standard deviation for any offset of the values, also far
+    /// from the nominal run; a median of zeros is zero; the order of counting changes no bit.
     #[test]
     fn many_rows_with_an_offset_have_their_quantiles() {
         const ROWS: usize = 120_000;

@@ -1,12 +1,13 @@
-//! `statistics.parquet`: what the runs say, one row for each observable.
+//! `statistics.parquet`: the statistics, one row for each observable.
 
 use crate::analysis::order_statistics::QuantileStatistic;
+use crate::analysis::statistic::{STATISTICS, Statistic, Uncertainty};
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::run::Status;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 
-/// Name of the columns of the `p`-quantile: `p99_9`.
+/// The column of the `p`-quantile: `p99_9`.
 pub fn quantile_name(p: f64) -> String {
     format!("p{}", percent(p).replace('.', "_"))
 }
@@ -38,29 +39,23 @@ pub fn table(statistics: &Statistics) -> Table<'_> {
             "Bound of the error of quantiles, relative to their magnitude, or to their distance from the median of the \
              first runs where these are close together.",
             |_| Some(statistics.quantile_error),
-        )
-        .real("mean", "Mean.", |column| column.moments.mean())
-        .real("mean_standard_error", "Standard error of the mean.", |column| column.mean_error)
-        .real("mean_lower", "Lower end of the interval of the mean.", |column| column.mean_interval[0])
-        .real("mean_upper", "Upper end of the interval of the mean.", |column| column.mean_interval[1])
-        .real("standard_deviation", "Standard deviation, with n - 1.", |column| column.moments.standard_deviation())
-        .real(
-            "standard_deviation_standard_error",
-            "Standard error of the standard deviation, for many independent runs.",
-            |column| column.mean_error.and(column.moments.standard_deviation_error()),
-        )
-        .real("standard_deviation_lower", "Lower end of the interval of the standard deviation.", |column| {
-            column.deviation_interval[0]
-        })
-        .real("standard_deviation_upper", "Upper end of the interval of the standard deviation.", |column| {
-            column.deviation_interval[1]
-        })
-        .text("mean_note", "What keeps the runs from telling mean and standard deviation.", |column| {
-            column.note.as_deref()
-        })
-        .real("skewness", "Skewness m_3/m_2^(3/2).", |column| column.moments.skewness())
-        .real("min", "Minimum.", |column| column.moments.min())
-        .real("max", "Maximum.", |column| column.moments.max());
+        );
+    for Statistic { name, words, meaning, value, uncertainty, .. } in &STATISTICS {
+        if let Some(Uncertainty { error, error_meaning, interval }) = uncertainty {
+            let end = |which: &str| format!("{which} end of the interval of the {words}.");
+            table
+                .real(name, meaning, value)
+                .real(&format!("{name}_standard_error"), error_meaning, error)
+                .real(&format!("{name}_lower"), &end("Lower"), |column| interval(column)[0])
+                .real(&format!("{name}_upper"), &end("Upper"), |column| interval(column)[1]);
+        }
+    }
+    table.text("mean_note", "What keeps the runs from telling mean and standard deviation.", |column| {
+        column.note.as_deref()
+    });
+    for Statistic { name, meaning, value, .. } in STATISTICS.iter().filter(|one| one.uncertainty.is_none()) {
+        table.real(name, meaning, value);
+    }
     let ps: Vec<f64> = columns.first().map_or(Vec::new(), |column| column.quantiles.iter().map(|one| one.p).collect());
     for (index, p) in ps.into_iter().enumerate() {
         let (name, percent) = (quantile_name(p), percent(p));

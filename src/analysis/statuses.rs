@@ -1,4 +1,4 @@
-//! [`Statuses`]: how the runs of a campaign ended, counted once: summary, page, statistics and verdicts read it.
+//! [`Statuses`]: the statuses of the runs of a campaign, counted once for summary, page, statistics and verdicts.
 
 use std::collections::BTreeMap;
 
@@ -11,17 +11,17 @@ use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::rows_reader::RowsError;
 
-/// How many failed samples of each status are known by number.
+/// Most failed samples listed by number for each status.
 const KEPT: usize = 10;
 
-/// The samples that ended with one status.
+/// The samples with one status.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ended {
     pub status: Status,
     pub count: u64,
-    /// How many of these are samples that statistics are about.
+    /// Samples among them that statistics count.
     pub of_population: u64,
-    /// The first of them, ascending, with their reasons; none of `ok`.
+    /// The first of them, ascending, with their reasons; none for `ok`.
     pub first: Vec<(SampleId, String)>,
 }
 
@@ -32,17 +32,17 @@ pub struct Statuses {
     population: Population,
 }
 
-/// The samples of a part, how they ended, and the reasons by row.
+/// The samples of a part with statuses, and the reasons by row.
 pub type StatusPart = (Vec<SampleId>, Vec<Status>, Vec<(usize, String)>);
 
 impl Statuses {
-    /// No runs, of a `population`.
+    /// No runs.
     pub fn none(population: Population) -> Self {
         let none = |status| Ended { status, count: 0, of_population: 0, first: Vec::new() };
         Statuses { list: Status::ALL.map(none), reasons: FailureReasons::default(), population }
     }
 
-    /// Counts a run; `reason` is why it failed.
+    /// Counts a run.
     pub fn add(&mut self, sample: SampleId, status: Status, reason: &str) {
         let of_population = self.population.contains(sample);
         for ended in self.list.iter_mut().filter(|ended| ended.status == status) {
@@ -59,7 +59,7 @@ impl Statuses {
         }
     }
 
-    /// The samples that ended with each status, in the order of [`Status::ALL`].
+    /// By status, in the order of [`Status::ALL`].
     pub fn list(&self) -> &[Ended] {
         &self.list
     }
@@ -72,22 +72,21 @@ impl Statuses {
         self.list.iter().map(|ended| ended.count).sum()
     }
 
-    /// How many are `ok`.
     pub fn ok(&self) -> u64 {
         self.runs() - self.failed().map(|ended| ended.count).sum::<u64>()
     }
 
-    /// How many of those that statistics are about ended with each status, in the order of [`Status::ALL`].
+    /// Samples that statistics count, by status, in the order of [`Status::ALL`].
     pub fn of_population(&self) -> [u64; Status::ALL.len()] {
         self.list.each_ref().map(|ended| ended.of_population)
     }
 
-    /// Whether the nominal run is `ok`, and no part of the population.
+    /// Whether the nominal run is `ok` and not counted.
     pub fn has_nominal(&self) -> bool {
         self.list.iter().any(|ended| ended.status == Status::Done && ended.of_population < ended.count)
     }
 
-    /// Those of them that have no numbers.
+    /// Counted samples without numbers.
     pub fn loss(&self) -> Loss {
         Loss::of(&self.of_population())
     }
@@ -102,7 +101,6 @@ impl Statuses {
 pub struct StatusCounter(Population);
 
 impl StatusCounter {
-    /// Of the campaign `plan`.
     pub fn new(plan: &Plan) -> Self {
         StatusCounter(Population::of(plan))
     }
@@ -136,8 +134,8 @@ impl Accumulator for StatusCounter {
 mod tests {
     use super::*;
 
-    /// Law: every sample is counted; the first failed ones are listed by number with their reasons, whatever the order
-    /// of the rows is; statistics are about the dispersed ones.
+    /// Law: every sample is counted; the first failed ones are listed by number, whatever the order of the rows;
+    /// statistics count dispersed ones.
     #[test]
     fn samples_are_counted_and_the_first_failed_ones_listed() {
         let mut statuses = Statuses::none(Population::Independent);
@@ -156,7 +154,7 @@ mod tests {
         assert_eq!(statuses.reasons().groups()[0].count, 12);
     }
 
-    /// Law: each run has its own reason, whatever the order in which the reasons of a part are listed.
+    /// Law: each run has its own reason, whatever the order of the reasons of a part.
     #[test]
     fn reasons_may_come_in_any_order() {
         let counter = StatusCounter(Population::Independent);

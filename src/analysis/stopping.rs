@@ -1,4 +1,4 @@
-//! [`stopping`]: whether a campaign with `[stop]` has enough samples at one of its looks.
+//! [`stopping`]: the looks of a campaign with `[stop]`.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -15,14 +15,14 @@ use crate::statistics::looks::{Goal, Look, decision};
 use crate::storage::bands_file;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// What a look at `samples` samples found.
+/// A look at `samples` samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopping {
-    /// Number of samples, the nominal one among them.
+    /// Number of samples, with the nominal one.
     pub samples: u64,
-    /// Which look it is, from 1.
+    /// Number of the look, from 1.
     pub look: usize,
-    /// How many looks there may be.
+    /// Most looks.
     pub looks: usize,
     pub found: LookFound,
 }
@@ -30,12 +30,12 @@ pub struct Stopping {
 #[derive(Clone, Debug, PartialEq)]
 pub enum LookFound {
     Precision(Look),
-    /// Of requirements: how many are undecided.
+    /// Number of undecided requirements.
     Undecided(usize),
 }
 
 impl Stopping {
-    /// Whether the campaign has what it stops for.
+    /// Whether the goal is reached.
     pub fn is_reached(&self) -> bool {
         match &self.found {
             LookFound::Precision(look) => look.stops,
@@ -49,8 +49,7 @@ impl Stopping {
     }
 }
 
-/// The values of one observable in the dispersed runs that are `ok`, in the order of the samples: one number for each
-/// run; and how many others are lost.
+/// The values of one observable in the dispersed `ok` runs, in the order of the samples, and the number of lost runs.
 #[derive(Clone, Debug, Default)]
 pub struct StopValues {
     pub values: Vec<f64>,
@@ -65,7 +64,7 @@ pub struct ObservedValues {
 }
 
 impl ObservedValues {
-    /// Those of the observable that `[stop]` of `plan` is about, in the first `samples` samples; none without it.
+    /// For the observable of `[stop]` in the first `samples` samples; none without it.
     pub fn of_stop(plan: &Plan, samples: u64) -> Self {
         let name = plan.analysis.stop.as_ref().and_then(|stop| match &stop.when {
             When::Precise { observable, .. } => Some(observable.as_str()),
@@ -87,8 +86,8 @@ impl Accumulator for ObservedValues {
         let mut found = StopValues::default();
         for observed in &self.observed {
             let (samples, statuses, values) = (part.samples()?, part.statuses()?, observed.column(part)?);
-            let is_asked = |row: &usize| samples[*row].0 > 0 && samples[*row].0 < self.samples;
-            for row in (0..samples.len()).filter(is_asked) {
+            let is_within = |row: &usize| samples[*row].0 > 0 && samples[*row].0 < self.samples;
+            for row in (0..samples.len()).filter(is_within) {
                 match statuses[row] {
                     Status::Done => found.values.push(values[row]),
                     Status::InvalidSample => {}
@@ -105,8 +104,8 @@ impl Accumulator for ObservedValues {
     }
 }
 
-/// Looks at the rows of the campaign `plan`, which are those of the samples below one of its [`Plan::looks`], and the
-/// files of their bands. `None` without `[stop]`.
+/// Looks at the campaign `plan`, at the rows of the samples below one of its [`Plan::looks`] and the files of their
+/// bands. `None` without `[stop]`.
 ///
 /// # Errors
 /// Where a file cannot be read.
@@ -130,8 +129,8 @@ pub fn look(
     }
 }
 
-/// What a look at `samples` samples finds, of the `values` of the observable that `[stop]` is about, or of the
-/// `verdicts` on the requirements. `None` without `[stop]`.
+/// A look at `samples` samples, from the `values` of the observable of `[stop]`, or from the `verdicts`. `None` without
+/// `[stop]`.
 pub fn stopping(plan: &Plan, samples: u64, values: &StopValues, verdicts: &Verdicts) -> Option<Stopping> {
     let (stop, looks) = (plan.analysis.stop.as_ref()?, plan.looks());
     let found = match &stop.when {
@@ -142,7 +141,7 @@ pub fn stopping(plan: &Plan, samples: u64, values: &StopValues, verdicts: &Verdi
     Some(Stopping { samples, look, looks: looks.len(), found })
 }
 
-/// What a look at values finds: the interval holds wherever the lost runs are, below all others or above.
+/// A look at values; its interval holds wherever the lost runs are.
 fn precision(StopValues { values, lost }: &StopValues, goal: Goal, looks: usize) -> Look {
     let found = decision(values, goal, looks);
     if *lost == 0 {
@@ -159,8 +158,8 @@ fn precision(StopValues { values, lost }: &StopValues, goal: Goal, looks: usize)
 mod tests {
     use super::*;
 
-    /// Law: lost runs widen the interval to both sides, and never stop a campaign that would go on without them; so
-    /// many that they may be the quantile stop none.
+    /// Law: lost runs widen the interval to both sides and never stop a campaign; so many that they may be the quantile
+    /// stop none.
     #[test]
     fn lost_runs_do_not_stop_a_campaign() {
         let values: Vec<f64> = (0..1000).map(|k| f64::from((k * 617) % 1000)).collect();
@@ -174,7 +173,7 @@ mod tests {
         assert_eq!((of(60).interval[1], of(60).stops), (None, false));
     }
 
-    /// Law: a campaign ends with the look that finds what it stops for, or with the last one.
+    /// Law: a campaign ends with the look that reaches the goal, or with the last one.
     #[test]
     fn the_last_look_ends_the_campaign() {
         let precision = |stops: bool| {

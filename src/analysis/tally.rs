@@ -1,8 +1,7 @@
-//! [`Tally`]: how the runs of a campaign ended, which are the worst, and what audits found, counted part by part.
+//! [`Tally`]: ends of the runs of a campaign, the worst runs, and audits.
 //!
-//! Only counts, extremes and the numbers of samples are kept and no floating-point sums, so that they do not depend on
-//! the order of the parts. Sample 0 is the nominal scene: where there are others, the worst runs and the audits are
-//! those of the others.
+//! It keeps counts, extremes and sample numbers, and no floating-point sums, so that the order of the parts does not
+//! matter. The nominal sample 0 counts among the worst runs and the audits only if it is alone.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -23,34 +22,32 @@ use crate::sampling::SampleId;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
 use crate::storage::rows_reader::RowsError;
 
-/// How many of the worst runs are listed.
+/// Number of worst runs listed.
 const LISTED: usize = 3;
 
 /// The runs with the greatest values of an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
     pub name: &'static str,
-    /// Indices among the observables of a row; the error is the maximum of their magnitudes.
+    /// Indices among the observables of a row; the error is their largest magnitude.
     indices: Vec<usize>,
     pub list: WorstRuns,
 }
 
-/// How runs ended, the worst ones, and the audits.
+/// Ends of runs, the worst ones, and the audits.
 #[derive(Clone, Debug)]
 pub struct Tally {
     pub statuses: Statuses,
-    /// Whether the statistics are those of the dispersed samples, without the nominal one; otherwise the nominal sample
-    /// is the only one.
+    /// Whether statistics leave out the nominal sample, which else is the only one.
     pub without_nominal: bool,
-    /// The runs with the greatest errors, where the campaign observes those errors.
+    /// The runs with the greatest observed errors.
     pub worst: Vec<Worst>,
-    /// The statistics of the audits, where the campaign has audits.
+    /// The statistics of audits.
     pub audits: Option<AuditTally>,
-    /// How many runs have left the heights of the table of the air; `None` where there is no table of the file, or no
-    /// distance is observed.
+    /// Runs beyond the heights of the table of the air; `None` without such a table in the file, or without observed
+    /// distances.
     pub beyond_air: Option<u64>,
-    /// The observables whose numerical errors the audits measure, in the order of [`crate::observables::headlines`]:
-    /// their names.
+    /// The observables with audited numerical errors, in the order of [`crate::observables::headlines`].
     pub headlines: Vec<String>,
 }
 
@@ -60,20 +57,19 @@ pub struct TallyColumns {
     statuses: StatusCounter,
     nothing: Tally,
     selection: Mutex<Selection>,
-    /// The names of the observables.
+    /// The observables.
     names: Vec<String>,
-    /// Indices of the observables that are counted, ascending.
+    /// Indices of the counted observables, ascending.
     wanted: Vec<usize>,
-    /// Indices of those whose errors audits have.
+    /// Indices of the observables with audited errors.
     audited: Vec<usize>,
     headlines: Vec<usize>,
     has_debris: bool,
-    /// The names of the least and the greatest distance from the centre, and those of the ends of the table of the air,
-    /// m.
+    /// The columns of the least and the greatest distance from the centre, and the ends of the table of the air, m.
     air: Option<[(&'static str, f64); 2]>,
 }
 
-/// The columns of the least and the greatest distance from the centre of the central body.
+/// The columns of the least and the greatest distance from the centre of the central body, m.
 const DISTANCES: [&str; 2] = ["orbit_distance_min_m", "orbit_distance_max_m"];
 
 #[derive(Clone, Debug)]
@@ -85,7 +81,6 @@ pub struct TallyPart {
 }
 
 impl TallyColumns {
-    /// Of the campaign `ensemble`.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let columns = ensemble.request().columns();
         let is_audited = ensemble.plan().audit_fraction > 0.0;
@@ -125,7 +120,7 @@ impl TallyColumns {
         }
     }
 
-    /// The audits of a part. A sample that is to be audited and was not is an audit that failed.
+    /// The audits of a part; a selected sample without one is a failed audit.
     fn audits(
         &self,
         part: &impl PartColumns,
@@ -196,7 +191,7 @@ impl Accumulator for TallyColumns {
         for worst in &mut whole.worst {
             let values: Vec<&Vec<f64>> = worst.indices.iter().map(|index| &part.values[index]).collect();
             for (row, (sample, status)) in part.ended.0.iter().zip(&part.ended.1).enumerate() {
-                // runs that are too inaccurate to count are the worst ones
+                // runs too inaccurate to count are the worst ones
                 if [Status::Done, Status::Inaccurate].contains(status) && !is_nominal(*sample) {
                     let magnitudes = values.iter().map(|values| values[row].abs()).filter(|error| error.is_finite());
                     worst.list.add(*sample, magnitudes.fold(f64::NAN, f64::max));
@@ -220,12 +215,12 @@ mod tests {
     use crate::math::Isa;
     use crate::propagation::Method;
 
-    /// The tally of parts whose rows are (status, error of a balance), of a campaign of `samples` samples.
+    /// The tally of a campaign of `samples` samples from parts of rows (status, error of a balance).
     fn tally_of(balance: ColumnId, samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
         let text = include_str!("../../campaigns/spin_sweep.toml");
         let overrides = Overrides { samples: Some(samples), audit_fraction: Some(0.5), ..Overrides::default() };
         let plan = Plan::from_text("spin_sweep", text, overrides).unwrap();
-        // a method whose rows have all balances
+        // a method with all balances
         let plan = Plan { method: Method::NullSpace, ..plan };
         let ensemble = Ensemble::new(&plan, Isa::best());
         let (columns, names) = (TallyColumns::new(&ensemble), RowNames::new(&ensemble));
@@ -245,7 +240,7 @@ mod tests {
         tally
     }
 
-    /// Law: the worst runs, inaccurate ones too, are listed by number, without the nominal one; every run is counted.
+    /// Law: the worst runs, also inaccurate ones, are listed by number, without the nominal one; every run is counted.
     #[test]
     fn worst_runs_are_listed() {
         let ok = Status::Done;

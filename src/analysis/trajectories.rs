@@ -1,8 +1,7 @@
-//! Full time series of the runs that `[retain]` asks for: `trajectories/sample-000012.parquet`.
+//! Full time series of runs retained by `[retain]`: `trajectories/sample-000012.parquet`.
 //!
-//! A row is a pure function of plan and sample, so the runs are chosen when the rows are there, and made once more: bit
-//! for bit the run behind the row, in the file that `simulate --sample 12 --out` writes. Runs that nobody asked for
-//! cost nothing.
+//! A row is a pure function of plan and sample, so runs are chosen from the finished rows and flown again: bit for bit
+//! the run behind the row, in the file of `simulate --sample 12 --out`.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -13,6 +12,7 @@ use thiserror::Error;
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
+use crate::analysis::worst_runs::WorstRuns;
 use crate::campaign::{Plan, Retention};
 use crate::ensemble::RunError;
 use crate::ensemble::single::run_each;
@@ -27,7 +27,7 @@ use crate::storage::names::TRAJECTORIES;
 use crate::storage::rows_reader::RowsError;
 use crate::storage::timeseries::time_series;
 
-/// The stream that chooses the runs of `sample:N`: no other draw depends on it.
+/// The stream that chooses the runs of `sample:N`; no other draw depends on it.
 const STREAM: &str = "retain";
 
 /// Why trajectories could not be written.
@@ -47,24 +47,22 @@ pub enum TrajectoryError {
     File(#[from] StorageError),
 }
 
-/// The name of the file of `sample`.
+/// The file of `sample`.
 pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
 }
 
-/// Chooses the samples whose runs are retained: a function of the plan and its rows. Samples whose scene is not
-/// physical have no run and are left out.
+/// Chooses the retained samples: a function of the plan and its rows, without samples whose scene is not physical.
 #[derive(Clone, Debug)]
 pub struct Retained {
     retention: Retention,
-    /// Of `worst:N`: the observable.
+    /// The observable of `worst:N`.
     observed: Vec<Observed>,
-    /// Of `sample:N`.
+    /// The samples of `sample:N`.
     at_random: BTreeSet<SampleId>,
 }
 
 impl Retained {
-    /// Those of `plan`.
     pub fn new(plan: &Plan) -> Self {
         let observable = match &plan.retention {
             Retention::Worst { observable, .. } => Some(observable.as_str()),
@@ -79,60 +77,54 @@ impl Retained {
     }
 
     /// The samples, ascending.
-    pub fn chosen(&self, found: Vec<(f64, SampleId)>) -> Vec<SampleId> {
-        let mut samples: Vec<SampleId> = found.into_iter().map(|(_, sample)| sample).collect();
+    pub fn chosen(&self, worst: WorstRuns) -> Vec<SampleId> {
+        let mut samples: Vec<SampleId> = worst.runs.into_iter().map(|(sample, _)| sample).collect();
         samples.sort_unstable();
         samples
-    }
-
-    /// Keeps those with the largest magnitudes, of equal ones the first.
-    fn keep(&self, list: &mut Vec<(f64, SampleId)>) {
-        if let Retention::Worst { count, .. } = &self.retention {
-            list.sort_unstable_by(|(a, first), (b, second)| b.total_cmp(a).then(first.cmp(second)));
-            list.truncate(usize::try_from(*count).unwrap_or(usize::MAX));
-        }
     }
 }
 
 impl Accumulator for Retained {
-    /// Samples with the magnitudes of the observable; zero where there is none.
-    type Whole = Vec<(f64, SampleId)>;
-    type OfPart = Vec<(f64, SampleId)>;
+    /// Samples with the values of the observable, or zero.
+    type Whole = WorstRuns;
+    type OfPart = WorstRuns;
 
-    fn nothing(&self) -> Self::Whole {
-        Vec::new()
+    fn nothing(&self) -> WorstRuns {
+        let most = match self.retention {
+            Retention::Worst { count, .. } => usize::try_from(count).unwrap_or(usize::MAX),
+            _ => usize::MAX,
+        };
+        WorstRuns::new(most, false)
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<WorstRuns, RowsError> {
+        let mut found = self.nothing();
         if self.retention == Retention::None {
-            return Ok(Vec::new());
+            return Ok(found);
         }
         let (samples, statuses) = (part.samples()?, part.statuses()?);
-        let magnitudes = match self.observed.first() {
-            Some(observed) => observed.column(part)?.iter().map(|value| value.abs()).collect(),
-            None => vec![0.0; samples.len()],
-        };
-        let is_meant = |(magnitude, sample, status): &(f64, SampleId, Status)| match self.retention {
-            Retention::None => false,
-            Retention::All => *status != Status::InvalidSample,
-            Retention::Failed => ![Status::Done, Status::InvalidSample].contains(status),
-            Retention::Worst { .. } => !magnitude.is_nan() && sample.0 > 0,
-            Retention::Sample(_) => *status != Status::InvalidSample && self.at_random.contains(sample),
-        };
-        let rows = magnitudes.into_iter().zip(samples).zip(statuses.iter());
-        let rows = rows.map(|((magnitude, sample), status)| (magnitude, sample, *status)).filter(is_meant);
-        let mut found = rows.map(|(magnitude, sample, _)| (magnitude, sample)).collect();
-        self.keep(&mut found);
+        let values = self.observed.first().map(|observed| observed.column(part)).transpose()?;
+        for (row, (sample, status)) in samples.into_iter().zip(statuses.iter()).enumerate() {
+            let is_retained = match self.retention {
+                Retention::None => false,
+                Retention::All => *status != Status::InvalidSample,
+                Retention::Failed => ![Status::Done, Status::InvalidSample].contains(status),
+                Retention::Worst { .. } => sample.0 > 0,
+                Retention::Sample(_) => *status != Status::InvalidSample && self.at_random.contains(&sample),
+            };
+            if is_retained {
+                found.add(sample, values.as_ref().map_or(0.0, |values| values[row]));
+            }
+        }
         Ok(found)
     }
 
-    fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart) {
-        whole.extend(part);
-        self.keep(whole);
+    fn merge(&self, whole: &mut WorstRuns, part: WorstRuns) {
+        part.runs.into_iter().for_each(|(sample, value)| whole.add(sample, value));
     }
 }
 
-/// `count` dispersed samples of `plan`, all where there are no more: the first of a random permutation of them.
+/// At most `count` dispersed samples of `plan`: the first of a random permutation.
 fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     let dispersed = plan.dispersed_rows();
     let first = plan.rows() - dispersed;
@@ -140,11 +132,11 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     (0..count.min(dispersed)).map(|place| plan.sample(first + permutation.image(place))).collect()
 }
 
-/// Takes a file of a dataset: its name and its bytes.
+/// Takes a file of a dataset: name and bytes.
 pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StorageError> + Sync + 'a;
 
-/// Makes the time series of `samples` of `plan`, and gives each to `take` as a file of a dataset. The bytes are those
-/// of `simulate --sample K --out`.
+/// Makes the time series of `samples` of `plan`, with the bytes of `simulate --sample K --out`, and gives each file to
+/// `take`.
 ///
 /// # Errors
 /// The first file that could not be taken; no run is started after it.

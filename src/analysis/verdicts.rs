@@ -1,15 +1,15 @@
-//! [`Verdicts`]: what the runs of a campaign say of its requirements, from the files of its rows.
+//! [`Verdicts`]: the verdicts on the requirements of a campaign, from its rows.
 //!
-//! Quantiles and fractions are decided by exact counts, never by a sketch. Outside of the population, and so of every
-//! count, are samples that are not physical; any other run that is not `ok` violates every requirement, and so does one
-//! in which what it is about never happened, unless its `never` says that this meets it. A run whose value is not a
-//! number neither meets nor violates it.
+//! Exact counts, never a sketch, decide quantiles and fractions. Samples that are not physical are outside of the
+//! population; any other run that is not `ok` violates every requirement, as does one in which the subject never
+//! happened, unless the key `never` says that this meets it. A run whose value is not a number neither meets nor
+//! violates it.
 //!
-//! Each look of a campaign with `[stop]` has its share of the errors (Bonferroni), and so has each requirement of those
-//! of a failure ([`failing_together`]).
+//! Each look of `[stop]` has its share of the errors (Bonferroni), and each requirement its share of the errors of
+//! failures ([`failing_together`]).
 //!
-//! Not here: what the counts of one requirement say (`row_verdicts`), and requirements at each time (`band_verdicts`).
-//! Those at all times are about a column of the rows.
+//! Not here: the verdict of the counts of one requirement (`row_verdicts`), and requirements over time
+//! (`band_verdicts`), except for columns of rows.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::assessment::Assessment;
@@ -17,7 +17,7 @@ use crate::analysis::band_verdicts::over_time;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
-use crate::analysis::row_verdicts::{Asked, RequirementRuns, assessment};
+use crate::analysis::row_verdicts::{Judged, RequirementRuns, assessment};
 use crate::analysis::statistics::Statistics;
 use crate::analysis::statuses::Statuses;
 use crate::campaign::{Plan, Requirement, Statement};
@@ -29,22 +29,22 @@ use crate::statistics::looks::adjusted;
 use crate::statistics::moments::Moments;
 use crate::storage::rows_reader::RowsError;
 
-/// What the runs of a campaign say of its requirements.
+/// The verdicts on the requirements of a campaign.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdicts {
     /// One for each requirement, in the order of the file.
     pub list: Vec<Assessment>,
-    /// Dispersed samples that are not physical: outside of the population.
+    /// Dispersed samples that are not physical.
     pub invalid: u64,
     pub samples: u64,
-    /// At how many looks the requirements may be decided: one without `[stop]`.
+    /// Number of looks; one without `[stop]`.
     pub looks: usize,
     /// Confidence of the two-sided intervals.
     pub confidence: f64,
 }
 
 impl Verdicts {
-    /// The same with the values of quantiles that `statistics` have: a quantile has one value.
+    /// Takes the values of quantiles from `statistics`: a quantile has one value.
     #[must_use]
     pub fn with_quantiles(mut self, statistics: &Statistics) -> Self {
         for one in &mut self.list {
@@ -61,13 +61,12 @@ impl Verdicts {
         self.list.iter().filter(|one| one.gate.decision == Decision::Fail).count()
     }
 
-    /// How many requirements are undecided.
     pub fn undecided(&self) -> usize {
         self.list.iter().filter(|one| matches!(one.gate.decision, Decision::Undecided(_))).count()
     }
 }
 
-/// What is counted of all requirements of a campaign.
+/// Counts of all requirements of a campaign.
 #[derive(Clone, Debug)]
 pub struct RequirementCounts {
     list: Vec<RequirementRuns>,
@@ -78,13 +77,12 @@ pub struct RequirementCounts {
 pub struct RequirementCounter {
     requirements: Vec<Requirement>,
     observed: Vec<Observed>,
-    /// For each requirement what it is about, in `observed`; `None` of those over time.
+    /// The index in `observed` of each requirement; `None` over time.
     of: Vec<Option<usize>>,
     population: Population,
 }
 
 impl RequirementCounter {
-    /// Of the requirements of `plan`.
     pub fn new(plan: &Plan) -> Self {
         let requirements = plan.analysis.requirements.clone();
         let observed = Observed::named(plan, requirements.iter().filter_map(Requirement::observable));
@@ -151,7 +149,7 @@ impl Accumulator for RequirementCounter {
     }
 }
 
-/// What was counted of the requirements of `plan`, whose runs ended as `ended` says, and its `bands`, say of them.
+/// The verdicts of the counts of the requirements of `plan`, with the statuses `ended` and the `bands`.
 pub fn assess(plan: &Plan, ended: &Statuses, counted: &RequirementCounts, bands: Option<&Bands>) -> Verdicts {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {
@@ -162,14 +160,14 @@ pub fn assess(plan: &Plan, ended: &Statuses, counted: &RequirementCounts, bands:
     let failed = ended.loss().missing;
     let assessed = |(requirement, index, counts): (&Requirement, &Option<usize>, &RequirementRuns), open: usize| {
         let confidences = [looks, looks * open].map(|tests| adjusted(requirement.confidence, tests));
-        let asked = Asked { requirement, confidences, interval: plan.analysis.confidence, failed };
+        let judged = Judged { requirement, confidences, interval: plan.analysis.confidence, failed };
         match (index, requirement.band()) {
-            (None, Some(band)) => over_time(asked, band, bands, counts.sum(|group| group.runs), population),
+            (None, Some(band)) => over_time(judged, band, bands, counts.sum(|group| group.runs), population),
             _ => {
                 let observed = index.map(|index| &observed[index]);
                 let unit = observed.map_or_else(String::new, |observed| observed.quantity.unit().to_owned());
                 let is_constant = observed.is_some_and(|observed| observed.is_constant(plan));
-                assessment(asked, unit, counts, population, is_constant)
+                assessment(judged, unit, counts, population, is_constant)
             }
         }
     };

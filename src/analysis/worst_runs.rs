@@ -1,9 +1,9 @@
-//! [`WorstRuns`]: the runs with the worst values of something.
+//! [`WorstRuns`]: the runs with the worst values of a quantity.
 
 use crate::sampling::SampleId;
 
-/// The runs with the greatest magnitudes, in descending order, or, where small values are the bad ones, with the
-/// smallest values, in ascending order; equal ones by ascending number.
+/// The runs with the greatest magnitudes, descending, or with the smallest values, ascending, if small values are bad;
+/// equal ones by ascending number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRuns {
     most: usize,
@@ -13,12 +13,12 @@ pub struct WorstRuns {
 }
 
 impl WorstRuns {
-    /// At most `most` runs, none yet; `is_low`: small values are the bad ones.
+    /// At most `most` runs.
     pub fn new(most: usize, is_low: bool) -> Self {
         WorstRuns { most, is_low, runs: Vec::new() }
     }
 
-    /// Whether it keeps as many runs as it may: others may be as bad as the last of them.
+    /// Whether it is full: other runs may be as bad as its last one.
     pub fn is_full(&self) -> bool {
         self.runs.len() >= self.most
     }
@@ -41,8 +41,7 @@ impl WorstRuns {
 mod tests {
     use super::*;
 
-    /// Law: the worst are listed, the worst first, equal ones by number, whatever the order in which they come; NaN is
-    /// none.
+    /// Law: the worst runs are listed, equal ones by number, in whatever order they come; NaN is none.
     #[test]
     fn the_worst_are_listed() {
         let mut values = [(4, 7.0), (0, -99.0), (1, 2.0), (3, 7.0), (5, 1.0), (6, f64::NAN), (7, -8.0)];

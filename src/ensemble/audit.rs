@@ -1,17 +1,14 @@
-//! [`Auditor`]: the true error of a run, from a comparison with the reference solution of its scene.
+//! [`Auditor`]: the true error of a run, against the reference solution of its scene.
 //!
 //! The reference solution is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]),
-//! which shares neither method nor periodic folding with the audited run. Where the run is too long for that, it is the
-//! Taylor method at 1e-16 in plain doubles, and the row says so ([`Audit::reference_tolerance`]); there is none of drag
-//! and sunlight, which have no Taylor series. The audited run is repeated with the states that the comparison needs; an
-//! audit does not change the row of the campaign.
+//! which shares neither method nor periodic folding with the audited run. Long runs have the Taylor method at 1e-16 in
+//! plain doubles instead, noted in the row ([`Audit::reference_tolerance`]); drag and sunlight have no Taylor series.
+//! The audited run is repeated with the states of the comparison; an audit does not change the row of the campaign.
 //!
-//! An audit has a limit: where a body turns so fast that its reference solution would take longer than the whole audit
-//! of other runs, there is none, and the row says so ([`NoAudit`]). The limit counts units of time of the motion, not
-//! seconds of a clock.
+//! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]). The limit counts
+//! units of time of the motion, not seconds of a clock.
 //!
-//! Which samples are audited is drawn from a stream of its own, `audit`: it does not depend on threads, parts or other
-//! draws.
+//! Audited samples are drawn from the stream `audit`, independently of threads, parts and other draws.
 
 use thiserror::Error;
 
@@ -34,19 +31,18 @@ use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, 
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 
-/// A run of more units of time ([`Gyrostat::time_unit`]) than this is audited in plain doubles: double-double takes
-/// some five steps per unit of some 40 us each, so that an audit takes one second at most.
+/// Longer runs, in units of time ([`Gyrostat::time_unit`]), are audited in plain doubles: double-double takes some five
+/// steps of 40 us per unit, so an audit at most one second.
 const MOST_UNITS: f64 = 4096.0;
 
-/// Debris that turns for more units of time than this, and is integrated in double-double, is not audited: as
-/// `MOST_UNITS`, some four seconds. Its rotation has a closed form or costs little in a campaign, whatever its rate, so
-/// that an audit alone would take hours.
+/// Debris integrated in double-double for more units of time is not audited, as `MOST_UNITS`, some four seconds. The
+/// campaign itself has a closed form or a cheap method at any rate, while an audit would take hours.
 const MOST_UNITS_OF_DEBRIS: f64 = 16_384.0;
 
-/// Tolerance of the reference solution in plain doubles: the smallest that a campaign may ask for.
+/// Tolerance of the reference solution in plain doubles: the smallest of campaigns.
 const PLAIN_TOLERANCE: f64 = 1e-16;
 
-/// A value that an audit adds to a row; null in the rows that were not audited.
+/// A column of audits; null in other rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum AuditValue {
@@ -54,13 +50,13 @@ pub enum AuditValue {
     State,
     Omega,
     Attitude,
-    /// Error of the rotation of the debris; only where there is one.
+    /// Error of the rotation of the debris.
     Debris,
     /// Tolerance of the reference solution.
     Tolerance,
-    /// What the run itself estimates its error to be.
+    /// Error estimate of the run.
     Estimate,
-    /// What it estimates the error of the debris to be; only where there is one.
+    /// Error estimate of the debris.
     DebrisEstimate,
 }
 
@@ -108,7 +104,7 @@ static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
 ];
 
 impl AuditValue {
-    /// Every value, in the order of the columns.
+    /// In the order of the columns.
     pub const ALL: [AuditValue; 7] = [
         AuditValue::State,
         AuditValue::Omega,
@@ -119,12 +115,12 @@ impl AuditValue {
         AuditValue::DebrisEstimate,
     ];
 
-    /// The values of audits of scenes with or without debris, in the order of the columns.
+    /// The values for scenes with or without debris, in the order of the columns.
     pub fn of_scenes(has_debris: bool) -> impl Iterator<Item = AuditValue> + Clone {
         Self::ALL.into_iter().filter(move |value| has_debris || !value.is_of_debris())
     }
 
-    /// Whether only audits of scenes with debris have it.
+    /// Whether only scenes with debris have it.
     pub fn is_of_debris(self) -> bool {
         matches!(self, AuditValue::Debris | AuditValue::DebrisEstimate)
     }
@@ -135,29 +131,28 @@ impl AuditValue {
     }
 }
 
-/// What an audit found of one run.
+/// The audit of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// Largest error of omega on the grid, over the largest |omega|, or over one radian per duration where that is
-    /// more.
+    /// Largest error of omega on the grid, over the largest |omega| or one radian per duration, whichever is more.
     pub omega: f64,
     /// Largest error of the attitude on the grid, rad.
     pub attitude: f64,
-    /// Largest error of the debris's rotation on the grid, as the larger of the two; NaN where there is no debris.
+    /// Largest error of the debris's rotation on the grid, the larger of the two; NaN without debris.
     pub debris: f64,
-    /// The estimate of the larger of the two: `state_error_estimate`, whether it is observed or not.
+    /// The estimate of the larger error: `state_error_estimate`, observed or not.
     pub estimate: f64,
-    /// The same of `debris`: `debris_state_error_estimate`; NaN where there is no debris.
+    /// The estimate of `debris`: `debris_state_error_estimate`; NaN without debris.
     pub debris_estimate: f64,
     /// Tolerance of the reference solution.
     pub reference_tolerance: f64,
-    /// |observed - true| of each observable, in the order of the request's columns; NaN where the reference solution
-    /// has no such value (step statistics, for example).
+    /// |observed - true| of each observable, in the order of the request's columns; NaN without a reference value, as
+    /// for step statistics.
     pub observables: Vec<f64>,
 }
 
 impl Audit {
-    /// The larger of both errors; NaN where either is NaN.
+    /// The larger of both errors, or NaN.
     pub fn state(&self) -> f64 {
         RotationError { omega: self.omega, attitude: self.attitude }.state()
     }
@@ -176,26 +171,26 @@ impl Audit {
     }
 }
 
-/// Why a run has no audit.
+/// The reason why a run has no audit.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NoAudit {
-    /// The run did not reach its end.
+    /// The run is incomplete.
     #[error("the run ended with {}", .0.name())]
     Run(Status),
-    /// Its reference solution did not.
+    /// The reference solution is incomplete.
     #[error("the reference solution ended with {}", .0.name())]
     Reference(Status),
-    /// It is beyond the limit of work.
+    /// The work is beyond the limit.
     #[error(
         "the {body} turns for {units:e} units of time (powers of two near the inverse of its rate), more than the \
         {most} that an audit integrates in double-double"
     )]
     Limit {
-        /// The debris, or the spacecraft where there is no Taylor series of its motion.
+        /// The debris, or a spacecraft whose motion has no Taylor series.
         body: &'static str,
         /// The limit.
         most: f64,
-        /// Units of time of the body in the run.
+        /// Units of time of its motion in the run.
         units: f64,
     },
 }
@@ -224,20 +219,19 @@ pub struct Auditor {
     grid: Grid,
     /// Most steps of a reference solution in plain doubles.
     most_steps: u64,
-    /// What the campaign observes, and the group numerics.
+    /// The columns of the campaign, and the group numerics.
     request: Request,
     engine: Box<dyn Engine>,
     observer: Observer,
     row: Vec<f64>,
-    /// The same of the reference solution, which has no step statistics and no constraints.
+    /// Without step statistics and constraints.
     reference_request: Request,
     reference_observer: Observer,
     reference_row: Vec<f64>,
-    /// For each observable of the campaign its indices in the two rows.
+    /// The places of each observable of the campaign in the two rows.
     indices: Vec<(usize, Option<usize>)>,
-    /// The index of `state_error_estimate`.
     estimate: usize,
-    /// The index of `debris_state_error_estimate`, where there is debris.
+    /// `debris_state_error_estimate`, with debris.
     debris_estimate: Option<usize>,
 }
 
@@ -273,7 +267,7 @@ impl Auditor {
         }
     }
 
-    /// The same with reference solutions in plain doubles of no more steps than these.
+    /// With at most these steps of reference solutions in plain doubles.
     #[must_use]
     pub fn with_most_steps(self, most_steps: u64) -> Self {
         Auditor { most_steps, ..self }
@@ -282,13 +276,13 @@ impl Auditor {
     /// Audits the run of `scene`.
     ///
     /// # Errors
-    /// Where the run or its reference solution fails, or is beyond the limit of work.
+    /// The run or its reference solution fails, or is beyond the limit of work.
     pub fn audit(&mut self, scene: &Scene) -> Result<Audit, NoAudit> {
         self.compare(scene, scene)
     }
 
-    /// Audits the run of `run` against the reference solution of `scene`. Both are the same scene, except in tests of a
-    /// wrong kernel.
+    /// Audits the run of `run` against the reference solution of `scene`: the same scene, except in tests of a wrong
+    /// kernel.
     ///
     /// # Errors
     /// As [`Auditor::audit`].
@@ -327,12 +321,12 @@ impl Auditor {
         Ok(Audit { omega, attitude, debris, estimate, debris_estimate, reference_tolerance, observables })
     }
 
-    /// What is observed of the audited run: the columns of the campaign and of the group numerics.
+    /// The columns of the audited run: those of the campaign, and of the group numerics.
     pub fn request(&self) -> &Request {
         &self.request
     }
 
-    /// The reference solution of `scene` with the fields `fields`, and its tolerance.
+    /// The reference solution of `scene`, and its tolerance.
     fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Result<(ReferenceSolution, f64), NoAudit> {
         let (duration, model) = (self.grid.duration(), ForceModel::of(scene));
         let unit = Gyrostat::new(0.0, scene, duration).time_unit();
@@ -369,22 +363,8 @@ impl Auditor {
     }
 }
 
-/// What is compared in every audit of scenes of the kind of `request`.
+/// The compared states of scenes of the kind of `request`.
 fn compared(request: &Request) -> StateFields {
     let spacecraft = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
     if request.debris { spacecraft.with(StateField::DebrisRate).with(StateField::DebrisAttitude) } else { spacecraft }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: the columns speak of the body, as all others do, and not of a part that a spacecraft need not have.
-    #[test]
-    fn columns_speak_of_the_body() {
-        for value in AuditValue::ALL {
-            assert!(!value.quantity().meaning().contains("fuselage"), "{}", value.quantity().name());
-        }
-        assert!(AuditValue::State.quantity().meaning().contains("the body's rotation"));
-    }
 }

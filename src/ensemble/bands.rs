@@ -1,13 +1,11 @@
-//! [`Bands`]: quantiles over a campaign of quantities over time; [`PartBands`]: what one part contributes, while it is
-//! run.
+//! [`Bands`]: quantiles over the runs of a campaign of quantities over time; [`PartBands`]: the contribution of a part.
 //!
-//! At each of some observation points the deviations of the runs from the nominal run are counted in buckets
-//! ([`crate::statistics::deviation`]): a relative error of a large energy would hide its spread. Counts of parts add up
-//! to those of the campaign in any order, and memory does not grow with the number of runs. Only dispersed runs with
-//! status `ok` count.
+//! At some observation points the deviations from the nominal run are counted in buckets
+//! ([`crate::statistics::deviation`]); the relative error of a large energy would hide its spread. Counts of parts add up
+//! in any order, and memory does not grow with the number of runs. Only dispersed `ok` runs count.
 //!
-//! Extremes and the number of runs with a value are those of all runs. Quantiles of a large campaign are those of its
-//! first runs ([`crate::campaign::Plan::last_counted`]).
+//! Extremes and numbers of values are of all runs. Quantiles of a large campaign are those of its first runs
+//! ([`crate::campaign::Plan::last_counted`]).
 
 use std::sync::Arc;
 
@@ -21,35 +19,34 @@ use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, ZERO, ends, ranks};
 use crate::statistics::gate::GateLimit;
 
-/// The runs whose codes are kept before they are counted, so that the counts of a column, which the runs between have
-/// driven out of the second-level cache, are fetched seldom.
+/// Runs whose codes are kept before they are counted: the counts of a column, out of the second-level cache by then, are
+/// fetched seldom.
 const PENDING: usize = 2048;
 
-/// The runs whose codes are kept run by run before they are moved to their columns: those of a column are then a cache
-/// line, and the codes of all columns stay in the first-level cache.
+/// Runs whose codes are kept run by run before they are moved to their columns: a cache line for each column, and all
+/// codes in the first-level cache.
 const RECENT: usize = 32;
 
-/// Bound of the rounding of a value that is put together from the nominal one and a deviation: some units in the last
-/// place.
+/// Rounding of a nominal value plus a deviation, relative: some units in the last place.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandLayout {
-    /// Each series, and the form in which its numbers are kept.
+    /// Each series with the form of its numbers.
     pub series: Vec<(Quantity, Form)>,
     /// The times of the points, s, ascending.
     pub times: Vec<f64>,
-    /// The kept numbers of the nominal run, series by series and point by point; NaN where it has none.
+    /// The numbers of the nominal run, series by series and point by point; NaN for none.
     pub nominal: Vec<f64>,
 }
 
 impl BandLayout {
-    /// Number of columns: of series times points.
+    /// Series times points.
     pub fn columns(&self) -> usize {
         self.series.len() * self.times.len()
     }
 
-    /// Whether the bits of both are the same.
+    /// Whether both have the same bits.
     pub fn is(&self, other: &BandLayout) -> bool {
         let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
         self.series == other.series
@@ -57,7 +54,7 @@ impl BandLayout {
             && bits(&self.nominal) == bits(&other.nominal)
     }
 
-    /// What deviations at a column are from: the nominal run, or zero where it has no number.
+    /// The reference of deviations in a column: the nominal run, or zero.
     fn reference(&self, column: usize) -> f64 {
         let nominal = self.nominal[column];
         if nominal.is_nan() { 0.0 } else { nominal }
@@ -68,20 +65,19 @@ impl BandLayout {
     }
 }
 
-/// The bands of one part while it is run. Reused from part to part; adding a run allocates only where a deviation is in
-/// an octave that no earlier one was in.
+/// The bands of a part under way, reused from part to part; adding a run allocates only for a deviation in a new octave.
 #[derive(Clone, Debug)]
 pub struct PartBands {
     layout: Arc<BandLayout>,
     reader: BandReader,
     runs: u64,
-    /// Those of them that are counted: of samples up to the last counted one.
+    /// Counted runs: of samples up to `last_counted`.
     counted: u64,
     last_counted: SampleId,
     /// Codes of the last runs, run by run.
     recent: Vec<Code>,
     recent_runs: usize,
-    /// Codes that are not counted yet, column by column, for up to [`PENDING`] runs.
+    /// Codes not yet counted, column by column, for up to [`PENDING`] runs.
     codes: Vec<Code>,
     pending: usize,
     min: Vec<f64>,
@@ -91,11 +87,10 @@ pub struct PartBands {
 }
 
 impl PartBands {
-    /// Of runs that `reader` reads, whose nominal run is that of `layout`; those up to the sample `last_counted` are
-    /// counted.
+    /// For runs read by `reader`, with the nominal run of `layout`; samples up to `last_counted` are counted.
     ///
     /// # Panics
-    /// Where the layout has other series or points.
+    /// If the layout has other series or points.
     pub fn new(layout: Arc<BandLayout>, mut reader: BandReader, last_counted: SampleId) -> Self {
         let shape = (reader.sources().len(), reader.points().len());
         assert_eq!((layout.series.len(), layout.times.len()), shape, "one layout of bands");
@@ -118,7 +113,7 @@ impl PartBands {
         }
     }
 
-    /// Clears what an earlier part left.
+    /// Clears an earlier part.
     pub fn start(&mut self) {
         (self.runs, self.counted, self.recent_runs, self.pending) = (0, 0, 0, 0);
         self.min.fill(f64::INFINITY);
@@ -127,10 +122,10 @@ impl PartBands {
         self.windows.iter_mut().for_each(DeviationWindow::clear);
     }
 
-    /// Adds the run of `sample` with the states `table` that `observer` observed last, up to the point before `end`.
+    /// Adds the run of `sample` with the states `table`, observed last by `observer`, up to the point before `end`.
     ///
     /// # Panics
-    /// Where the part has more than 65,535 runs.
+    /// If the part has more than 65,535 runs.
     #[inline]
     pub fn add(&mut self, isa: Isa, sample: SampleId, (observer, table): (&Observer, &StateTable), end: usize) {
         assert!(self.runs < FULL as u64, "bands of a part of more than {FULL} runs");
@@ -146,7 +141,7 @@ impl PartBands {
         }
     }
 
-    /// Moves the codes of the last runs to their columns, which are counted when they are full.
+    /// Moves the codes of the last runs to their columns, and counts full ones.
     fn move_to_columns(&mut self) {
         let (columns, recent) = (self.reader.columns(), self.recent_runs);
         for (column, codes) in self.codes.chunks_exact_mut(PENDING).enumerate() {
@@ -163,7 +158,7 @@ impl PartBands {
         }
     }
 
-    /// Counts what is not counted yet; after the last run of a part.
+    /// Counts pending runs, after the last run of a part.
     pub fn count(&mut self) {
         self.move_to_columns();
         self.count_columns();
@@ -178,21 +173,19 @@ impl PartBands {
         self.pending = 0;
     }
 
-    /// What the bands are of.
     pub fn layout(&self) -> &Arc<BandLayout> {
         &self.layout
     }
 
-    /// Number of runs, those that are dispersed and `ok`; and how many of them are counted.
+    /// Numbers of dispersed `ok` runs, and of counted ones.
     pub fn runs(&self) -> [u64; 2] {
         [self.runs, self.counted]
     }
 
-    /// A column, of the series times points, after [`PartBands::count`], and its buckets that are not empty, in
-    /// ascending order of their codes.
+    /// A column, of the series times points, and its buckets that are not empty, in ascending order of their codes.
     ///
     /// # Panics
-    /// Where runs are pending.
+    /// Before [`PartBands::count`].
     pub fn column(&self, index: usize) -> (RunsOfColumn, impl Iterator<Item = (Code, u64)>) {
         assert_eq!(self.pending + self.recent_runs, 0, "all runs of the part are counted");
         let extremes = [self.min[index], self.max[index]];
@@ -201,12 +194,12 @@ impl PartBands {
     }
 }
 
-/// What is known of all runs at one point of one series.
+/// All runs at one point of one series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunsOfColumn {
-    /// The smallest and the largest kept number, exactly; `None` where no run had one.
+    /// The smallest and the largest kept number, exactly; `None` without numbers.
     pub extremes: Option<[f64; 2]>,
-    /// How many runs have no value.
+    /// Runs without a value.
     pub without: u64,
 }
 
@@ -228,11 +221,11 @@ struct BandColumn {
     counts: DeviationWindow<u64>,
 }
 
-/// Quantiles over runs of quantities over time: of any number of parts, added in any order.
+/// Bands of any number of parts, added in any order.
 #[derive(Clone, Debug)]
 pub struct Bands {
     layout: Arc<BandLayout>,
-    /// All, and those that are counted.
+    /// All, and counted ones.
     runs: [u64; 2],
     columns: Vec<BandColumn>,
 }
@@ -245,7 +238,7 @@ impl PartialEq for Bands {
     }
 }
 
-/// Bands of different campaigns cannot be merged.
+/// An attempt to merge bands of different campaigns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("these are bands of another campaign: series, times or nominal run differ")]
 pub struct OtherCampaign;
@@ -258,7 +251,7 @@ impl Bands {
     /// Adds the runs of a part, after [`PartBands::count`].
     ///
     /// # Errors
-    /// Where the bands are of another campaign; nothing is added then.
+    /// The bands are of another campaign; nothing is added.
     pub fn add(&mut self, part: &PartBands) -> Result<(), OtherCampaign> {
         if !Arc::ptr_eq(&self.layout, part.layout()) && !self.layout.is(part.layout()) {
             return Err(OtherCampaign);
@@ -276,30 +269,28 @@ impl Bands {
         self.runs.iter_mut().zip(runs).for_each(|(sum, runs)| *sum += runs);
     }
 
-    /// Adds to a column, of the series times points, what is known of all runs, and the buckets of those that were
-    /// counted.
+    /// Adds to a column, of the series times points, the numbers of all runs and the buckets of counted ones.
     pub fn add_column(&mut self, index: usize, all: RunsOfColumn, buckets: impl Iterator<Item = (Code, u64)>) {
         let column = &mut self.columns[index];
         column.all.add(all);
         column.counts.add_buckets(buckets);
     }
 
-    /// What the bands are of.
     pub fn layout(&self) -> &Arc<BandLayout> {
         &self.layout
     }
 
-    /// Number of runs: those that are dispersed and `ok`.
+    /// Number of dispersed `ok` runs.
     pub fn runs(&self) -> u64 {
         self.runs[0]
     }
 
-    /// How many of them quantiles are of: all, or the first ones.
+    /// Number of runs behind quantiles: all, or the first ones.
     pub fn counted_runs(&self) -> u64 {
         self.runs[1]
     }
 
-    /// The number of the series called `name`.
+    /// The index of the series `name`.
     pub fn find(&self, name: &str) -> Option<usize> {
         self.layout.series.iter().position(|(quantity, _)| quantity.name() == name)
     }
@@ -320,34 +311,33 @@ impl Bands {
         (index, &self.columns[index])
     }
 
-    /// The value of the nominal run; `None` where it has none.
+    /// The value of the nominal run.
     pub fn nominal(&self, series: usize, point: usize) -> Option<f64> {
         let (index, _) = self.column(series, point);
         let kept = self.layout.nominal[index];
         (!kept.is_nan()).then(|| self.layout.form(index).shown(kept))
     }
 
-    /// How many runs have a value.
+    /// Number of runs with a value.
     pub fn count(&self, series: usize, point: usize) -> u64 {
         self.runs() - self.column(series, point).1.all.without
     }
 
-    /// How many runs the quantiles are of.
+    /// Number of runs behind the quantiles.
     pub fn counted(&self, series: usize, point: usize) -> u64 {
         self.column(series, point).1.counts.buckets().map(|(_, count)| count).sum()
     }
 
-    /// The smallest and the largest value, exactly; `None` where no run has one.
+    /// The smallest and the largest value, exactly.
     pub fn extremes(&self, series: usize, point: usize) -> Option<[f64; 2]> {
         let (index, column) = self.column(series, point);
         column.all.extremes.map(|extremes| extremes.map(|kept| self.layout.form(index).shown(kept)))
     }
 
-    /// The `p`-quantile, 0 <= p <= 1, of type 7, of the runs that are [counted](Bands::counted); `None` where none of
-    /// them has a value.
+    /// The `p`-quantile, 0 <= p <= 1, of type 7, of the [counted](Bands::counted) runs with a value.
     ///
-    /// Within [`crate::statistics::deviation::RELATIVE_ERROR`] of its deviation from the nominal run (of the larger
-    /// deviation of the two neighbours between which it is interpolated), and never beyond the extremes.
+    /// Within [`crate::statistics::deviation::RELATIVE_ERROR`] of its deviation from the nominal run (the larger one of
+    /// the two neighbours between which it is interpolated), and never beyond the extremes.
     pub fn quantile(&self, series: usize, point: usize, p: f64) -> Option<f64> {
         self.quantiles(series, point, [p])[0]
     }
@@ -365,8 +355,8 @@ impl Bands {
         })
     }
 
-    /// At least and at most how many runs are within `limit` at a point, of all runs. They differ by the runs in the
-    /// bucket that the limit is in, and by those that are not counted; a run without a value is not within it.
+    /// Least and most number of runs within `limit` at a point. They differ by runs in the bucket of the limit and runs
+    /// that are not counted; a run without a value is not within it.
     pub fn within(&self, series: usize, point: usize, limit: GateLimit) -> [u64; 2] {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));

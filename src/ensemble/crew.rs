@@ -1,13 +1,13 @@
-//! [`Crew`]: how a thread does its share of a campaign.
+//! [`Crew`]: the work of one thread on a campaign.
 
-/// Does the work of a thread, for instance several times side by side.
+/// Does the work of a thread, possibly several times side by side.
 pub trait Crew: Sync {
-    /// Calls `work`, which flies parts until none is left, at least once, on this thread; returns when all calls have.
-    /// Calls may take turns: a run leaves the thread to the others only where it asks its law.
+    /// Calls `work`, which flies parts until none is left, at least once on this thread, and returns after all calls.
+    /// Calls may take turns: a run yields the thread only while it waits for its law.
     fn work(&self, work: &(dyn Fn() + Sync));
 }
 
-/// Once.
+/// One call.
 #[derive(Clone, Copy, Debug)]
 pub struct Alone;
 

@@ -1,8 +1,8 @@
-//! [`DeviationWindow`]: counts of deviations of one column of bands, in a form in which adding is cheap.
+//! [`DeviationWindow`]: counts of deviations in one column of bands, cheap to add to.
 
 use crate::statistics::deviation::{Code, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
 
-/// The counts of the buckets between two magnitudes, for one column.
+/// Counts of the buckets between two magnitudes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DeviationWindow<C> {
     /// The code of the first count.
@@ -11,27 +11,26 @@ pub(super) struct DeviationWindow<C> {
     zeros: C,
 }
 
-/// Runs after which counts of 16 bits may be full.
+/// Runs that may fill counts of 16 bits.
 pub(super) const FULL: usize = u16::MAX as usize;
 
 /// Counts in a cache line.
 const CACHE_LINE: usize = 32;
 
-/// Counts that are looked at together: where all are zero, as most are in the outer octaves, none is looked at alone.
+/// Counts tested together: most blocks in the outer octaves are zero.
 const BLOCK: usize = 16;
 
 /// Windows grow by whole octaves, of both signs.
 const OCTAVE: usize = 2 << MANTISSA_BITS;
 
 impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
-    /// The counter of a bucket; `None` where the window has to be widened first, and for zero and what is not a number.
+    /// The counter of a bucket; `None` beyond the window, and for zero and NaN.
     #[inline(always)]
     fn counter(&mut self, code: Code) -> Option<&mut C> {
         self.counts.get_mut(usize::from(code.wrapping_sub(self.first)))
     }
 
-    /// The counter of a bucket beyond the window, which is widened; `None` for what is not a number, which is in no
-    /// bucket.
+    /// The counter of a bucket beyond the window, which is widened; `None` for NaN, which is in no bucket.
     #[inline(never)]
     fn counter_beyond(&mut self, code: Code) -> Option<&mut C> {
         match code {
@@ -44,7 +43,7 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
         }
     }
 
-    /// Widens the window until it has `code`; never by the codes of zero and of what is not a number.
+    /// Widens the window to hold `code`, but never the codes of zero and NaN.
     fn include(&mut self, code: usize) {
         let from = (code / OCTAVE * OCTAVE).max(usize::from(NOT_A_NUMBER) + 1);
         let to = (code / OCTAVE + 1) * OCTAVE;
@@ -72,20 +71,20 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
     }
 }
 
-/// Of one part: counts of 16 bits, so that those of a column fit in the first-level cache.
+/// Of one part: 16-bit counts, so that a column fits in the first-level cache.
 impl DeviationWindow<u16> {
-    /// Empties it; the buckets remain.
+    /// Empties it, keeping its buckets.
     pub(super) fn clear(&mut self) {
         self.counts.fill(0);
         self.zeros = 0;
     }
 
-    /// Counts deviations, of fewer than [`FULL`]; what is not a number is in no bucket.
+    /// Counts fewer than [`FULL`] deviations; NaN is in no bucket.
     pub(super) fn add(&mut self, codes: &[Code]) {
-        // other work has driven the window out of the caches; read in order, it is fetched ahead
+        // other work has evicted the window from the caches; reading it in order prefetches it
         std::hint::black_box(self.counts.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
         let mut codes = codes.iter();
-        // the window stays where it is until a code is beyond it
+        // the window is fixed until a code is beyond it
         loop {
             let (first, counts, zeros) = (self.first, &mut self.counts[..], &mut self.zeros);
             let beyond = codes.find(|code| match counts.get_mut(usize::from(code.wrapping_sub(first))) {
@@ -106,7 +105,7 @@ impl DeviationWindow<u16> {
 
 /// Sums over parts, of any number of runs.
 impl DeviationWindow<u64> {
-    /// Counts all that is in `buckets`; what is not a number is in no bucket.
+    /// Adds `buckets`; NaN is in none.
     pub(super) fn add_buckets(&mut self, buckets: impl Iterator<Item = (Code, u64)>) {
         for (code, count) in buckets {
             let counter = match self.counter(code) {
@@ -123,15 +122,14 @@ mod tests {
     use super::*;
     use crate::statistics::deviation::code;
 
-    /// The same counted one by one.
+    /// The counts one by one.
     fn expected(codes: &[Code]) -> Vec<(Code, u64)> {
         let mut codes: Vec<Code> = codes.iter().copied().filter(|code| *code != NOT_A_NUMBER).collect();
         codes.sort_unstable();
         codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect()
     }
 
-    /// Law: a window counts every code once, in whichever order they come and however it has to grow; zero is counted,
-    /// what is not a number is not.
+    /// Law: a window counts every code once, in any order and however it grows; zero counts, NaN does not.
     #[test]
     fn a_window_counts_every_code() {
         let values = [1.0, -1.0, 1e-9, 0.0, f64::NAN, 1e12, -3e-200, 1.0, 1e77, f64::INFINITY, 0.0, 1e-77, -1e-77];
@@ -146,8 +144,7 @@ mod tests {
         }
     }
 
-    /// Law: however deviations are divided into parts, and in whichever order the parts are added, the sums are the
-    /// same; they go on beyond 2^32.
+    /// Law: sums do not depend on the division into parts, or on their order, and go on beyond 2^32.
     #[test]
     fn adding_has_no_order() {
         let value = |k: u32| libm::sin(f64::from(k)) * libm::exp2(f64::from(k % 90) - 60.0);

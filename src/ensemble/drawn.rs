@@ -1,4 +1,4 @@
-//! [`DrawnScenes`]: the samples of a campaign as they are drawn, without running them.
+//! [`DrawnScenes`]: the samples of a campaign as drawn, without runs.
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::magnitude::Magnitude;
@@ -8,22 +8,21 @@ use crate::sampling::design::Size;
 use crate::sampling::design::hash::mix;
 use crate::scene::Scene;
 
-/// Samples as drawn: what was applied, and whether the scene is physical.
+/// Drawn samples: applied values, and whether the scene is physical.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScenes {
     pub first: SampleId,
-    /// Whether each sample's scene is physical; one that is not would be a row with status `invalid_sample`.
+    /// Whether each scene is physical; else its row would have the status `invalid_sample`.
     pub physical: Vec<bool>,
-    /// The applied values, column by column as [`crate::sampling::Dispersions::columns`] has them.
+    /// The applied values, in the order of [`crate::sampling::Dispersions::columns`].
     pub columns: Vec<Vec<f64>>,
-    /// Mass properties of the spacecraft, column by column as [`MASS_COLUMNS`] has them; empty where they were not
-    /// asked. NaN where a sample is not physical.
+    /// Mass properties in the order of [`MASS_COLUMNS`], if wanted; NaN for a sample that is not physical.
     pub mass: Vec<Vec<f64>>,
-    /// Magnitudes of vectors and attitudes, column by column as [`magnitudes`] has them.
+    /// Magnitudes of vectors and attitudes, in the order of [`magnitudes`].
     pub magnitudes: Vec<Vec<f64>>,
 }
 
-/// The magnitudes of the dispersed parameters of `plan` that have one, in the order of their first column.
+/// The magnitudes of the dispersed parameters of `plan`, in the order of their first column.
 pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
     let mut list: Vec<Magnitude> = Vec::new();
     for magnitude in plan.dispersions.columns().iter().filter_map(|column| Magnitude::of(column.parameter)) {
@@ -34,7 +33,7 @@ pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
     list
 }
 
-/// The mass properties of a drawn spacecraft: name of the column as in rows, unit, meaning.
+/// The mass properties of a drawn spacecraft: column as in rows, unit, meaning.
 pub const MASS_COLUMNS: [[&str; 3]; 7] = [
     ["mass_kg", "kg", "Mass of the spacecraft, wheels included."],
     ["center_of_mass_x_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
@@ -65,19 +64,19 @@ pub fn mass_properties(scene: &Scene) -> [f64; 7] {
     [scene.mass.total, x, y, z, a, b, c]
 }
 
-/// Samples that [`DrawnScenes::visit`] holds at a time.
+/// Samples held at a time by [`DrawnScenes::visit`].
 pub const CHUNK: u64 = 1 << 16;
 
 impl DrawnScenes {
-    /// Draws `count` samples of `plan` from `first` on, as far as it has them.
+    /// Draws `count` samples of `plan` from `first` on, or fewer at the end.
     pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
         let mut drawn = DrawnScenes::empty(plan, false);
         drawn.draw(plan, &mut SceneDraws::new(plan), first.0..first.0.saturating_add(count).min(plan.samples));
         drawn
     }
 
-    /// Draws `count` dispersed samples of `plan`: the first ones, or those of a design with points of its own, as a
-    /// grid, from all over it (one at a pseudo-random place in each of `count` equal parts).
+    /// Draws `count` dispersed samples of `plan`: the first ones, or for a design of fixed size, as a grid, one at a
+    /// pseudo-random place in each of `count` equal parts.
     pub fn spread(plan: &Plan, count: u64) -> Self {
         let dispersed = plan.samples.saturating_sub(1);
         let has_points = plan.design.size(plan.dispersions.dimensions().len()) != Size::Any;
@@ -94,11 +93,11 @@ impl DrawnScenes {
         drawn
     }
 
-    /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and shows them to `seen`; with their mass properties
+    /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and passes them to `seen`; with their mass properties
     /// if `with_mass`.
     ///
     /// # Errors
-    /// The first error of `seen`, after which nothing is drawn.
+    /// The first error of `seen`, which ends the visit.
     pub fn visit<E>(plan: &Plan, with_mass: bool, mut seen: impl FnMut(&Self) -> Result<(), E>) -> Result<(), E> {
         let (mut draws, mut drawn) = (SceneDraws::new(plan), DrawnScenes::empty(plan, with_mass));
         let mut first = 0;
@@ -118,7 +117,7 @@ impl DrawnScenes {
         DrawnScenes { first: SampleId(0), physical: Vec::new(), columns, mass, magnitudes }
     }
 
-    /// Draws `samples` in place of what is there.
+    /// Draws `samples`, replacing earlier ones.
     fn draw(&mut self, plan: &Plan, draws: &mut SceneDraws<'_>, samples: impl Iterator<Item = u64>) {
         let mut samples = samples.peekable();
         self.first = SampleId(samples.peek().copied().unwrap_or(0));
@@ -151,7 +150,7 @@ mod tests {
     use crate::campaign::Overrides;
     use crate::observables::{Group, table};
 
-    /// Law: a mass property has the name and the unit that it has in rows.
+    /// Law: a mass property has the name and the unit of its column in rows.
     #[test]
     fn mass_properties_are_named_as_in_rows() {
         for [name, unit, _] in MASS_COLUMNS {
@@ -161,8 +160,7 @@ mod tests {
         }
     }
 
-    /// Law: some samples of a grid are spread over all of it: both parameters have all their range; those of a random
-    /// design are the first ones.
+    /// Law: some samples of a grid spread over all of it; of a random design they are the first ones.
     #[test]
     fn samples_are_spread_over_a_grid() {
         let scene: String = include_str!("../../campaigns/no_debris.toml")

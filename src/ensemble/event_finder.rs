@@ -1,53 +1,49 @@
-//! [`EventFinder`]: the times at which quantities of runs cross values, and how often.
+//! [`EventFinder`]: the times and numbers of crossings of quantities of runs.
 //!
-//! A crossing shows in the values of a run at two neighbouring observation points. Where its time is asked for, values
-//! at times between these two are (`lookup`), and it is located among them (`crossing`): a run without a crossing costs
-//! nothing. Where the quantity is not a number at some point, nobody knows what it crosses: its time and its count are
-//! null.
+//! A crossing shows in the values at two neighbouring observation points. Its time is located from values between these
+//! (`lookup`, `crossing`), so that a run without a crossing costs nothing. Time and count are null for a quantity that
+//! is not a number at some point.
 
 use crate::campaign::event::{Event, Which};
 use crate::campaign::{Plan, event_columns};
-use crate::ensemble::crossing::{Found, ROUNDING, Wanted, nodes, of_curve, of_steps};
+use crate::ensemble::crossing::{Located, ROUNDING, Wanted, nodes, of_curve, of_steps};
 use crate::ensemble::extreme_finder::ExtremeFinder;
-use crate::ensemble::flights::LawDraw;
-use crate::ensemble::lookup::{Asked, Lookup, ticks};
+use crate::ensemble::flights::Runs;
+use crate::ensemble::lookup::{Lookup, Query, ticks};
 use crate::ensemble::run_end::RunEnd;
-use crate::ensemble::settings::EngineMaker;
+use crate::ensemble::settings::Engines;
 use crate::ensemble::sightings::{Place, Seen};
-use crate::math::Isa;
 use crate::observables::band_series::event_series;
 use crate::observables::{Observer, Request};
 use crate::propagation::CompletedRun;
 use crate::run::{Grid, Status};
-use crate::scene::Scene;
 
-/// Most points that are looked at between two others of a quantity that changes at the ticks of a loop.
+/// Most points between two others at which a quantity of a loop is looked up.
 const MOST_TICKS: f64 = 64.0;
-/// How often a run is flown again at most: a jump between two points an hour apart is then located to 1e-12 s.
+/// Most repeated flights of a run: a jump between two points an hour apart is then located to 1e-12 s.
 const MOST_FLIGHTS: usize = 24;
-/// Errors of the time of a crossing over the duration of a run: that of the integration, but within these limits.
+/// Limits of the error of the time of a crossing over the duration; within them it is that of the integration.
 const ERRORS: [f64; 2] = [1e-13, 1e-9];
-/// The shortest run that an event ends, over the duration of the campaign: of the order of the errors of times.
+/// The shortest run over the duration of the campaign: the order of the errors of times.
 const SHORTEST: f64 = 1e-12;
 
-/// What is known of an event in a run: its time, NaN where it never happens, and how often it does, NaN where its
-/// quantity is not a number.
+/// An event in a run: its time, NaN if it never happens, and its count, NaN if its quantity is not a number.
 #[derive(Clone, Copy, Debug)]
 struct Occurrence {
     time: f64,
     count: f64,
 }
 
-/// What is known of the events that end runs.
+/// The events that end runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ends {
-    /// Nothing yet: they are looked for.
+    /// To be found.
     Sought,
-    /// Which one ends each run, where one does.
+    /// The event that ends each run, if any.
     Known(Option<RunEnd>),
 }
 
-/// A crossing to be located: the event `event` of the run `run`.
+/// A crossing to be located, of the event `event` in the run `run`.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
     run: usize,
@@ -73,8 +69,8 @@ pub struct EventFinder<'p> {
 }
 
 impl<'p> EventFinder<'p> {
-    /// Of the events of `plan` in runs that are observed on `grid`; `None` where it has none.
-    pub fn new(plan: &'p Plan, grid: &Grid, engines: (Isa, Option<EngineMaker>)) -> Option<Self> {
+    /// For the events and extremes of `plan` in runs observed on `grid`; `None` without any.
+    pub fn new(plan: &'p Plan, grid: &Grid, engines: Engines) -> Option<Self> {
         if plan.events.is_empty() && plan.extremes.is_empty() {
             return None;
         }
@@ -92,12 +88,12 @@ impl<'p> EventFinder<'p> {
         })
     }
 
-    /// The same of runs that `end` ends where their grid does, or no event.
+    /// For runs that `end`, or no event, ends at the end of their grid.
     pub fn ended_by(self, end: Option<RunEnd>) -> Self {
         EventFinder { ends: Ends::Known(end), ..self }
     }
 
-    /// Forgets all runs; `runs` come.
+    /// Resets the finder for a new batch of `runs` runs.
     pub fn restart(&mut self, runs: usize) {
         let none = Occurrence { time: f64::NAN, count: 0.0 };
         self.found.clear();
@@ -108,9 +104,8 @@ impl<'p> EventFinder<'p> {
         self.extremes.restart(runs);
     }
 
-    /// Looks at `run`, which `observer` has observed last with `status`. Returns whether an event ends it: then nothing
-    /// else is looked for in it, and [`EventFinder::end`] knows when, after [`EventFinder::locate`]. A run that fails
-    /// may do so after its end.
+    /// Looks at `run`, observed last by `observer` with `status`. Returns whether an event ends it: then nothing else is
+    /// searched, and [`EventFinder::end`] gives the end after [`EventFinder::locate`]. A run may fail after its end.
     pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer, status: Status) -> bool {
         let events = &self.plan.events;
         let values = self.lookup.read(observer, run.table);
@@ -171,7 +166,7 @@ impl<'p> EventFinder<'p> {
         is_ended
     }
 
-    /// What ends run `run`: the first of the events that do.
+    /// The earliest event that ends run `run`.
     pub fn end(&self, run: usize) -> Option<RunEnd> {
         if self.ends != Ends::Sought {
             return None;
@@ -183,9 +178,8 @@ impl<'p> EventFinder<'p> {
         earliest.map(|(event, (found, _))| RunEnd { event, time: found.time.max(SHORTEST * self.grid.duration()) })
     }
 
-    /// Locates the crossings of the runs that were looked at, and their extremes: those of `scenes`, with the draws of
-    /// their laws.
-    pub fn locate(&mut self, scenes: &[Scene], draws: &[LawDraw]) {
+    /// Locates the crossings and extremes of the runs looked at, of `scenes` with the draws of their laws.
+    pub fn locate(&mut self, runs: Runs<'_>) {
         let events = self.plan.events.len();
         for _ in 0..MOST_FLIGHTS {
             if self.pending.is_empty() {
@@ -193,31 +187,31 @@ impl<'p> EventFinder<'p> {
             }
             let mut pending = std::mem::take(&mut self.pending);
             pending.sort_by_key(|pending| (pending.run, pending.event));
-            self.look_again(&pending, (scenes, draws));
+            self.look_again(&pending, runs);
         }
         // a jump, as near as numbers are
         for pending in std::mem::take(&mut self.pending) {
             self.found[pending.run * events + pending.event].time = pending.between[1];
         }
         let found = &self.found;
-        self.extremes.locate((scenes, draws), &|run, event| found[run * events + event].time);
+        self.extremes.locate(runs, &|run, event| found[run * events + event].time);
     }
 
-    /// Looks between the times of `pending`, and notes where to look again.
-    fn look_again(&mut self, pending: &[Pending], of_runs: (&[Scene], &[LawDraw])) {
-        let ask = |&Pending { run, event, between: [start, end], .. }: &Pending| {
+    /// Looks between the times of `pending`, and notes intervals for another look.
+    fn look_again(&mut self, pending: &[Pending], runs: Runs<'_>) {
+        let query = |&Pending { run, event, between: [start, end], .. }: &Pending| {
             let times = match self.lookup.period(event) {
                 Some(period) => ticks(period, start, end, MOST_TICKS),
                 None => nodes(start, end).collect(),
             };
-            Asked { run, quantity: event, times }
+            Query { run, quantity: event, times }
         };
-        let asked: Vec<Asked> = pending.iter().map(ask).collect();
+        let queries: Vec<Query> = pending.iter().map(query).collect();
         let (events, lookup) = (&self.plan.events, &self.lookup);
         let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]) * self.grid.duration();
         let (found, again) = (&mut self.found, &mut self.pending);
-        lookup.answer(&asked, of_runs, &mut |index, values| {
-            let (one, times) = (pending[index], &asked[index].times);
+        lookup.answer(&queries, runs, &mut |index, values| {
+            let (one, times) = (pending[index], &queries[index].times);
             let values: Vec<f64> = values.iter().map(|value| value - events[one.event].value).collect();
             let located = match lookup.period(one.event) {
                 Some(period) => {
@@ -227,13 +221,13 @@ impl<'p> EventFinder<'p> {
                 None => of_curve(times, &values, one.wanted, error),
             };
             match located {
-                Found::At(time) => found[one.run * events.len() + one.event].time = time,
-                Found::Between(start, end) => again.push(Pending { between: [start, end], ..one }),
+                Located::At(time) => found[one.run * events.len() + one.event].time = time,
+                Located::Between(start, end) => again.push(Pending { between: [start, end], ..one }),
             }
         });
     }
 
-    /// The values of the columns of the events of run `run`, and of its extremes.
+    /// The columns of the events and extremes of run `run`.
     pub fn values(&self, run: usize) -> impl Iterator<Item = f64> + '_ {
         let events = &self.plan.events;
         let of_run = &self.found[run * events.len()..(run + 1) * events.len()];
@@ -249,7 +243,7 @@ impl<'p> EventFinder<'p> {
     }
 }
 
-/// The places of the columns of events in a row of `request`: those of failures are before them.
+/// The places of the columns of events in a row of `request`, after those of failures.
 pub fn places(plan: &Plan, request: &Request) -> std::ops::Range<usize> {
     let all = request.places_of_events();
     all.start + event_columns::EACH * plan.nominal.failures.len()..all.end

@@ -1,35 +1,32 @@
-//! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, between observation points too.
+//! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, also between observation points.
 //!
-//! A largest value lies beside a point at which the quantity is larger than at its neighbours, or at the ends of the
-//! interval of time. There the same sample is flown again, with observation points between (`peak`); a quantity of a
-//! control loop is looked at at every tick. An extreme is a value of the quantity itself. It is null where the quantity
-//! is not a number at a point from the start of its interval on.
+//! A largest value lies near a point that exceeds its neighbours, or at the ends of the interval of time. The sample is
+//! flown again with more points there (`peak`); a quantity of a control loop is looked up at every tick. An extreme is a
+//! value of the quantity itself. It is null if the quantity is not a number at a point of its interval.
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
 use crate::ensemble::crossing::nodes;
-use crate::ensemble::flights::{LawDraw, end_of};
-use crate::ensemble::lookup::{Asked, Lookup, ticks};
+use crate::ensemble::flights::{Runs, end_of};
+use crate::ensemble::lookup::{Lookup, Query, ticks};
 use crate::ensemble::peak::{Peak, of_curve};
-use crate::ensemble::settings::EngineMaker;
-use crate::math::Isa;
+use crate::ensemble::settings::Engines;
 use crate::observables::Observer;
 use crate::observables::band_series::event_series;
 use crate::propagation::CompletedRun;
 use crate::run::Grid;
-use crate::scene::Scene;
 
-/// Ticks at which a run is looked at together.
+/// Ticks looked up together.
 const TICKS: usize = 4096;
-/// How often a run is flown again at most: between two points an hour apart a corner is then located to rounding.
+/// Most repeated flights of a run: between points an hour apart a corner is then located to rounding.
 const MOST_FLIGHTS: usize = 24;
-/// Errors of a largest value over its size: that of the integration, but within these limits.
+/// Limits of the error of an extreme over its size; within them it is that of the integration.
 const ERRORS: [f64; 2] = [1e-13, 1e-9];
-/// A quantity is beyond its value at a point by an eighth of its second difference there, where it is a parabola; it is
-/// looked at where four times that could make it the largest.
+/// A parabola exceeds its value at a point by an eighth of its second difference there; points are searched if four
+/// times that could make them the largest.
 const BEYOND: f64 = 0.5;
 
-/// Where an extreme is looked for.
+/// An interval to be searched for an extreme.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
     run: usize,
@@ -42,24 +39,24 @@ pub(super) struct ExtremeFinder<'p> {
     plan: &'p Plan,
     lookup: Lookup<'p>,
     times: Vec<f64>,
-    /// When runs that were looked at end, s; NaN of the others.
+    /// Ends of the runs looked at, s; NaN for others.
     ends: Vec<f64>,
-    /// Values at the points, run by run and extreme by extreme; of a smallest one the opposite.
+    /// Values at the points, run by run and extreme by extreme; negated for a smallest value.
     values: Vec<f64>,
-    /// The largest ones that are known.
+    /// The largest known ones.
     found: Vec<f64>,
-    /// When the quantity is not a number for the last time, s; NaN where it always is one.
+    /// Last time at which the quantity is not a number, s; NaN for never.
     undefined: Vec<f64>,
 }
 
-/// One, or minus one where the smallest value is looked for.
+/// One, or minus one for a smallest value.
 fn sign(extreme: &Extreme) -> f64 {
     if extreme.is_highest { 1.0 } else { -1.0 }
 }
 
 impl<'p> ExtremeFinder<'p> {
-    /// Of those of `plan` in runs that are observed on `grid`.
-    pub fn new(plan: &'p Plan, grid: &Grid, engines: (Isa, Option<EngineMaker>)) -> Self {
+    /// For the extremes of `plan` in runs observed on `grid`.
+    pub fn new(plan: &'p Plan, grid: &Grid, engines: Engines) -> Self {
         let series = event_series(&plan.request());
         let parsed = plan.extremes.iter().filter_map(|extreme| extreme.parsed(&series));
         ExtremeFinder {
@@ -73,7 +70,7 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Forgets all runs; `runs` come.
+    /// Resets the finder for a new batch of `runs` runs.
     pub fn restart(&mut self, runs: usize) {
         let extremes = self.plan.extremes.len();
         for (list, count) in [
@@ -87,7 +84,7 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Keeps the values of `run`, which `observer` has observed last.
+    /// Keeps the values of `run`, observed last by `observer`.
     pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer) {
         let (extremes, points) = (&self.plan.extremes, self.times.len());
         if extremes.is_empty() {
@@ -106,9 +103,9 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Locates the extremes of the runs that were looked at: those of `scenes`, with the draws of their laws; `time_of`
-    /// is when an event of a run happened.
-    pub fn locate(&mut self, of_runs: (&[Scene], &[LawDraw]), time_of: &dyn Fn(usize, usize) -> f64) {
+    /// Locates the extremes of the runs looked at, of `scenes` with the draws of their laws; `time_of` is the time of an
+    /// event of a run.
+    pub fn locate(&mut self, runs: Runs<'_>, time_of: &dyn Fn(usize, usize) -> f64) {
         let mut pending = Vec::new();
         for run in 0..self.ends.len() {
             for (index, extreme) in self.plan.extremes.iter().enumerate() {
@@ -128,12 +125,11 @@ impl<'p> ExtremeFinder<'p> {
             if pending.is_empty() {
                 return;
             }
-            pending = self.look_again(&pending, of_runs);
+            pending = self.look_again(&pending, runs);
         }
     }
 
-    /// Where the largest value of an extreme of a run can be between `start` and `end`; what is known at points is
-    /// taken.
+    /// Intervals between `start` and `end` that may hold the largest value of an extreme of a run, besides the points.
     fn places(&mut self, run: usize, extreme: usize, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         if let Some(period) = self.lookup.period(extreme) {
             let ticks = ticks(period, start, end, f64::INFINITY);
@@ -149,7 +145,7 @@ impl<'p> ExtremeFinder<'p> {
         let known = values[first..after].iter().fold(f64::NAN, |most, value| most.max(*value));
         let can_be = |point: &usize| {
             let [before, here, next] = [values[point - 1], values[*point], values[point + 1]];
-            // what is not known is no larger, and bounds nothing
+            // an unknown neighbour is no larger and bounds nothing
             let has_larger = [before, next].into_iter().any(|beside| beside > here);
             let stays_below = here + BEYOND * (before - 2.0 * here + next).abs() < known;
             !here.is_nan() && !has_larger && (before != here || next != here) && !stays_below
@@ -163,26 +159,26 @@ impl<'p> ExtremeFinder<'p> {
         places
     }
 
-    /// Looks between the times of `pending`, and says where to look again.
-    fn look_again(&mut self, pending: &[Pending], of_runs: (&[Scene], &[LawDraw])) -> Vec<Pending> {
-        let ask = |Pending { run, extreme, between: [start, end] }: &Pending| {
+    /// Looks between the times of `pending`, and returns intervals for another look.
+    fn look_again(&mut self, pending: &[Pending], runs: Runs<'_>) -> Vec<Pending> {
+        let query = |Pending { run, extreme, between: [start, end] }: &Pending| {
             let times = match self.lookup.period(*extreme) {
                 Some(period) => ticks(period, *start, *end, f64::INFINITY),
                 None if start == end => vec![*start],
                 None => nodes(*start, *end).collect(),
             };
-            Asked { run: *run, quantity: *extreme, times }
+            Query { run: *run, quantity: *extreme, times }
         };
-        let asked: Vec<Asked> = pending.iter().map(ask).collect();
+        let queries: Vec<Query> = pending.iter().map(query).collect();
         let (extremes, found, lookup) = (&self.plan.extremes, &mut self.found, &self.lookup);
         let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]);
         let mut again = Vec::new();
-        lookup.answer(&asked, of_runs, &mut |index, values| {
+        lookup.answer(&queries, runs, &mut |index, values| {
             let one = pending[index];
             let values: Vec<f64> = values.iter().map(|value| sign(&extremes[one.extreme]) * value).collect();
             let peak = match lookup.period(one.extreme) {
                 Some(_) => Peak::Value(values.iter().fold(f64::NAN, |most, value| most.max(*value))),
-                None => of_curve(&asked[index].times, &values, error),
+                None => of_curve(&queries[index].times, &values, error),
             };
             let (value, between) = match peak {
                 Peak::Value(value) => (value, None),

@@ -1,4 +1,4 @@
-//! [`FailureReasons`]: why runs failed, counted by reason.
+//! [`FailureReasons`]: reasons of failed runs, counted.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -7,18 +7,18 @@ use crate::ensemble::rows::Rows;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
-/// Runs that failed for one reason: with the same status, and with texts that differ in their numbers only.
+/// Runs that failed for one reason: the same status, and texts that differ only in numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailureReason {
     pub status: Status,
     pub count: u64,
-    /// The one with the smallest number.
+    /// The smallest sample.
     pub first: SampleId,
-    /// Its reason, with its numbers.
+    /// The reason of that sample.
     pub text: String,
 }
 
-/// The reasons of any number of rows. They do not depend on the order in which rows are added.
+/// The reasons of any rows, in whatever order they are added.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FailureReasons(BTreeMap<(&'static str, String), FailureReason>);
 
@@ -46,12 +46,12 @@ impl FailureReasons {
     }
 }
 
-/// `text` with a mark in place of each number.
+/// `text` with a mark for each number.
 fn without_numbers(text: &str) -> String {
     with_numbers(text, |_| "#".to_owned())
 }
 
-/// `text` with each number as it is `shown`. Digits within a name (`w1`) are part of it.
+/// `text` with its numbers in the format `shown`. Digits within a name (`w1`) are part of it.
 pub fn with_numbers(text: &str, shown: impl Fn(&str) -> String) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut chars = text.chars().peekable();
@@ -79,8 +79,8 @@ mod tests {
     use super::*;
     use crate::ensemble::{Part, PartId, Shape};
 
-    /// Law: reasons that differ in numbers only are one, those that differ in a name are not; the example is that of
-    /// the smallest sample, whatever the order of the rows.
+    /// Law: reasons that differ only in numbers are one, in a name they are not; the example is the smallest sample's,
+    /// whatever the order of the rows.
     #[test]
     fn reasons_are_counted_without_their_numbers() {
         let part = |first: u64, reasons: &[(Status, &str)]| {

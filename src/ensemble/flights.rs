@@ -1,5 +1,6 @@
-//! [`Flights`]: propagates runs of a plan, each under the control law of the plan where it has one; nothing else of the
-//! ensemble flies a run.
+//! [`Flights`]: propagates runs of a plan, under its control law if it has one; nothing else of the ensemble does.
+
+use std::slice::from_ref;
 
 use crate::campaign::{Plan, event_columns};
 use crate::control::loop_record::SharedRecord;
@@ -7,7 +8,7 @@ use crate::control::{LawContext, LawRuns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::effects::beside_arcs;
 use crate::dynamics::orbit_path::OrbitPath;
-use crate::ensemble::settings::{EngineMaker, nominal, propagator};
+use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::math::Isa;
 use crate::math::vector::dot;
@@ -16,9 +17,9 @@ use crate::observables::{Group, LawSeries, Observer, Request};
 use crate::propagation::{CompletedRun, Engine, PropagationSettings};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
-use crate::scene::{Arc, ControlInput, Scene};
+use crate::scene::{Arc, ControlInput, Scene, SceneInput};
 
-/// What the law of a run depends on beside its scene.
+/// The draws of the law of a run, besides its scene.
 #[derive(Clone, Debug)]
 pub struct LawDraw {
     pub sample: SampleId,
@@ -27,9 +28,28 @@ pub struct LawDraw {
 }
 
 impl LawDraw {
-    /// Of the nominal run of `plan`; `None` where the plan has no law.
+    /// For the nominal run of `plan`; `None` without a law.
     pub fn nominal(plan: &Plan) -> Option<Self> {
-        plan.law.as_ref().map(|_| LawDraw { sample: SampleId(0), parameters: plan.nominal.control.clone() })
+        Self::of(plan, SampleId(0), &plan.nominal)
+    }
+
+    /// For the noise of `sample`, with the parameters in the `drawn` scene; `None` without a law.
+    pub fn of(plan: &Plan, sample: SampleId, drawn: &SceneInput) -> Option<Self> {
+        plan.law.as_ref().map(|_| LawDraw { sample, parameters: drawn.control.clone() })
+    }
+}
+
+/// Runs to be flown together.
+#[derive(Clone, Copy)]
+pub struct Runs<'a> {
+    pub scenes: &'a [Scene],
+    /// The draw of the law of each scene; none without a law.
+    pub draws: &'a [LawDraw],
+}
+
+impl<'a> Runs<'a> {
+    pub fn one(scene: &'a Scene, draw: &'a [LawDraw]) -> Self {
+        Runs { scenes: from_ref(scene), draws: draw }
     }
 }
 
@@ -37,29 +57,27 @@ impl LawDraw {
 pub struct Flights<'p> {
     plan: &'p Plan,
     engine: Box<dyn Engine>,
-    /// The laws, and the nominal scene that they know; where the plan has a law.
+    /// The laws of the plan, with the nominal scene that they know.
     laws: Option<(LawRuns, Scene)>,
-    /// What the loops of the runs record over time; empty where nothing is.
+    /// Records of the loops over time.
     over_time: Vec<SharedRecord>,
     times: Vec<f64>,
     end: f64,
     records: bool,
-    engines: (Isa, Option<EngineMaker>),
-    /// Whether runs end at the surface of the central body.
+    engines: Engines,
+    /// Whether the surface of the central body ends runs.
     ends_at_surface: bool,
 }
 
-/// Receives a run that has ended, and what its law has recorded at the observation points
-/// ([`crate::observables::LawSeries`]).
+/// Receives a finished run, and the record of its law at the observation points ([`crate::observables::LawSeries`]).
 pub type FlightCallback<'a> = dyn FnMut(CompletedRun<'_>, &[f64]) + 'a;
 
 impl<'p> Flights<'p> {
     /// Runs of `plan` with these settings, by engines of its method on an instruction set, or by those of the caller.
-    pub fn new(plan: &'p Plan, settings: &PropagationSettings, engines: (Isa, Option<EngineMaker>)) -> Self {
-        let (isa, own_engines) = engines;
+    pub fn new(plan: &'p Plan, settings: &PropagationSettings, engines: Engines) -> Self {
         Flights {
             plan,
-            engine: own_engines.map_or_else(|| settings.engine(isa), |new_engine| new_engine(settings, isa)),
+            engine: engines.engine(settings),
             times: settings.grid.times().to_vec(),
             end: settings.grid.duration(),
             laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))),
@@ -70,23 +88,23 @@ impl<'p> Flights<'p> {
         }
     }
 
-    /// The same, with laws that record what they do.
+    /// With laws that record what they do.
     pub fn recording(self) -> Self {
         Flights { records: true, ..self }
     }
 
-    /// What the law of run `run` of the last flight has recorded.
+    /// The record of the law of run `run` of the last flight.
     pub fn telemetry(&self, run: usize) -> Option<Telemetry> {
         self.laws.as_ref()?.0.telemetry(run)
     }
 
-    /// Flies `scenes` and passes each to `finish`. `draws` are those of the laws, one for each scene, and nothing where
-    /// the plan has no law.
-    pub fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw], finish: &mut FlightCallback<'_>) {
+    /// Flies `runs` and passes each to `finish`.
+    pub fn fly(&mut self, runs: Runs<'_>, finish: &mut FlightCallback<'_>) {
+        let Runs { scenes, draws } = runs;
         let (plan, times, engines, ends_at_surface) = (self.plan, &self.times, self.engines, self.ends_at_surface);
         let at_surface = |run: &CompletedRun<'_>| {
-            let draw = draws.get(run.index).map_or(&[][..], std::slice::from_ref);
-            let outcome = ends_at_surface.then(|| at_surface(plan, (&scenes[run.index], draw), run, times, engines));
+            let one = Runs::one(&scenes[run.index], draws.get(run.index).map_or(&[][..], from_ref));
+            let outcome = ends_at_surface.then(|| at_surface(plan, one, run, times, engines));
             outcome.flatten().unwrap_or(*run.outcome)
         };
         let Some((laws, nominal)) = &mut self.laws else {
@@ -127,7 +145,7 @@ impl<'p> Flights<'p> {
                 outcome.status = Status::Diverged;
             }
             let run = CompletedRun { outcome: &outcome, ..run };
-            // before the run is observed: what the loop knows at the end belongs to it
+            // before observation: the state of the loop at the end is observed
             if run.outcome.status == Status::Done {
                 let (body, wheels) = state_at_end(&scenes[run.index], run.table);
                 flown[run.index].end(run.outcome.time, &body, &wheels);
@@ -139,32 +157,27 @@ impl<'p> Flights<'p> {
         });
     }
 
-    /// Writes what the law of run `run` of the last flight reports, where the plan has a law.
+    /// Writes the report of the law of run `run` of the last flight.
     pub fn report(&self, run: usize, values: &mut [f64]) {
         if let Some((laws, _)) = &self.laws {
             laws.report(run, values);
         }
     }
 
-    /// Why the law of run `run` of the last flight has ended it as [`Status::Diverged`].
+    /// Why the law of run `run` of the last flight ended it as [`Status::Diverged`].
     pub fn divergence(&self, run: usize) -> String {
         self.laws.as_ref().and_then(|(laws, _)| laws.shared().get(run)?.divergence()).unwrap_or_default()
     }
 
     pub fn fly_nominal(&mut self, finish: &mut FlightCallback<'_>) {
         let draw = LawDraw::nominal(self.plan);
-        self.fly(&[nominal(self.plan)], draw.as_slice(), finish);
+        self.fly(Runs::one(&nominal(self.plan), draw.as_slice()), finish);
     }
 }
 
-/// The outcome of `run`, observed at `times`, that reaches the surface of the central body; `None` where it does not.
-fn at_surface(
-    plan: &Plan,
-    (scene, draw): (&Scene, &[LawDraw]),
-    run: &CompletedRun<'_>,
-    times: &[f64],
-    engines: (Isa, Option<EngineMaker>),
-) -> Option<Outcome> {
+/// The outcome of `run`, observed at `times`, if it reaches the surface of the central body.
+fn at_surface(plan: &Plan, one: Runs<'_>, run: &CompletedRun<'_>, times: &[f64], engines: Engines) -> Option<Outcome> {
+    let scene = &one.scenes[0];
     let last = times[times.len() - 1];
     let fields = [StateField::ComPosition, StateField::ComVelocity];
     let mut positions = |asked: &[f64]| -> Vec<[[f64; 3]; 2]> {
@@ -179,7 +192,7 @@ fn at_surface(
         let settings = propagator(plan, Grid::at(all.clone()), observed);
         let again = Flights::new(plan, &settings, engines);
         let mut found = Vec::new();
-        Flights { ends_at_surface: false, ..again }.fly(std::slice::from_ref(scene), draw, &mut |run, _| {
+        Flights { ends_at_surface: false, ..again }.fly(one, &mut |run, _| {
             let at = |time: &f64| all.partition_point(|other| other < time);
             let state = |point: usize| fields.map(|field| run.table.at(field, point));
             let known = |point: usize| if point < run.outcome.points { state(point) } else { [[f64::NAN; 3]; 2] };
@@ -188,13 +201,13 @@ fn at_surface(
         found
     };
     let time = surface::contact(scene, run, (times, end_of(run)), &mut positions)?;
-    // an event that ends the run before is seen at the point after it
+    // an event that ends the run before shows at the point after it
     let after = usize::from(plan.events.iter().any(|event| event.ends_run));
     let points = run.outcome.points.min(times.partition_point(|other| *other < time) + after);
     Some(Outcome { status: Status::Surface, time, points, ..*run.outcome })
 }
 
-/// The motion of the body and of the wheels at the last point of `table`, of a run of `scene` under a law.
+/// The state of body and wheels at the last point of `table`, of a run of `scene` under a law.
 fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
     let last = table.points() - 1;
     let body = BodyState {
@@ -212,21 +225,20 @@ fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
     (body, wheels)
 }
 
-/// The attitude of the nominal run at the times of `grid`, where `request` compares runs with it.
+/// The attitude of the nominal run at the times of `grid`, if `request` compares runs with it.
 pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -> Option<NominalAttitude> {
     if !request.groups.contains(Group::Motion) {
         return None;
     }
     let mut found = None;
     let settings = propagator(plan, grid.clone(), StateFields::NONE.with(StateField::Attitude));
-    Flights::new(plan, &settings, (isa, None)).fly_nominal(&mut |run, _| {
+    Flights::new(plan, &settings, Engines::of(isa)).fly_nominal(&mut |run, _| {
         found = Some(NominalAttitude::of(run.table, run.outcome));
     });
     found
 }
 
-/// Observes a run of `plan` into `row`: what acted on it are the arcs that it has flown, where they followed a law, or
-/// its schedule; and which of its devices have failed.
+/// Observes a run of `plan` into `row`, with the arcs flown under a law or the schedule, and the failed devices.
 pub fn observe(
     plan: &Plan,
     observer: &mut Observer,
@@ -253,14 +265,14 @@ pub fn observe(
     status
 }
 
-/// When a run has ended, s: at the end of the campaign's grid, or where its law has ended it.
+/// The end of a run, s: of the campaign's grid, or by its law.
 pub fn end_of(run: &CompletedRun<'_>) -> f64 {
     let of_law = run.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start);
     of_law.map_or(run.outcome.time, |end| end.min(run.outcome.time))
 }
 
-/// The scene whose schedule is what a run of `scene` under a law has flown, constant effects included: its open loop is
-/// that run, bit for bit. Effects that change within an arc act on it as on the run.
+/// The scene with the actuation that a run of `scene` under a law has flown, constant effects included, as its schedule:
+/// its open loop is that run, bit for bit. Effects that change within an arc act on it as on the run.
 pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
     Scene {
         schedule: arcs.to_vec(),

@@ -1,6 +1,6 @@
-//! [`notes`]: which dispersed parameters change nothing, or no requested column, found by running the nominal scene and
-//! some samples with one parameter changed at a time. What follows from the equations (a position changes no energy of
-//! rotation, a thruster that is never fired changes nothing) need not be listed anywhere.
+//! [`notes`]: dispersed parameters that change nothing, or no requested column, found by runs of the nominal scene and
+//! some samples with one parameter changed at a time. Properties of the equations (a position changes no energy of
+//! rotation, a thruster never fired changes nothing) need no list.
 
 use std::time::Instant;
 
@@ -13,12 +13,12 @@ use crate::run::Status;
 use crate::sampling::{Design, Dispersions, Draws, SampleId};
 use crate::scene::{Parameter, Scene};
 
-/// Samples that are drawn to find those that are tried.
+/// Draws from which samples are chosen.
 const DRAWN: u64 = 1000;
-/// Nothing is found out where that would take longer, s.
+/// Longest search, s.
 const LONGEST_S: f64 = 3.0;
 
-/// What draws do not change, and what changes no requested column where they do, a sentence each.
+/// A sentence for each parameter without draws other than the nominal value, or without effect on a requested column.
 pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let drawn = DrawnScenes::spread(plan, DRAWN);
     let columns = plan.dispersions.columns();
@@ -53,10 +53,10 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     notes
 }
 
-/// The names of the dispersed parameters of `plan`, or of their dispersed components, that leave every requested column
-/// as it is, bit for bit, when they change: alone from the nominal scene to their values of some samples, and back in
-/// these samples. Inputs of derived parameters and of `[[observable]]` have an effect; what no draw changes is not
-/// judged. `None` where the runs would take too long, or the nominal scene cannot be run.
+/// The dispersed parameters of `plan`, or their dispersed components, that leave every requested column unchanged, bit
+/// for bit, when they take the values of some samples in the nominal scene, and the nominal values in these samples.
+/// Inputs of derived parameters and of `[[observable]]` count as effective; parameters without variation are not judged.
+/// `None` if the runs would take too long, or the nominal scene cannot be run.
 pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<String>> {
     let mut parameters: Vec<Parameter> = plan.dispersions.columns().iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
@@ -66,7 +66,7 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     let inputs: Vec<Parameter> = derivations.chain(observables).map(|(parameter, _)| parameter).collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     if part_of_run(plan).is_some() {
-        // what acts later would be said to have no effect
+        // later effects would be missed
         return None;
     }
     let start = Instant::now();
@@ -84,7 +84,7 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
         if !samples.is_empty() && !samples.iter().any(is_seen) {
             unseen.push(dispersed_name(plan, *parameter));
         }
-        // the runs of samples may take longer than the nominal one
+        // samples may take longer than the nominal run
         if start.elapsed().as_secs_f64() > LONGEST_S {
             return None;
         }
@@ -92,17 +92,16 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     Some(unseen)
 }
 
-/// Whether a row differs where `parameter` has its values among `applied`, those of a sample, in place of the nominal
-/// ones: in the nominal scene, whose row is `nominal`, or in that sample. A value that makes a scene unphysical has an
-/// effect.
+/// Whether a row differs if `parameter` has its value among `applied`, those of a sample, instead of the nominal one: in
+/// the nominal scene, whose row is `nominal`, or in that sample. Making a scene unphysical is an effect.
 fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal: &[u64]) -> bool {
     let row_with = |is_applied: &dyn Fn(Parameter) -> bool| row_with(plan, isa, applied, is_applied);
     row_with(&|other| other == parameter).is_none_or(|row| row != nominal)
         || row_with(&|_| true).is_some_and(|row| row_with(&|other| other != parameter).is_none_or(|other| other != row))
 }
 
-/// The bits of the requested columns of the nominal scene with those parameters that are applied at their values among
-/// `applied`; `None` where it is not physical, or takes too long.
+/// The bits of the requested columns of the nominal scene with some parameters at their values among `applied`; `None`
+/// if it is not physical, or takes too long.
 fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Parameter) -> bool) -> Option<Vec<u64>> {
     let mut changed = plan.clone();
     for (column, value) in plan.dispersions.columns().iter().zip(applied).filter(|(c, _)| is_applied(c.parameter)) {
@@ -116,7 +115,7 @@ fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Paramete
     (run.outcome.status != Status::StepLimit).then(|| run.row.iter().map(|value| value.to_bits()).collect())
 }
 
-/// The applied values of those samples in which a column of `parameter` is largest or smallest, and is not nominal.
+/// The applied values of samples in which a column of `parameter` is largest or smallest, and not nominal.
 fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Vec<Vec<f64>> {
     let own = plan.dispersions.columns().iter().zip(&drawn.columns).filter(|(column, _)| column.parameter == parameter);
     let extremes = own.flat_map(|(column, values)| {
@@ -130,7 +129,7 @@ fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Ve
     samples.into_iter().map(|sample| drawn.columns.iter().map(|values| values[sample]).collect()).collect()
 }
 
-/// The name of a parameter; of its dispersed components, where only some are dispersed.
+/// The name of a parameter, or of its dispersed components if not all are.
 fn dispersed_name(plan: &Plan, parameter: Parameter) -> String {
     let columns = plan.dispersions.columns().iter().filter(|column| column.parameter == parameter);
     let names: Vec<String> = columns.map(|column| parameter.component_name(column.component)).collect();

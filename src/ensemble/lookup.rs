@@ -1,13 +1,13 @@
 //! [`Lookup`]: quantities of runs at their observation points, and at any other times.
 //!
-//! For other times the same sample is flown again with observation points there: what is observed does not change how a
-//! run is integrated, so that this works for every engine, effect and control loop. Runs are flown again in lanes, a
-//! few at a time, since each brings its own times.
+//! For other times the sample is flown again with observation points there: observation does not change the integration,
+//! so this works for every engine, effect and control loop. Each run has its own times, so that a few runs at a time are
+//! flown again, in lanes.
 
 use crate::campaign::Plan;
-use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe};
-use crate::ensemble::settings::{EngineMaker, propagator};
-use crate::math::Isa;
+use crate::ensemble::flights::{LawDraw, Runs, nominal_attitude};
+use crate::ensemble::observed_runs::Means;
+use crate::ensemble::settings::Engines;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::window::NO_WINDOWS;
@@ -16,13 +16,12 @@ use crate::run::{Grid, StateFields, StateTable};
 use crate::sampling::expression::Expression;
 use crate::scene::Scene;
 
-/// Runs that are flown again together: one of each lane.
+/// Runs flown again together: one in each lane.
 const TOGETHER: usize = 8;
-/// Most times at which they are looked at together, beyond those of one question.
+/// Most times looked up together, beyond those of one query.
 const MOST_TIMES: usize = 4096;
 
-/// Rounding of a quantity over time, over its size: that of the dozen products and sums by which it follows from the
-/// state.
+/// Rounding of a quantity over its size: of the dozen products and sums from the state to it.
 const ROUNDING_OF_VARIABLES: f64 = 16.0 * f64::EPSILON;
 
 /// An expression of quantities over time.
@@ -30,13 +29,13 @@ struct WatchedQuantity {
     expression: Expression,
     /// The variables of the expression, by their places among those that are read.
     variables: Vec<usize>,
-    /// Whether they change at the ticks of a control loop alone.
+    /// Whether they change only at the ticks of a control loop.
     changes_at_ticks: bool,
 }
 
-/// What quantity number `quantity` of run `run` is at `times`, s.
+/// A query for quantity number `quantity` of run `run` at `times`, s.
 #[derive(Clone, Debug)]
-pub(super) struct Asked {
+pub(super) struct Query {
     pub run: usize,
     pub quantity: usize,
     pub times: Vec<f64>,
@@ -44,14 +43,11 @@ pub(super) struct Asked {
 
 /// Reads quantities of the runs of a plan.
 pub(super) struct Lookup<'p> {
-    plan: &'p Plan,
-    isa: Isa,
-    own_engines: Option<EngineMaker>,
+    /// The columns of repeated flights are only those of the quantities.
+    means: Means<'p>,
     fields: StateFields,
     quantities: Vec<WatchedQuantity>,
     sources: Vec<BandSeries>,
-    /// What is observed where runs are flown again: no more than these quantities.
-    request: Request,
     reader: BandReader,
     grid: Grid,
 }
@@ -65,27 +61,26 @@ pub(super) struct PointValues<'a> {
 }
 
 impl PointValues<'_> {
-    /// That of source `place` at point `point`.
+    /// The value of source `place` at point `point`.
     fn source(&self, place: usize, point: usize) -> f64 {
         self.sources[place].form.shown(self.kept[place * self.points + point])
     }
 
-    /// That of quantity number `quantity` at point `point`; NaN where it is not known.
+    /// The value of quantity number `quantity` at point `point`; NaN if unknown.
     pub fn at(&self, quantity: usize, point: usize) -> f64 {
         let WatchedQuantity { expression, variables, .. } = &self.quantities[quantity];
         expression.value(|variable: usize| self.source(variables[variable], point))
     }
 
-    /// The points at which quantity number `quantity` is not a number though all that it is computed from is known.
+    /// The points at which quantity number `quantity` is not a number though its sources are known.
     pub fn undefined(&self, quantity: usize) -> impl DoubleEndedIterator<Item = usize> + '_ {
         let variables = &self.quantities[quantity].variables;
         let is_known = move |point: usize| variables.iter().all(|place| !self.source(*place, point).is_nan());
         (0..self.points).filter(move |point| self.at(quantity, *point).is_nan() && is_known(*point))
     }
 
-    /// How far rounding may move quantity number `quantity` at point `point`: the sum over its variables of how far it
-    /// moves with each. A variable rounds as its largest value in the run does, an angle at least as the components of
-    /// unit vectors do, from which it is computed.
+    /// The effect of rounding on quantity number `quantity` at point `point`: the sum of those of its variables. A
+    /// variable rounds as its largest value in the run, an angle at least as components of unit vectors.
     pub fn rounding(&self, quantity: usize, point: usize) -> f64 {
         let WatchedQuantity { expression, variables, .. } = &self.quantities[quantity];
         let value = self.at(quantity, point);
@@ -100,22 +95,22 @@ impl PointValues<'_> {
             [change(ROUNDING_OF_VARIABLES * size), change(-ROUNDING_OF_VARIABLES * size)]
         };
         let changes = (0..variables.len()).map(moved).chain([[ROUNDING_OF_VARIABLES * value.abs(); 2]]);
-        // what is not finite, at an end of what the expression takes, tells nothing of rounding
+        // changes that are not finite, at an end of the expression's domain, say nothing of rounding
         changes.map(|both| both.into_iter().filter(|change| change.is_finite()).fold(0.0, f64::max)).sum()
     }
 
-    /// Those of quantity number `quantity` at all points.
+    /// The values of quantity number `quantity` at all points.
     pub fn all(&self, quantity: usize) -> impl Iterator<Item = f64> + '_ {
         (0..self.points).map(move |point| self.at(quantity, point))
     }
 }
 
 impl<'p> Lookup<'p> {
-    /// Of the quantities that `parsed` are, of runs of `plan` that are observed on `grid`.
+    /// For the quantities `parsed` in runs of `plan` observed on `grid`.
     pub fn new(
         plan: &'p Plan,
         grid: &Grid,
-        (isa, own_engines): (Isa, Option<EngineMaker>),
+        engines: Engines,
         parsed: impl Iterator<Item = (Expression, Vec<BandSeries>)>,
     ) -> Self {
         let request = plan.request();
@@ -133,38 +128,35 @@ impl<'p> Lookup<'p> {
         });
         let quantities = quantities.collect();
         Lookup {
-            plan,
-            isa,
-            own_engines,
+            means: Means { request: narrowed(request, &sources), ..Means::new(plan, engines) },
             fields: request.fields(),
             quantities,
-            request: narrowed(request, &sources),
             reader: BandReader::new(sources.clone(), (0..grid.points()).collect()),
             sources,
             grid: grid.clone(),
         }
     }
 
-    /// The period of the ticks at which alone quantity number `quantity` changes, s.
+    /// The period of the ticks at which quantity number `quantity` changes, s; `None` if it changes between them.
     pub fn period(&self, quantity: usize) -> Option<f64> {
-        let spec = self.plan.law.as_ref()?.spec()?;
+        let spec = self.means.plan.law.as_ref()?.spec()?;
         self.quantities[quantity].changes_at_ticks.then_some(spec.period)
     }
 
-    /// The values of the run with the states `table`, which `observer` has observed last.
+    /// The values of the run with the states `table`, observed last by `observer`.
     pub fn read(&mut self, observer: &Observer, table: &StateTable) -> PointValues<'_> {
         let points = self.grid.points();
         let kept = self.reader.kept(observer, table, points);
         PointValues { quantities: &self.quantities, sources: &self.sources, kept, points }
     }
 
-    /// Answers each of `asked`, in the order of their runs, those of `scenes` with the draws of their laws: with its
-    /// number and the values at its times.
-    pub fn answer(&self, asked: &[Asked], of_runs: (&[Scene], &[LawDraw]), take: &mut dyn FnMut(usize, &[f64])) {
+    /// Answers `queries`, ordered by run, about `scenes` with the draws of their laws: passes the number of each query
+    /// with the values at its times.
+    pub fn answer(&self, queries: &[Query], of_runs: Runs<'_>, take: &mut dyn FnMut(usize, &[f64])) {
         let mut first = 0;
-        while first < asked.len() {
+        while first < queries.len() {
             let (mut runs, mut times, mut next): (Vec<usize>, usize, usize) = (Vec::new(), 0, first);
-            while let Some(one) = asked.get(next) {
+            while let Some(one) = queries.get(next) {
                 let is_new = runs.last() != Some(&one.run);
                 times += one.times.len();
                 if next > first && (is_new && runs.len() == TOGETHER || times > MOST_TIMES) {
@@ -175,41 +167,37 @@ impl<'p> Lookup<'p> {
                 }
                 next += 1;
             }
-            self.fly_again(&runs, &asked[first..next], of_runs, &mut |index, values| take(first + index, values));
+            self.fly_again(&runs, &queries[first..next], of_runs, &mut |index, values| take(first + index, values));
             first = next;
         }
     }
 
-    /// Flies the runs `runs` again, with points where `asked` look.
+    /// Flies the runs `runs` again, with points at the times of `queries`.
     fn fly_again(
         &self,
         runs: &[usize],
-        asked: &[Asked],
-        (scenes, draws): (&[Scene], &[LawDraw]),
+        queries: &[Query],
+        Runs { scenes, draws }: Runs<'_>,
         take: &mut dyn FnMut(usize, &[f64]),
     ) {
         let mut times = vec![0.0, self.grid.duration()];
-        times.extend(asked.iter().flat_map(|one| &one.times));
+        times.extend(queries.iter().flat_map(|one| &one.times));
         times.sort_unstable_by(f64::total_cmp);
         times.dedup();
         let grid = Grid::at(times);
-        let settings = propagator(self.plan, grid.clone(), self.fields);
-        let mut flights = Flights::new(self.plan, &settings, (self.isa, self.own_engines));
         let is_compared = self.sources.iter().any(BandSeries::is_from_nominal);
-        let nominal = is_compared.then(|| nominal_attitude(self.plan, &self.request, &grid, self.isa)).flatten();
-        let mut observer = Observer::new(self.request, &grid).with_nominal(nominal);
+        let Means { plan, request, engines } = self.means;
+        let nominal = is_compared.then(|| nominal_attitude(plan, &request, &grid, engines.isa)).flatten();
+        let mut observed = self.means.runs_with(&grid, self.fields, nominal);
         let points = grid.points();
         let mut reader = BandReader::new(self.sources.clone(), (0..points).collect());
-        let mut ignored = vec![f64::NAN; self.request.columns().len()];
         let scenes: Vec<Scene> = runs.iter().map(|run| scenes[*run].clone()).collect();
         let draws: Vec<LawDraw> =
             if draws.is_empty() { Vec::new() } else { runs.iter().map(|run| draws[*run].clone()).collect() };
-        let (plan, isa) = (self.plan, self.isa);
-        flights.fly(&scenes, &draws, &mut |run, of_law| {
-            observe(plan, &mut observer, isa, &scenes[run.index], (&run, of_law), &mut ignored);
-            let kept = reader.kept(&observer, run.table, points);
+        observed.fly(Runs { scenes: &scenes, draws: &draws }, &mut |seen| {
+            let kept = reader.kept(seen.observer, seen.run.table, points);
             let known = PointValues { quantities: &self.quantities, sources: &self.sources, kept, points };
-            for (index, one) in asked.iter().enumerate().filter(|(_, one)| one.run == runs[run.index]) {
+            for (index, one) in queries.iter().enumerate().filter(|(_, one)| one.run == runs[seen.run.index]) {
                 let point = |time: &f64| grid.times().partition_point(|other| other < time);
                 let values: Vec<f64> = one.times.iter().map(|time| known.at(one.quantity, point(time))).collect();
                 take(index, &values);
@@ -218,7 +206,7 @@ impl<'p> Lookup<'p> {
     }
 }
 
-/// `start` and `end`, and the ticks of a loop between them; of more than `most` some that are evenly distributed.
+/// `start`, `end`, and the ticks of a loop between them, evenly thinned to at most `most`.
 pub(super) fn ticks(period: f64, start: f64, end: f64, most: f64) -> Vec<f64> {
     let [first, last] = [(start / period).floor() + 1.0, (end / period).ceil() - 1.0];
     let count = (last - first + 1.0).max(0.0);
@@ -235,7 +223,7 @@ pub(super) fn ticks(period: f64, start: f64, end: f64, most: f64) -> Vec<f64> {
     times
 }
 
-/// What of `request` the quantities `sources` need.
+/// The part of `request` that the quantities `sources` need.
 fn narrowed(mut request: Request, sources: &[BandSeries]) -> Request {
     request.windows = NO_WINDOWS;
     let all = request.groups;
@@ -258,7 +246,7 @@ fn narrowed(mut request: Request, sources: &[BandSeries]) -> Request {
 mod tests {
     use super::*;
 
-    /// Law: ticks are the whole multiples of the period between the ends, no more of them than are asked for.
+    /// Law: ticks are whole multiples of the period between the ends, at most as many as allowed.
     #[test]
     fn ticks_are_multiples_of_the_period() {
         assert_eq!(ticks(0.25, 1.0, 2.0, 64.0), [1.0, 1.25, 1.5, 1.75, 2.0]);

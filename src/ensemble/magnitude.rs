@@ -1,24 +1,24 @@
-//! [`Magnitude`]: the one number by which a person judges a vector or an attitude: the length of a rate or of an
-//! alignment error, the angle of an attitude from the nominal one.
+//! [`Magnitude`]: the single number that describes a vector or an attitude: the length of a rate or an alignment error,
+//! the angle of an attitude from the nominal one.
 
 use crate::math::vector::{conjugate, hamilton, norm};
 use crate::scene::parameter::{Parameter, Shape};
 use crate::scene::{SceneInput, unit_quaternion::unit_quaternion};
 
-/// A number that follows from all components of a parameter.
+/// The magnitude of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Magnitude {
     pub parameter: Parameter,
 }
 
 impl Magnitude {
-    /// That of `parameter`; `None` of one that is not an angular velocity, an alignment error, or an attitude.
+    /// `None` for a parameter that is not an angular velocity, an alignment error, or an attitude.
     pub fn of(parameter: Parameter) -> Option<Self> {
         let is_vector = ["rad/s", "rad"].contains(&parameter.unit()) && parameter.width() > 1;
         (is_vector || parameter.shape() == Shape::Quaternion).then_some(Magnitude { parameter })
     }
 
-    /// What it is called in tables.
+    /// Its name in tables.
     pub fn name(self) -> String {
         let name = self.parameter.name();
         match self.parameter.shape() {
@@ -32,8 +32,8 @@ impl Magnitude {
         if self.parameter.shape() == Shape::Quaternion { "rad" } else { self.parameter.unit() }
     }
 
-    /// Its value in `scene`, SI, where `nominal` is the nominal scene; NaN where a scene has no such key. The angle is
-    /// 2 atan2(|v|, |w|) of q_0* (x) q = (w, v), which loses no digits of a small one.
+    /// Its value in `scene`, SI; NaN if the scene lacks the parameter. The angle is 2 atan2(|v|, |w|) of q_0* (x) q =
+    /// (w, v), accurate for small angles.
     pub fn value(self, scene: &SceneInput, nominal: &SceneInput) -> f64 {
         let read = |scene: &SceneInput, component| self.parameter.value(scene, component).unwrap_or(f64::NAN);
         if self.parameter.shape() == Shape::Quaternion {
@@ -50,8 +50,8 @@ impl Magnitude {
 mod tests {
     use super::*;
 
-    /// Law: rates and alignment errors have their length, attitudes the angle between them, whatever the sign of the
-    /// quaternion.
+    /// Law: the magnitude is the length of a rate or an alignment error, the angle between attitudes, whatever the sign
+    /// of the quaternion.
     #[test]
     fn magnitudes_are_lengths_and_angles() {
         let magnitude = |scene: &SceneInput, name: &str| Magnitude::of(Parameter::find(scene, name).expect(name).0);

@@ -1,27 +1,21 @@
 //! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! - [`mod@parts`]: how samples are divided into parts; [`run_cost`]: their size.
-//! - [`rows`]: the rows of a part.
-//! - [`Sink`]: takes the rows.
-//! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread; `batch`: scenes that it
-//!   runs together.
-//! - [`runner`]: distributes parts to threads; [`supervision`]: what it is told.
-//! - [`drawn`]: sampled parameters without runs; [`percentiles`]: theirs.
-//! - [`bands`]: quantiles over time, counted run by run (in `deviation_window`).
-//! - [`influence`]: which of them change no requested column. [`plausibility`]: numbers that look like a mistake.
-//!   [`magnitude`]: lengths and angles.
-//! - [`single`]: one run with its states. [`flights`]: runs under the control law of the plan; `surface`: when they
-//!   reach the central body.
-//! - [`event_finder`]: when quantities cross values: seen in `sightings`, located in `crossing`, by values at other
-//!   times (`lookup`); `extreme_finder`: their largest values, located in `peak`.
-//! - [`run_end`]: the event that ends a run, found in `end_finder`.
-//! - [`undefined`]: which of the quantities are not a number somewhere.
-//! - [`audit`]: runs compared with a reference solution.
-//! - [`precision`]: run time against error for every method.
-//! - [`settings`]: observables and engine of a plan.
-//! - [`probe`]: time of a run and of an audit.
+//! - [`mod@parts`]: division of samples into parts; [`run_cost`]: their size; [`rows`]: the rows of a part, taken by a
+//!   [`Sink`].
+//! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread; `batch`: scenes run
+//!   together; [`runner`]: parts over threads; [`supervision`]: progress and stops.
+//! - [`drawn`]: drawn parameters without runs; [`percentiles`]: their quantiles; [`magnitude`]: lengths and angles.
+//! - [`influence`]: parameters without effect. [`plausibility`]: numbers that look like a mistake. [`undefined`]:
+//!   quantities that are not a number somewhere.
+//! - [`flights`]: runs under the control law of the plan; `observed_runs`: with their rows; [`single`]: one run with its
+//!   states; `surface`: contact with the central body.
+//! - [`event_finder`]: crossings, seen in `sightings` and located in `crossing` from values at other times (`lookup`);
+//!   `extreme_finder`: extremes, located in `peak`; [`run_end`]: the event that ends a run, found in `end_finder`.
+//! - [`bands`]: quantiles over time, counted in `deviation_window`.
+//! - [`audit`]: runs compared with a reference solution; [`precision`]: run time against error for every method.
+//! - [`settings`]: observables and engine of a plan; [`probe`]: time of a run and of an audit.
 //!
-//! Not here: file formats (`storage`), and what a run is (`run`, `propagation`).
+//! Not here: file formats (`storage`), and single runs (`run`, `propagation`).
 
 pub mod audit;
 pub mod bands;
@@ -38,6 +32,7 @@ pub mod flights;
 pub mod influence;
 mod lookup;
 pub mod magnitude;
+mod observed_runs;
 pub mod parts;
 mod peak;
 pub mod percentiles;

@@ -1,51 +1,49 @@
-//! [`Parts`]: the samples of a campaign divided into parts of consecutive samples.
+//! [`Parts`]: the division of a campaign into parts of consecutive samples.
 //!
-//! A part is the unit of work of a thread, the content of a file, and the unit in which a campaign is resumed or
-//! divided among machines. Its boundaries depend on what the rows are and on nothing else: not on threads, machine or
-//! shards, and not on the number of samples, so that a campaign with more samples has the same parts and some more.
-//! Parts grow with their number: those of a small campaign are small enough for all threads to have work, those of a
-//! large one large enough for files to be few.
+//! A part is the work of a thread, the content of a file, and the unit of resuming and sharding. Its boundaries depend on
+//! the rows alone: not on threads, machine, shards, or the number of samples, so that a longer campaign has the same
+//! parts and more. Parts grow with their number, so that all threads share a small campaign and files of a large one are
+//! few.
 
 use crate::sampling::SampleId;
 
-/// The size of the first parts: for a smaller one, creating the file costs more than the runs.
+/// The size of the first parts: below, creating a file costs more than the runs.
 const SMALLEST: u64 = 256;
 
-/// The largest part: its rows (about a hundred columns) take some 10 MB per thread.
+/// The largest part: rows of a hundred columns take some 10 MB per thread.
 const LARGEST: u64 = 16_384;
 
-/// After so many parts of one size, parts are twice as large.
+/// Number of parts of one size before it doubles.
 const OF_ONE_SIZE: u64 = 16;
 
-/// The size at which parts stay for [`OF_THE_USUAL_SIZE`] parts: rows of two threads then fit in a shared cache, and
-/// memory is the same for campaigns from a hundred thousand to ten million samples. Only beyond them the number of
-/// files matters more.
+/// The size of the next [`OF_THE_USUAL_SIZE`] parts: rows of two threads fit in a shared cache, and memory is constant
+/// from a hundred thousand to ten million samples. Beyond, the number of files matters more.
 const USUAL: u64 = 4096;
 
 /// Parts of the size [`USUAL`].
 const OF_THE_USUAL_SIZE: u64 = 2560;
 
-/// The number of a part, from zero in the order of its samples.
+/// The number of a part, from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartId(pub u64);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     pub id: PartId,
-    /// Its first sample, counted from zero among those that run: its number, where all run.
+    /// Its first sample, counted among those that run.
     pub first: SampleId,
-    /// Its number of samples, at least one.
+    /// Number of samples, at least one.
     pub count: usize,
 }
 
 impl Part {
-    /// Its samples in ascending order, counted among those that run.
+    /// Its samples, counted among those that run.
     pub fn samples(self) -> impl Iterator<Item = SampleId> {
         (self.first.0..self.first.0 + self.count as u64).map(SampleId)
     }
 }
 
-/// How the samples of a campaign are divided into parts.
+/// The division of a campaign into parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     samples: u64,
@@ -53,23 +51,23 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// The parts of a campaign of `samples` samples whose runs are short.
+    /// Parts of a campaign of `samples` short runs.
     pub fn of(samples: u64) -> Self {
         Self::up_to(samples, LARGEST)
     }
 
-    /// The parts of a campaign of `samples` samples, none larger than `largest` (at least 1).
+    /// Parts of a campaign of `samples` samples, none larger than `largest` (at least 1).
     pub fn up_to(samples: u64, largest: u64) -> Self {
         Parts { samples, largest: largest.clamp(1, LARGEST) }
     }
 
-    /// The parts of the same campaign with another number of samples.
+    /// The parts for a different number of samples.
     #[must_use]
     pub fn with_samples(self, samples: u64) -> Self {
         Parts { samples, ..self }
     }
 
-    /// Sizes with their number of parts, in order; the last size has no end.
+    /// Sizes with their number of parts, in order; the last has no end.
     fn sizes(self) -> impl Iterator<Item = (u64, Option<u64>)> {
         let mut size = SMALLEST.min(self.largest);
         std::iter::from_fn(move || {
@@ -149,7 +147,7 @@ mod tests {
 
     const NUMBERS: [u64; 11] = [0, 1, 255, 256, 257, 4096, 4097, 100_000, 1_000_000, 1_000_003, 5_000_000];
 
-    /// Law: every sample is in exactly one part, in order, and sizes are within their bounds.
+    /// Law: every sample is in exactly one part, in order, and sizes are within bounds.
     #[test]
     fn parts_tile_the_samples() {
         for (samples, largest) in
@@ -170,7 +168,7 @@ mod tests {
         }
     }
 
-    /// Law: boundaries do not depend on the number of samples: all parts but the last are those of any larger campaign.
+    /// Law: boundaries do not depend on the number of samples.
     #[test]
     fn boundaries_do_not_depend_on_the_number_of_samples() {
         for largest in [LARGEST, 1000, 7] {
@@ -186,7 +184,7 @@ mod tests {
         }
     }
 
-    /// Law: a small campaign has several parts, and the size of a part is bounded, and so is memory.
+    /// Law: a small campaign has several parts, and sizes are bounded.
     #[test]
     fn sizes_grow_up_to_the_largest() {
         assert_eq!((Parts::of(4096).count(), Parts::of(1000).count()), (16, 4));
@@ -196,12 +194,5 @@ mod tests {
         let largest = |samples: u64| Parts::of(samples).iter().map(|part| part.count).max();
         assert_eq!([100_000, 1_000_000, 10_000_000].map(largest), [Some(USUAL as usize); 3]);
         assert!(Parts::of(10_000_000).count() < 2_600 && Parts::of(1_000_000_000).count() < 64_000);
-    }
-
-    /// Law: there is no part after the last, however large its number is.
-    #[test]
-    fn no_part_after_the_last() {
-        assert_eq!(Parts::of(4096).part(PartId(16)), None);
-        assert_eq!(Parts::of(4096).part(PartId(u64::MAX)), None);
     }
 }

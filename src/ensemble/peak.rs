@@ -1,27 +1,27 @@
 //! The largest value of a quantity between two times, from its values at [`super::crossing::nodes`]: interpolated where
-//! that is exact, narrowed down where it is not.
+//! that is exact, else narrowed down.
 
 use super::crossing::{ROUNDING, Series};
 
-/// Samples of a polynomial between which its largest value is looked for: several between two of its extremes.
+/// Samples of a polynomial in the search of its largest value: several between two extremes.
 const SAMPLES: usize = 128;
-/// Steps of a search that divides its interval by the golden ratio: to rounding.
+/// Steps of golden-section search: to rounding.
 const DIVISIONS: usize = 80;
-/// The share of an interval that is kept.
+/// The kept share of an interval.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// What is known of a largest value.
+/// The result of a search for a largest value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Peak {
     /// The value.
     Value(f64),
-    /// The largest one so far, and the times between which to look again, s: one time, where a polynomial has its
-    /// largest value. The quantity itself is asked there, since a polynomial may be beyond all that the quantity takes.
+    /// The largest one so far, and the times between which to look again, s: one time at the peak of a polynomial, which
+    /// may exceed all values of the quantity.
     Between(f64, [f64; 2]),
 }
 
 /// The largest of a quantity with these `values` at the nodes `times`, or at one time, to a share `error` of its size;
-/// NaN is a value that is not known.
+/// NaN is unknown.
 pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
     let Some((best, largest)) = known.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return Peak::Value(f64::NAN) };
@@ -30,7 +30,7 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     }
     let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
     let series = Series::of(values);
-    // NaN is not below it
+    // NaN fails
     if series.tail() <= error.max(ROUNDING) * size {
         let place = peak(&series);
         if series.value(place) <= largest + ROUNDING * size {
@@ -44,12 +44,12 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     let neighbours = between.map(|place| values[place]);
     let is_flat = neighbours.iter().all(|value| (largest - value).abs() <= error.max(ROUNDING) * size);
     let [start, end] = between.map(|place| times[place]);
-    // a jump, or a point at the end of what is known: there is nothing between
+    // a jump, or the end of the known values: nothing lies between
     let is_narrow = end - start <= 2.0 * ROUNDING * end.abs();
     if is_flat || is_narrow { Peak::Value(*largest) } else { Peak::Between(*largest, [start, end]) }
 }
 
-/// Where on [-1, 1] the polynomial is largest.
+/// The place of the polynomial's largest value on [-1, 1].
 fn peak(series: &Series) -> f64 {
     let at = |sample: usize| -1.0 + 2.0 * sample as f64 / SAMPLES as f64;
     let value = |x: f64| series.value(x);
@@ -68,7 +68,7 @@ mod tests {
     use super::super::crossing::nodes;
     use super::*;
 
-    /// The largest value of `f` between `start` and `end`, and how often its values were asked for.
+    /// The largest value of `f` between `start` and `end`, and the number of passes.
     fn located(f: &dyn Fn(f64) -> f64, mut start: f64, mut end: f64) -> (f64, usize) {
         let mut most = f64::NAN;
         for passes in 1..100 {
@@ -82,8 +82,8 @@ mod tests {
         panic!("no end")
     }
 
-    /// Law: the largest value of a smooth quantity is found at once, to rounding, within the interval or at its ends;
-    /// that at a corner and at a jump by narrowing.
+    /// Law: the largest value of a smooth quantity is located at once, to rounding, within the interval or at its ends;
+    /// at a corner and at a jump by narrowing.
     #[test]
     fn peaks_are_located() {
         for (f, exact) in [
@@ -105,8 +105,8 @@ mod tests {
         assert!(of_curve(&[0.0; 17], &[f64::NAN; 17], 1e-13) != Peak::Value(0.0));
     }
 
-    /// Law: a largest value is one that the quantity takes, to the bit: on a plateau, at a kink, at a step, at an end;
-    /// the polynomial through the nodes of the plateau is beyond it, which is the counter-test.
+    /// Law: a largest value is a value of the quantity, to the bit: on a plateau, at a kink, a step, an end. The
+    /// counter-test: the polynomial through the nodes of a plateau exceeds it.
     #[test]
     fn a_peak_is_a_value_of_the_quantity() {
         for level in [1.0, 0.1, 1.0 / 3.0, -0.7, 1e-9, 6.02e23_f64] {

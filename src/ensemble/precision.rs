@@ -1,9 +1,9 @@
-//! [`Precision`]: run time against error, method by method and setting by setting, on samples of a campaign.
+//! [`Precision`]: run time against error for methods and settings, on samples of a campaign.
 //!
-//! Errors are measured against the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that
-//! propagates batches as a campaign does, including the states at every observation point, without observation and
-//! files. Work-precision diagrams: E. Hairer, S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*,
-//! 1993, section II.10.
+//! Errors are against the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that propagates
+//! batches as a campaign does, with the states at every observation point, without observation and files.
+//! Work-precision diagrams: E. Hairer, S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993,
+//! section II.10.
 
 use rayon::prelude::*;
 
@@ -23,13 +23,13 @@ use crate::run::{Grid, StateField, StateFields, StateTable, Status};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
-/// A timed repetition takes at least this long, s: thousands of times the resolution of the clock.
+/// Shortest timed repetition, s: thousands of times the resolution of the clock.
 const SHORTEST: f64 = 5e-3;
 
-/// A first pass is stopped when it exceeds the limit by this factor: the prediction was wrong.
+/// Excess over the limit at which a first pass is stopped as mispredicted.
 const EXCESS: f64 = 2.0;
 
-/// What one point of a diagram is set to.
+/// The setting of one point of a diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
     /// Relative and absolute tolerance of an adaptive method.
@@ -45,8 +45,7 @@ pub struct Deviation {
     pub rms: f64,
 }
 
-/// What was measured of one method at one setting. Errors are `None` where their states are not integrated or all runs
-/// failed.
+/// One method at one setting. Errors are `None` if their states are not integrated, or all runs failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     pub method: Method,
@@ -54,13 +53,13 @@ pub struct Measurement {
     /// CPU time of a run, s: median and minimum of the repetitions.
     pub cpu: [f64; 2],
     pub repeats: usize,
-    /// Number of runs, and of those that failed.
+    /// Numbers of runs, and of failed ones.
     pub runs: [usize; 2],
     /// Mean number of accepted steps of a run.
     pub steps: f64,
     /// |omega - reference| relative to the run's largest |omega|.
     pub rate: Option<Deviation>,
-    /// Twice the distance between the attitude quaternions, rad: the angle between them where the norm is kept.
+    /// Twice the distance of the attitude quaternions, rad: the angle between them if the norm is kept.
     pub attitude: Option<Deviation>,
     /// Relative error of the energy balance.
     pub energy: Option<Deviation>,
@@ -79,9 +78,9 @@ pub struct Skipped {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum States {
-    /// Every state that the scene has, as `simulate` shows them.
+    /// All states of the scene, as in `simulate`.
     All,
-    /// Those that the campaign's groups of observables need, and omega.
+    /// States of the campaign's groups of observables, and omega.
     Observed,
 }
 
@@ -103,10 +102,10 @@ pub struct Precision<'p> {
 }
 
 impl<'p> Precision<'p> {
-    /// The first `samples` samples of `plan` that are physical, with reference solutions computed on all cores.
+    /// The first `samples` physical samples of `plan`, with reference solutions computed on all cores.
     ///
     /// # Errors
-    /// The number of a sample whose reference solution fails, and why.
+    /// A sample whose reference solution fails, and why.
     pub fn new(plan: &'p Plan, isa: Isa, samples: usize, integrated: States) -> Result<Self, (SampleId, Status)> {
         let mut draws = SceneDraws::new(plan);
         let drawn: Vec<(SampleId, Scene)> = (0..plan.samples)
@@ -137,8 +136,8 @@ impl<'p> Precision<'p> {
         self.scenes.len()
     }
 
-    /// The settings of `method` that correspond to `tolerances`: these, or as many fixed steps, each half of the one
-    /// before, the first the power of two near the time scale of the first sample's motion.
+    /// The settings of `method` for `tolerances`: these, or as many fixed steps, each half of the one before, from the
+    /// power of two near the time scale of the first sample's motion.
     pub fn settings(&self, method: Method, tolerances: &[f64]) -> Vec<Setting> {
         if !method.has_fixed_step() {
             return tolerances.iter().map(|tolerance| Setting::Tolerance(*tolerance)).collect();
@@ -155,8 +154,8 @@ impl<'p> Precision<'p> {
             .collect()
     }
 
-    /// Measures `method` at `settings`, from coarse to fine, until a pass over the samples is predicted to take longer
-    /// than the limit. `report` receives each measurement as it is made. Returns what was skipped.
+    /// Measures `method` at `settings`, from coarse to fine, until a pass is predicted to exceed the limit. `report`
+    /// receives each measurement. Returns the skipped settings.
     pub fn sweep(
         &self,
         method: Method,
@@ -195,7 +194,7 @@ impl<'p> Precision<'p> {
     fn engine(&self, method: Method, setting: Setting) -> Option<Box<dyn Engine>> {
         let (tolerance, step) = match setting {
             Setting::Tolerance(tolerance) => (tolerance, None),
-            // Gauss-Legendre iterates its stages to the tolerance: here to rounding
+            // Gauss-Legendre iterates its stages to this tolerance, here rounding
             Setting::Step(step) => (f64::EPSILON, Some(step)),
         };
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
@@ -204,7 +203,7 @@ impl<'p> Precision<'p> {
         Some(PropagationSettings::new(method, control, self.plan.grid.clone(), self.fields, nominal).engine(self.isa))
     }
 
-    /// Every sample once, compared with its reference solution; `None` where it takes too long.
+    /// Every sample once, against its reference solution; `None` if it takes too long.
     fn first_pass(&self, method: Method, setting: Setting, limits: Limits) -> Option<Pass> {
         let mut engine = self.engine(method, setting)?;
         let mut observer = Observer::new(self.request, &self.plan.grid);
@@ -270,8 +269,8 @@ impl<'p> Precision<'p> {
     }
 }
 
-/// The predicted time of the next pass: the last one times the ratio of the last two (1.5 after the first), at most
-/// three times the last.
+/// The predicted time of the next pass: the last one times the ratio of the last two (1.5 at first), at most three
+/// times the last.
 fn prediction(passes: &[f64]) -> f64 {
     match passes {
         [] => 0.0,
@@ -304,7 +303,7 @@ impl Pass {
     }
 }
 
-/// A maximum and a mean square; NaN makes both NaN.
+/// A maximum and a mean square, both NaN after a NaN.
 #[derive(Default)]
 struct Sum {
     max: f64,

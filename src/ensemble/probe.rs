@@ -1,5 +1,5 @@
-//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, measured on the first samples of a campaign, in
-//! about a second whatever these are.
+//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, from the first samples of a campaign, in about a
+//! second.
 
 use std::time::Instant;
 
@@ -15,56 +15,56 @@ use crate::ode::PACE_STEPS;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 
-/// A probe takes about this long, s.
+/// Duration of a probe, s.
 const DURATION_S: f64 = 0.5;
 
-/// A probe runs so many times as many samples as before, as long as there is time.
+/// Growth of the number of samples while time is left.
 const GROWTH: usize = 8;
 
-/// A probe runs at most this many samples.
+/// Most samples of a probe.
 const MOST_SAMPLES: usize = 512;
 
 /// Most points of a run of a probe.
 const MOST_POINTS: usize = 20_001;
 
-/// Most ticks of a control loop in a run of a probe, some half a second; a longer run is flown for its first
-/// [`FEW_TICKS`].
+/// Most ticks of a control loop in a run of a probe, some half a second; only the first [`FEW_TICKS`] of a longer run
+/// are flown.
 const MOST_TICKS: f64 = 25_000.0;
 const FEW_TICKS: f64 = 2000.0;
 
-/// The duration of a run of a probe, s, where the run of `plan` has more ticks than there is time for.
+/// The duration of a run of a probe, s, if the run of `plan` has too many ticks.
 pub fn part_of_run(plan: &Plan) -> Option<f64> {
     let period = plan.law.as_ref()?.spec()?.period;
     (plan.grid.duration() > MOST_TICKS * period).then_some(FEW_TICKS * period)
 }
 
-/// `plan` with runs of no more steps, ticks and points than a probe has time for, and without audits.
+/// `plan` with steps, ticks and points limited for a probe, without audits.
 pub fn limited(plan: &Plan) -> Plan {
     let points = plan.grid.points().min(MOST_POINTS);
     let grid = Grid::uniform(part_of_run(plan).unwrap_or(plan.grid.duration()), points);
     Plan { max_steps: plan.max_steps.min(PACE_STEPS), grid, audit_fraction: 0.0, ..plan.clone() }
 }
 
-/// A sample whose run takes longer than a probe.
+/// A sample whose run is longer than a probe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LongRun {
     pub sample: SampleId,
-    /// The time that it reaches in [`PACE_STEPS`] steps, s.
+    /// The time reached in [`PACE_STEPS`] steps, s.
     pub reached: f64,
 }
 
 /// The first runs of a campaign.
 #[derive(Clone, Debug)]
 pub struct RunProbe {
-    /// Time of a run on one core, without its audit, s; of no meaning where one is too long.
+    /// Time of a run on one core, without its audit, s; meaningless if one is too long.
     pub seconds: f64,
     pub rows: Rows,
-    /// A run that is too long to be measured; its row says that it has failed.
+    /// A run that is too long; its row has failed.
     pub too_long: Option<LongRun>,
 }
 
 impl RunProbe {
-    /// Runs the first samples of `ensemble`, in greater and greater numbers, for about half a second.
+    /// Runs growing numbers of the first samples of `ensemble` for about half a second.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let (whole, isa) = (ensemble.plan(), ensemble.isa());
         let plan = limited(whole);
@@ -72,7 +72,7 @@ impl RunProbe {
         let most = usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_SAMPLES);
         let mut rows = ensemble.rows(most);
         let mut worker = ensemble.worker();
-        // of more points than those that are tried the time is that of the points
+        // beyond the points that are tried, the time is that of the points
         let points = whole.grid.points() as f64 / plan.grid.points() as f64;
         let longer = whole.grid.duration() / plan.grid.duration();
         let (mut count, mut total) = (1, 0.0);
@@ -103,13 +103,13 @@ impl RunProbe {
         self.rows.part().count
     }
 
-    /// How many of them failed; none where one is too long, as nobody knows how it ends.
+    /// Number of failed runs; none if one is too long to know its end.
     pub fn failed(&self) -> usize {
         let failed = self.rows.statuses().iter().filter(|status| **status != Status::Done).count();
         if self.too_long.is_some() { 0 } else { failed }
     }
 
-    /// Whether no run is `ok` that statistics would be about: every one failed, or every one but the nominal.
+    /// Whether no run for statistics is `ok`: all failed, or all but the nominal.
     pub fn is_hopeless(&self) -> bool {
         self.failed() == self.count()
             || self.failed() > 0
@@ -136,7 +136,7 @@ impl AuditProbe {
     /// Audits the first samples of `ensemble` for about half a second.
     ///
     /// # Errors
-    /// The first sample whose audit takes longer than a probe.
+    /// The first sample whose audit is longer than a probe.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, SampleId> {
         let whole = ensemble.plan();
         let plan = &Plan { grid: whole.grid.clone(), ..limited(whole) };
@@ -146,7 +146,7 @@ impl AuditProbe {
         let (mut count, mut sample) = (0_u32, 0);
         while sample < plan.samples && start.elapsed().as_secs_f64() < DURATION_S {
             if let Ok(scene) = draws.scene(SampleId(sample)) {
-                // its time counts, whatever it found
+                // its time counts, whatever the result
                 if let Err(NoAudit::Run(Status::StepLimit) | NoAudit::Reference(Status::StepLimit)) =
                     auditor.audit(&scene)
                 {

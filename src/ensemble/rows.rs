@@ -1,7 +1,7 @@
 //! [`Rows`]: the rows of one part, column by column.
 //!
-//! A worker owns one block and reuses it from part to part, so that memory does not grow with the campaign. The meaning
-//! of the columns is in the plan's dispersions and in the table of observables; here they are numbers by index.
+//! A worker reuses one block from part to part, so that memory does not grow with the campaign. Columns are numbers by
+//! index; the plan's dispersions and the table of observables give their meaning.
 
 use crate::ensemble::audit::Audit;
 use crate::ensemble::bands::PartBands;
@@ -12,7 +12,7 @@ use crate::sampling::SampleId;
 /// Numbers in a cache line.
 const CACHE_LINE: usize = 8;
 
-/// What columns a row has.
+/// The numbers of columns of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     pub parameters: usize,
@@ -25,8 +25,7 @@ pub struct Rows {
     part: Part,
     shape: Shape,
     capacity: usize,
-    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map all columns of a row
-    /// to few cache sets.
+    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map a row to few cache sets.
     stride: usize,
     samples: Vec<SampleId>,
     statuses: Vec<Status>,
@@ -39,7 +38,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// A block for parts of up to `capacity` samples; [`Rows::start`] assigns a part.
+    /// A block for parts of up to `capacity` samples, without a part.
     pub fn new(shape: Shape, capacity: usize) -> Self {
         let stride = capacity.next_multiple_of(CACHE_LINE) + CACHE_LINE;
         Rows {
@@ -63,18 +62,18 @@ impl Rows {
         Rows { bands, ..self }
     }
 
-    /// Clears the block for `part`: a row that is not written yet is an invalid sample without numbers.
+    /// Clears the block for `part`: an unwritten row is an invalid sample without numbers.
     ///
     /// # Panics
-    /// Where the part is larger than the block.
+    /// If the part is larger than the block.
     pub fn start(&mut self, part: Part) {
         self.start_with(part, part.samples());
     }
 
-    /// The same where the samples of the part are `samples`.
+    /// [`Rows::start`] for a part with the samples `samples`.
     ///
     /// # Panics
-    /// Where the part is larger than the block, or has another number of samples.
+    /// If the part is larger than the block, or has a different number of samples.
     pub fn start_with(&mut self, part: Part, samples: impl IntoIterator<Item = SampleId>) {
         assert!(part.count <= self.capacity, "a part of {} samples in a block for {}", part.count, self.capacity);
         self.part = part;
@@ -90,22 +89,19 @@ impl Rows {
         self.bands.iter_mut().for_each(PartBands::start);
     }
 
-    /// The part whose rows these are.
     pub fn part(&self) -> Part {
         self.part
     }
 
-    /// What columns a row has.
     pub fn shape(&self) -> Shape {
         self.shape
     }
 
-    /// The numbers of the samples, row by row.
+    /// Sample numbers, row by row.
     pub fn samples(&self) -> &[SampleId] {
         &self.samples
     }
 
-    /// Statuses, sample by sample.
     pub fn statuses(&self) -> &[Status] {
         &self.statuses[..self.part.count]
     }
@@ -116,7 +112,7 @@ impl Rows {
         self.column(index)
     }
 
-    /// The observable `index`, sample by sample; NaN where a run has no value: what is infinite is none, as in files.
+    /// The observable `index`, sample by sample; NaN for none. Infinite numbers are absent, as in files.
     pub fn observable(&self, index: usize) -> &[f64] {
         assert!(index < self.shape.observables);
         self.column(self.shape.parameters + index)
@@ -135,13 +131,13 @@ impl Rows {
         self.scatter(self.shape.parameters, row, observables);
     }
 
-    /// Sets the observables of row `row` from the one of index `first` on.
+    /// Sets the observables of row `row` from index `first` on.
     pub fn set_observables(&mut self, row: usize, first: usize, values: &[f64]) {
         assert!(first + values.len() <= self.shape.observables);
         self.scatter(self.shape.parameters + first, row, values);
     }
 
-    /// Sets the audit of row `row`: `None` where the run or its reference solution did not reach the end.
+    /// Sets the audit of row `row`: `None` if it failed.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);
         let audit = audit.map(|audit| Audit {
@@ -156,39 +152,38 @@ impl Rows {
         self.audits.push((row, audit));
     }
 
-    /// Says why row `row`, which was to be audited, has no audit.
+    /// Sets the reason why the audit of row `row` failed.
     pub fn set_audit_reason(&mut self, row: usize, reason: String) {
         assert!(row < self.part.count);
         self.audit_reasons.push((row, reason));
     }
 
-    /// The rows that were to be audited and have no audit, with the reason of each.
+    /// The rows with failed audits, and the reasons.
     pub fn audit_reasons(&self) -> &[(usize, String)] {
         &self.audit_reasons
     }
 
-    /// Says why row `row` is not `ok`.
+    /// Sets the reason why row `row` is not `ok`.
     pub fn set_reason(&mut self, row: usize, reason: String) {
         assert!(row < self.part.count);
         self.reasons.push((row, reason));
     }
 
-    /// The rows that are not `ok`, with the reason of each, in any order.
+    /// The rows that are not `ok`, with reasons, in any order.
     pub fn reasons(&self) -> &[(usize, String)] {
         &self.reasons
     }
 
-    /// The rows that were audited, with their audits.
+    /// The audited rows.
     pub fn audits(&self) -> &[(usize, Option<Audit>)] {
         &self.audits
     }
 
-    /// The bands of the part, where the campaign has bands.
+    /// The bands of the part.
     pub fn bands(&self) -> Option<&PartBands> {
         self.bands.as_ref()
     }
 
-    /// The same, to add runs.
     pub fn bands_mut(&mut self) -> Option<&mut PartBands> {
         self.bands.as_mut()
     }
@@ -199,7 +194,7 @@ impl Rows {
         self.seconds[1] += audits;
     }
 
-    /// CPU time of the runs and of their audits, s; measured where there are audits.
+    /// CPU time of the runs and of their audits, s; measured with audits only.
     pub fn seconds(&self) -> [f64; 2] {
         self.seconds
     }
@@ -216,7 +211,7 @@ impl Rows {
     }
 }
 
-/// A number, or NaN for what is no finite number.
+/// A finite number, or NaN.
 fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }
@@ -226,7 +221,7 @@ mod tests {
     use super::*;
     use crate::ensemble::parts::PartId;
 
-    /// Law: infinite values are absent in memory as they are in files, so that counting either gives the same numbers.
+    /// Law: infinite values are absent in memory as in files.
     #[test]
     fn infinite_values_are_absent() {
         let mut rows = Rows::new(Shape { parameters: 1, observables: 2 }, 1);
@@ -241,7 +236,7 @@ mod tests {
         Part { id: PartId(3), first: SampleId(768), count }
     }
 
-    /// Law: what is written to a row is in its columns at its index, and nowhere else.
+    /// Law: a written row is in its columns at its index, and nowhere else.
     #[test]
     fn a_row_is_in_its_columns() {
         let mut rows = Rows::new(Shape { parameters: 2, observables: 3 }, 8);
@@ -258,7 +253,7 @@ mod tests {
         }
     }
 
-    /// Law: a block that starts a new part has nothing of the earlier one, and an unwritten row is never done.
+    /// Law: a new part has nothing of an earlier one, and an unwritten row is never done.
     #[test]
     fn start_clears_the_earlier_part() {
         let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 4);
@@ -270,11 +265,5 @@ mod tests {
             assert!(value.is_nan(), "row {row}: {value}");
         }
         assert_eq!(rows.observable(0).len(), 2);
-    }
-
-    #[test]
-    #[should_panic(expected = "a part of 5 samples in a block for 4")]
-    fn a_part_must_fit() {
-        Rows::new(Shape { parameters: 0, observables: 1 }, 4).start(part(5));
     }
 }

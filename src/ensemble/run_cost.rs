@@ -1,23 +1,23 @@
-//! [`parts`]: the parts of a plan, sized by what its runs cost.
+//! [`parts`]: the parts of a plan, sized by the cost of its runs.
 //!
-//! The cost of a run is the work of the nominal one, which the machine does not change, times what a unit of work takes
-//! at most on a slow core. A clock would give other parts on another machine, or on the same one an hour later.
+//! The cost is the work of the nominal run, which does not depend on the machine, times the longest time of a unit of
+//! work on a slow core. A clock would give different parts on another machine, or an hour later.
 
 use crate::campaign::Plan;
 use crate::control::laws::asked::is_law_of;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
-use crate::ensemble::settings::propagator;
+use crate::ensemble::settings::{Engines, propagator};
 use crate::math::Isa;
 use crate::ode::{Control, PACE_STEPS};
 use crate::propagation::Method;
 use crate::run::{Grid, Outcome};
 
-/// Work of one thread that may be lost when a campaign is stopped, s.
+/// Work of one thread that a stopped campaign may lose, s.
 const LOST_S: f64 = 10.0;
-/// Most steps of the nominal run whose work is counted; a longer one is extrapolated, and its pace is not judged.
+/// Most counted steps of the nominal run; a longer one is extrapolated.
 const COUNTED_STEPS: u64 = PACE_STEPS;
-/// Time of an evaluation, s, three times that of one alone in its vector on the reference machine (`cargo bench -p
+/// Time of an evaluation, s, three times that of a lone one in its vector on the reference machine (`cargo bench -p
 /// spindrift-benches --bench kernels`).
 const fn evaluation_seconds(method: Method) -> f64 {
     match method {
@@ -25,19 +25,18 @@ const fn evaluation_seconds(method: Method) -> f64 {
         Method::Auto | Method::Taylor | Method::Gyrostat(_) => 3e-6,
     }
 }
-/// Most points of the run whose work is counted.
+/// Most points of the counted run.
 const POINTS: usize = 101;
 /// Time of an observed point with all columns, s.
 const POINT_S: f64 = 5e-7;
-/// Work of an audit over the work of its run: a reference solution in double-double at a tolerance of 1e-28.
+/// Work of an audit over that of its run: a reference solution in double-double at a tolerance of 1e-28.
 const AUDIT: f64 = 300.0;
 
-/// Samples of a part under a law that is asked for many runs at once: parts are flown side by side, and the more there
-/// are the more runs it is asked about.
+/// Samples of a part under a law that answers for many runs at once: parts are flown side by side, and more parts make
+/// larger queries.
 const ASKED: u64 = 64;
 
-/// Whether the law of `plan` is asked for many runs at once. Its work is not that of the plan, and nothing is known of
-/// it where nobody answers.
+/// Whether the law of `plan` answers for many runs at once. Its work is unknown without an answer.
 fn is_asked(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
@@ -50,47 +49,47 @@ pub fn parts(plan: &Plan, isa: Isa) -> Parts {
     parts_of_runs(plan, run_seconds(plan, isa))
 }
 
-/// The parts of a campaign of `plan` whose runs take `seconds` s each ([`run_seconds`]).
+/// The parts of a campaign of `plan` with runs of `seconds` s ([`run_seconds`]).
 pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
     Parts::up_to(plan.rows(), if is_asked(plan) { ASKED } else { (LOST_S / seconds) as u64 })
 }
 
-/// What a run of `plan` takes at most on one core, s: a function of the plan, not of the machine.
+/// The longest time of a run of `plan` on one core, s: a function of the plan, not of the machine.
 pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
-    // a tick is a step, which no limit of steps ends
+    // ticks are steps, which no limit of steps ends
     let counted = plan.loop_spec().map_or(f64::NAN, |spec| spec.period * COUNTED_STEPS as f64);
     let duration = if plan.grid.duration() > 2.0 * counted { counted } else { plan.grid.duration() };
-    // the work of a run is that of its steps; the points would only take memory
+    // the work is in the steps; points would only take memory
     let grid = Grid::uniform(duration, plan.grid.points().min(POINTS));
     let mut settings = propagator(plan, grid, plan.request().fields());
     settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
     let mut found: Option<Outcome> = None;
-    Flights::new(plan, &settings, (isa, None)).fly_nominal(&mut |run, _| found = Some(*run.outcome));
+    Flights::new(plan, &settings, Engines::of(isa)).fly_nominal(&mut |run, _| found = Some(*run.outcome));
     let evaluations = found.map_or(COUNTED_STEPS as f64, |outcome| {
         let share = (outcome.time / plan.grid.duration()).clamp(1e-9, 1.0);
         outcome.effort.evaluations as f64 / share
     });
-    // of a run that stops at the limit no more than the limit is done
+    // a run stops at the limit of steps
     let most = plan.max_steps.saturating_mul(16) as f64;
     let each = evaluation_seconds(plan.method);
     let run = evaluations.min(most) * each + plan.grid.points() as f64 * POINT_S;
     run * (1.0 + AUDIT * plan.audit_fraction)
 }
 
-/// What a page may take beside a tenth of its campaign, s, less what it takes without any run.
+/// Time of a page besides a tenth of its campaign, s, less its time without any run.
 const PAGE_S: f64 = 0.15;
-/// Time of an evaluation of a run that is flown beside others, with its law and what is observed of it, s: 5e-6 in
-/// `net_launch_orbit`, 1.6e-5 in `spin_sweep`.
+/// Time of an evaluation in a run flown beside others, with law and observation, s: 5e-6 in `net_launch_orbit`, 1.6e-5
+/// in `spin_sweep`.
 const EVALUATION_BESIDE_OTHERS_S: f64 = 1e-5;
 
-/// How many runs may be flown again for the page of a campaign of `rows` runs that each took so many `evaluations` in
-/// the mean: a tenth of them, and as many as take [`PAGE_S`]. The work is counted, so that a result has one page.
+/// Number of runs that may be flown again for the page of a campaign of `rows` runs with this mean number of
+/// `evaluations`: a tenth of them, and those of [`PAGE_S`]. Counted work makes the page a function of the result.
 pub fn replays(rows: u64, evaluations: f64) -> usize {
     let each = evaluations.max(1.0) * EVALUATION_BESIDE_OTHERS_S;
     (0.1 * rows as f64 + PAGE_S / each) as usize
 }
 
-/// CPU time that this thread has used, s, to the nanosecond.
+/// CPU time of this thread, s, to the nanosecond.
 #[cfg(unix)]
 pub fn thread_seconds() -> f64 {
     let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
@@ -110,8 +109,8 @@ pub fn thread_seconds() -> f64 {
 mod tests {
     use super::*;
 
-    /// Law: the runs that are flown again take no more than a tenth of the campaign's evaluations and the time of a
-    /// page, and one more would.
+    /// Law: repeated runs take at most a tenth of the campaign's evaluations and the time of a page; one more would take
+    /// more.
     #[test]
     fn replays_take_a_tenth() {
         for rows in [1, 10, 128, 100_000] {

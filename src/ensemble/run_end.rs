@@ -1,22 +1,21 @@
 //! [`RunEnd`]: the event that ends a run.
 //!
-//! Where a run ends is found in one that goes on to the end of the campaign. It is then flown again up to there, so
-//! that its row is the one that it would have in a campaign of that duration, observed at the same points and at its
-//! end.
+//! The end is found in a run to the end of the campaign, and the run is then flown again up to there: its row is that of
+//! a campaign of this duration, observed at the same points and at its end.
 
 use crate::run::Grid;
 
 /// The event that ends a run, and when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunEnd {
-    /// Its place among the events of the plan.
+    /// Index among the events of the plan.
     pub event: usize,
     /// s, positive.
     pub time: f64,
 }
 
 impl RunEnd {
-    /// The points of `grid` up to this end, which is the last; how many of them are before it, or at it, in `grid`.
+    /// The points of `grid` before this end, and the end; with the number of points of `grid` among them.
     pub fn grid(self, grid: &Grid) -> (Grid, usize) {
         let before = grid.times().partition_point(|time| *time < self.time);
         let is_point = grid.times().get(before) == Some(&self.time);
@@ -29,8 +28,7 @@ impl RunEnd {
 mod tests {
     use super::*;
 
-    /// Law: a run that ends is observed at the points before its end, and there; a point at the end itself is one of
-    /// the campaign.
+    /// Law: a run is observed at the points before its end, and there.
     #[test]
     fn the_last_point_is_the_end() {
         let grid = Grid::uniform(10.0, 11);

@@ -1,8 +1,7 @@
 //! [`run`]: parts of a campaign over threads.
 //!
-//! A free thread takes the next part in order, and works in memory of its own. Nothing in a row depends on the thread.
-//! Rayon's parallel iterators, which split ranges in halves, were rejected: the parts completed at any moment would be
-//! scattered over the campaign instead of being its first ones, apart from those under way.
+//! A free thread takes the next part in order and works in memory of its own; no row depends on the thread. Rayon's
+//! parallel iterators split ranges in halves and were rejected: completed parts would be scattered over the campaign.
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
@@ -15,7 +14,7 @@ use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 
-/// Why a campaign was not completed.
+/// The reason why a campaign was not completed.
 #[derive(Debug, Error)]
 pub enum RunError<E> {
     /// Threads could not be started.
@@ -25,40 +24,39 @@ pub enum RunError<E> {
     Sink(E),
 }
 
-/// How many threads have work, of those that are asked for (`None`: one per core), with so many parts.
-pub fn threads(asked: Option<NonZeroUsize>, parts: usize) -> usize {
+/// Number of threads with work of the `wanted` ones (`None`: one per core) for so many parts.
+pub fn threads(wanted: Option<NonZeroUsize>, parts: usize) -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    asked.map_or_else(cores, NonZeroUsize::get).min(parts.max(1))
+    wanted.map_or_else(cores, NonZeroUsize::get).min(parts.max(1))
 }
 
-/// Starts the threads that iterators of rayon share, one for each core.
+/// Starts rayon's shared threads, one for each core.
 ///
 /// # Errors
-/// Where they could not be started, or had been before.
+/// They could not be started, or had been before.
 pub fn start_threads() -> Result<(), ThreadPoolBuildError> {
     ThreadPoolBuilder::new().build_global()
 }
 
-/// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once. `asked` threads work on them, but no more
-/// than there are parts ([`threads`]).
+/// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once, on the `wanted` [`threads`].
 ///
 /// # Errors
-/// Where threads could not be started, or the first error of the sink; no part is started after it.
+/// Threads could not be started, or the first error of the sink; no part is started after it.
 pub fn run<S: Sink>(
     ensemble: &Ensemble<'_>,
     parts: impl IntoIterator<Item = Part>,
-    asked: Option<NonZeroUsize>,
+    wanted: Option<NonZeroUsize>,
     sink: &S,
     supervision: Supervision<'_>,
 ) -> Result<(), RunError<S::Error>> {
     let parts: Vec<Part> = parts.into_iter().collect();
     let largest = parts.iter().map(|part| part.count).max().unwrap_or(0);
-    let pool = ThreadPoolBuilder::new().num_threads(threads(asked, parts.len())).build()?;
+    let pool = ThreadPoolBuilder::new().num_threads(threads(wanted, parts.len())).build()?;
     let (next, is_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);
     let is_on = || !supervision.stop.load(Ordering::Relaxed) && !is_failed.load(Ordering::Relaxed);
     let share = || {
-        // Memory is allocated on the thread that uses it, and only where it gets a part.
+        // allocated on the thread that uses it, once it has a part
         let mut memory = None;
         while is_on()
             && let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed))
@@ -75,8 +73,7 @@ pub fn run<S: Sink>(
     };
     pool.broadcast(|_| {
         if !parts.is_empty() {
-            // the bands need the nominal run: before the worker's memory is there, on its thread, which uses the memory
-            // again, and where runs take no turns
+            // the bands need the nominal run: made before the worker's memory, where runs take no turns
             ensemble.bands();
         }
         supervision.crew.work(&share);
@@ -89,14 +86,13 @@ pub fn run<S: Sink>(
 
 /// Takes the rows of finished parts.
 ///
-/// Called from several threads, with parts in any order. Each part is offered once; what the sink does with it must not
-/// depend on the parts before it.
+/// Called from several threads, once for each part, in any order; the result must not depend on earlier parts.
 pub trait Sink: Sync {
     type Error: Send;
 
-    /// Takes the rows of one part. After an error the campaign starts no further part.
+    /// Takes the rows of one part. An error starts no further part.
     ///
     /// # Errors
-    /// Where the rows could not be stored.
+    /// The rows could not be stored.
     fn take(&self, rows: &Rows) -> Result<(), Self::Error>;
 }

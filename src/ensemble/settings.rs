@@ -1,4 +1,4 @@
-//! What a plan means for its runs: the settings of the engine ([`propagator`]) and the nominal scene ([`nominal()`]).
+//! The settings of the engine for a plan ([`propagator`]) and its nominal scene ([`nominal()`]).
 
 use crate::campaign::Plan;
 use crate::ensemble::surface::leaves_orbit;
@@ -11,7 +11,26 @@ use crate::scene::Scene;
 /// Makes an engine for given settings on an instruction set.
 pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 
-/// The states that a law is told at the end of a run.
+/// The engines of runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Engines {
+    pub isa: Isa,
+    /// Makes engines in place of those of the plan's method.
+    pub own: Option<EngineMaker>,
+}
+
+impl Engines {
+    /// Engines of the plan's method.
+    pub fn of(isa: Isa) -> Self {
+        Engines { isa, own: None }
+    }
+
+    pub fn engine(self, settings: &PropagationSettings) -> Box<dyn Engine> {
+        self.own.map_or_else(|| settings.engine(self.isa), |new_engine| new_engine(settings, self.isa))
+    }
+}
+
+/// The states that a law receives at the end of a run.
 const SEEN_BY_LAWS: StateFields = StateFields::NONE
     .with(StateField::Rate)
     .with(StateField::Attitude)
@@ -20,8 +39,7 @@ const SEEN_BY_LAWS: StateFields = StateFields::NONE
     .with(StateField::ComPosition)
     .with(StateField::ComVelocity);
 
-/// The settings for scenes of `plan` with states `fields` at the times of `grid`, and under a law with those that it is
-/// told at the end.
+/// The settings for scenes of `plan` with states `fields` at the times of `grid`, and those for the law.
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
     let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));

@@ -1,13 +1,13 @@
-//! [`Seen`]: the crossings that show in the values of a run at its observation points.
+//! [`Seen`]: the crossings in the values of a run at its observation points.
 
 use crate::campaign::event::Direction;
 
-/// Where something begins that an event is about.
+/// The start of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
     /// Between this point and the next.
     Crossing { before: usize, is_rising: bool },
-    /// At this point: the quantity is not known before.
+    /// At this point, before which the quantity is unknown.
     Point(usize),
 }
 
@@ -17,21 +17,20 @@ pub(super) struct Seen {
     pub count: u32,
     pub first: Option<Place>,
     pub last: Option<Place>,
-    /// Where the quantity comes to the side on which it stays to the end.
+    /// The start of the stay on the side of the event until the end.
     pub stays: Option<Place>,
-    /// Whether some value is not known.
+    /// Whether some value is unknown.
     pub has_gap: bool,
 }
 
 impl Seen {
-    /// Those in `direction`, each a change from one side of zero to the other: zero itself is on neither side, so that
-    /// a quantity that starts there, or touches it, does not cross. `rounding` is how far rounding may move the value
-    /// at a point: where a quantity starts or ends no farther than that from zero, it starts or ends at zero. NaN is a
-    /// value that is not known, and no crossing; behind it the quantity starts again.
+    /// Crossings in `direction`, each a change of the side of zero. Zero is on neither side: a quantity that starts
+    /// there, or touches it, does not cross. A quantity that starts or ends within `rounding` of zero, which may move the
+    /// value at a point, starts or ends at zero. NaN is unknown and no crossing; the quantity starts again after it.
     pub fn of(values: impl Iterator<Item = f64>, direction: Direction, rounding: impl Fn(usize) -> f64) -> Self {
         let mut seen = Seen { count: 0, first: None, last: None, stays: None, has_gap: false };
         let mut before: Option<bool> = None;
-        // the point at which the quantity is at zero since its start, and the rounding of its start
+        // the last point at zero since the start, and the rounding of the start
         let mut at_start: Option<(usize, f64)> = None;
         let mut values = values.enumerate().peekable();
         while let Some((point, value)) = values.next() {
@@ -87,8 +86,8 @@ mod tests {
         Some(Place::Crossing { before, is_rising: false })
     }
 
-    /// Law: crossings are counted in their direction; what is not known crosses nothing; a quantity stays on a side
-    /// from its last crossing on, or from where it is known.
+    /// Law: crossings are counted in their direction, unknown values cross nothing, and a quantity stays on a side from
+    /// its last crossing on, or from its first known point.
     #[test]
     fn crossings_are_counted() {
         let nan = f64::NAN;
@@ -109,9 +108,9 @@ mod tests {
         assert_eq!(of(&[nan; 3], Direction::Rising), never);
     }
 
-    /// Law: zero is on neither side: a quantity that starts there, ends there, or touches it crosses nothing; one that
-    /// goes through it crosses once, where it leaves it. So does the opposite quantity, in the other direction. The
-    /// counter-test: with a rounding of nothing, a start at 1e-16 is above.
+    /// Law: zero is on neither side: starting there, ending there, or touching it is no crossing; passing through it is
+    /// one, where the quantity leaves it. So for the negated quantity, in the other direction. The counter-test: without
+    /// rounding, a start at 1e-16 is above.
     #[test]
     fn a_start_at_the_value_is_no_crossing() {
         let none = (0, None);

@@ -1,6 +1,5 @@
-//! [`SingleRun`]: one sample of a campaign with all its states, as `simulate` shows it; [`run_each`]: several of them.
-//!
-//! The scene is drawn and propagated by the code that runs campaigns, so that the states are those behind the row.
+//! [`SingleRun`]: one sample of a campaign with all its states, as in `simulate`; [`run_each`]: several of them. Drawn
+//! and propagated by the code of campaigns, so that the states are those behind the row.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,9 +11,10 @@ use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::end_finder::EndFinder;
 use crate::ensemble::event_finder::{self, EventFinder};
-use crate::ensemble::flights::{Flights, LawDraw, nominal_attitude, observe, replayed};
+use crate::ensemble::flights::{LawDraw, Runs, nominal_attitude, observe, replayed};
+use crate::ensemble::observed_runs::{Means, ObservedRun, ObservedRuns};
 use crate::ensemble::runner::RunError;
-use crate::ensemble::settings::propagator;
+use crate::ensemble::settings::Engines;
 use crate::math::Isa;
 use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request, Series};
@@ -22,7 +22,7 @@ use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Tel
 use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene, SceneError};
 
-/// The groups whose series a time series shows.
+/// The groups with a time series.
 const GROUPS: [Group; 6] = [
     Group::EnergyConservation,
     Group::MomentumConservation,
@@ -37,37 +37,36 @@ const GROUPS: [Group; 6] = [
 pub struct SingleRun {
     /// The scene that was run.
     pub scene: Scene,
-    /// The times of the table's points; the first is zero, whether it was asked for or not.
+    /// The times of the table's points, from zero.
     pub grid: Grid,
     pub table: StateTable,
-    /// The arcs of constant actuation that the run has flown.
+    /// The arcs of constant actuation.
     pub arcs: Vec<Arc>,
     pub outcome: Outcome,
-    /// Why it is not `ok`; empty where it is.
+    /// Why it is not `ok`, else empty.
     pub reason: String,
-    /// Energies and conservation errors at the points that were reached.
+    /// Energies and conservation errors at the points reached.
     pub series: Vec<(Series, Vec<f64>)>,
-    /// What the control law of the plan has recorded; empty without one.
+    /// The record of the control law.
     pub telemetry: Telemetry,
-    /// The row of the sample, as a campaign on this grid has it, with the columns of [`SingleRun::request`].
+    /// The row of the sample in a campaign on this grid, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
     pub request: Request,
 }
 
 impl SingleRun {
-    /// Runs sample `sample` of `plan`, observed at the times of `grid` (which may reach beyond the campaign's
-    /// duration).
+    /// Runs sample `sample` of `plan`, observed at the times of `grid`, also beyond the campaign's duration.
     ///
     /// # Errors
-    /// Why the drawn scene is not physical.
+    /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
         SingleRuns::new(plan, grid, isa).run(sample)
     }
 
-    /// The same with the series of other groups: those of `groups`.
+    /// [`SingleRun::new`] with the series of `groups`.
     ///
     /// # Errors
-    /// Why the drawn scene is not physical.
+    /// The drawn scene is not physical.
     pub fn with_series(
         plan: &Plan,
         sample: SampleId,
@@ -77,14 +76,12 @@ impl SingleRun {
     ) -> Result<Self, Vec<SceneError>> {
         SingleRuns::with_series(plan, grid, isa, groups).run(sample)
     }
-}
 
-impl SingleRun {
-    /// Audits the run of `plan`: compares it, on its own grid, with the reference solution. Of a run under a control
-    /// law, what the law decided is part of the run: the reference solution flies its arcs.
+    /// Compares the run of `plan`, on its own grid, with the reference solution. Decisions of a control law are part of
+    /// the run: the reference solution flies its arcs.
     ///
     /// # Errors
-    /// Where the run or its reference solution fails, or is beyond the limit of work.
+    /// The run or its reference solution fails, or is beyond the limit of work.
     pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
         let mut auditor = Auditor::new(plan, isa, &self.grid);
         match plan.law {
@@ -97,22 +94,21 @@ impl SingleRun {
     }
 }
 
-/// Memory for single runs of one plan on one grid. What an earlier run left in it does not reach a later one.
+/// Memory for single runs of one plan on one grid. Earlier runs have no influence.
 pub struct SingleRuns<'p> {
     draws: SceneDraws<'p>,
     grid: Grid,
     isa: Isa,
     request: Request,
-    /// What is observed for the series.
+    /// The columns for the series.
     shown: Request,
-    /// Finds the ends of runs; `None` where no event ends one, or it is known.
+    /// Finds the ends of runs; `None` if no event ends one, or the end is known.
     ends: Option<EndFinder<'p>>,
     plan: &'p Plan,
-    flights: Flights<'p>,
-    observer: Observer,
+    runs: ObservedRuns<'p>,
     series_observer: Observer,
     events: Option<EventFinder<'p>>,
-    /// The columns of the groups that have series.
+    /// The columns of the groups with series.
     ignored: Vec<f64>,
 }
 
@@ -122,29 +118,31 @@ impl<'p> SingleRuns<'p> {
         Self::with_series(plan, grid, isa, &GROUPS)
     }
 
-    /// The same with the series of the groups `groups`.
+    /// Runs with the series of `groups`.
     pub fn with_series(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
-        SingleRuns { ends: EndFinder::new(plan, (isa, None)), ..Self::observing(plan, grid, isa, [request, shown]) }
+        SingleRuns {
+            ends: EndFinder::new(plan, Engines::of(isa)),
+            ..Self::observing(plan, grid, isa, [request, shown])
+        }
     }
 
-    /// The same without what only a row has: differences from the nominal run, and the times of events. The rows are
-    /// known.
+    /// Runs without differences from the nominal run and times of events, which only rows have.
     pub fn replays(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
-        let ends = EndFinder::new(plan, (isa, None));
+        let ends = EndFinder::new(plan, Engines::of(isa));
         SingleRuns { ends, events: None, ..Self::with_nominal(plan, grid, isa, ([request, shown], None)) }
     }
 
-    /// Runs of which one request gives the rows and another the series; no event ends them.
+    /// Runs with one request for rows and one for series; no event ends them.
     fn observing(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2]) -> Self {
         let nominal = requests.iter().find_map(|request| nominal_attitude(plan, request, &grid, isa));
         Self::with_nominal(plan, grid, isa, (requests, nominal))
     }
 
-    /// The same, compared with the attitude of the `nominal` run where that is known.
+    /// Runs compared with the attitude of the `nominal` run, if known.
     fn with_nominal(
         plan: &'p Plan,
         grid: Grid,
@@ -152,6 +150,9 @@ impl<'p> SingleRuns<'p> {
         ([request, shown], nominal): ([Request; 2], Option<NominalAttitude>),
     ) -> Self {
         let fields = states(&request).union(shown.fields()).union(request.fields());
+        let engines = Engines::of(isa);
+        let mut runs = Means { plan, request, engines }.runs_with(&grid, fields, nominal.clone());
+        runs.flights = runs.flights.recording();
         SingleRuns {
             draws: SceneDraws::new(plan),
             plan,
@@ -159,10 +160,9 @@ impl<'p> SingleRuns<'p> {
             request,
             shown,
             ends: None,
-            flights: Flights::new(plan, &propagator(plan, grid.clone(), fields), (isa, None)).recording(),
-            observer: Observer::new(request, &grid).with_nominal(nominal.clone()),
+            runs,
             series_observer: Observer::new(shown, &grid).with_nominal(nominal),
-            events: EventFinder::new(plan, &grid, (isa, None)).map(|events| events.ended_by(None)),
+            events: EventFinder::new(plan, &grid, Engines::of(isa)).map(|events| events.ended_by(None)),
             ignored: vec![f64::NAN; shown.columns().len()],
             grid,
         }
@@ -171,30 +171,29 @@ impl<'p> SingleRuns<'p> {
     /// Runs a sample.
     ///
     /// # Errors
-    /// Why the drawn scene is not physical.
+    /// The drawn scene is not physical.
     pub fn run(&mut self, sample: SampleId) -> Result<SingleRun, Vec<SceneError>> {
         self.run_with_noise_of(sample, sample)
     }
 
-    /// Runs the scene of `sample`, with the noise within its control loop of the sample `noise`.
+    /// Runs the scene of `sample` with the loop noise of the sample `noise`.
     ///
     /// # Errors
-    /// Why the drawn scene is not physical.
+    /// The drawn scene is not physical.
     pub fn run_with_noise_of(&mut self, sample: SampleId, noise: SampleId) -> Result<SingleRun, Vec<SceneError>> {
         let scene = self.draws.scene(sample)?;
         let plan = self.plan;
-        let draw = plan.law.as_ref().map(|_| LawDraw { sample: noise, parameters: self.draws.drawn().control.clone() });
+        let draw = LawDraw::of(plan, noise, self.draws.drawn());
         let end = self.ends.as_mut().and_then(|ends| ends.end(&scene, draw.as_slice()));
         let Some(end) = end.filter(|end| end.time <= self.grid.duration()) else {
-            return Ok(self.fly(&[scene], draw.as_slice()).swap_remove(0));
+            return Ok(self.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0));
         };
         let mut ended = Self::observing(plan, end.grid(&self.grid).0, self.isa, [self.request, self.shown]);
         ended.events = ended.events.map(|events| events.ended_by(Some(end)));
-        Ok(ended.fly(&[scene], draw.as_slice()).swap_remove(0))
+        Ok(ended.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0))
     }
 
-    /// Runs samples side by side, which takes a fraction of the time of one after another; each is the same bit for
-    /// bit.
+    /// Runs samples side by side, faster than one after another and with the same bits.
     pub fn run_all(&mut self, samples: &[SampleId]) -> Vec<Result<SingleRun, Vec<SceneError>>> {
         if self.ends.is_some() {
             return samples.iter().map(|sample| self.run(*sample)).collect();
@@ -204,33 +203,30 @@ impl<'p> SingleRuns<'p> {
             .iter()
             .map(|sample| {
                 let scene = self.draws.scene(*sample)?;
-                let parameters = || self.draws.drawn().control.clone();
-                draws.extend(self.plan.law.as_ref().map(|_| LawDraw { sample: *sample, parameters: parameters() }));
+                draws.extend(LawDraw::of(self.plan, *sample, self.draws.drawn()));
                 Ok(scene)
             })
             .collect();
         let scenes: Vec<Scene> = drawn.iter().flatten().cloned().collect();
-        let mut flown = self.fly(&scenes, &draws).into_iter();
+        let mut flown = self.fly(Runs { scenes: &scenes, draws: &draws }).into_iter();
         drawn.into_iter().map(|scene| scene.map(|_| flown.next().expect("a run of each scene"))).collect()
     }
 
-    /// The runs of `scenes`, under a law with these draws, one for each where the plan has a law.
-    fn fly(&mut self, scenes: &[Scene], draws: &[LawDraw]) -> Vec<SingleRun> {
-        let (isa, observer, series_observer) = (self.isa, &mut self.observer, &mut self.series_observer);
+    /// The runs of `scenes`, with the draws of their laws.
+    fn fly(&mut self, runs: Runs<'_>) -> Vec<SingleRun> {
+        let (isa, series_observer) = (self.isa, &mut self.series_observer);
         let (plan, ignored, events, grid) = (self.plan, &mut self.ignored, &mut self.events, &self.grid);
         let request = self.request;
-        let mut flown: Vec<Option<SingleRun>> = vec![None; scenes.len()];
+        let mut flown: Vec<Option<SingleRun>> = vec![None; runs.scenes.len()];
         if let Some(events) = events {
-            events.restart(scenes.len());
+            events.restart(runs.scenes.len());
         }
-        self.flights.fly(scenes, draws, &mut |run, of_law| {
-            let scene = &scenes[run.index];
-            let mut row = vec![f64::NAN; request.columns().len()];
-            let status = observe(plan, observer, isa, scene, (&run, of_law), &mut row);
+        self.runs.fly(runs, &mut |ObservedRun { run, of_law, status, observer, row }| {
+            let scene = &runs.scenes[run.index];
             if let Some(events) = events {
                 events.look(&run, observer, status);
             }
-            let reason = observer.reason(status, run.outcome, &row);
+            let reason = observer.reason(status, run.outcome, row);
             observe(plan, series_observer, isa, scene, (&run, of_law), ignored);
             let series = series_observer.series().map(|(series, values)| (series, values.collect())).collect();
             flown[run.index] = Some(SingleRun {
@@ -242,7 +238,7 @@ impl<'p> SingleRuns<'p> {
                 reason,
                 series,
                 telemetry: Telemetry::default(),
-                row,
+                row: row.to_vec(),
                 request,
             });
         });
@@ -250,7 +246,7 @@ impl<'p> SingleRuns<'p> {
         let mut flown: Vec<SingleRun> = flown.into_iter().map(|run| run.expect(every)).collect();
         let is_located = |run: &SingleRun| matches!(run.outcome.status, Status::Done | Status::Inaccurate);
         if let Some(events) = events.as_mut().filter(|_| flown.iter().any(is_located)) {
-            events.locate(scenes, draws);
+            events.locate(runs);
         }
         for (index, run) in flown.iter_mut().enumerate() {
             let outcome = &mut run.outcome;
@@ -259,7 +255,7 @@ impl<'p> SingleRuns<'p> {
             }
             match outcome.status {
                 Status::Done | Status::Inaccurate => {
-                    self.flights.report(index, &mut run.row[request.places_of_law()]);
+                    self.runs.flights.report(index, &mut run.row[request.places_of_law()]);
                     if let Some(events) = events {
                         let places = event_finder::places(plan, &request);
                         let values = events.values(index);
@@ -269,25 +265,25 @@ impl<'p> SingleRuns<'p> {
                 Status::Surface => {
                     outcome.points = outcome.points.min(grid.times().partition_point(|time| *time <= outcome.time));
                 }
-                Status::Diverged => run.reason = self.flights.divergence(index),
+                Status::Diverged => run.reason = self.runs.flights.divergence(index),
                 _ => {}
             }
-            run.telemetry = self.flights.telemetry(index).unwrap_or_default();
+            run.telemetry = self.runs.flights.telemetry(index).unwrap_or_default();
         }
         flown
     }
 
-    /// The values that were drawn for the last run, as [`crate::sampling::Dispersions::columns`] lists them.
+    /// The draw of the last run, in the order of [`crate::sampling::Dispersions::columns`].
     pub fn applied(&self) -> &[f64] {
         self.draws.applied()
     }
 }
 
-/// What `job` makes of each of `samples`, in their order, with memory for runs of `plan` on its own grid; on `threads`
-/// threads (`None`: one per core), in any order.
+/// The results of `job` on each of `samples`, in order, with memory for runs of `plan` on its own grid; on `threads`
+/// threads (`None`: one per core).
 ///
 /// # Errors
-/// Where threads could not be started, or the first error of `job`, after which none is started.
+/// Threads could not be started, or the first error of `job`, after which none is started.
 pub fn run_each<T: Send, E: Send>(
     plan: &Plan,
     samples: &[SampleId],
@@ -320,7 +316,7 @@ pub fn run_each<T: Send, E: Send>(
     Ok(list.into_iter().map(|(_, one)| one).collect())
 }
 
-/// Every state of scenes of the kind of `request`.
+/// All states of scenes of the kind of `request`.
 pub fn states(request: &Request) -> StateFields {
     let spacecraft = [
         StateField::Rate,

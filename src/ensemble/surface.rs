@@ -1,34 +1,34 @@
-//! [`contact`]: when a run reaches the surface of the central body of its orbit: the sphere of `orbit.body_radius_m`,
-//! above which the air has its heights and which casts the shadow.
+//! [`contact`]: the time at which a run reaches the surface of the central body, the sphere of `orbit.body_radius_m`,
+//! which also carries the heights of the air and casts the shadow.
 //!
-//! The orbit that touches the motion at a point bounds how low the body comes until the next: by the periapsis, less
-//! what the flattening takes ([`Orbit::lowest`]) and what thrusters take. Air only lowers the periapsis, so that the
-//! later point knows. Where the bound is below the surface, the sample is flown again with points between; elsewhere a
-//! run costs a few operations a point, and one that cannot leave its orbit costs nothing.
+//! The osculating orbit at a point bounds the distance until the next point: by its periapsis, less the effects of the
+//! flattening ([`Orbit::lowest`]) and of thrusters. Air only lowers the periapsis, which the later point shows. If the
+//! bound is below the surface, the sample is flown again with points between; else a run costs a few operations a point,
+//! and nothing if it cannot leave its orbit.
 
 use std::f64::consts::PI;
 
 use crate::campaign::Plan;
-use crate::ensemble::crossing::{Found, Wanted, nodes, of_curve};
+use crate::ensemble::crossing::{Located, Wanted, nodes, of_curve};
 use crate::math::vector::{dot, norm};
 use crate::propagation::CompletedRun;
 use crate::run::{Outcome, StateField, Status};
 use crate::scene::{Orbit, Scene};
 
-/// How often points are put between others, sixteen between two: five hours become a third of a second.
+/// Refinements of the points, sixteenfold each: five hours become a third of a second.
 const LEVELS: usize = 4;
-/// How often a crossing is narrowed down, where the motion has a corner.
+/// Most narrowings of a crossing, at a corner of the motion.
 const NARROWINGS: usize = 24;
 /// Error of the time over the duration: that of an event at a tolerance of 1e-9.
 const ERROR: f64 = 1e-9;
-/// A change dv of the velocity, m/s, lowers the periapsis of an orbit of the mean motion n by at most this times dv/n:
-/// 4 of a circle, twice that of an ellipse.
+/// A velocity change dv, m/s, lowers the periapsis of an orbit of mean motion n by at most this times dv/n: 4 for a
+/// circle, twice that for an ellipse.
 const LOWERED: f64 = 8.0;
 
-/// Positions and velocities of a run at times, s; NaN where it does not come to them.
+/// Positions and velocities of a run at times, s; NaN beyond its end.
 pub(super) type Positions<'a> = dyn FnMut(&[f64]) -> Vec<[[f64; 3]; 2]> + 'a;
 
-/// Whether runs of `plan` may leave the orbit that they start on.
+/// Whether runs of `plan` may leave their initial orbit.
 pub(super) fn leaves_orbit(plan: &Plan) -> bool {
     plan.nominal.orbit.is_some() && (plan.request().actuated.thrusters || plan.nominal.environment.moves())
 }
@@ -40,9 +40,9 @@ struct Place {
     distance: f64,
     speed: f64,
     is_rising: bool,
-    /// Lower bound of the distance on the orbit that touches the motion, m.
+    /// Lower bound of the distance on the osculating orbit, m.
     lowest: f64,
-    /// Half of the period of that orbit, s.
+    /// Half of the period of the osculating orbit, s.
     half_period: f64,
 }
 
@@ -50,7 +50,7 @@ impl Place {
     fn new(orbit: &Orbit, time: f64, [position, velocity]: [[f64; 3]; 2]) -> Self {
         let touching = Orbit { position, velocity, ..*orbit };
         let axis = touching.shape().semi_major_axis;
-        // a hyperbola comes by once
+        // a hyperbola passes once
         let half_period = if axis > 0.0 { PI * (axis / orbit.mu).sqrt() * axis } else { f64::INFINITY };
         let is_rising = dot(position, velocity) >= 0.0;
         let (distance, speed) = (norm(position), norm(velocity));
@@ -58,7 +58,7 @@ impl Place {
     }
 }
 
-/// The velocity that the thrusters of a run have changed, added up.
+/// The accumulated velocity change by the thrusters of a run.
 struct Pushes(Vec<[f64; 2]>);
 
 impl Pushes {
@@ -75,7 +75,7 @@ impl Pushes {
         Pushes(sums)
     }
 
-    /// Up to `time`, m/s.
+    /// Until `time`, m/s.
     fn until(&self, time: f64) -> f64 {
         let next = self.0.partition_point(|[end, _]| *end <= time);
         let [start, before] = self.0[next.max(1) - 1];
@@ -88,12 +88,12 @@ struct Search<'a> {
     orbit: &'a Orbit,
     pushes: Pushes,
     places: Vec<Place>,
-    /// When the run failed, s; not a number of one that did not.
+    /// The time of a failure of the run, s; else NaN.
     failed: f64,
 }
 
 impl Search<'_> {
-    /// Where the surface may be reached first, in order, up to where it has been: the ends, and whether it has been.
+    /// Intervals that may hold the first contact, in order, up to the contact; and whether it is there.
     fn suspects(&self) -> Vec<([f64; 2], bool)> {
         let surface = self.orbit.body_radius;
         let mut found = Vec::new();
@@ -126,7 +126,7 @@ impl Search<'_> {
         self.places.dedup_by_key(|place| place.time);
     }
 
-    /// When the surface is reached, s: first between `between`.
+    /// The first contact within `between`, s.
     fn located(&self, mut between: [f64; 2], positions: &mut Positions<'_>) -> f64 {
         let error = ERROR * between[1];
         for _ in 0..NARROWINGS {
@@ -134,16 +134,16 @@ impl Search<'_> {
             let heights: Vec<f64> =
                 positions(&times).iter().map(|[position, _]| norm(*position) - self.orbit.body_radius).collect();
             match of_curve(&times, &heights, Wanted { is_rising: false, is_last: false }, error) {
-                Found::At(time) => return time,
-                Found::Between(start, end) => between = [start, end],
+                Located::At(time) => return time,
+                Located::Between(start, end) => between = [start, end],
             }
         }
         between[1]
     }
 }
 
-/// When `run` of `scene`, observed at `times`, reaches the surface before it ends at `end`, s; `None` where it does
-/// not. `positions` gives more of it.
+/// The time, s, at which `run` of `scene`, observed at `times`, reaches the surface before its end at `end`. `positions`
+/// gives more points.
 pub(super) fn contact(
     scene: &Scene,
     run: &CompletedRun<'_>,
@@ -156,7 +156,7 @@ pub(super) fn contact(
         return None;
     }
     let Outcome { status, time: reached, points, .. } = *run.outcome;
-    // one point at the end or beyond
+    // up to one point at the end or beyond
     let filled = (times.partition_point(|time| *time < end) + 1).min(points);
     let failed = if status == Status::Done { f64::NAN } else { reached };
     let mut search = Search { orbit, pushes: Pushes::of(scene, run), places: Vec::new(), failed };

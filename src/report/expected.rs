@@ -2,6 +2,7 @@
 //! not those of the campaign; the distribution of a component of a vector has no closed form in general.
 
 use crate::campaign::Plan;
+use crate::sampling::design::replicates::Sequence;
 use crate::sampling::design::sobol::Sobol;
 use crate::sampling::distribution::{Map, Quantile};
 use crate::sampling::{Joint, Transform};

@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::analysis::analysed::Analysed;
 use crate::analysis::assessment::Assessment;
 use crate::analysis::missions::MissionShare;
+use crate::analysis::statistic::{STATISTICS, Statistic};
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::statuses::Ended;
 use crate::analysis::stopping::{LookFound, Stopping};
@@ -113,15 +114,14 @@ fn observable(analysed: &Analysed, column: &ColumnStatistics) -> Value {
         "unit": column.quantity.unit(),
         "count": moments.count(),
         "without_value": column.without_value,
-        "mean": known(moments.mean()),
-        "mean_interval": column.mean_interval,
-        "standard_deviation": known(moments.standard_deviation()),
-        "standard_deviation_interval": column.deviation_interval,
-        "skewness": known(moments.skewness()),
-        "min": known(moments.min()),
-        "max": known(moments.max()),
-        "quantiles": quantiles.collect::<Vec<_>>(),
     });
+    for Statistic { name, value: of, uncertainty, .. } in &STATISTICS {
+        value[*name] = json!(known(of(column)));
+        if let Some(uncertainty) = uncertainty {
+            value[format!("{name}_interval")] = json!((uncertainty.interval)(column));
+        }
+    }
+    value["quantiles"] = quantiles.collect();
     if let Some(note) = &column.note {
         value["mean_note"] = json!(note);
     }

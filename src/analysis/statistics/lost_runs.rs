@@ -1,24 +1,26 @@
-//! Intervals of campaigns that have lost runs, against known truths.
+//! Intervals of campaigns with lost runs, against known truths.
 
 use super::*;
 use crate::analysis::column_counts::GroupCounts;
 use crate::analysis::small_plan::small_plan;
+use crate::sampling::{SampleId, Stream};
 use crate::statistics::binomial::at_least;
 
-/// Uniform numbers in (0, 1): SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014).
-struct Uniform(u64);
+/// Uniform numbers in (0, 1).
+struct Uniform(Stream, u64);
 
 impl Uniform {
+    fn new(seed: u64) -> Self {
+        Uniform(Stream::new(seed, "lost"), 0)
+    }
+
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((z ^ z >> 31) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        self.1 += 1;
+        self.0.uniform(SampleId(self.1))
     }
 }
 
-/// The statistics of the first observable of `plan`, whose groups have these values and have lost so many runs.
+/// The statistics of the first observable of `plan`, from groups with these values and numbers of lost runs.
 fn described_of(plan: &Plan, groups: &[Vec<f64>], lost: &[u64]) -> ColumnStatistics {
     let mut counts = ColumnCounts::default();
     for values in groups {
@@ -33,7 +35,7 @@ fn described_of(plan: &Plan, groups: &[Vec<f64>], lost: &[u64]) -> ColumnStatist
     described(plan, (population, loss, lost), (&Observed::all(plan)[0], false), counts, &common)
 }
 
-/// A plan that requires something of the mean of its first observable, which is within [0, 2].
+/// A plan with a requirement on the mean of its first observable, which is within [0, 2].
 fn bounded_plan(more: &str) -> Plan {
     let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
     let require =
@@ -46,11 +48,10 @@ const RUNS: usize = 200;
 /// The probability of a failure of each law where it holds.
 const ALPHA: f64 = 1e-3;
 
-/// H0: a 95% interval of a quantile or of the mean covers the truth in at least 95% of campaigns of 200 runs that are
-/// uniform in [0, 2], whichever runs are lost: the fastest 2, 3.5 or 4.5%, the slowest, both, or any. 300 campaigns
-/// each, seeds 1 to 300, alpha = 1e-3 for each interval. p50 is always bounded on both sides, p95 at least below or
-/// above, and the mean where its range is known, never where it is not. The counter-test: intervals of the values alone
-/// miss p95 in most.
+/// H0: a 95% interval of a quantile or of the mean covers the truth in at least 95% of campaigns of 200 runs, uniform
+/// in [0, 2], whichever runs are lost: the fastest 2, 3.5 or 4.5%, the slowest, both, or any. 300 campaigns each, seeds
+/// 1 to 300, alpha = 1e-3 for each interval. p50 is always bounded on both sides, p95 on one at least, the mean only if
+/// its range is known. The counter-test: intervals of the values alone miss p95 in most.
 #[test]
 fn intervals_cover_whichever_runs_are_lost() {
     let (bounded, plain) = (bounded_plan(""), small_plan(201, ""));
@@ -66,7 +67,7 @@ fn intervals_cover_whichever_runs_are_lost() {
         let mut misses = [0_u64; 4];
         let (mut said, mut of_values) = (0, 0);
         for seed in 1..=CAMPAIGNS {
-            let mut uniform = Uniform(seed);
+            let mut uniform = Uniform::new(seed);
             let drawn: Vec<[f64; 2]> = (0..RUNS).map(|_| [uniform.next(), uniform.next()]).collect();
             let kept = drawn.iter().filter(|[u, v]| *u >= slowest && *u <= 1.0 - fastest && *v >= any);
             let values: Vec<f64> = kept.map(|[u, _]| 2.0 * u).collect();
@@ -96,12 +97,12 @@ fn intervals_cover_whichever_runs_are_lost() {
     }
 }
 
-/// Law: of replicates the interval is the hull of those with the lost runs below and above all others, each in its own
-/// replicate; so is that of the mean, with the lost runs at the ends of the range.
+/// Law: the interval of replicates is the hull of those with the lost runs below and above all others, each in its own
+/// replicate; for the mean at the ends of the range.
 #[test]
 fn replicates_have_the_hull_too() {
     let plan = bounded_plan("design = { kind = \"sobol\", replicates = 10 }");
-    let mut uniform = Uniform(1);
+    let mut uniform = Uniform::new(1);
     let groups: Vec<Vec<f64>> = (0..10).map(|_| (0..20).map(|_| 2.0 * uniform.next()).collect()).collect();
     let lost = [0, 2, 0, 0, 1, 0, 0, 3, 0, 0];
     let kept: Vec<Vec<f64>> = groups.iter().zip(lost).map(|(group, lost)| group[lost..].to_vec()).collect();
@@ -114,7 +115,7 @@ fn replicates_have_the_hull_too() {
     let [low, high] = [filled(0.0), filled(2.0)];
     for (place, one) in found.quantiles.iter().enumerate() {
         let ends = [low.quantiles[place].interval[0], high.quantiles[place].interval[1]];
-        // what is filled in is itself no bound
+        // filled-in values are no bound
         let known = [ends[0].filter(|end| *end > 0.0), ends[1].filter(|end| *end < 2.0)];
         assert_eq!(one.interval, known, "{}", one.p);
     }

@@ -1,4 +1,4 @@
-//! [`Looked`]: a plan, its nominal scene and some of its draws, as the rules look at them.
+//! [`Looked`]: a plan with its nominal scene and some draws, for the rules.
 
 use crate::campaign::Plan;
 use crate::control::LoopSpec;
@@ -7,12 +7,12 @@ use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, Scene, SceneError};
 use crate::statistics::quantile::quantile;
 
-/// Most draws that are looked at.
+/// Most draws.
 const DRAWS: u64 = 1000;
 /// The fraction of the draws that may be beyond a limit.
 const FEW: f64 = 0.01;
 
-/// A size that a rule compares with its limit, and how its note begins.
+/// A size to be compared with the limit of a rule, and the start of its note.
 pub struct Found {
     pub size: f64,
     pub what: String,
@@ -21,7 +21,7 @@ pub struct Found {
 pub struct Looked<'p> {
     pub plan: &'p Plan,
     pub scene: Result<Scene, Vec<SceneError>>,
-    /// The first draws, or those from all over a design.
+    /// The first draws, or some from all over a design.
     pub drawn: DrawnScenes,
 }
 
@@ -30,25 +30,23 @@ impl<'p> Looked<'p> {
         Looked { plan, scene: Scene::resolve(&plan.nominal), drawn: DrawnScenes::spread(plan, DRAWS) }
     }
 
-    /// The control loop of the plan.
     pub fn spec(&self) -> Option<&'p LoopSpec> {
         self.plan.loop_spec()
     }
 
-    /// The parameters that the nominal scene has.
+    /// The parameters of the nominal scene.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> {
         let scene = &self.plan.nominal;
         Parameter::all(scene).filter(|parameter| parameter.exists(scene))
     }
 
-    /// The length of the nominal value of `parameter`.
     pub fn nominal(&self, parameter: Parameter) -> f64 {
         let values = (0..parameter.width()).filter_map(|component| parameter.value(&self.plan.nominal, component));
         values.fold(0.0, libm::hypot)
     }
 
-    /// How far one draw in a hundred is from the nominal value of `parameter`; `None` where it is not dispersed, or
-    /// is an attitude.
+    /// The distance of one draw in a hundred from the nominal value of `parameter`; `None` for an attitude, or without
+    /// dispersion.
     pub fn spread(&self, parameter: Parameter) -> Option<f64> {
         let columns = self.plan.dispersions.columns().iter().zip(&self.drawn.columns);
         let own: Vec<_> = columns.filter(|(column, _)| column.parameter == parameter).collect();
@@ -62,7 +60,7 @@ impl<'p> Looked<'p> {
     }
 }
 
-/// The size that one in a hundred of `sizes` is beyond.
+/// The size that one in a hundred of `sizes` exceeds.
 pub fn most_of(mut sizes: Vec<f64>) -> Option<f64> {
     sizes.sort_by(f64::total_cmp);
     quantile(&sizes, 1.0 - FEW)

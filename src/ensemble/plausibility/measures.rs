@@ -1,5 +1,4 @@
-//! The sizes that rules look at and that are no parameter of their own: each from the nominal scene, from draws, or
-//! from what is written.
+//! Sizes judged by rules that are no parameters: from the nominal scene, from draws, or from the file.
 
 use std::f64::consts::{PI, TAU};
 
@@ -23,13 +22,13 @@ use crate::scene::{DeclaredTable, LocalFrame, Name, Orbit, OrbitInput, Parameter
 
 /// A year of 365.25 days, s.
 const YEAR: f64 = 365.25 * 86_400.0;
-/// More observation points than these nobody asks for.
+/// Most observation points that a note suggests.
 const MANY_POINTS: f64 = 1e7;
-/// With fewer draws the range of a distribution is not known.
+/// Least draws that show the range of a distribution.
 const RANGE_DRAWS: usize = 30;
 /// Draws of initial rates.
 const RATES: u64 = 1000;
-/// Draws of orbits, each of which is a scene to be resolved.
+/// Draws of orbits, each a scene to be resolved.
 const ORBITS: u64 = 200;
 
 fn found(size: f64, what: String) -> Vec<Found> {
@@ -41,7 +40,7 @@ pub fn duration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     found(duration, format!("campaign.duration_s = {}: that is {} years", digits(duration), digits(duration / YEAR)))
 }
 
-/// Quaternions by the size of their third component, which is the scalar of other programs.
+/// The third components of quaternions, the scalar in other programs.
 pub fn scalar_last(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let scene = &looked.plan.nominal;
     let quaternions = looked.parameters().filter(|parameter| parameter.shape() == Shape::Quaternion);
@@ -55,7 +54,7 @@ pub fn scalar_last(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     quaternions.map(note).collect()
 }
 
-/// How far one draw in a hundred is turned, rad, of quaternions with a distribution of one number for each component.
+/// The turn of one draw in a hundred, rad, of quaternions with a distribution for each component.
 pub fn drawn_by_components(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let by_components = looked.plan.dispersed.iter().filter(|dispersion| {
         dispersion.parameter.shape() == Shape::Quaternion && dispersion.distribution.kind.is_of_one_number()
@@ -83,7 +82,7 @@ pub fn attitude_error(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     looked.plan.dispersed.iter().filter_map(note).collect()
 }
 
-/// How far the scales of sensors are from one.
+/// The scale errors of sensors.
 pub fn sensor_scale(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let note = |table: &DeclaredTable| {
         let off = |scale: &&f64| (**scale - 1.0).abs();
@@ -98,7 +97,7 @@ pub fn periods(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let Some(spec) = looked.spec() else { return Vec::new() };
     let of_loop = [("control.period_s".to_owned(), spec.period)];
     let of_sensors = spec.sensors.iter().flat_map(|sensor| {
-        // a sensor without a period of its own has that of the loop
+        // the period of the loop is judged once
         let own = if sensor.period == spec.period { 0.0 } else { sensor.period };
         [("period_s", own), ("latency_s", sensor.latency)]
             .map(|(key, time)| (format!("sensors.{}.{key}", sensor.name), time))
@@ -113,7 +112,7 @@ pub fn periods(looked: &Looked<'_>, _: f64) -> Vec<Found> {
         .collect()
 }
 
-/// The rates to which the torques of the schedule bring wheels that are below `limit` at the start, rad/s.
+/// The rates to which the schedule drives wheels that are below `limit` at the start, rad/s.
 pub fn driven_wheels(looked: &Looked<'_>, limit: f64) -> Vec<Found> {
     let Ok(scene) = &looked.scene else { return Vec::new() };
     let turning = looked.plan.nominal.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).enumerate();
@@ -162,7 +161,7 @@ pub fn radius_of_gyration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     inertia(looked).map(note).unwrap_or_default()
 }
 
-/// How much the smaller principal moments together exceed the largest, relative to it.
+/// The excess of the two smaller principal moments over the largest, relative to it.
 pub fn flatness(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let note = |(_, moments @ [a, b, c]): (f64, [f64; 3])| {
         let shown = moments.map(digits).join(", ");
@@ -173,7 +172,7 @@ pub fn flatness(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     inertia(looked).map(note).unwrap_or_default()
 }
 
-/// Areas of all plates together over the mass, m^2/kg.
+/// The area of all plates over the mass, m^2/kg.
 pub fn area(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let area: f64 = looked.plan.nominal.plates.iter().map(|plate| plate.area_m2).sum();
     let note = |(mass, _)| found(area / mass, format!("[[plates]] have {} m^2 for {} kg", digits(area), digits(mass)));
@@ -194,7 +193,7 @@ pub fn wheel_torque(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     limited.map(note).collect()
 }
 
-/// Spreads relative to the nominal value, of distributions within others too.
+/// Spreads relative to the nominal value, also of nested distributions.
 pub fn wide_spreads(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     fn of(name: &str, written: &Written) -> Vec<Found> {
         let wide = |(key, value): (&str, &Value)| match value {
@@ -211,8 +210,7 @@ pub fn wide_spreads(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     dispersed.flat_map(|dispersion| of(&dispersion.parameter.name(), &dispersion.distribution.written)).collect()
 }
 
-/// How far nominal values are from the range of their draws, over that range: of each parameter the component that is
-/// farthest.
+/// The distance of nominal values from the range of their draws, over that range: the largest of each parameter.
 pub fn nominal_outside(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let mut notes: Vec<(Parameter, Found)> = Vec::new();
     if looked.drawn.count() < RANGE_DRAWS {
@@ -243,8 +241,8 @@ pub fn nominal_outside(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     notes.into_iter().map(|(_, note)| note).collect()
 }
 
-/// The angle between the local orbital frames of drawn orbits and of the nominal one, with that by which their mean
-/// motions part until the end, where flight software uses the nominal one; rad.
+/// The angle between the local orbital frames of drawn orbits and of the nominal one, with the drift of their mean
+/// motions until the end, if flight software uses the nominal one; rad.
 pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let plan = looked.plan;
     let columns = plan.dispersions.columns().iter().map(|column| column.parameter.name());
@@ -252,7 +250,7 @@ pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     dispersed.dedup();
     let is_used = looked.spec().is_some_and(|spec| {
         let is_orbital = |target| matches!(target, Target::Orbital(_) | Target::Nadir | Target::OrbitalVelocity);
-        // what such a sensor measures is compared with what it would be at the place that is believed
+        // such a measurement is compared with its prediction at the believed place
         let is_of_place = |sensor: &SensorSpec| sensors::KINDS[sensor.kind].needs.is_some();
         let is_measured = spec.has_filter() && spec.sensors.iter().any(is_of_place);
         !spec.knows_the_truth() && (is_measured || spec.phases.iter().any(|phase| is_orbital(phase.target)))
@@ -284,11 +282,11 @@ fn flown(orbit: &OrbitInput) -> ([f64; 4], f64) {
     (LocalFrame::at(position, velocity).q_eo, libm::sqrt(mu * inverse_axis.powi(3)))
 }
 
-/// How far the principal axis is off s3, where nutation is measured from s3, deg: that part of it is no motion.
+/// The angle of the principal axis from s3, deg, if nutation is measured from s3: that part is no motion.
 pub fn nutation(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let plan = looked.plan;
-    let is_asked = plan.groups.contains(&Group::Motion) && plan.nutation_axis == NutationAxis::SpinAxis;
-    let Some(scene) = looked.scene.as_ref().ok().filter(|_| is_asked) else { return Vec::new() };
+    let is_observed = plan.groups.contains(&Group::Motion) && plan.nutation_axis == NutationAxis::SpinAxis;
+    let Some(scene) = looked.scene.as_ref().ok().filter(|_| is_observed) else { return Vec::new() };
     let [x, y, z] = nearest_principal_axis(scene.mass.inertia);
     let angle = libm::atan2(libm::hypot(x, y), z).to_degrees();
     found(angle, format!("the principal axis is {} deg off s3", digits(angle)))
@@ -306,8 +304,8 @@ pub fn coarse_grid(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     found(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"))
 }
 
-/// The turn of the body over the lag of B-dot, rad, at the largest initial rate: the dipole is against the change of
-/// the field half an interval of measurements before, and is held. The mean power is that of a prompt dipole times the
+/// The turn of the body over the lag of B-dot, rad, at the largest initial rate. The dipole opposes the change of the
+/// field half an interval of measurements before, and is held; its mean power is that of a prompt dipole times the
 /// cosine of the turn.
 pub fn late_rods(looked: &Looked<'_>, most: f64) -> Vec<Found> {
     let rods = looked.spec().and_then(|spec| {
@@ -340,14 +338,14 @@ pub fn late_rods(looked: &Looked<'_>, most: f64) -> Vec<Found> {
     found(rate * lag, what)
 }
 
-/// The distances from the centre, m, between which the table of the air in the file of `plan` has heights.
+/// The ends of the table of the air in the file of `plan`, as distances from the centre, m.
 pub fn ends_of_air(plan: &Plan) -> Option<[f64; 2]> {
     let heights = plan.nominal.environment.air_heights_m.filter(|_| plan.nominal.environment.drag)?;
     let surface = plan.nominal.orbit.as_ref()?.body_radius_m;
     Some([heights.first()?, heights.last()?].map(|height| surface + height))
 }
 
-/// How far the nominal orbit goes beyond the table of the air, m.
+/// The distance of the nominal orbit beyond the table of the air, m.
 pub fn beyond_air(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let ends = ends_of_air(looked.plan).zip(looked.plan.nominal.orbit.as_ref());
     let Some(([low, high], orbit)) = ends else { return Vec::new() };
@@ -361,7 +359,7 @@ pub fn beyond_air(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     }
 }
 
-/// How long after the end of the run arcs start, s: the first of them.
+/// The start of the first arc after the end of the run, s, from that end.
 pub fn late_arcs(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let duration = looked.plan.grid.duration();
     let late = looked.plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);

@@ -1,9 +1,7 @@
-//! [`noted`], [`implausible`]: numbers that can be computed with, and look like a mistake: degrees for radians,
-//! revolutions per minute for radians per second, millimetres for metres, the scalar of a quaternion in the last
-//! place.
+//! [`noted`], [`implausible`]: numbers that are valid but look like a mistake: degrees for radians, rpm for rad/s,
+//! millimetres for metres, a quaternion with its scalar last. Nothing is refused.
 //!
-//! [`rules::RULES`] is the list of what is noted, [`rule`] what a row of it says; `measures` are the sizes that are no
-//! parameter of their own. Nothing is refused.
+//! [`rules::RULES`] lists the rules, each a [`rule`]; `measures` computes sizes that are no parameters.
 
 pub mod looked;
 mod measures;
@@ -20,13 +18,13 @@ pub use self::measures::ends_of_air;
 use self::rule::Rule;
 use self::rules::RULES;
 
-/// The rules that something in `plan` breaks, each with its note.
+/// The rules broken by `plan`, each with its note.
 pub fn noted(plan: &Plan) -> Vec<(&'static Rule, String)> {
     of(&Looked::new(plan))
 }
 
 fn of(looked: &Looked<'_>) -> Vec<(&'static Rule, String)> {
-    // a parameter is judged by the first rule that has it
+    // a parameter is judged by the first rule for it
     let mut judged = BTreeSet::new();
     let mut notes = Vec::new();
     for rule in RULES {
@@ -35,7 +33,7 @@ fn of(looked: &Looked<'_>) -> Vec<(&'static Rule, String)> {
     notes
 }
 
-/// The numbers of `plan` that look like a mistake, and what its control loop cannot do, a sentence each.
+/// The numbers of `plan` that look like a mistake, and the limits of its control loop, a sentence each.
 pub fn implausible(plan: &Plan) -> Vec<String> {
     let looked = Looked::new(plan);
     let mut notes: Vec<String> = of(&looked).into_iter().map(|(_, note)| note).collect();

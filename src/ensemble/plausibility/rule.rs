@@ -1,44 +1,44 @@
-//! [`Rule`]: what is looked at, from which size on it is noted, and what the note says.
+//! [`Rule`]: a size, its limit, and the note.
 
 use std::collections::BTreeSet;
 
 use super::looked::{Found, Looked, digits};
 use crate::scene::Parameter;
 
-/// What a rule looks at.
+/// The size that a rule judges.
 pub enum Look {
-    /// The numbers of these keys, `table.key`; `table.*` has all keys of the table in the unit of the rule. Nominal
-    /// values are judged, and how far one draw in a hundred is from them.
+    /// The numbers of the keys `table.key`, or with `table.*` of all keys of the table in the unit of the rule: nominal
+    /// values, and the distance of one draw in a hundred from them.
     Keys(&'static [&'static str]),
-    /// Sizes that follow from several numbers, where the limit is this.
+    /// Sizes computed from several numbers and the limit.
     Sizes(fn(&Looked<'_>, f64) -> Vec<Found>),
 }
 
-/// From which size on there is a note.
+/// The limit of a size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
     From(f64),
     Below(f64),
 }
 
-/// A row of the list.
+/// A rule of plausibility.
 pub struct Rule {
-    /// What is looked at, for the documents.
+    /// The size, for the documents.
     pub subject: &'static str,
     pub look: Look,
     /// In `unit`.
     pub limit: Limit,
-    /// The SI unit, `1` of a pure number; the unit in which people know the number, and how many of it are one of SI.
+    /// The SI unit, `1` for a pure number; the usual unit and its number in one SI unit.
     pub unit: &'static str,
     pub known: (&'static str, f64),
-    /// Where the limit comes from.
+    /// The source of the limit.
     pub source: &'static str,
     pub usual: &'static str,
     pub remedy: &'static str,
 }
 
 impl Rule {
-    /// The notes on what breaks the rule; parameters that are judged already are left out.
+    /// The notes on broken limits, without parameters that are judged already.
     pub fn notes(&self, looked: &Looked<'_>, judged: &mut BTreeSet<String>) -> Vec<String> {
         let found = match self.look {
             Look::Sizes(sizes) => {
@@ -81,7 +81,7 @@ impl Rule {
         let (size, how) = if self.is_broken_by(nominal) {
             (nominal, "")
         } else {
-            // what a spread may be has no lower limit
+            // a spread has no lower limit
             let spread = looked.spread(parameter).filter(|_| matches!(self.limit, Limit::From(_)));
             (spread.filter(|size| self.is_broken_by(*size))?, ", as dispersed, is off by so much in 1 draw of 100")
         };

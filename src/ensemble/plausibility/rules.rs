@@ -1,25 +1,22 @@
-//! [`RULES`]: what is noted, one row each: what is looked at, the size from which on it is noted with the source of
-//! that number, what is usual, and the remedy.
-//!
-//! A limit is beyond what real spacecraft have, so that a note is rarely false; it is below what the wrong unit makes
-//! of a usual value.
+//! [`RULES`]: sizes that are noted from a limit on, with the source of the limit, usual values, and the remedy. Limits
+//! are beyond real spacecraft, so that notes are rarely false, and below the effect of a wrong unit on a usual value.
 
 use std::f64::consts::{PI, TAU};
 
 use super::measures;
 use super::rule::{Limit, Look, Rule};
 
-/// Of a number of which people know no other unit.
+/// A number without another usual unit.
 const SAME: (&str, f64) = ("", 1.0);
 const DEG: (&str, f64) = ("deg", 360.0 / TAU);
 const DEG_S: (&str, f64) = ("deg/s", 360.0 / TAU);
 const RPM: (&str, f64) = ("rpm", 60.0 / TAU);
-/// The same turn, written in degrees, has another last bit.
+/// One turn written in degrees has a different last bit.
 const BEYOND_A_TURN: f64 = TAU * (1.0 + 1e-9);
 /// Seconds in ten years of 365.25 days.
 const TEN_YEARS: f64 = 315_576_000.0;
 
-/// What is noted, in the order in which it is shown.
+/// In the order of the notes.
 pub const RULES: &[Rule] = &[
     Rule {
         subject: "`campaign.duration_s`",

@@ -1,6 +1,7 @@
 //! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
 
 use crate::analysis::order_statistics::QuantileStatistic;
+use crate::analysis::statistic::{STATISTICS, Statistic};
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
@@ -32,7 +33,13 @@ fn cell(value: f64) -> String {
 /// The statistics of every observable; intervals where the design has them.
 pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
-    let heads: String = first.quantiles.iter().map(|one| format!("<th>{}%</th>", number(100.0 * one.p))).collect();
+    let quantiles: String = first.quantiles.iter().map(|one| format!("<th>{}%</th>", number(100.0 * one.p))).collect();
+    // the quantiles stand before the last statistic
+    let of_list = |quantiles: String, text: &dyn Fn(&Statistic, &str) -> String| {
+        let shown: Vec<String> = STATISTICS.iter().filter_map(|one| Some(text(one, one.head?))).collect();
+        shown.split_last().map_or(String::new(), |(last, before)| before.concat() + &quantiles + last)
+    };
+    let heads = of_list(quantiles, &|_, head| format!("<th>{head}</th>"));
     let caption = if !has_intervals {
         "The design has no intervals".to_owned()
     } else {
@@ -40,7 +47,7 @@ pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Disp
     };
     let mut body = String::new();
     for row in rows {
-        let (quantity, moments) = (&row.quantity, &row.moments);
+        let quantity = &row.quantity;
         let shown = display.of(quantity.name(), quantity.unit());
         let cell = |value: Option<f64>| cell(shown.value(value.unwrap_or(f64::NAN)));
         let quantile = |one: &QuantileStatistic| {
@@ -58,23 +65,19 @@ pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Disp
             format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(value))
         };
         let quantiles: String = row.quantiles.iter().map(quantile).collect();
+        let cells = of_list(quantiles, &|one, _| cell((one.value)(row)));
         body += &format!(
-            "<tr><th scope=\"row\" title=\"{}: {}\">{}</th><td class=\"unit\">{}</td>{}{}{}{}{quantiles}{}</tr>\n",
+            "<tr><th scope=\"row\" title=\"{}: {}\">{}</th><td class=\"unit\">{}</td>{}{cells}</tr>\n",
             escaped(quantity.name()),
             escaped(quantity.meaning()),
             escaped(&names::of_quantity(quantity)),
             escaped(&shown.unit),
-            self::cell(moments.count() as f64),
-            cell(moments.mean()),
-            cell(moments.standard_deviation()),
-            cell(moments.min()),
-            cell(moments.max()),
+            self::cell(row.moments.count() as f64),
         );
     }
     format!(
         "<div class=\"table\" tabindex=\"0\"><table class=\"sortable \
-        searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th><th>mean</th><th>std. \
-        dev.</th><th>min</th>{heads}<th>max</th></tr></thead><tbody>\n{body}</tbody></table></div><p \
+        searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th>{heads}</tr></thead><tbody>\n{body}</tbody></table></div><p \
         class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
     )
 }

@@ -1,0 +1,83 @@
+//! [`STATISTICS`]: the statistics of every observable, besides quantiles. Files, summary, page and comparison take them
+//! from this list.
+
+use crate::analysis::statistics::ColumnStatistics;
+
+/// A statistic of an observable.
+pub struct Statistic {
+    /// The column in files and the key in the summary.
+    pub name: &'static str,
+    /// The name in comparisons.
+    pub words: &'static str,
+    /// The head of its column on the page, if it has one.
+    pub head: Option<&'static str>,
+    pub meaning: &'static str,
+    pub value: fn(&ColumnStatistics) -> Option<f64>,
+    pub uncertainty: Option<Uncertainty>,
+    /// Whether two results are compared by it.
+    pub is_compared: bool,
+}
+
+/// The uncertainty of a statistic.
+pub struct Uncertainty {
+    /// Standard error.
+    pub error: fn(&ColumnStatistics) -> Option<f64>,
+    pub error_meaning: &'static str,
+    pub interval: fn(&ColumnStatistics) -> [Option<f64>; 2],
+}
+
+pub const STATISTICS: [Statistic; 5] = [
+    Statistic {
+        name: "mean",
+        words: "mean",
+        head: Some("mean"),
+        meaning: "Mean.",
+        value: |column| column.moments.mean(),
+        uncertainty: Some(Uncertainty {
+            error: |column| column.mean_error,
+            error_meaning: "Standard error of the mean.",
+            interval: |column| column.mean_interval,
+        }),
+        is_compared: true,
+    },
+    Statistic {
+        name: "standard_deviation",
+        words: "standard deviation",
+        head: Some("std. dev."),
+        meaning: "Standard deviation, with n - 1.",
+        value: |column| column.moments.standard_deviation(),
+        uncertainty: Some(Uncertainty {
+            error: |column| column.mean_error.and(column.moments.standard_deviation_error()),
+            error_meaning: "Standard error of the standard deviation, for many independent runs.",
+            interval: |column| column.deviation_interval,
+        }),
+        is_compared: true,
+    },
+    Statistic {
+        name: "skewness",
+        words: "skewness",
+        head: None,
+        meaning: "Skewness m_3/m_2^(3/2).",
+        value: |column| column.moments.skewness(),
+        uncertainty: None,
+        is_compared: false,
+    },
+    Statistic {
+        name: "min",
+        words: "minimum",
+        head: Some("min"),
+        meaning: "Minimum.",
+        value: |column| column.moments.min(),
+        uncertainty: None,
+        is_compared: false,
+    },
+    Statistic {
+        name: "max",
+        words: "maximum",
+        head: Some("max"),
+        meaning: "Maximum.",
+        value: |column| column.moments.max(),
+        uncertainty: None,
+        is_compared: false,
+    },
+];
