@@ -114,26 +114,13 @@ fn what_differs_is_found_by_pairs() {
             let column = |name: &str| found.columns.iter().find(|one| one.quantity.name() == name).expect("a column");
             let is_seen = |name: &str| found.is_moved(column(name)) || found.is_shifted(column(name));
             let all = [is_seen("a"), is_seen("b"), found.is_changed(&column("c").absence)];
-            assert!(!are_pairs || !column("a").moves_apart());
+            assert!(!are_pairs || !column("a").moves_apart() && column("b").moves_apart());
             counts[place].iter_mut().zip(all).for_each(|(count, is)| *count += u32::from(is));
         }
     }
     println!("moved, spread, lost: pairs {:?}, other seeds {:?} of 60", counts[0], counts[1]);
     assert_eq!(counts[0], [60; 3]);
     assert!(counts[1][0] < 15 && counts[1][1] < 15 && counts[1][2] == 60, "{counts:?}");
-}
-
-/// Law: symmetric runs of larger spread move apart, and not to one side.
-#[test]
-fn a_larger_spread_is_one() {
-    let found = (1..=60).filter(|seed| {
-        let one = rows(200, [*seed; 2], 0.0, 0.0);
-        let other: Vec<[f64; 3]> = one.iter().map(|[a, b, c]| [1.05 * a, *b, *c]).collect();
-        let found = comparison([&one, &other], true);
-        let column = found.columns.iter().find(|one| one.quantity.name() == "a").expect("a column");
-        column.moves_apart() && (found.is_moved(column) || found.is_shifted(column))
-    });
-    assert_eq!(found.count(), 60);
 }
 
 /// Pairs of one distribution with asymmetric differences: a phase that moves on by 0.1 or 1 and is wrapped, an

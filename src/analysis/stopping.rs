@@ -172,22 +172,4 @@ mod tests {
         assert!(widths.is_sorted() && widths[2].is_some() && !of(10).stops, "{widths:?}");
         assert_eq!((of(60).interval[1], of(60).stops), (None, false));
     }
-
-    /// Law: a campaign ends with the look that reaches the goal, or with the last one.
-    #[test]
-    fn the_last_look_ends_the_campaign() {
-        let precision = |stops: bool| {
-            LookFound::Precision(Look {
-                stops,
-                estimate: Some(1.0),
-                interval: [Some(0.9), Some(1.1)],
-                confidence: 0.95,
-            })
-        };
-        for found in [precision, |decided: bool| LookFound::Undecided(usize::from(!decided))] {
-            let ends = |look: usize, stops: bool| Stopping { samples: 100, look, looks: 3, found: found(stops) }.ends();
-            assert_eq!([1, 2, 3].map(|look| ends(look, false)), [false, false, true]);
-            assert_eq!([1, 2, 3].map(|look| ends(look, true)), [true, true, true]);
-        }
-    }
 }

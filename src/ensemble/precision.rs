@@ -327,28 +327,3 @@ impl Sum {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_prediction_extrapolates_within_bounds() {
-        assert_eq!(prediction(&[]), 0.0);
-        assert_eq!(prediction(&[2.0]), 3.0);
-        assert_eq!(prediction(&[1.0, 2.0]), 4.0);
-        assert_eq!(prediction(&[1.0, 100.0]), 300.0);
-        assert_eq!(prediction(&[4.0, 2.0]), 2.0);
-    }
-
-    #[test]
-    fn a_sum_keeps_the_largest_and_the_mean_square() {
-        let mut sum = Sum::default();
-        assert_eq!(sum.deviation(), None);
-        sum.add(3.0);
-        sum.add(4.0);
-        assert_eq!(sum.deviation(), Some(Deviation { max: 4.0, rms: 12.5_f64.sqrt() }));
-        sum.add(f64::NAN);
-        sum.add(5.0);
-        assert!(sum.deviation().is_some_and(|of| of.rms.is_nan()));
-    }
-}

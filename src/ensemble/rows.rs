@@ -235,35 +235,4 @@ mod tests {
     fn part(count: usize) -> Part {
         Part { id: PartId(3), first: SampleId(768), count }
     }
-
-    /// Law: a written row is in its columns at its index, and nowhere else.
-    #[test]
-    fn a_row_is_in_its_columns() {
-        let mut rows = Rows::new(Shape { parameters: 2, observables: 3 }, 8);
-        rows.start(part(4));
-        rows.set_parameters(1, &[1.0, 2.0]);
-        rows.set_result(1, Status::Done, &[3.0, 4.0, 5.0]);
-        assert_eq!(rows.statuses().len(), 4);
-        assert_eq!(rows.statuses()[1], Status::Done);
-        for (column, expected) in [(rows.parameter(0), 1.0), (rows.parameter(1), 2.0), (rows.observable(2), 5.0)] {
-            assert_eq!(column[1], expected);
-            for row in [0, 2, 3] {
-                assert!(column[row].is_nan(), "row {row} of the column of {expected}: {}", column[row]);
-            }
-        }
-    }
-
-    /// Law: a new part has nothing of an earlier one, and an unwritten row is never done.
-    #[test]
-    fn start_clears_the_earlier_part() {
-        let mut rows = Rows::new(Shape { parameters: 0, observables: 1 }, 4);
-        rows.start(part(4));
-        (0..4).for_each(|row| rows.set_result(row, Status::Done, &[1.0]));
-        rows.start(part(2));
-        assert_eq!(rows.statuses(), [Status::InvalidSample; 2]);
-        for (row, value) in rows.observable(0).iter().enumerate() {
-            assert!(value.is_nan(), "row {row}: {value}");
-        }
-        assert_eq!(rows.observable(0).len(), 2);
-    }
 }

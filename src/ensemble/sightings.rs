@@ -86,28 +86,6 @@ mod tests {
         Some(Place::Crossing { before, is_rising: false })
     }
 
-    /// Law: crossings are counted in their direction, unknown values cross nothing, and a quantity stays on a side from
-    /// its last crossing on, or from its first known point.
-    #[test]
-    fn crossings_are_counted() {
-        let nan = f64::NAN;
-        let of = |values: &[f64], direction| Seen::of(values.iter().copied(), direction, |_| 0.0);
-        let wave = [-1.0, 1.0, 2.0, -1.0, -2.0, 0.0, 1.0];
-        let rising = of(&wave, Direction::Rising);
-        assert_eq!(rising, Seen { count: 2, first: up(0), last: up(5), stays: up(5), has_gap: false });
-        let falling = of(&wave, Direction::Falling);
-        assert_eq!(falling, Seen { count: 1, first: down(2), last: down(2), stays: None, has_gap: false });
-        let either = of(&wave, Direction::Either);
-        assert_eq!((either.count, either.first, either.last), (3, up(0), up(5)));
-        let point = |point| Some(Place::Point(point));
-        let always = of(&[-1.0; 4], Direction::Falling);
-        assert_eq!(always, Seen { count: 0, first: None, last: None, stays: point(0), has_gap: false });
-        let gap = of(&[1.0, nan, -1.0, -2.0], Direction::Falling);
-        assert_eq!(gap, Seen { count: 0, first: None, last: None, stays: point(2), has_gap: true });
-        let never = Seen { count: 0, first: None, last: None, stays: None, has_gap: true };
-        assert_eq!(of(&[nan; 3], Direction::Rising), never);
-    }
-
     /// Law: zero is on neither side: starting there, ending there, or touching it is no crossing; passing through it is
     /// one, where the quantity leaves it. So for the negated quantity, in the other direction. The counter-test: without
     /// rounding, a start at 1e-16 is above.

@@ -196,21 +196,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_solution_has_the_rank_correlation_or_says_what_can_be_had() {
-        let (skewed, coin) = (choice(&[0.1, 0.2, 0.7]), choice(&[0.5, 0.5]));
-        for asked in [-0.5, 0.2, 0.6] {
-            let r = scores_of_ranks(asked, &skewed, &coin).expect("within reach");
-            // where the search for r ends; measured: 7.5e-12
-            assert!((rank(&skewed, &coin, r) - asked).abs() < 7e-11);
-        }
-        let [low, high] = scores_of_ranks(0.95, &skewed, &coin).expect_err("too much");
-        assert!(low < -0.6 && (0.6..0.95).contains(&high), "{low} {high}");
-        // measured: no difference
-        assert!((scores_of_ranks(high, &skewed, &coin).expect("the end") - 1.0).abs() < 1e-12);
-        assert_eq!(scores_of_ranks(1.0, &coin, &coin), Ok(1.0));
-    }
-
     /// Weights of one, of the other (none: a normal distribution), r, rank correlation.
     const KNOWN: [(&[f64], &[f64], f64, f64); 4] = [
         (&[1.0, 2.0, 7.0], &[5.0, 5.0], 0.8, 0.53241745830678),

@@ -144,17 +144,6 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_is_the_same_alone_backwards_and_in_order() {
-        let mut stream = Stream::new(7, "wheels.w1.radius_m");
-        let forward: Vec<u64> = (0..100).map(|k| stream.bits(SampleId(k))).collect();
-        let mut backward: Vec<u64> = (0..100).rev().map(|k| stream.bits(SampleId(k))).collect();
-        backward.reverse();
-        let alone: Vec<u64> = (0..100).map(|k| Stream::new(7, "wheels.w1.radius_m").bits(SampleId(k))).collect();
-        assert_eq!(forward, backward);
-        assert_eq!(forward, alone);
-    }
-
-    #[test]
     fn u_is_never_zero_or_one() {
         assert!(unit(0) > 0.0 && unit(u64::MAX) < 1.0);
         assert_eq!(unit(0), 1.0 - unit(u64::MAX), "symmetric about one half");

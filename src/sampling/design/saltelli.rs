@@ -91,33 +91,3 @@ impl Kind for Saltelli {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: the estimators of Saltelli 2010 give the known indices of f = x1^2 + 2 x2^2 + 4 x3^2 of uniform numbers,
-    /// shares of variance 1 : 4 : 16, to four standard errors of independent blocks: sqrt(2 S/n) for a first-order
-    /// index S, 1.6% (the error of the variance) for a total one.
-    #[test]
-    fn blocks_give_sensitivity_indices() {
-        let names: Vec<String> = ["x1", "x2", "x3"].map(str::to_owned).to_vec();
-        let design = Saltelli::new(1, &names, &[0, 1, 2]);
-        const BLOCKS: u64 = 4096;
-        let f = |point: u64| {
-            let x = [0, 1, 2].map(|dimension| design.number(dimension, point));
-            x[0] * x[0] + 2.0 * x[1] * x[1] + 4.0 * x[2] * x[2]
-        };
-        let n = BLOCKS as f64;
-        let rows: Vec<[f64; 5]> = (0..BLOCKS).map(|block| std::array::from_fn(|k| f(block * 5 + k as u64))).collect();
-        let mean = rows.iter().map(|row| row[0]).sum::<f64>() / n;
-        let variance = rows.iter().map(|row| (row[0] - mean).powi(2)).sum::<f64>() / n;
-        for (k, share) in [1.0, 4.0, 16.0].into_iter().enumerate() {
-            let first = rows.iter().map(|row| row[4] * (row[k + 1] - row[0])).sum::<f64>() / n / variance;
-            let total = rows.iter().map(|row| (row[0] - row[k + 1]).powi(2)).sum::<f64>() / (2.0 * n) / variance;
-            let index = share / 21.0;
-            let errors = [(first - index).abs() / libm::sqrt(2.0 * index / n), (total - index).abs() / (0.016 * index)];
-            // measured: 0.2 and 1.1 at most
-            assert!(errors.iter().all(|error| *error < 4.0), "{k} {first} {total} {errors:?}");
-        }
-    }
-}

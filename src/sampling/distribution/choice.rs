@@ -123,17 +123,3 @@ impl Quantile for ChoiceQuantile {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_choice_takes_each_value_in_its_share_of_u() {
-        let choice = ChoiceQuantile::new(&[3.0, 1.0, 2.0, 9.0], &[1.0, 2.0, 1.0, 0.0]);
-        assert_eq!(
-            [0.0001, 0.4999, 0.5001, 0.7499, 0.7501, 0.9999].map(|u| choice.quantile(u)),
-            [1., 1., 2., 2., 3., 3.]
-        );
-        assert_eq!(choice.values[..], [1.0, 2.0, 3.0], "what has no weight is never drawn");
-    }
-}

@@ -220,39 +220,3 @@ fn frame(axis: [f64; 3]) -> [[f64; 3]; 3] {
     [x, cross(z, x), z]
 }
 
-#[cfg(test)]
-mod tests {
-    use super::super::offset::Fixed;
-    use super::*;
-
-    #[test]
-    fn directions_have_length_one_even_where_cones_are_needles() {
-        for spread in [
-            DirectionSpread::Sphere,
-            DirectionSpread::Cone { half_angle_rad: 1e-9 },
-            DirectionSpread::Cone { half_angle_rad: core::f64::consts::PI },
-            DirectionSpread::Fisher { concentration: 1e-3 },
-            DirectionSpread::Fisher { concentration: 1e12 },
-        ] {
-            let map: DirectionMap<Fixed> =
-                DirectionMap { frame: frame([1.0, -2.0, 0.5]), spread, magnitude: Magnitude::Fixed(3.0) };
-            assert_eq!(map.dimensions(), 2);
-            for u in [[1e-16, 0.1], [0.3, 0.9], [1.0 - 1e-16, 0.5]] {
-                let mut vector = [0.0; 3];
-                map.values(&u, &mut vector);
-                // the same; measured: an ulp
-                assert!((norm(vector) / 3.0 - 1.0).abs() < 4.0 * f64::EPSILON, "{spread:?} {u:?}");
-            }
-        }
-        let needle: DirectionMap<Fixed> = DirectionMap {
-            frame: frame([0.0, 0.0, 1.0]),
-            spread: DirectionSpread::Cone { half_angle_rad: 1e-9 },
-            magnitude: Magnitude::Fixed(1.0),
-        };
-        let mut vector = [0.0; 3];
-        needle.values(&[0.25, 0.125], &mut vector);
-        let [x, y, _] = vector;
-        // some roundings; none is measured
-        assert!(((x * x + y * y).sqrt() / 0.5e-9 - 1.0).abs() < 1e-15, "angle = half-angle times sqrt(u)");
-    }
-}
