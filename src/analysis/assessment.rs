@@ -48,7 +48,6 @@ pub const RARE: u64 = 10;
 pub struct WorstPoint {
     /// The time, s.
     pub time_s: f64,
-    /// Number of points tested.
     pub points: usize,
     /// Runs in one bucket with the limit, on an unknown side of it; counted as violations.
     pub unresolved: u64,

@@ -32,7 +32,6 @@ use crate::storage::rows_reader::RowsError;
 /// Columns read at a time.
 const AT_A_TIME: usize = 16;
 
-/// The shift of one statistic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shift {
     /// Name: `mean`, `standard deviation`, `p95`.
@@ -51,7 +50,6 @@ pub struct Absence {
     pub of: [Occurrence; 2],
     /// Probability of so large a difference by chance.
     pub p_value: f64,
-    /// Adjusted for the number of observables.
     pub adjusted_p_value: f64,
 }
 
@@ -99,7 +97,6 @@ pub struct ColumnComparison {
     pub distribution_p_value: Option<f64>,
     /// P-value of the pairs' differences being symmetric; `None` without pairs, or if none differs.
     pub moved_p_value: Option<f64>,
-    /// P-value of equal spreads in the pairs.
     pub spread_p_value: Option<f64>,
     /// Twice the smaller one of these two, adjusted for the number of observables.
     pub adjusted_moved_p_value: Option<f64>,
@@ -110,7 +107,6 @@ pub struct ColumnComparison {
     pub is_required: bool,
     /// P-value that decides whether the observable is shifted.
     pub p_value: Option<f64>,
-    /// Adjusted for the number of observables.
     pub adjusted_p_value: Option<f64>,
 }
 
@@ -157,7 +153,6 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The shift of the fraction of `ok` runs.
     pub fn shift_of_ok(&self) -> f64 {
         let [first, second] = self.statistics.each_ref().map(|of| of.ok() as f64 / of.samples().max(1) as f64);
         second - first
@@ -318,7 +313,6 @@ pub(super) fn compared(
     }
 }
 
-/// The tests of one observable.
 pub(super) struct Tests {
     pub(super) mean: Option<Difference>,
     distribution: Option<f64>,

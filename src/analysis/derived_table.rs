@@ -17,7 +17,6 @@ pub enum DerivedTableError {
     /// The rows could not be read.
     #[error(transparent)]
     Rows(#[from] RowsError),
-    /// It could not be encoded.
     #[error(transparent)]
     Encoding(#[from] EncodingError),
 }

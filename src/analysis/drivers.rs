@@ -45,13 +45,10 @@ pub const LEAST_CHANCE: f64 = 0.1;
 /// A question about an outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
-    /// The source of its spread.
     Spread,
-    /// The causes of an event.
     Event(Event),
 }
 
-/// An input in a ranking.
 #[derive(Clone, Copy, Debug)]
 pub struct Ranked<'a> {
     pub input: &'a InputSensitivity,

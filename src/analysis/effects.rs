@@ -71,7 +71,6 @@ pub struct OnEvent {
     pub instead: Option<String>,
 }
 
-/// An input prepared for the tests.
 #[derive(Clone, Debug)]
 pub struct TestedInput {
     values: Vec<f64>,
@@ -106,7 +105,6 @@ impl TestedInput {
         Some(TestedInput { values: values.to_vec(), order: order.to_vec(), groups, ranks, distances })
     }
 
-    /// Whether its values are groups.
     pub fn has_few_values(&self) -> bool {
         self.groups.is_some()
     }
@@ -179,7 +177,6 @@ impl TestedInput {
     }
 }
 
-/// An observable prepared for the tests of its spread.
 struct TestedSpread {
     ranks: Vec<f64>,
     /// Rows that differ from the most frequent value, if that is so frequent that ranks tell little.
@@ -204,7 +201,6 @@ impl TestedSpread {
     }
 }
 
-/// The runs of all levels but one.
 fn rest(levels: &[Level], but: usize) -> Occurrence {
     let others = levels.iter().enumerate().filter(|(place, _)| *place != but).map(|(_, level)| level.of);
     others.fold(Occurrence { events: 0, runs: 0 }, |sum, of| Occurrence {

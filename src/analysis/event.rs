@@ -42,7 +42,6 @@ impl Occurs {
     }
 }
 
-/// An event of an outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     pub occurs: Occurs,
@@ -64,7 +63,6 @@ pub fn distinct(values: &[f64], order: &[usize]) -> Vec<(f64, usize)> {
     found
 }
 
-/// Whether so many distinct values of so many rows are few.
 pub fn are_few(distinct: usize, rows: usize) -> bool {
     (2..=FEW).contains(&distinct) && rows >= ROWS_OF_EACH * distinct
 }

@@ -63,7 +63,6 @@ pub struct FirstRows {
 }
 
 impl FirstRows {
-    /// Of the campaign `plan`.
     pub fn new(plan: &Plan) -> Self {
         let (names, most) = wanted(plan);
         let observed = Observed::named(plan, names.iter().map(String::as_str));

@@ -11,7 +11,6 @@ use crate::run::Status;
 use crate::scene::Name;
 use crate::storage::rows_reader::RowsError;
 
-/// One end of missions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {
     /// `launched`, the name of a failure, or `flying` if the run ended before either; `not_failed` in a loop without a

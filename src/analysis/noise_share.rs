@@ -14,7 +14,6 @@ use crate::sampling::SampleId;
 use crate::statistics::jackknife::Estimate;
 use crate::statistics::share_within::{others, share_within};
 
-/// The share of an outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseShare {
     pub observable: String,

@@ -32,16 +32,13 @@ enum Absence {
     Extreme { after: Option<[String; 2]>, delay_s: f64, end: End },
 }
 
-/// The end of runs.
 #[derive(Clone, Debug, PartialEq)]
 enum End {
     At(f64),
-    /// In a column.
     Column(&'static str),
 }
 
 impl Absence {
-    /// For `column` of the rows of `plan`.
     fn of(plan: &Plan, column: &str) -> Self {
         let count = |event: &str| format!("{event}_count");
         let time = |event: &str| format!("{event}_time_s");
@@ -59,7 +56,6 @@ impl Absence {
         Absence::Extreme { after, delay_s: extreme.delay_s, end }
     }
 
-    /// The rows of `part` in which a missing value is not a number.
     fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
         let rows = part.rows();
         Ok(match self {
@@ -88,9 +84,7 @@ const TIME_REACHED: &str = "time_reached_s";
 pub struct Observed {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// Whether its values are counts.
     pub is_count: bool,
-    /// The expression of a derived observable.
     derived: Option<Expression>,
     /// The variables of the expression, or its own column.
     sources: Vec<Source>,

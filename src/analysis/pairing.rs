@@ -34,7 +34,6 @@ pub fn pairs(
     Ok(shared)
 }
 
-/// Whether the dispersed values of the rows `shared` have the same bits in both results.
 fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool, RowsError> {
     let names = |plan: &Plan| -> Vec<String> {
         let columns = plan.dispersions.columns().iter();
@@ -90,7 +89,6 @@ fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
     shared
 }
 
-/// The first dispersed row.
 pub fn first_dispersed(plan: &Plan) -> usize {
     usize::from(plan.dispersed_rows() < plan.rows())
 }

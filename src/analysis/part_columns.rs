@@ -11,7 +11,6 @@ use crate::sampling::SampleId;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
 use crate::storage::rows_reader::{PartReader, RowsError};
 
-/// The columns of one part.
 pub trait PartColumns {
     fn rows(&self) -> usize;
 
@@ -69,7 +68,6 @@ enum Position {
     Parameter(usize),
     Observable(usize),
     Audit(AuditValue),
-    /// The error of an observable in audited runs.
     AuditError(usize),
 }
 
@@ -101,7 +99,6 @@ impl RowNames {
     }
 }
 
-/// Rows in memory with the names of their columns.
 #[derive(Clone, Copy, Debug)]
 pub struct RowsInMemory<'r> {
     names: &'r RowNames,

@@ -75,7 +75,6 @@ impl Population {
         }
     }
 
-    /// The population after a `loss`.
     #[must_use]
     pub fn after(self, loss: Loss) -> Self {
         if loss.is_big() && self.has_intervals() { Population::Incomplete(loss) } else { self }
@@ -93,7 +92,6 @@ impl Population {
         matches!(self, Population::Independent | Population::Replicated(_))
     }
 
-    /// The group of a dispersed sample.
     pub fn group(self, sample: SampleId) -> usize {
         (sample.0.saturating_sub(1) % self.groups() as u64) as usize
     }
@@ -161,18 +159,5 @@ mod tests {
                 assert_eq!(Population::Nominal.after(loss), Population::Nominal);
             }
         }
-    }
-
-    /// Law: statistics count the nominal sample only if it is alone; each sample is in one group.
-    #[test]
-    fn the_nominal_sample_is_no_part_of_a_population() {
-        let [nominal, first] = [SampleId(0), SampleId(1)];
-        for population in [Population::Independent, Population::Replicated(4), Population::Dependent("sobol")] {
-            assert!(!population.contains(nominal) && population.contains(first), "{population:?}");
-        }
-        assert!(Population::Nominal.contains(nominal));
-        let groups = |population: Population| [1, 2, 3, 4, 5].map(|sample| population.group(SampleId(sample)));
-        assert_eq!(groups(Population::Replicated(4)), [0, 1, 2, 3, 0]);
-        assert_eq!(groups(Population::Independent), [0; 5]);
     }
 }

@@ -73,7 +73,6 @@ fn of_table(
     in_parallel(work, threads, of_observable).into_iter().flatten().collect()
 }
 
-/// The values of these rows.
 fn at(rows: &[usize], values: &[f64]) -> Vec<f64> {
     rows.iter().map(|row| values[*row]).collect()
 }

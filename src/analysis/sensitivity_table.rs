@@ -52,7 +52,6 @@ const MEASURES: [Measure; 9] = [
     ),
 ];
 
-/// The table of `list`.
 pub fn table(list: &[InputSensitivity]) -> Table<'_> {
     let on_event = |one: &InputSensitivity, of: fn(&OnEvent) -> Option<f64>| one.on_events.first().and_then(of);
     let mut table = Table::of(list);

@@ -3,7 +3,6 @@
 
 use crate::analysis::statistics::ColumnStatistics;
 
-/// A statistic of an observable.
 pub struct Statistic {
     /// The column in files and the key in the summary.
     pub name: &'static str,
@@ -18,9 +17,7 @@ pub struct Statistic {
     pub is_compared: bool,
 }
 
-/// The uncertainty of a statistic.
 pub struct Uncertainty {
-    /// Standard error.
     pub error: fn(&ColumnStatistics) -> Option<f64>,
     pub error_meaning: &'static str,
     pub interval: fn(&ColumnStatistics) -> [Option<f64>; 2],

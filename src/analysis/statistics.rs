@@ -30,12 +30,10 @@ use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// The statistics of one observable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnStatistics {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// Whether its values are counts.
     pub is_count: bool,
     /// `ok` runs without a value.
     pub without_value: u64,
@@ -69,10 +67,8 @@ impl ColumnStatistics {
 /// The quantiles whose difference is the spread.
 const SPREAD: [f64; 2] = [0.05, 0.95];
 
-/// The statistics of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
-    /// The population of the samples.
     pub population: Population,
     pub confidence: f64,
     /// Numbers of counted samples by status, in the order of [`Status::ALL`].
@@ -84,7 +80,6 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Number of counted samples.
     pub fn samples(&self) -> u64 {
         self.statuses.iter().sum()
     }
@@ -99,7 +94,6 @@ impl Statistics {
             .sum()
     }
 
-    /// The quantile of `requirement`.
     pub fn required(&self, requirement: &Requirement) -> Option<&QuantileStatistic> {
         let column = self.column(requirement.observable()?)?;
         column.required.iter().find(|(one, _)| one == requirement).map(|(_, quantile)| quantile)
@@ -334,7 +328,6 @@ fn sketched(values: &[f64], moments: &Moments) -> Sketch {
     sketch
 }
 
-/// The effect of lost runs on a mean with the interval `mean_interval`.
 fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
     let lost = match lost {
         1 => "1 run was not computed".to_owned(),
@@ -381,65 +374,6 @@ mod lost_runs;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::accumulator::Accumulator;
-    use crate::analysis::part_columns::PartColumns;
-    use crate::analysis::small_plan::small_plan;
-    use crate::analysis::statuses::StatusCounter;
-    use crate::run::Status;
-    use crate::sampling::SampleId;
-    use crate::statistics::quantile::quantile;
-    use crate::storage::disk::Disk;
-    use std::borrow::Cow;
-
-    /// A part whose columns all have the same values, from a first sample on.
-    struct Written(Vec<Status>, Vec<f64>, u64);
-
-    impl PartColumns for Written {
-        fn rows(&self) -> usize {
-            self.0.len()
-        }
-
-        fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
-            Ok((self.2..self.2 + self.0.len() as u64).map(SampleId).collect())
-        }
-
-        fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError> {
-            Ok(Cow::Borrowed(&self.0))
-        }
-
-        fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError> {
-            Ok(Cow::Borrowed(&[]))
-        }
-
-        fn numbers(&self, _: &str) -> Result<Cow<'_, [f64]>, RowsError> {
-            Ok(Cow::Borrowed(&self.1))
-        }
-    }
-
-    /// Law: statistics are those of dispersed `ok` runs; the nominal run and failed runs are counted and left out.
-    #[test]
-    fn statistics_are_of_dispersed_runs_that_are_ok() {
-        let plan = small_plan(7, "");
-        let observed = Observed::all(&plan);
-        let name = observed[0].quantity.name().to_owned();
-        let collector = (StatusCounter::new(&plan), Collector::new(observed, Population::of(&plan), None));
-        let mut statuses = vec![Status::Done; 7];
-        statuses[3] = Status::StepLimit;
-        // quantiles of 1, 2, 3, 4, 10
-        let part = Written(statuses, vec![99.0, 4.0, 1.0, 50.0, 3.0, 2.0, 10.0], 0);
-        let mut collected = collector.nothing();
-        collector.merge(&mut collected, collector.count(&part).expect("counted"));
-        let (ended, counted) = (collected.0, collector.1.finish(collected.1));
-        let reader = RowsReader::new(&Disk, Vec::new());
-        let found = compute(&plan, &reader, &ended, (Some(counted), &[]), None).expect("statistics");
-        let column = found.column(&name).expect("the column");
-        assert_eq!((found.samples(), found.ok(), found.quantile_error), (6, 5, 0.0));
-        assert_eq!((column.moments.count(), column.moments.mean(), column.moments.max()), (5, Some(4.0), Some(10.0)));
-        let median = column.quantiles.iter().find(|quantile| quantile.p == 0.5).expect("the median");
-        assert_eq!(median.value, Some(3.0));
-        // a sixth is lost: no intervals
-        assert_eq!(found.treatment(), "1 of 6 dispersed runs were not computed and are left out");
-    }
 
     /// Law: values are yes or no exactly if each is 0 or 1 and both occur.
     #[test]
@@ -454,60 +388,5 @@ mod tests {
         ] {
             assert_eq!(is_yes_or_no(&Moments::of(values.iter().copied())), known, "{values:?}");
         }
-    }
-
-    /// Law: sketched quantiles are within a hundredth of a standard deviation for any offset of the values, also far
-    /// from the nominal run; a median of zeros is zero; the order of counting changes no bit.
-    #[test]
-    fn many_rows_with_an_offset_have_their_quantiles() {
-        const ROWS: usize = 120_000;
-        const PART: usize = 8_000;
-        let plan = small_plan(ROWS as u64, "");
-        assert!(!is_exact(&plan));
-        let observed = Observed::all(&plan)[..1].to_vec();
-        let population = Population::of(&plan);
-        // 1 to ROWS in an irregular order, as normal scores; every hundredth run failed
-        let score =
-            |k: usize| crate::math::normal::quantile(((k * 70_001) % ROWS) as f64 / ROWS as f64 + 0.5 / ROWS as f64);
-        let status = |k: usize| if k % 100 == 99 { Status::StepLimit } else { Status::Done };
-        let found = |value: &dyn Fn(usize) -> f64, backwards: bool| {
-            let part = |first: usize| {
-                let rows = first..first + PART;
-                let values = rows.clone().map(|k| if k == 0 { -3e14 } else { value(k) }).collect();
-                Written(rows.clone().map(status).collect(), values, first as u64)
-            };
-            let mut parts: Vec<Written> = (0..ROWS).step_by(PART).map(part).collect();
-            let first = references(&observed, population, parts.drain(..1).map(Ok)).expect("references");
-            let parts: Vec<Written> = (0..ROWS).step_by(PART).map(part).collect();
-            let collector = Collector::new(observed.clone(), population, Some(first));
-            let mut counts: Vec<_> = (0..parts.len()).collect();
-            if backwards {
-                counts.reverse();
-            }
-            let mut counted: Vec<_> =
-                counts.into_iter().map(|index| (index, collector.count(&parts[index]).expect("counted"))).collect();
-            counted.sort_by_key(|(index, _)| *index);
-            let mut collected = collector.nothing();
-            counted.into_iter().for_each(|(_, part)| collector.merge(&mut collected, part));
-            let mut columns = collector.finish(collected).columns;
-            let common = CommonRanks::new(&plan, population, columns[0].moments.count());
-            described(&plan, (population, Loss::default(), &[0]), (&observed[0], false), columns.remove(0), &common)
-        };
-        for offset in [0.0, 1.0, -1.0, 1e3, -1e5, 1e9, -1e9] {
-            let value = |k: usize| offset + score(k);
-            let column = found(&value, false);
-            assert_eq!(column, found(&value, true), "{offset}");
-            let mut exact: Vec<f64> = (1..ROWS).filter(|k| status(*k) == Status::Done).map(value).collect();
-            exact.sort_by(f64::total_cmp);
-            for one in &column.quantiles {
-                let (value, exact) = (one.value.expect("a value"), quantile(&exact, one.p).expect("a value"));
-                assert!((value - exact).abs() < 0.01, "{offset}, p{}: {value} for {exact}", one.p);
-            }
-        }
-        let median = |value: &dyn Fn(usize) -> f64| {
-            found(value, false).quantiles.iter().find(|one| one.p == 0.5).and_then(|one| one.value)
-        };
-        assert_eq!(median(&|k| if k % 3 == 0 { k as f64 } else { 0.0 }), Some(0.0));
-        assert_eq!(median(&|k| if k % 3 == 0 { 1e-312 } else { 0.0 }), Some(0.0));
     }
 }

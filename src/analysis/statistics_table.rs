@@ -12,7 +12,6 @@ pub fn quantile_name(p: f64) -> String {
     format!("p{}", percent(p).replace('.', "_"))
 }
 
-/// The table of `statistics`.
 pub fn table(statistics: &Statistics) -> Table<'_> {
     let columns = &statistics.columns;
     let mut table = Table::of(columns);

@@ -153,18 +153,4 @@ mod tests {
         );
         assert_eq!(statuses.reasons().groups()[0].count, 12);
     }
-
-    /// Law: each run has its own reason, whatever the order of the reasons of a part.
-    #[test]
-    fn reasons_may_come_in_any_order() {
-        let counter = StatusCounter(Population::Independent);
-        let mut whole = counter.nothing();
-        let reasons = [3, 0, 1].map(|row| (row, format!("of row {row}"))).to_vec();
-        let statuses = vec![Status::StepLimit, Status::StepLimit, Status::Done, Status::StepLimit];
-        counter.merge(&mut whole, ((5..9).map(SampleId).collect(), statuses, reasons));
-        let ended = whole.failed().next().expect("failed runs");
-        let said: Vec<(u64, &str)> = ended.first.iter().map(|(sample, reason)| (sample.0, reason.as_str())).collect();
-        assert_eq!(said, [(5, "of row 0"), (6, "of row 1"), (8, "of row 3")]);
-        assert_eq!(whole.reasons().groups().iter().map(|one| one.count).sum::<u64>(), 3);
-    }
 }

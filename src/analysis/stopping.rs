@@ -22,7 +22,6 @@ pub struct Stopping {
     pub samples: u64,
     /// Number of the look, from 1.
     pub look: usize,
-    /// Most looks.
     pub looks: usize,
     pub found: LookFound,
 }
@@ -30,12 +29,10 @@ pub struct Stopping {
 #[derive(Clone, Debug, PartialEq)]
 pub enum LookFound {
     Precision(Look),
-    /// Number of undecided requirements.
     Undecided(usize),
 }
 
 impl Stopping {
-    /// Whether the goal is reached.
     pub fn is_reached(&self) -> bool {
         match &self.found {
             LookFound::Precision(look) => look.stops,

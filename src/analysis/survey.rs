@@ -45,7 +45,6 @@ pub struct SurveyedOutcome {
     pub quantity: Quantity,
     /// Whether the campaign is about it.
     pub is_outcome: bool,
-    /// Whether it is an error of the computation.
     pub is_error: bool,
     /// Its values over the dispersed runs that are ok.
     pub sketch: Sketch,
@@ -173,7 +172,6 @@ pub struct SurveyedPart {
 }
 
 impl Surveyor {
-    /// Of the campaign `ensemble`.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let plan = ensemble.plan();
         let (names, asked) = wanted(ensemble);
@@ -310,7 +308,6 @@ impl Survey {
         }
     }
 
-    /// The outcome called `name`.
     pub fn outcome(&self, name: &str) -> Option<(usize, &SurveyedOutcome)> {
         self.outcomes.iter().enumerate().find(|(_, outcome)| outcome.quantity.name() == name)
     }
@@ -385,22 +382,6 @@ impl Thinning {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Law: the interval is made of the order statistics that the binomial distribution names; too few values have no
-    /// end.
-    #[test]
-    fn intervals_are_order_statistics() {
-        let mut sketch = Sketch::default();
-        (1..=1000).for_each(|value| sketch.add(f64::from(value)));
-        let ranks = interval_ranks(1000, 0.9, 0.95);
-        let [low, high] = interval([1000, 0], &sketch.ranks(), 0.9, 0.95);
-        // the sketch answers within 0.05%
-        assert!((low - ranks.lower.unwrap() as f64).abs() < 0.5 && (high - ranks.upper.unwrap() as f64).abs() < 0.5);
-        assert!(
-            interval([1000, 0], &sketch.ranks(), 0.9999, 0.95)[1].is_nan(),
-            "1000 runs do not bound that quantile from above"
-        );
-    }
 
     /// Law: about as many samples are kept as are allowed, never more; all of a small campaign; the nominal one always.
     #[test]

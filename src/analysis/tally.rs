@@ -42,7 +42,6 @@ pub struct Tally {
     pub without_nominal: bool,
     /// The runs with the greatest observed errors.
     pub worst: Vec<Worst>,
-    /// The statistics of audits.
     pub audits: Option<AuditTally>,
     /// Runs beyond the heights of the table of the air; `None` without such a table in the file, or without observed
     /// distances.
@@ -203,65 +202,5 @@ impl Accumulator for TallyColumns {
         }
         whole.beyond_air.iter_mut().for_each(|count| *count += part.beyond_air);
         self.statuses.merge(&mut whole.statuses, part.ended);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::analysis::part_columns::RowNames;
-    use crate::campaign::{Overrides, Plan};
-    use crate::ensemble::{Part, PartId, Rows};
-    use crate::math::Isa;
-    use crate::propagation::Method;
-
-    /// The tally of a campaign of `samples` samples from parts of rows (status, error of a balance).
-    fn tally_of(balance: ColumnId, samples: u64, parts: &[&[(Status, f64)]]) -> Tally {
-        let text = include_str!("../../campaigns/spin_sweep.toml");
-        let overrides = Overrides { samples: Some(samples), audit_fraction: Some(0.5), ..Overrides::default() };
-        let plan = Plan::from_text("spin_sweep", text, overrides).unwrap();
-        // a method with all balances
-        let plan = Plan { method: Method::NullSpace, ..plan };
-        let ensemble = Ensemble::new(&plan, Isa::best());
-        let (columns, names) = (TallyColumns::new(&ensemble), RowNames::new(&ensemble));
-        let (mut tally, mut first) = (columns.nothing(), 0);
-        let error = ensemble.request().position(balance).unwrap();
-        for (id, part) in parts.iter().enumerate() {
-            let mut rows = Rows::new(ensemble.shape(), part.len());
-            rows.start(Part { id: PartId(id as u64), first: SampleId(first), count: part.len() });
-            for (row, (status, value)) in part.iter().enumerate() {
-                let mut observed = vec![0.0; ensemble.shape().observables];
-                observed[error] = *value;
-                rows.set_result(row, *status, &observed);
-            }
-            columns.merge(&mut tally, columns.count(&names.of(&rows)).unwrap());
-            first += part.len() as u64;
-        }
-        tally
-    }
-
-    /// Law: the worst runs, also inaccurate ones, are listed by number, without the nominal one; every run is counted.
-    #[test]
-    fn worst_runs_are_listed() {
-        let ok = Status::Done;
-        let rows = [
-            (ok, 99.0),
-            (ok, 2.0),
-            (Status::NonFinite, 98.0),
-            (ok, 7.0),
-            (ok, 7.0),
-            (ok, 1.0),
-            (ok, f64::NAN),
-            (Status::Inaccurate, 8.0),
-        ];
-        for balance in BALANCES {
-            let found = tally_of(balance, 8, &[&rows[..3], &rows[3..]]);
-            let worst = found.worst.iter().find(|worst| worst.name == "conservation error").unwrap();
-            let expected = [(SampleId(7), 8.0), (SampleId(3), 7.0), (SampleId(4), 7.0)];
-            assert_eq!(worst.list.runs, expected, "{}", balance.name());
-            assert_eq!((found.without_nominal, found.statuses.ok(), found.statuses.runs()), (true, 6, 8));
-        }
-        let alone = tally_of(BALANCES[0], 1, &[&[(ok, 9.0)]]);
-        assert_eq!((alone.worst[0].list.runs.len(), alone.without_nominal), (1, false));
     }
 }

@@ -47,7 +47,6 @@ pub enum TrajectoryError {
     File(#[from] StorageError),
 }
 
-/// The file of `sample`.
 pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
 }

@@ -66,7 +66,6 @@ impl Verdicts {
     }
 }
 
-/// Counts of all requirements of a campaign.
 #[derive(Clone, Debug)]
 pub struct RequirementCounts {
     list: Vec<RequirementRuns>,

@@ -13,7 +13,6 @@ pub struct WorstRuns {
 }
 
 impl WorstRuns {
-    /// At most `most` runs.
     pub fn new(most: usize, is_low: bool) -> Self {
         WorstRuns { most, is_low, runs: Vec::new() }
     }

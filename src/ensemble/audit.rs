@@ -56,7 +56,6 @@ pub enum AuditValue {
     Tolerance,
     /// Error estimate of the run.
     Estimate,
-    /// Error estimate of the debris.
     DebrisEstimate,
 }
 
@@ -120,7 +119,6 @@ impl AuditValue {
         Self::ALL.into_iter().filter(move |value| has_debris || !value.is_of_debris())
     }
 
-    /// Whether only scenes with debris have it.
     pub fn is_of_debris(self) -> bool {
         matches!(self, AuditValue::Debris | AuditValue::DebrisEstimate)
     }
@@ -131,7 +129,6 @@ impl AuditValue {
     }
 }
 
-/// The audit of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
     /// Largest error of omega on the grid, over the largest |omega| or one radian per duration, whichever is more.
@@ -144,7 +141,6 @@ pub struct Audit {
     pub estimate: f64,
     /// The estimate of `debris`: `debris_state_error_estimate`; NaN without debris.
     pub debris_estimate: f64,
-    /// Tolerance of the reference solution.
     pub reference_tolerance: f64,
     /// |observed - true| of each observable, in the order of the request's columns; NaN without a reference value, as
     /// for step statistics.
@@ -157,7 +153,6 @@ impl Audit {
         RotationError { omega: self.omega, attitude: self.attitude }.state()
     }
 
-    /// The value of a column.
     pub fn value(&self, value: AuditValue) -> f64 {
         match value {
             AuditValue::State => self.state(),
@@ -174,7 +169,6 @@ impl Audit {
 /// The reason why a run has no audit.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NoAudit {
-    /// The run is incomplete.
     #[error("the run ended with {}", .0.name())]
     Run(Status),
     /// The reference solution is incomplete.
@@ -202,12 +196,10 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// The selection of `plan`.
     pub fn new(plan: &Plan) -> Self {
         Selection { stream: Stream::new(plan.seed, "audit"), fraction: plan.audit_fraction }
     }
 
-    /// Whether `sample` is audited.
     pub fn contains(&mut self, sample: SampleId) -> bool {
         self.fraction > 0.0 && self.stream.uniform(sample) < self.fraction
     }

@@ -32,7 +32,6 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandLayout {
-    /// Each series with the form of its numbers.
     pub series: Vec<(Quantity, Form)>,
     /// The times of the points, s, ascending.
     pub times: Vec<f64>,

@@ -23,7 +23,6 @@ pub(super) struct Batch<'p> {
     of_campaign: usize,
     /// The scenes, one for each row; more may be left of earlier batches.
     pub scenes: Vec<Scene>,
-    /// The row of each scene.
     pub rows_of_scenes: Vec<usize>,
     /// Scenes to be audited; empty without audits.
     pub is_selected: Vec<bool>,
@@ -36,7 +35,6 @@ pub(super) struct Batch<'p> {
     /// The arcs flown by audited scenes; empty without a law.
     flown: Vec<Vec<Arc>>,
     runs: ObservedRuns<'p>,
-    /// The places of the law's report in a row.
     places_of_law: Range<usize>,
     report: Vec<f64>,
     /// Finds the events of the runs.

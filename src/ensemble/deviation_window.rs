@@ -5,7 +5,6 @@ use crate::statistics::deviation::{Code, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
 /// Counts of the buckets between two magnitudes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DeviationWindow<C> {
-    /// The code of the first count.
     first: Code,
     counts: Vec<C>,
     zeros: C,
@@ -14,7 +13,6 @@ pub(super) struct DeviationWindow<C> {
 /// Runs that may fill counts of 16 bits.
 pub(super) const FULL: usize = u16::MAX as usize;
 
-/// Counts in a cache line.
 const CACHE_LINE: usize = 32;
 
 /// Counts tested together: most blocks in the outer octaves are zero.
@@ -114,46 +112,5 @@ impl DeviationWindow<u64> {
             };
             counter.into_iter().for_each(|counter| *counter += count);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::statistics::deviation::code;
-
-    /// The counts one by one.
-    fn expected(codes: &[Code]) -> Vec<(Code, u64)> {
-        let mut codes: Vec<Code> = codes.iter().copied().filter(|code| *code != NOT_A_NUMBER).collect();
-        codes.sort_unstable();
-        codes.chunk_by(|a, b| a == b).map(|run| (run[0], run.len() as u64)).collect()
-    }
-
-    /// Law: sums do not depend on the division into parts, or on their order, and go on beyond 2^32.
-    #[test]
-    fn adding_has_no_order() {
-        let value = |k: u32| libm::sin(f64::from(k)) * libm::exp2(f64::from(k % 90) - 60.0);
-        let codes: Vec<Code> = (0..600).map(|k| code(value(k))).collect();
-        let sums_of = |parts: &[&[Code]]| {
-            let mut sums = DeviationWindow::<u64>::default();
-            for part in parts {
-                let mut window = DeviationWindow::<u16>::default();
-                window.add(part);
-                sums.add_buckets(window.buckets());
-            }
-            sums.buckets().collect::<Vec<_>>()
-        };
-        for size in [1, 7, 100, 599] {
-            let mut parts: Vec<&[Code]> = codes.chunks(size).collect();
-            for _ in 0..2 {
-                assert_eq!(sums_of(&parts), expected(&codes), "parts of {size}");
-                parts.reverse();
-            }
-        }
-        // counter-test: a part that is added twice
-        assert_ne!(sums_of(&[&codes[..300], &codes[..300], &codes[300..]]), expected(&codes));
-        let mut many = DeviationWindow::<u64>::default();
-        (0..2).for_each(|_| many.add_buckets([(ZERO, 3 << 31), (70, (1 << 40) + 1)].into_iter()));
-        assert_eq!(many.buckets().collect::<Vec<_>>(), [(ZERO, 3 << 32), (70, (1 << 41) + 2)]);
     }
 }

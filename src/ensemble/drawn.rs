@@ -147,7 +147,6 @@ impl DrawnScenes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Overrides;
     use crate::observables::{Group, table};
 
     /// Law: a mass property has the name and the unit of its column in rows.
@@ -158,33 +157,5 @@ mod tests {
             let found = columns.find(|column| column.quantity.name() == name).expect(name);
             assert_eq!(found.quantity.unit(), unit, "{name}");
         }
-    }
-
-    /// Law: some samples of a grid spread over all of it; of a random design they are the first ones.
-    #[test]
-    fn samples_are_spread_over_a_grid() {
-        let scene: String = include_str!("../../campaigns/no_debris.toml")
-            .lines()
-            .take_while(|line| !line.starts_with("[[disperse]]"))
-            .map(|line| format!("{line}\n"))
-            .collect();
-        let uniform = |parameter: &str| {
-            format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"uniform\"\nmin = 0.0\nmax = 1.0\n")
-        };
-        let tables = uniform("initial.angular_velocity_rad_s.x") + &uniform("initial.angular_velocity_rad_s.y");
-        let of = |design: &str| {
-            let text = format!("{scene}{tables}[design]\n{design}\n");
-            let overrides = Overrides { samples: Some(20_001), ..Overrides::default() };
-            Plan::from_text("t.toml", &text, overrides).unwrap_or_else(|error| panic!("{error}"))
-        };
-        let spread = DrawnScenes::spread(&of("kind = \"grid\"\nlevels = [200, 100]"), 1000);
-        assert_eq!(spread.count(), 1000);
-        for column in &spread.columns {
-            let mean = column.iter().sum::<f64>() / 1000.0;
-            let [least, most] = [f64::min, f64::max].map(|of| column.iter().copied().reduce(of).expect("many"));
-            assert!(least < 0.02 && most > 0.98 && (mean - 0.5).abs() < 0.04, "{least} {mean} {most}");
-        }
-        let random = of("kind = \"random\"");
-        assert_eq!(DrawnScenes::spread(&random, 1000), DrawnScenes::new(&random, SampleId(1), 1000));
     }
 }

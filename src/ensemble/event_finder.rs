@@ -166,7 +166,6 @@ impl<'p> EventFinder<'p> {
         is_ended
     }
 
-    /// The earliest event that ends run `run`.
     pub fn end(&self, run: usize) -> Option<RunEnd> {
         if self.ends != Ends::Sought {
             return None;

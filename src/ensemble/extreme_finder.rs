@@ -192,7 +192,6 @@ impl<'p> ExtremeFinder<'p> {
         again
     }
 
-    /// The extremes of run `run`.
     pub fn values(&self, run: usize) -> impl Iterator<Item = f64> + '_ {
         let extremes = &self.plan.extremes;
         let of_run = &self.found[run * extremes.len()..(run + 1) * extremes.len()];

@@ -12,7 +12,6 @@ use crate::sampling::SampleId;
 pub struct FailureReason {
     pub status: Status,
     pub count: u64,
-    /// The smallest sample.
     pub first: SampleId,
     /// The reason of that sample.
     pub text: String,
@@ -23,12 +22,10 @@ pub struct FailureReason {
 pub struct FailureReasons(BTreeMap<(&'static str, String), FailureReason>);
 
 impl FailureReasons {
-    /// Adds the runs of `rows` that failed.
     pub fn add(&mut self, rows: &Rows) {
         rows.reasons().iter().for_each(|(row, text)| self.add_run(rows.samples()[*row], rows.statuses()[*row], text));
     }
 
-    /// Adds a run that failed.
     pub fn add_run(&mut self, sample: SampleId, status: Status, text: &str) {
         let new = || FailureReason { status, count: 0, first: sample, text: text.to_owned() };
         let group = self.0.entry((status.name(), without_numbers(text))).or_insert_with(new);
@@ -46,7 +43,6 @@ impl FailureReasons {
     }
 }
 
-/// `text` with a mark for each number.
 fn without_numbers(text: &str) -> String {
     with_numbers(text, |_| "#".to_owned())
 }
@@ -72,59 +68,4 @@ pub fn with_numbers(text: &str, shown: impl Fn(&str) -> String) -> String {
         kept += &shown(&number);
     }
     kept
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ensemble::{Part, PartId, Shape};
-
-    /// Law: reasons that differ only in numbers are one, in a name they are not; the example is the smallest sample's,
-    /// whatever the order of the rows.
-    #[test]
-    fn reasons_are_counted_without_their_numbers() {
-        let part = |first: u64, reasons: &[(Status, &str)]| {
-            let mut rows = Rows::new(Shape { parameters: 0, observables: 0 }, reasons.len());
-            rows.start(Part { id: PartId(0), first: SampleId(first), count: reasons.len() });
-            for (row, (status, reason)) in reasons.iter().enumerate() {
-                rows.set_result(row, *status, &[]);
-                if *status != Status::Done {
-                    rows.set_reason(row, (*reason).to_owned());
-                }
-            }
-            rows
-        };
-        let (limit, invalid) = (Status::StepLimit, Status::InvalidSample);
-        let parts = [
-            part(0, &[(limit, "reached at 0.5 s"), (Status::Done, ""), (limit, "reached at 1.25e-3 s")]),
-            part(
-                7,
-                &[
-                    (invalid, "wheels.w1.mass_kg is -0.1"),
-                    (invalid, "wheels.w2.mass_kg is 1e-7"),
-                    (limit, "reached at 9 s"),
-                ],
-            ),
-            part(3, &[(invalid, "wheels.w1.mass_kg is 12.5"), (invalid, "reached at 9 s")]),
-        ];
-        let found = |order: [usize; 3]| {
-            let mut reasons = FailureReasons::default();
-            order.iter().for_each(|index| reasons.add(&parts[*index]));
-            reasons
-        };
-        let reason = |status, count, first, text: &str| FailureReason {
-            status,
-            count,
-            first: SampleId(first),
-            text: text.to_owned(),
-        };
-        let expected = [
-            reason(limit, 3, 0, "reached at 0.5 s"),
-            reason(invalid, 2, 3, "wheels.w1.mass_kg is 12.5"),
-            reason(invalid, 1, 4, "reached at 9 s"),
-            reason(invalid, 1, 8, "wheels.w2.mass_kg is 1e-7"),
-        ];
-        assert_eq!(found([0, 1, 2]).groups(), expected.iter().collect::<Vec<_>>());
-        assert_eq!(found([2, 1, 0]), found([0, 1, 2]));
-    }
 }

@@ -59,7 +59,6 @@ pub struct Flights<'p> {
     engine: Box<dyn Engine>,
     /// The laws of the plan, with the nominal scene that they know.
     laws: Option<(LawRuns, Scene)>,
-    /// Records of the loops over time.
     over_time: Vec<SharedRecord>,
     times: Vec<f64>,
     end: f64,
@@ -98,7 +97,6 @@ impl<'p> Flights<'p> {
         self.laws.as_ref()?.0.telemetry(run)
     }
 
-    /// Flies `runs` and passes each to `finish`.
     pub fn fly(&mut self, runs: Runs<'_>, finish: &mut FlightCallback<'_>) {
         let Runs { scenes, draws } = runs;
         let (plan, times, engines, ends_at_surface) = (self.plan, &self.times, self.engines, self.ends_at_surface);

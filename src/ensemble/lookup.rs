@@ -52,7 +52,6 @@ pub(super) struct Lookup<'p> {
     grid: Grid,
 }
 
-/// The values of a run at its observation points.
 pub(super) struct PointValues<'a> {
     quantities: &'a [WatchedQuantity],
     sources: &'a [BandSeries],
@@ -61,7 +60,6 @@ pub(super) struct PointValues<'a> {
 }
 
 impl PointValues<'_> {
-    /// The value of source `place` at point `point`.
     fn source(&self, place: usize, point: usize) -> f64 {
         self.sources[place].form.shown(self.kept[place * self.points + point])
     }
@@ -99,14 +97,12 @@ impl PointValues<'_> {
         changes.map(|both| both.into_iter().filter(|change| change.is_finite()).fold(0.0, f64::max)).sum()
     }
 
-    /// The values of quantity number `quantity` at all points.
     pub fn all(&self, quantity: usize) -> impl Iterator<Item = f64> + '_ {
         (0..self.points).map(move |point| self.at(quantity, point))
     }
 }
 
 impl<'p> Lookup<'p> {
-    /// For the quantities `parsed` in runs of `plan` observed on `grid`.
     pub fn new(
         plan: &'p Plan,
         grid: &Grid,
@@ -240,19 +236,4 @@ fn narrowed(mut request: Request, sources: &[BandSeries]) -> Request {
     }
     request.groups = if missing.is_empty() { groups } else { all };
     request
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: ticks are whole multiples of the period between the ends, at most as many as allowed.
-    #[test]
-    fn ticks_are_multiples_of_the_period() {
-        assert_eq!(ticks(0.25, 1.0, 2.0, 64.0), [1.0, 1.25, 1.5, 1.75, 2.0]);
-        assert_eq!(ticks(0.25, 1.1, 1.6, 64.0), [1.1, 1.25, 1.5, 1.6]);
-        assert_eq!(ticks(0.25, 1.25, 1.5, 64.0), [1.25, 1.5]);
-        let many = ticks(0.1, 0.0, 1000.0, 64.0);
-        assert!(many.len() <= 66 && many.iter().all(|time| (time / 0.1 - (time / 0.1).round()).abs() < 1e-9));
-    }
 }

@@ -22,7 +22,6 @@ impl<'p> Means<'p> {
         Means { plan, request: plan.request(), engines }
     }
 
-    /// Runs observed on `grid`.
     pub fn runs(self, grid: &Grid) -> ObservedRuns<'p> {
         let nominal = nominal_attitude(self.plan, &self.request, grid, self.engines.isa);
         self.runs_with(grid, self.request.fields(), nominal)
@@ -48,10 +47,8 @@ pub struct ObservedRuns<'p> {
     row: Vec<f64>,
 }
 
-/// A run with its row.
 pub struct ObservedRun<'a> {
     pub run: CompletedRun<'a>,
-    /// The record of its law.
     pub of_law: &'a [f64],
     pub status: Status,
     pub observer: &'a Observer,
@@ -59,7 +56,6 @@ pub struct ObservedRun<'a> {
 }
 
 impl ObservedRuns<'_> {
-    /// Flies `runs` and passes each to `finish`.
     pub fn fly(&mut self, runs: Runs<'_>, finish: &mut dyn FnMut(ObservedRun<'_>)) {
         let ObservedRuns { means: Means { plan, engines, .. }, flights, observer, row } = self;
         flights.fly(runs, &mut |run, of_law| {

@@ -183,16 +183,4 @@ mod tests {
             }
         }
     }
-
-    /// Law: a small campaign has several parts, and sizes are bounded.
-    #[test]
-    fn sizes_grow_up_to_the_largest() {
-        assert_eq!((Parts::of(4096).count(), Parts::of(1000).count()), (16, 4));
-        let parts = Parts::of(u64::MAX / 2);
-        assert_eq!(parts.part(PartId(0)).unwrap().count, SMALLEST as usize);
-        assert_eq!(parts.part(PartId(10_000)).unwrap().count, LARGEST as usize);
-        let largest = |samples: u64| Parts::of(samples).iter().map(|part| part.count).max();
-        assert_eq!([100_000, 1_000_000, 10_000_000].map(largest), [Some(USUAL as usize); 3]);
-        assert!(Parts::of(10_000_000).count() < 2_600 && Parts::of(1_000_000_000).count() < 64_000);
-    }
 }

@@ -13,7 +13,6 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// The result of a search for a largest value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Peak {
-    /// The value.
     Value(f64),
     /// The largest one so far, and the times between which to look again, s: one time at the peak of a polynomial, which
     /// may exceed all values of the quantity.
@@ -61,48 +60,4 @@ fn peak(series: &Series) -> f64 {
     }
     let middle = 0.5 * (low + high);
     if value(middle) > value(at(best)) { middle } else { at(best) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::crossing::nodes;
-    use super::*;
-
-    /// The largest value of `f` between `start` and `end`, and the number of passes.
-    fn located(f: &dyn Fn(f64) -> f64, mut start: f64, mut end: f64) -> (f64, usize) {
-        let mut most = f64::NAN;
-        for passes in 1..100 {
-            let times: Vec<f64> = if start == end { vec![start] } else { nodes(start, end).collect() };
-            let values: Vec<f64> = times.iter().map(|time| f(*time)).collect();
-            match of_curve(&times, &values, 1e-13) {
-                Peak::Value(value) => return (most.max(value), passes),
-                Peak::Between(value, between) => (most, [start, end]) = (most.max(value), between),
-            }
-        }
-        panic!("no end")
-    }
-
-    /// Law: a largest value is a value of the quantity, to the bit: on a plateau, at a kink, a step, an end. The
-    /// counter-test: the polynomial through the nodes of a plateau exceeds it.
-    #[test]
-    fn a_peak_is_a_value_of_the_quantity() {
-        for level in [1.0, 0.1, 1.0 / 3.0, -0.7, 1e-9, 6.02e23_f64] {
-            let size = level.abs();
-            for (f, at) in [
-                (&(|_: f64| level) as &dyn Fn(f64) -> f64, 1.0),
-                (&|t: f64| if t > 1.2345 { level } else { level - size }, 2.0),
-                (&|t: f64| level.min(level - size * (1.5 - t)), 2.0),
-                (&|t: f64| level - size * (t - 1.5).abs(), 1.5),
-                (&|t: f64| level + size * t, 2.9),
-            ] {
-                let (found, passes) = located(f, 0.3, 2.9);
-                let most = f(at);
-                assert!(found <= most, "{found} beyond {most}");
-                assert!(most - found <= 1e-12 * size && passes < 25, "{found} for {most}, {passes}");
-            }
-        }
-        let beyond = (0..=SAMPLES)
-            .filter(|sample| Series::of(&[1.0; 17]).value(-1.0 + 2.0 * *sample as f64 / SAMPLES as f64) > 1.0);
-        assert!(beyond.count() > 0);
-    }
 }

@@ -92,39 +92,3 @@ impl Percentiles {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn percentiles(columns: HeldColumns) -> Percentiles {
-        Percentiles { count: 0, invalid: 0, nominal: vec![10.0], columns }
-    }
-
-    /// Law: sketched quantiles are within 0.05% of the distance from the nominal value; sample 0 does not count.
-    #[test]
-    fn sketches_agree_with_values() {
-        let mut both = [
-            percentiles(HeldColumns::Values(vec![Vec::new()])),
-            percentiles(HeldColumns::Sketches(vec![Sketch::about(10.0)])),
-        ];
-        for first in [0, 1000, 2000] {
-            let values: Vec<f64> = (first..first + 1000).map(|k| 10.0 + 1e-3 * (f64::from(k) - 1500.0)).collect();
-            let drawn = DrawnScenes {
-                first: SampleId(first as u64),
-                physical: vec![true; 1000],
-                columns: vec![values],
-                mass: Vec::new(),
-                magnitudes: Vec::new(),
-            };
-            both.iter_mut().for_each(|one| one.add(&drawn));
-        }
-        assert_eq!(both.each_ref().map(Percentiles::count), [2999; 2]);
-        let [exact, near] = both.map(|one| one.quantiles(&[0.01, 0.25, 0.99]).remove(0).expect("values"));
-        for (exact, near) in exact.into_iter().zip(near) {
-            // the stated relative error of the sketch from its centre, 1e-3, and a spacing of the values; measured: 0.5
-            // of that
-            assert!((exact - near).abs() < 1e-3 * (exact - 10.0).abs() + 1e-3, "{exact} {near}");
-        }
-    }
-}

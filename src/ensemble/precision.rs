@@ -326,4 +326,3 @@ impl Sum {
         (self.count > 0).then(|| Deviation { max: self.max, rms: (self.squares / self.count as f64).sqrt() })
     }
 }
-

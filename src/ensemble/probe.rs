@@ -21,10 +21,8 @@ const DURATION_S: f64 = 0.5;
 /// Growth of the number of samples while time is left.
 const GROWTH: usize = 8;
 
-/// Most samples of a probe.
 const MOST_SAMPLES: usize = 512;
 
-/// Most points of a run of a probe.
 const MOST_POINTS: usize = 20_001;
 
 /// Most ticks of a control loop in a run of a probe, some half a second; only the first [`FEW_TICKS`] of a longer run

@@ -9,7 +9,6 @@ use crate::ensemble::parts::Part;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
-/// Numbers in a cache line.
 const CACHE_LINE: usize = 8;
 
 /// The numbers of columns of a row.
@@ -118,20 +117,17 @@ impl Rows {
         self.column(self.shape.parameters + index)
     }
 
-    /// Sets the dispersed values of row `row` as applied.
     pub fn set_parameters(&mut self, row: usize, values: &[f64]) {
         assert_eq!(values.len(), self.shape.parameters);
         self.scatter(0, row, values);
     }
 
-    /// Sets the status and the observables of row `row`.
     pub fn set_result(&mut self, row: usize, status: Status, observables: &[f64]) {
         assert_eq!(observables.len(), self.shape.observables);
         self.statuses[row] = status;
         self.scatter(self.shape.parameters, row, observables);
     }
 
-    /// Sets the observables of row `row` from index `first` on.
     pub fn set_observables(&mut self, row: usize, first: usize, values: &[f64]) {
         assert!(first + values.len() <= self.shape.observables);
         self.scatter(self.shape.parameters + first, row, values);
@@ -152,7 +148,6 @@ impl Rows {
         self.audits.push((row, audit));
     }
 
-    /// Sets the reason why the audit of row `row` failed.
     pub fn set_audit_reason(&mut self, row: usize, reason: String) {
         assert!(row < self.part.count);
         self.audit_reasons.push((row, reason));
@@ -163,7 +158,6 @@ impl Rows {
         &self.audit_reasons
     }
 
-    /// Sets the reason why row `row` is not `ok`.
     pub fn set_reason(&mut self, row: usize, reason: String) {
         assert!(row < self.part.count);
         self.reasons.push((row, reason));
@@ -174,12 +168,10 @@ impl Rows {
         &self.reasons
     }
 
-    /// The audited rows.
     pub fn audits(&self) -> &[(usize, Option<Audit>)] {
         &self.audits
     }
 
-    /// The bands of the part.
     pub fn bands(&self) -> Option<&PartBands> {
         self.bands.as_ref()
     }

@@ -41,7 +41,6 @@ fn is_asked(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
 
-/// The parts of a campaign of `plan`.
 pub fn parts(plan: &Plan, isa: Isa) -> Parts {
     if is_asked(plan) {
         return Parts::up_to(plan.rows(), ASKED);
@@ -103,24 +102,4 @@ pub fn thread_seconds() -> f64 {
     use std::time::Instant;
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     START.elapsed().as_secs_f64()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: repeated runs take at most a tenth of the campaign's evaluations and the time of a page; one more would take
-    /// more.
-    #[test]
-    fn replays_take_a_tenth() {
-        for rows in [1, 10, 128, 100_000] {
-            for evaluations in [1.0, 6.0, 6_000.0, 1e6] {
-                let each = evaluations * EVALUATION_BESIDE_OTHERS_S;
-                let allowed = 0.1 * rows as f64 * each + PAGE_S;
-                let flown = replays(rows, evaluations) as f64;
-                assert!(flown * each <= allowed * (1.0 + 1e-9), "{rows}, {evaluations}: {flown}");
-                assert!((flown + 1.0) * each > allowed * (1.0 - 1e-9), "{rows}, {evaluations}: {flown}");
-            }
-        }
-    }
 }

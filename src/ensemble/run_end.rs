@@ -23,23 +23,3 @@ impl RunEnd {
         (Grid::at(times), before + usize::from(is_point))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: a run is observed at the points before its end, and there.
-    #[test]
-    fn the_last_point_is_the_end() {
-        let grid = Grid::uniform(10.0, 11);
-        for (time, times, of_campaign) in [
-            (2.5, vec![0.0, 1.0, 2.0, 2.5], 3),
-            (2.0, vec![0.0, 1.0, 2.0], 3),
-            (1e-11, vec![0.0, 1e-11], 1),
-            (10.0, grid.times().to_vec(), 11),
-        ] {
-            let (found, before) = RunEnd { event: 0, time }.grid(&grid);
-            assert_eq!((found.times(), before), (&times[..], of_campaign));
-        }
-    }
-}

@@ -11,7 +11,6 @@ use crate::scene::Scene;
 /// Makes an engine for given settings on an instruction set.
 pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 
-/// The engines of runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Engines {
     pub isa: Isa,
@@ -52,7 +51,6 @@ pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSe
     }
 }
 
-/// The nominal scene of `plan`.
 pub fn nominal(plan: &Plan) -> Scene {
     Scene::resolve(&plan.nominal).expect("a plan's nominal scene was resolved when the plan was made")
 }

@@ -32,7 +32,6 @@ const GROUPS: [Group; 6] = [
     Group::EnergiesCom,
 ];
 
-/// One run with its states.
 #[derive(Clone, Debug)]
 pub struct SingleRun {
     /// The scene that was run.
@@ -118,7 +117,6 @@ impl<'p> SingleRuns<'p> {
         Self::with_series(plan, grid, isa, &GROUPS)
     }
 
-    /// Runs with the series of `groups`.
     pub fn with_series(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
@@ -316,7 +314,6 @@ pub fn run_each<T: Send, E: Send>(
     Ok(list.into_iter().map(|(_, one)| one).collect())
 }
 
-/// All states of scenes of the kind of `request`.
 pub fn states(request: &Request) -> StateFields {
     let spacecraft = [
         StateField::Rate,

@@ -32,7 +32,6 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// For a batch of `samples` samples.
     pub fn new(supervision: Supervision<'a>, samples: usize) -> Self {
         Report { supervision, left: samples as u64, done: 0, work: 0 }
     }

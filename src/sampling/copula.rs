@@ -170,4 +170,3 @@ fn eigen(matrix: &Matrix) -> (Vec<f64>, Matrix) {
     }
     ((0..n).map(|i| a[i][i]).collect(), vectors)
 }
-

@@ -32,7 +32,6 @@ impl Measure {
     }
 }
 
-/// The numbers of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Numbers {
     /// One, for two components.
@@ -170,7 +169,6 @@ impl Pairs {
 }
 
 impl Correlation {
-    /// The components of its parameters.
     pub fn components(&self) -> Vec<(Parameter, usize)> {
         self.parameters.iter().flat_map(components_of).collect()
     }

@@ -27,7 +27,6 @@ pub struct Dispersion {
 }
 
 impl Dispersion {
-    /// The components that it disperses.
     pub fn components(&self) -> Vec<(Parameter, usize)> {
         match self.distribution.written.columns() {
             [] => components_of(&(self.parameter, self.component)),
@@ -57,7 +56,6 @@ pub struct Dispersions {
     design: Design,
     pub(super) columns: Columns,
     pub(super) assigned: Vec<Assigned>,
-    /// The name of each dimension.
     pub(super) dimensions: Vec<String>,
     /// Columns with values from a file.
     pub(super) tabled: Vec<(usize, Arc<[f64]>)>,
@@ -136,7 +134,6 @@ impl Dispersions {
         self.assigned_to(column).map(|assigned| &assigned.map)
     }
 
-    /// The distribution of a column with all columns that it writes.
     pub fn assigned_to(&self, column: usize) -> Option<&Assigned> {
         self.assigned.iter().find(|assigned| assigned.columns.contains(&column))
     }
@@ -145,7 +142,6 @@ impl Dispersions {
         &self.assigned
     }
 
-    /// The distribution of a column with one random number.
     pub fn scalar_of(&self, column: usize) -> Option<&Distribution> {
         match self.distribution_of(column) {
             Some(Transform::Scalar(distribution)) if distribution.dimensions() == 1 => Some(distribution),
@@ -153,7 +149,6 @@ impl Dispersions {
         }
     }
 
-    /// The expression of a derived column.
     pub fn expression_of(&self, column: usize) -> Option<&str> {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())
     }
@@ -186,7 +181,6 @@ impl Dispersions {
         Points::new(&self.design, Dimensions { seed, samples, names, factors: &factors })
     }
 
-    /// The distribution of a component.
     fn distribution_at(&self, component: (Parameter, usize)) -> Option<&Assigned> {
         assigned_to(&self.assigned, &self.columns, component)
     }

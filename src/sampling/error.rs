@@ -9,9 +9,7 @@ pub enum Table {
     Correlate(usize),
     /// A `[[derive]]` table, counted from zero.
     Derive(usize),
-    /// The `[design]` table.
     Design,
-    /// The `[campaign]` table.
     Campaign,
 }
 
@@ -59,7 +57,6 @@ pub fn error(
     error_of(Table::Disperse(dispersion), key, value, allowed, remedy)
 }
 
-/// An error of any table.
 pub fn error_of(
     table: Table,
     key: &'static str,

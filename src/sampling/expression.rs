@@ -18,14 +18,12 @@
 
 mod bounds;
 
-/// Deepest stack.
 pub const DEEPEST: usize = 32;
 
 /// One step of the stack machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
     Number(f64),
-    /// The variable at this place.
     Variable(usize),
     Negate,
     Binary(Binary),
@@ -259,7 +257,6 @@ impl Parser<'_> {
         is_next
     }
 
-    /// An expression of operators that bind at least as strongly as `least`.
     fn expression(&mut self, least: u8) -> Result<(), ExpressionError> {
         if self.text.len() > DEEPEST_TEXT {
             return Err(format!("at most {DEEPEST_TEXT} characters long"));

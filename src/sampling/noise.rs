@@ -37,7 +37,6 @@ impl Noise {
         unit(self.generator.next_u64())
     }
 
-    /// The standard normal number of `tick`.
     pub fn normal(&mut self, tick: u64) -> f64 {
         normal::quantile(self.uniform(tick))
     }

@@ -18,7 +18,6 @@ use crate::scene::{Parameter, SceneInput};
 pub struct Sampler<'a> {
     dispersions: &'a Dispersions,
     points: Points,
-    /// The block in `values`.
     block: Option<u64>,
     /// Numbers u of the block, dimension by dimension.
     u: Vec<[f64; BLOCK]>,
@@ -31,7 +30,6 @@ pub struct Sampler<'a> {
     values: Vec<[f64; BLOCK]>,
     /// One draw of a joint distribution.
     together: Vec<f64>,
-    /// Parameters that are normalised as a whole.
     normalised: Vec<Parameter>,
     /// Parameters among them that a file gives as a whole: recorded values keep their bits.
     recorded: Vec<Parameter>,

@@ -31,7 +31,6 @@ impl Transform {
         }
     }
 
-    /// In words.
     pub fn text(&self, words: NumberWords<'_>) -> String {
         match self {
             Transform::Scalar(distribution) => distribution.text(words),

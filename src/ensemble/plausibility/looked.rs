@@ -7,7 +7,6 @@ use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, Scene, SceneError};
 use crate::statistics::quantile::quantile;
 
-/// Most draws.
 const DRAWS: u64 = 1000;
 /// The fraction of the draws that may be beyond a limit.
 const FEW: f64 = 0.01;

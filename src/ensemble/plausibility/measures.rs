@@ -82,7 +82,6 @@ pub fn attitude_error(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     looked.plan.dispersed.iter().filter_map(note).collect()
 }
 
-/// The scale errors of sensors.
 pub fn sensor_scale(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let note = |table: &DeclaredTable| {
         let off = |scale: &&f64| (**scale - 1.0).abs();

@@ -14,14 +14,12 @@ pub enum Look {
     Sizes(fn(&Looked<'_>, f64) -> Vec<Found>),
 }
 
-/// The limit of a size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
     From(f64),
     Below(f64),
 }
 
-/// A rule of plausibility.
 pub struct Rule {
     /// The size, for the documents.
     pub subject: &'static str,
@@ -31,7 +29,6 @@ pub struct Rule {
     /// The SI unit, `1` for a pure number; the usual unit and its number in one SI unit.
     pub unit: &'static str,
     pub known: (&'static str, f64),
-    /// The source of the limit.
     pub source: &'static str,
     pub usual: &'static str,
     pub remedy: &'static str,

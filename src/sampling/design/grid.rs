@@ -38,16 +38,3 @@ impl Kind for Grid {
         Grid { strides: levels.running(dimensions.names.len(), 1, u64::saturating_mul), levels: levels.clone() }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sampling::keys::Counts;
-
-    #[test]
-    fn any_number_of_levels_takes_no_memory() {
-        let levels = Levels::Counts(Counts::All(1_000_000_000_000));
-        assert_eq!([1, 2].map(|k| Grid::size(&levels, k)), [Size::Points(1_000_000_000_000), Size::TooMany]);
-        assert_eq!(levels.level(0, 999_999_999_999), (999_999_999_999.0 + 0.5) / 1e12);
-    }
-}

@@ -19,7 +19,6 @@ struct Radix {
     base: u64,
     /// The permutation of each digit, `base` images each, from the lowest digit of the point. Bases are below 2^16.
     permutations: Vec<u16>,
-    /// The weight of each digit.
     weights: Vec<u64>,
     /// Sum of the images of zero of this digit and all after it.
     rests: Vec<u64>,
@@ -72,7 +71,6 @@ impl Radix {
         }
     }
 
-    /// The image of `value` under the permutation of a digit.
     fn image(&self, digit: usize, value: u64) -> u64 {
         u64::from(self.permutations[digit * self.base as usize + value as usize])
     }
@@ -98,7 +96,6 @@ fn permutation(base: u64, key: u64, digit: u64) -> Vec<u16> {
     images
 }
 
-/// The first `count` primes.
 fn primes(count: usize) -> Vec<u64> {
     let mut primes: Vec<u64> = Vec::with_capacity(count);
     let mut candidate = 2;
@@ -123,4 +120,3 @@ pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
     let period: u64 = primes(dimensions).iter().rev().take(3).product();
     (dimensions > 2 && period > PARTS * points).then_some(last)
 }
-

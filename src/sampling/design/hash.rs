@@ -12,7 +12,6 @@ pub const fn mix(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// The hash of `counter` under `key`.
 #[inline(always)]
 pub const fn keyed(key: u64, counter: u64) -> u64 {
     mix(key ^ mix(counter.wrapping_mul(GOLDEN).wrapping_add(GOLDEN)))

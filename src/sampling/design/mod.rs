@@ -144,7 +144,6 @@ impl Design {
         self.size(0) != Size::Any
     }
 
-    /// The names of the designs that have the key `key`.
     pub fn names_with(key: &str) -> Vec<&'static str> {
         let has = |name: &&str| Self::keys_of(name).is_some_and(|(keys, _)| keys.iter().any(|row| row.key == key));
         Self::NAMES.iter().copied().filter(has).collect()

@@ -15,7 +15,6 @@ use std::fmt::Debug;
 /// Most replicates: each has its own scrambling in memory, and more than some dozens narrow no interval.
 const MOST: u64 = 1024;
 
-/// The key of the number of replicates.
 pub const REPLICATES: Row = Row::new(
     "replicates",
     keys::Kind::Count([1, MOST]),

@@ -45,7 +45,6 @@ impl Saltelli {
         }
     }
 
-    /// u of a point.
     pub fn number(&self, dimension: usize, point: u64) -> f64 {
         let (block, member) = (point / self.members, point % self.members);
         let from_b = member == self.members - 1 || member == self.factors[dimension] as u64 + 1;
@@ -90,4 +89,3 @@ impl Kind for Saltelli {
         Saltelli::new(dimensions.seed, dimensions.names, dimensions.factors)
     }
 }
-

@@ -171,31 +171,6 @@ mod tests {
         (1000, [97280, 168960, 472064, 128000, 525312, 683008]),
     ];
 
-    /// Law of a scrambled net: of the first 2^m points exactly one is in each of the 2^m intervals of each dimension,
-    /// and in the first two dimensions (a (0, m, 2)-net) exactly one in each box of area 2^-m.
-    #[test]
-    fn a_scrambled_net_is_a_net() {
-        let sobol = Sobol::new(7, &names(60));
-        const M: u32 = 8;
-        for dimension in 0..60 {
-            let mut counts = [0; 1 << M];
-            (0..1 << M).for_each(|point| counts[(sobol.number(dimension, point) * 256.0) as usize] += 1);
-            let other = counts.iter().position(|count| *count != 1);
-            assert_eq!(other, None, "an interval of dimension {dimension} without exactly one point: {counts:?}");
-        }
-        for wide in 0..=M {
-            let mut counts = vec![0; 1 << M];
-            for point in 0..1 << M {
-                let (x, y) = (sobol.number(0, point), sobol.number(1, point));
-                let column = (x * f64::from(1 << wide)) as usize;
-                let row = (y * f64::from(1 << (M - wide))) as usize;
-                counts[(column << (M - wide)) + row] += 1;
-            }
-            let other = counts.iter().position(|count| *count != 1);
-            assert_eq!(other, None, "a box of 2^{wide} columns without exactly one point: {counts:?}");
-        }
-    }
-
     /// Known, from another program: the largest number of dimensions none of which is bound among so many points. Law:
     /// the mean product of the signs of leading bits is 1 for bound dimensions and less for others.
     #[test]

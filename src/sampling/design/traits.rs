@@ -100,7 +100,6 @@ impl Options for () {
     }
 }
 
-/// A kind of design.
 pub trait Kind: PointSource + Sized {
     const FACTS: Facts;
     type Options: Options;
@@ -129,7 +128,6 @@ pub trait PointSource: Debug {
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]);
 }
 
-/// One stream for each dimension.
 pub(super) fn streams(seed: u64, names: &[String]) -> Vec<Stream> {
     names.iter().map(|name| Stream::new(seed, name)).collect()
 }

@@ -122,4 +122,3 @@ impl Quantile for ChoiceQuantile {
         }
     }
 }
-

@@ -219,4 +219,3 @@ fn frame(axis: [f64; 3]) -> [[f64; 3]; 3] {
     let x = scaled(1.0 / norm(x), x);
     [x, cross(z, x), z]
 }
-

@@ -31,9 +31,4 @@ impl OfScore {
     pub fn value(&self, z: f64) -> f64 {
         self.0.value(z)
     }
-
-    /// Number of pieces of the table.
-    pub fn pieces(&self) -> usize {
-        self.0.count()
-    }
 }

@@ -48,7 +48,6 @@ impl StudentTQuantile {
         }
     }
 
-    /// The value at the normal score `z`.
     fn at_score(&self, z: f64) -> f64 {
         self.middle + self.factor * libm::sinh(self.asinh.value(z))
     }

@@ -25,7 +25,6 @@ pub(super) const LOGARITHM: &str = "a logarithm needs a positive number";
 pub(super) type Numbers = Result<Vec<f64>, DispersionError>;
 
 impl Target<'_> {
-    /// An error of this target.
     pub(super) fn refused<T>(
         &self,
         key: &'static str,
@@ -142,7 +141,6 @@ pub struct JointTarget<'a> {
 }
 
 impl JointTarget<'_> {
-    /// An error of this target.
     pub(super) fn refused<T>(
         &self,
         key: &'static str,

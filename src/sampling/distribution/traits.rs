@@ -76,7 +76,6 @@ pub trait Quantile: Clone + Debug + PartialEq {
         None
     }
 
-    /// In words.
     fn text(&self, words: NumberWords<'_>) -> String;
 }
 
@@ -99,7 +98,6 @@ pub trait Map: Clone + Debug + PartialEq {
     /// Number of u, at most [`MAX_DIMENSIONS`].
     fn dimensions(&self) -> usize;
 
-    /// The suffix of a dimension's name.
     fn dimension_name(&self, dimension: usize) -> String {
         (dimension + 1).to_string()
     }
@@ -110,7 +108,6 @@ pub trait Map: Clone + Debug + PartialEq {
     /// Writes the values at `u` ([`Map::dimensions`] numbers) to the first [`Map::components`] of `values`.
     fn values(&self, u: &[f64], values: &mut [f64]);
 
-    /// In words.
     fn text(&self, words: NumberWords<'_>) -> String;
 }
 
