@@ -1,6 +1,7 @@
 //! [`AuditTally`]: statistics of the audits of a campaign.
 
 use crate::ensemble::Audit;
+use crate::ensemble::audit::AuditValue;
 use crate::propagation::taylor::reference_solution;
 use crate::sampling::SampleId;
 use crate::statistics::binomial::at_most;
@@ -100,15 +101,16 @@ impl AuditTally {
                 continue;
             };
             self.audited += 1;
-            self.in_double_double += u64::from(audit.reference_tolerance == reference_solution::TOLERANCE);
+            self.in_double_double += u64::from(audit.value(AuditValue::Tolerance) == reference_solution::TOLERANCE);
             let error = audit.state();
-            self.coverage.add(audit.estimate, error);
+            self.coverage.add(audit.value(AuditValue::Estimate), error);
             self.state.add(error);
-            self.omega.add(audit.omega);
-            self.attitude.add(audit.attitude);
-            if !audit.debris.is_nan() {
-                self.debris.add(audit.debris);
-                self.debris_coverage.add(audit.debris_estimate, audit.debris);
+            self.omega.add(audit.value(AuditValue::Omega));
+            self.attitude.add(audit.value(AuditValue::Attitude));
+            let debris = audit.value(AuditValue::Debris);
+            if !debris.is_nan() {
+                self.debris.add(debris);
+                self.debris_coverage.add(audit.value(AuditValue::DebrisEstimate), debris);
             }
             for (spread, index) in self.observables.iter_mut().zip(indices.clone()) {
                 spread.add(audit.observables[index]);
@@ -121,30 +123,15 @@ impl AuditTally {
 mod tests {
     use super::*;
 
-    /// The tally of audits with these (error, estimate); `None` is a failed audit.
-    fn tally(audits: &[Option<(f64, f64)>]) -> AuditTally {
-        let audits = audits.iter().zip(0..).map(|(audit, sample)| {
-            let audit = audit.map(|(error, estimate)| Audit {
-                omega: error,
-                attitude: 0.5 * error,
-                debris: f64::NAN,
-                estimate,
-                debris_estimate: f64::NAN,
-                reference_tolerance: reference_solution::TOLERANCE,
-                observables: vec![f64::NAN],
-            });
-            (SampleId(sample), audit)
-        });
-        let mut tally = AuditTally::new(1);
-        tally.add(&audits.collect::<Vec<_>>(), std::iter::once(0), |_| false);
-        tally
-    }
-
     /// Law: an estimate covers an error of at most its size. A large error, which is bounded by half a turn, is covered
     /// by every large estimate.
     #[test]
     fn an_estimate_just_below_the_error_does_not_cover_it() {
-        let covered = |error: f64, estimate: f64| tally(&[Some((error, estimate))]).coverage.covered == 1;
+        let covered = |error: f64, estimate: f64| {
+            let mut coverage = Coverage::default();
+            coverage.add(estimate, error);
+            coverage.covered == 1
+        };
         assert!(covered(1e-9, 1e-9) && covered(1e-9, 2e-9));
         assert!(!covered(1e-9, 0.999e-9) && !covered(1e-9, 0.2e-9) && !covered(0.09, 0.08));
         assert!(covered(1.0, 0.9 * SMALL) && !covered(1.0, 0.4 * SMALL));

@@ -86,7 +86,7 @@ impl RowNames {
             .iter()
             .enumerate()
             .map(|(index, column)| (column.quantity.name().to_owned(), Position::Observable(index)));
-        let audits = AuditValue::ALL.map(|value| (value.quantity().name().to_owned(), Position::Audit(value)));
+        let audits = AuditValue::ALL.iter().map(|value| (value.quantity().name().to_owned(), Position::Audit(*value)));
         let errors = audited_observables(ensemble).into_iter().map(|index| {
             let name = audit_error_name(columns[index].quantity.name());
             (name, Position::AuditError(index))

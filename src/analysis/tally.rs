@@ -129,12 +129,11 @@ impl TallyColumns {
         if self.nothing.audits.is_none() {
             return Ok(Vec::new());
         }
-        let read = |value: AuditValue| part.numbers(value.quantity().name());
-        let (omega, attitude, estimate) =
-            (read(AuditValue::Omega)?, read(AuditValue::Attitude)?, read(AuditValue::Estimate)?);
-        let tolerance = read(AuditValue::Tolerance)?;
-        let of_debris = |value| if self.has_debris { read(value) } else { Ok(vec![f64::NAN; omega.len()].into()) };
-        let (debris, debris_estimate) = (of_debris(AuditValue::Debris)?, of_debris(AuditValue::DebrisEstimate)?);
+        let read = |value: &AuditValue| match value.is_of_debris() && !self.has_debris {
+            true => Ok(vec![f64::NAN; samples.len()].into()),
+            false => part.numbers(value.quantity().name()),
+        };
+        let values = AuditValue::ALL.iter().map(read).collect::<Result<Vec<_>, RowsError>>()?;
         let error = |index: &usize| part.numbers(&audit_error_name(&self.names[*index]));
         let errors = self.audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
         let mut selection = self.selection.lock().unwrap_or_else(PoisonError::into_inner);
@@ -145,17 +144,10 @@ impl TallyColumns {
         let audit = |row: usize| {
             let mut observables = vec![f64::NAN; self.names.len()];
             self.audited.iter().zip(&errors).for_each(|(index, errors)| observables[*index] = errors[row]);
-            Audit {
-                omega: omega[row],
-                attitude: attitude[row],
-                debris: debris[row],
-                estimate: estimate[row],
-                debris_estimate: debris_estimate[row],
-                reference_tolerance: tolerance[row],
-                observables,
-            }
+            Audit { values: values.iter().map(|values| values[row]).collect(), observables }
         };
-        Ok(selected.map(|(row, sample)| (sample, (!tolerance[row].is_nan()).then(|| audit(row)))).collect())
+        let is_complete = |row: usize| !values[AuditValue::Tolerance as usize][row].is_nan();
+        Ok(selected.map(|(row, sample)| (sample, is_complete(row).then(|| audit(row)))).collect())
     }
 }
 

@@ -103,7 +103,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
     };
     let mut text = format!(
         "audit of sample {sample}, against a reference solution with tolerance {:e}\n",
-        found.reference_tolerance
+        found.value(AuditValue::Tolerance)
     );
     // the tolerance of the reference solution is in the first line
     let values = AuditValue::of_scenes(run.request.debris).filter(|value| *value != AuditValue::Tolerance);

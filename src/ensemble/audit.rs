@@ -2,7 +2,7 @@
 //!
 //! The reference solution is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]),
 //! which shares neither method nor periodic folding with the audited run. Long runs have the Taylor method at 1e-16 in
-//! plain doubles instead, noted in the row ([`Audit::reference_tolerance`]); drag and sunlight have no Taylor series.
+//! plain doubles instead, noted in the row ([`AuditValue::Tolerance`]); drag and sunlight have no Taylor series.
 //! The audited run is repeated with the states of the comparison; an audit does not change the row of the campaign.
 //!
 //! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]). The limit counts
@@ -42,81 +42,45 @@ const MOST_UNITS_OF_DEBRIS: f64 = 16_384.0;
 /// Tolerance of the reference solution in plain doubles: the smallest of campaigns.
 const PLAIN_TOLERANCE: f64 = 1e-16;
 
-/// A column of audits; null in other rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(usize)]
-pub enum AuditValue {
-    /// The larger of the next two.
-    State,
-    Omega,
-    Attitude,
-    /// Error of the rotation of the debris.
-    Debris,
-    /// Tolerance of the reference solution.
-    Tolerance,
-    /// Error estimate of the run.
-    Estimate,
-    DebrisEstimate,
+/// Declares the columns of audits: a variant, name, unit, meaning.
+macro_rules! audit_values {
+    ($($Value:ident $name:literal $unit:literal $meaning:literal)*) => {
+        /// A column of audits; null in other rows.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum AuditValue { $( #[doc = $meaning] $Value, )* }
+
+        static COLUMNS: &[Quantity] = &[$(Quantity::new($name, $unit, $meaning)),*];
+
+        impl AuditValue {
+            /// In the order of the columns.
+            pub const ALL: &[AuditValue] = &[$(AuditValue::$Value),*];
+        }
+    };
 }
 
-static COLUMNS: [Quantity; AuditValue::ALL.len()] = [
-    Quantity::new(
-        "audit_state_error",
-        "",
-        "True largest error of the body's rotation on the grid, which state_error_estimate estimates: the larger of \
-        the next two.",
-    ),
-    Quantity::new(
-        "audit_omega_error",
-        "",
-        "True largest error of omega on the grid, relative to the largest |omega|, or to one radian over the duration \
-        where that is more.",
-    ),
-    Quantity::new(
-        "audit_attitude_error_rad",
-        "rad",
-        "True largest error of the attitude on the grid, twice the distance of the quaternions: the angle where the \
-        norm is kept.",
-    ),
-    Quantity::new(
-        "audit_debris_error",
-        "",
-        "True largest error of the debris's rotation on the grid: of its omega relative to the largest |omega| (or to \
-        one radian over the duration where that is more), or of its attitude in rad, whichever is larger.",
-    ),
-    Quantity::new(
-        "audit_truth_tolerance",
-        "",
-        "Tolerance of the reference solution that the run was compared with: 1e-31 in double-double, 1e-17 there with \
-        drag or sunlight, 1e-16 in plain doubles where the run was too long for double-double.",
-    ),
-    Quantity::new(
-        "audit_state_error_estimate",
-        "",
-        "What the run estimates audit_state_error to be: state_error_estimate, whether it is observed or not.",
-    ),
-    Quantity::new(
-        "audit_debris_state_error_estimate",
-        "",
-        "What the run estimates audit_debris_error to be: debris_state_error_estimate, whether it is observed or not.",
-    ),
-];
+audit_values! {
+    State "audit_state_error" "" "True largest error of the body's rotation on the grid, which state_error_estimate \
+        estimates: the larger of the next two."
+    Omega "audit_omega_error" "" "True largest error of omega on the grid, relative to the largest |omega|, or to one \
+        radian over the duration where that is more."
+    Attitude "audit_attitude_error_rad" "rad" "True largest error of the attitude on the grid, twice the distance of the \
+        quaternions: the angle where the norm is kept."
+    Debris "audit_debris_error" "" "True largest error of the debris's rotation on the grid: of its omega relative to the \
+        largest |omega| (or to one radian over the duration where that is more), or of its attitude in rad, whichever is \
+        larger."
+    Tolerance "audit_truth_tolerance" "" "Tolerance of the reference solution that the run was compared with: 1e-31 in \
+        double-double, 1e-17 there with drag or sunlight, 1e-16 in plain doubles where the run was too long for \
+        double-double."
+    Estimate "audit_state_error_estimate" "" "What the run estimates audit_state_error to be: state_error_estimate, \
+        whether it is observed or not."
+    DebrisEstimate "audit_debris_state_error_estimate" "" "What the run estimates audit_debris_error to be: \
+        debris_state_error_estimate, whether it is observed or not."
+}
 
 impl AuditValue {
-    /// In the order of the columns.
-    pub const ALL: [AuditValue; 7] = [
-        AuditValue::State,
-        AuditValue::Omega,
-        AuditValue::Attitude,
-        AuditValue::Debris,
-        AuditValue::Tolerance,
-        AuditValue::Estimate,
-        AuditValue::DebrisEstimate,
-    ];
-
     /// The values for scenes with or without debris, in the order of the columns.
     pub fn of_scenes(has_debris: bool) -> impl Iterator<Item = AuditValue> + Clone {
-        Self::ALL.into_iter().filter(move |value| has_debris || !value.is_of_debris())
+        Self::ALL.iter().copied().filter(move |value| has_debris || !value.is_of_debris())
     }
 
     pub fn is_of_debris(self) -> bool {
@@ -129,40 +93,24 @@ impl AuditValue {
     }
 }
 
+/// A run compared with its reference solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// Largest error of omega on the grid, over the largest |omega| or one radian per duration, whichever is more.
-    pub omega: f64,
-    /// Largest error of the attitude on the grid, rad.
-    pub attitude: f64,
-    /// Largest error of the debris's rotation on the grid, the larger of the two; NaN without debris.
-    pub debris: f64,
-    /// The estimate of the larger error: `state_error_estimate`, observed or not.
-    pub estimate: f64,
-    /// The estimate of `debris`: `debris_state_error_estimate`; NaN without debris.
-    pub debris_estimate: f64,
-    pub reference_tolerance: f64,
+    /// In the order of [`AuditValue::ALL`]; NaN for the debris of scenes without.
+    pub values: Vec<f64>,
     /// |observed - true| of each observable, in the order of the request's columns; NaN without a reference value, as
     /// for step statistics.
     pub observables: Vec<f64>,
 }
 
 impl Audit {
-    /// The larger of both errors, or NaN.
-    pub fn state(&self) -> f64 {
-        RotationError { omega: self.omega, attitude: self.attitude }.state()
+    pub fn value(&self, value: AuditValue) -> f64 {
+        self.values[value as usize]
     }
 
-    pub fn value(&self, value: AuditValue) -> f64 {
-        match value {
-            AuditValue::State => self.state(),
-            AuditValue::Omega => self.omega,
-            AuditValue::Attitude => self.attitude,
-            AuditValue::Debris => self.debris,
-            AuditValue::Tolerance => self.reference_tolerance,
-            AuditValue::Estimate => self.estimate,
-            AuditValue::DebrisEstimate => self.debris_estimate,
-        }
+    /// The true error of the body's rotation.
+    pub fn state(&self) -> f64 {
+        self.value(AuditValue::State)
     }
 }
 
@@ -301,16 +249,22 @@ impl Auditor {
                 errors = Ok((RotationError::largest(rotation_errors(&reference, &self.grid, table)), debris));
             }
         });
-        let (RotationError { omega, attitude }, debris) = errors?;
-        let debris = debris.map_or(f64::NAN, |error| error.state());
+        let (rotation, debris) = errors?;
         let error = |(own, of_reference): &(usize, Option<usize>)| match of_reference {
             Some(of_reference) => (self.row[*own] - self.reference_row[*of_reference]).abs(),
             None => f64::NAN,
         };
-        let observables = self.indices.iter().map(error).collect();
-        let estimate = self.row[self.estimate];
-        let debris_estimate = self.debris_estimate.map_or(f64::NAN, |index| self.row[index]);
-        Ok(Audit { omega, attitude, debris, estimate, debris_estimate, reference_tolerance, observables })
+        let value = |value: &AuditValue| match value {
+            AuditValue::State => rotation.state(),
+            AuditValue::Omega => rotation.omega,
+            AuditValue::Attitude => rotation.attitude,
+            AuditValue::Debris => debris.map_or(f64::NAN, |error| error.state()),
+            AuditValue::Tolerance => reference_tolerance,
+            AuditValue::Estimate => self.row[self.estimate],
+            AuditValue::DebrisEstimate => self.debris_estimate.map_or(f64::NAN, |index| self.row[index]),
+        };
+        let values = AuditValue::ALL.iter().map(value).collect();
+        Ok(Audit { values, observables: self.indices.iter().map(error).collect() })
     }
 
     /// The columns of the audited run: those of the campaign, and of the group numerics.

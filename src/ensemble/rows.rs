@@ -136,14 +136,9 @@ impl Rows {
     /// Sets the audit of row `row`: `None` if it failed.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);
-        let audit = audit.map(|audit| Audit {
-            omega: finite(audit.omega),
-            attitude: finite(audit.attitude),
-            debris: finite(audit.debris),
-            estimate: finite(audit.estimate),
-            debris_estimate: finite(audit.debris_estimate),
-            observables: audit.observables.into_iter().map(finite).collect(),
-            ..audit
+        let audit = audit.map(|Audit { values, observables }| {
+            let [values, observables] = [values, observables].map(|list| list.into_iter().map(finite).collect());
+            Audit { values, observables }
         });
         self.audits.push((row, audit));
     }
