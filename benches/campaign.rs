@@ -96,7 +96,7 @@ fn writing(criterion: &mut Criterion) {
         group.bench_function(format!("parquet, {}", compression.name()), |bencher| {
             bencher.iter(|| {
                 bytes.clear();
-                file.write(black_box(&rows), &mut bytes).expect("memory takes all");
+                file.write(black_box(&rows), None, &mut bytes).expect("memory takes all");
             });
         });
         println!("{} bytes a row", bytes.len() / count);
@@ -123,7 +123,7 @@ impl Sink for Written {
     type Error = parquet::errors::ParquetError;
 
     fn take(&self, rows: &Rows) -> Result<(), Self::Error> {
-        self.0.write(rows, std::io::sink())
+        self.0.write(rows, None, std::io::sink())
     }
 }
 

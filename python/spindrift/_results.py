@@ -130,5 +130,5 @@ def open(folder: str | os.PathLike[str], control: Control | None = None) -> Resu
 
 def compare(first: Results | str | os.PathLike[str], second: Results | str | os.PathLike[str]) -> Comparison:
     """Compares two results, sample by sample where both drew the same ones."""
-    folders = [one.path if isinstance(one, Results) else one for one in (first, second)]
+    folders = [one._results.root() if isinstance(one, Results) else one for one in (first, second)]
     return Comparison(*_native.compare(os.fspath(folders[0]), os.fspath(folders[1])))

@@ -63,7 +63,7 @@ fn columns() -> PyResult<ArrowTable> {
 
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    spindrift::storage::remote::connect_by(stores::connect);
+    spindrift::workflow::session::connect_by(stores::connect);
     spindrift_figures::register();
     module.add("SpindriftError", module.py().get_type::<SpindriftError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -29,10 +29,9 @@ pub struct Results {
     summary: String,
 }
 
-/// The text of the file `name` in `root`.
-fn text(root: &std::path::Path, name: &str) -> Result<String, WorkflowError> {
-    let path = root.join(name);
-    std::fs::read_to_string(&path).map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))
+/// The text of the file `name` of a result; `None` where there is none.
+fn text(results: &workflow::Results<'_>, name: &str) -> Result<Option<String>, WorkflowError> {
+    Ok(results.file(name)?.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()))
 }
 
 impl Results {
@@ -46,7 +45,7 @@ impl Results {
         Law::flown(py, control, || {
             let watch = Quiet::default();
             let results = workflow::Results::open(&self.root, Session::new(&watch)?)?;
-            if text(&self.root, SUMMARY)? != self.summary {
+            if text(&results, SUMMARY)?.as_ref() != Some(&self.summary) {
                 return Err(WorkflowError::Files(format!(
                     "{}: another campaign has taken the place of this result, or made it larger; open it again",
                     self.root.display()
@@ -64,9 +63,8 @@ impl Results {
     fn open(py: Python<'_>, root: PathBuf) -> PyResult<Self> {
         let opened = py.detach(|| {
             let watch = Quiet::default();
-            // of one in an object store: the copy
-            let root = workflow::Results::open(&root, Session::new(&watch)?)?.root().to_owned();
-            text(&root, SUMMARY).map(|summary| Results { summary, root })
+            let results = workflow::Results::open(&root, Session::new(&watch)?)?;
+            text(&results, SUMMARY).map(|summary| Results { summary: summary.unwrap_or_default(), root })
         });
         opened.map_err(raised)
     }
@@ -109,10 +107,7 @@ impl Results {
 
     /// Quantiles over time; `None` where the campaign has no bands.
     fn bands(&self, py: Python<'_>) -> PyResult<Option<ArrowTable>> {
-        self.with(py, None, |results| {
-            let there = results.root().join(BANDS).is_file();
-            there.then(|| derived(results, BANDS)).transpose()
-        })
+        self.with(py, None, |results| results.file(BANDS)?.map(|_| derived(results, BANDS)).transpose())
     }
 
     /// A sample over time.
@@ -125,21 +120,20 @@ impl Results {
 
     /// The text of the report page, which is made where there is none.
     fn page(&self, py: Python<'_>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
-        let is_there = self.with(py, None, |results| Ok(results.root().join(REPORT).is_file()))?;
+        if let Some(page) = self.with(py, None, |results| text(results, REPORT))? {
+            return Ok(page);
+        }
         Law::flown(py, control, || {
-            if !is_there {
-                let watch = Quiet::default();
-                remade(&Session::new(&watch)?, &self.root, None, None)?;
-            }
-            text(&self.root, REPORT)
-        })
+            let watch = Quiet::default();
+            remade(&Session::new(&watch)?, &self.root, None, None)
+        })?;
+        self.with(py, None, |results| text(results, REPORT).map(Option::unwrap_or_default))
     }
 }
 
 /// The file `name` of a result as a table.
 fn derived(results: &workflow::Results<'_>, name: &str) -> Result<ArrowTable, WorkflowError> {
-    let path = results.root().join(name);
-    let part = PartReader::open(results.rows().storage(), &path).map_err(WorkflowError::files)?;
+    let part = PartReader::open(results.rows().store(), name).map_err(WorkflowError::files)?;
     ArrowTable::of_part(&part)
 }
 

@@ -1,7 +1,6 @@
 //! [`ending`]: the end of a campaign, its exit code and verdicts, from a few columns of its rows.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 use crate::analysis::accumulator::of_files;
 use crate::analysis::audit_tally::AuditTally;
@@ -34,13 +33,13 @@ impl Ending {
     }
 }
 
-/// The ending of the campaign `ensemble` with these rows and files of bands.
+/// The ending of the campaign `ensemble` with these rows and bands.
 ///
 /// # Errors
 /// Where a file cannot be read.
 pub fn ending(
     ensemble: &Ensemble<'_>,
-    (reader, bands): (&RowsReader, &[PathBuf]),
+    reader: &RowsReader,
     threads: Option<NonZeroUsize>,
 ) -> Result<Ending, RowsError> {
     let plan = ensemble.plan();
@@ -49,7 +48,7 @@ pub fn ending(
     let ((tally, counted), values) = of_files(&fold, reader, threads)?;
     let is_over_time = |one: &Requirement| one.band().is_some() && one.window().is_none();
     let bands = if plan.analysis.requirements.iter().any(is_over_time) {
-        bands_file::read(reader.storage(), bands, threads)?
+        bands_file::read(reader.store(), reader.bands(), threads)?
     } else {
         None
     };

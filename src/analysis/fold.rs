@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::accumulator::{Accumulator, of_files};
@@ -100,11 +99,11 @@ impl Gathered {
     /// Where a file cannot be read.
     pub fn of_files(
         ensemble: &Ensemble<'_>,
-        (reader, bands): (&RowsReader, &[PathBuf]),
+        reader: &RowsReader,
         threads: Option<NonZeroUsize>,
     ) -> Result<Gathered, RowsError> {
         let plan = ensemble.plan();
-        let bands = bands_file::read(reader.storage(), bands, threads)?;
+        let bands = bands_file::read(reader.store(), reader.bands(), threads)?;
         // the nominal row is one more
         let first = || references(&first_batch(plan), Population::of(plan), reader.first_parts(REFERENCE_ROWS + 1));
         let fold = RowsFold::new(ensemble, (!is_exact(plan)).then(first).transpose()?);

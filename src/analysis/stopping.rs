@@ -1,7 +1,6 @@
 //! [`stopping`]: the looks of a campaign with `[stop]`.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::observed::Observed;
@@ -101,14 +100,14 @@ impl Accumulator for ObservedValues {
     }
 }
 
-/// Looks at the campaign `plan`, at the rows of the samples below one of its [`Plan::looks`] and the files of their
+/// Looks at the campaign `plan`, at the rows of the samples below one of its [`Plan::looks`] and their
 /// bands. `None` without `[stop]`.
 ///
 /// # Errors
 /// Where a file cannot be read.
 pub fn look(
     plan: &Plan,
-    (rows, bands): (&RowsReader, &[PathBuf]),
+    rows: &RowsReader,
     samples: u64,
     threads: Option<NonZeroUsize>,
 ) -> Result<Option<Stopping>, RowsError> {
@@ -119,7 +118,7 @@ pub fn look(
             Ok(stopping(plan, samples, &values, &Verdicts::default()))
         }
         Some(Stop { when: When::Decided, .. }) => {
-            let bands = bands_file::read(rows.storage(), bands, threads)?;
+            let bands = bands_file::read(rows.store(), rows.bands(), threads)?;
             let (ended, counted) = of_files(&(StatusCounter::new(plan), RequirementCounter::new(plan)), rows, threads)?;
             Ok(stopping(plan, samples, &StopValues::default(), &assess(plan, &ended, &counted, bands.as_ref())))
         }

@@ -21,10 +21,10 @@ use crate::run::Status;
 use crate::sampling::design::latin::Permutation;
 use crate::sampling::{SampleId, Stream};
 use crate::storage::columnar::{EncodingError, Packing, encoded};
-use crate::storage::disk::StorageError;
 use crate::storage::identity::provenance;
 use crate::storage::names::TRAJECTORIES;
 use crate::storage::rows_reader::RowsError;
+use crate::storage::store::StoreError;
 use crate::storage::timeseries::time_series;
 
 /// The stream that chooses the runs of `sample:N`; no other draw depends on it.
@@ -44,7 +44,7 @@ pub enum TrajectoryError {
     Encoding { path: PathBuf, source: EncodingError },
     /// A file could not be written.
     #[error(transparent)]
-    File(#[from] StorageError),
+    File(#[from] StoreError),
 }
 
 pub fn file_name(sample: SampleId) -> String {
@@ -132,7 +132,7 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
 }
 
 /// Takes a file of a dataset: name and bytes.
-pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StorageError> + Sync + 'a;
+pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
 
 /// Makes the time series of `samples` of `plan`, with the bytes of `simulate --sample K --out`, and gives each file to
 /// `take`.

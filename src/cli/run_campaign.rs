@@ -45,7 +45,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
                 "{}: already complete in {} ({}{failed}), every checksum verified; nothing to do. --overwrite runs it \
                 again.\n",
                 plan.name,
-                campaign.named().display(),
+                root.display(),
                 counted(end.rows, "sample"),
             );
             let question = question(plan.description.as_deref(), screen::width());
@@ -55,7 +55,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
             Ok(if options.shard.is_some() { CommandOutcome::Done } else { outcome })
         }
         CampaignOutcome::ShardDone { shard, made } => {
-            screen::print(&shard_is_done(&plan.name, shard, campaign.named(), made))?;
+            screen::print(&shard_is_done(&plan.name, shard, root, made))?;
             Ok(CommandOutcome::Done)
         }
         CampaignOutcome::Stopped { samples, left } => {

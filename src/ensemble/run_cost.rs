@@ -27,6 +27,8 @@ const fn evaluation_seconds(method: Method) -> f64 {
 }
 /// Most points of the counted run.
 const POINTS: usize = 101;
+/// Time of a tick of a control loop, with its sensors, estimator and law, s (`detumble_magnetic`: 1.4e-5).
+const TICK_S: f64 = 1.5e-5;
 /// Time of an observed point with all columns, s.
 const POINT_S: f64 = 5e-7;
 /// Work of an audit over that of its run: a reference solution in double-double at a tolerance of 1e-28.
@@ -71,7 +73,8 @@ pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     // a run stops at the limit of steps
     let most = plan.max_steps.saturating_mul(16) as f64;
     let each = evaluation_seconds(plan.method);
-    let run = evaluations.min(most) * each + plan.grid.points() as f64 * POINT_S;
+    let ticks = plan.loop_spec().map_or(0.0, |spec| plan.grid.duration() / spec.period);
+    let run = evaluations.min(most) * each + ticks * TICK_S + plan.grid.points() as f64 * POINT_S;
     run * (1.0 + AUDIT * plan.audit_fraction)
 }
 

@@ -21,7 +21,6 @@ use crate::run::Status;
 use crate::statistics::binomial::Decision;
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
-use crate::storage::folder::IS_FINISHED;
 
 /// How many failed samples of each status are listed by number.
 const LISTED: usize = 3;
@@ -52,7 +51,7 @@ pub fn json(plan: &Plan, analysed: &Analysed, findings: &Findings) -> String {
     let observables = summarised(plan, statistics).into_iter().map(|column| observable(analysed, column));
     let mut value = json!({
         "program": "spindrift",
-        (IS_FINISHED): true,
+        "finished": true,
         "version": env!("CARGO_PKG_VERSION"),
         "campaign": plan.name,
         "plan_hash": plan.hash(),

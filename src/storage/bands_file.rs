@@ -4,9 +4,8 @@
 //! The metadata have what the bands are of, so that a file says by itself what its buckets mean.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::{num::NonZeroUsize, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -15,10 +14,10 @@ use crate::observables::band_series::Form;
 use crate::run::Quantity;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
 use crate::storage::columnar::{EncodingError, Layout, Packing};
-use crate::storage::disk::Storage;
 use crate::storage::identity::{PART_KEY, part_metadata};
 use crate::storage::parallel::in_order;
 use crate::storage::rows_reader::{PartReader, RowsError};
+use crate::storage::store::Store;
 use crate::table::{Column, Content, Values};
 
 /// Key of the metadata: what the bands are of.
@@ -152,8 +151,8 @@ struct StoredBands {
 }
 
 impl StoredBands {
-    fn open(storage: &dyn Storage, path: &Path) -> Result<Self, RowsError> {
-        let file = PartReader::open(storage, path)?;
+    fn open(store: &dyn Store, name: &str) -> Result<Self, RowsError> {
+        let file = PartReader::open(store, name)?;
         let (buckets, numbers_in) = (file.numbers(BUCKET.0)?, file.numbers(COUNT.0)?);
         let found = || -> Option<StoredBands> {
             let number = |key: &str| file.metadata(key)?.parse().ok();
@@ -183,7 +182,7 @@ impl StoredBands {
             };
             (is_whole && found.makes_sense()).then_some(found)
         };
-        found().ok_or_else(|| RowsError { path: path.display().to_string(), what: "is not a file of bands".to_owned() })
+        found().ok_or_else(|| RowsError { path: file.path().to_owned(), what: "is not a file of bands".to_owned() })
     }
 
     fn makes_sense(&self) -> bool {
@@ -211,18 +210,14 @@ impl StoredBands {
 /// # Errors
 /// The first file that cannot be read, is damaged or of another campaign, or whose part does not follow those before
 /// it.
-pub fn read(
-    storage: &dyn Storage,
-    files: &[PathBuf],
-    threads: Option<NonZeroUsize>,
-) -> Result<Option<Bands>, RowsError> {
+pub fn read(store: &dyn Store, files: &[String], threads: Option<NonZeroUsize>) -> Result<Option<Bands>, RowsError> {
     let mut merged: Option<(u64, Bands)> = None;
     in_order(
         files.len(),
         threads,
-        |index| StoredBands::open(storage, &files[index]).map(|found| (index, found)),
+        |index| StoredBands::open(store, &files[index]).map(|found| (index, found)),
         |(index, found)| {
-            let unfit = |what: String| Err(RowsError { path: files[index].display().to_string(), what });
+            let unfit = |what: String| Err(RowsError { path: store.path(&files[index]).display().to_string(), what });
             if let Some((last, bands)) = &mut merged {
                 if found.part <= *last {
                     return unfit(format!("part {} does not follow part {last}", found.part));
@@ -246,7 +241,9 @@ pub fn read(
 mod tests {
     use super::*;
     use crate::ensemble::PartId;
-    use crate::storage::disk::Disk;
+    use crate::storage::disk::folder as store;
+    use crate::storage::names::unfinished;
+    use std::path::Path;
 
     fn layout(nominal: f64) -> BandLayout {
         let angle = Quantity::new("angle_rad", "rad", "An angle; with letters beyond ASCII: \u{3b1}.");
@@ -265,7 +262,7 @@ mod tests {
     }
 
     /// A file of runs of part `part` with these rows and extremes.
-    fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> PathBuf {
+    fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> String {
         let column = |index: usize| Values::Count(rows.iter().map(|row| row[index]).collect());
         let part = Part { id: PartId(part), first: crate::sampling::SampleId(0), count: 9 };
         let mut own = vec![(RUNS_KEY, "11".to_owned()), (COUNTED_KEY, "9".to_owned())];
@@ -274,9 +271,9 @@ mod tests {
         own.extend(part_metadata(part, part.first));
         let mut bytes = Vec::new();
         BandsFile::new(&layout(nominal)).unwrap().0.write(&mut bytes, &own, [0, 1].map(column).into_iter()).unwrap();
-        let path = folder.join(format!("part-{:06}-{}.parquet", part.id.0, crate::storage::names::unique()));
-        std::fs::write(&path, bytes).unwrap();
-        path
+        let name = unfinished(Path::new("part")).display().to_string();
+        std::fs::write(folder.join(&name), bytes).unwrap();
+        name
     }
 
     /// Law: files are merged in their order; one that makes no sense, is damaged, of another campaign or there twice is
@@ -288,13 +285,15 @@ mod tests {
         let ends = ["1.0 NaN NaN -3.0", "2.5 NaN NaN 4.0"];
         let (sound, lengths) = ([[0, 4], [700, 5], [9, 1]], "2 0 0 1");
         let [first, second] = [0, 1].map(|part| file(&folder, part, 1.0, &sound, lengths, ends));
-        let of = |files: &[&PathBuf]| read(&Disk, &files.iter().map(|file| (*file).clone()).collect::<Vec<_>>(), None);
+        let of = |files: &[&String]| {
+            read(&*store(&folder), &files.iter().map(|file| (*file).clone()).collect::<Vec<_>>(), None)
+        };
         let both = of(&[&first, &second]).unwrap().unwrap();
         assert_eq!((both.runs(), both.count(0, 0), both.count(0, 1), both.count(1, 1)), (22, 22, 0, 4));
         assert_eq!((both.counted_runs(), both.counted(0, 0), both.counted(0, 1), both.counted(1, 1)), (18, 18, 0, 2));
         assert_eq!((both.extremes(0, 0), both.extremes(0, 1)), (Some([1.0, 2.5]), None));
         assert_eq!(of(&[]).unwrap(), None);
-        let refused = |files: &[&PathBuf]| of(files).unwrap_err().to_string();
+        let refused = |files: &[&String]| of(files).unwrap_err().to_string();
         assert!(refused(&[&second, &first]).contains("part 0 does not follow part 1"));
         assert!(refused(&[&first, &first]).contains("part 0 does not follow part 0"));
         let other = file(&folder, 2, 1.5, &sound, lengths, ends);
@@ -311,8 +310,8 @@ mod tests {
         assert!(
             refused(&[&file(&folder, 0, 1.0, &sound, lengths, ["1.0", "2.5"])]).ends_with("is not a file of bands")
         );
-        std::fs::write(&first, b"PAR1").unwrap();
-        assert!(refused(&[&first]).starts_with(first.to_str().unwrap()));
+        std::fs::write(folder.join(&first), b"PAR1").unwrap();
+        assert!(refused(&[&first]).starts_with(folder.join(&first).to_str().unwrap()));
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -1,17 +1,18 @@
-//! [`FolderError`]: why a folder cannot take a result.
+//! [`FolderError`]: why a place cannot take a result.
 
 use thiserror::Error;
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
-use crate::storage::disk::StorageError;
 use crate::storage::found::Found;
-use crate::storage::manifest::Identity;
+use crate::storage::identity::Identity;
+use crate::storage::names::PLAN;
+use crate::storage::store::{Store, StoreError};
 
 /// Most keys that a refusal lists.
 const LISTED: usize = 12;
 
-/// Why a folder cannot take a result.
+/// Why a place cannot take a result.
 #[derive(Debug, Error)]
 pub enum FolderError {
     /// It has the rows of another plan.
@@ -26,46 +27,50 @@ pub enum FolderError {
         /// The keys that differ, a line each.
         differences: String,
     },
+    /// It is a store with another plan.
+    #[error(
+        "{folder}: is the result of another plan:\n  {differences}\nchoose another --out; what is in a store is not \
+        replaced"
+    )]
+    Kept { folder: String, differences: String },
+    /// It is a store in which objects have changed.
+    #[error(
+        "{folder}: objects are not what was put; remove those that have changed, and the campaign's command with this \
+        --out puts them again\n  {damaged}"
+    )]
+    Changed { folder: String, damaged: String },
     /// It has more rows than the plan.
     #[error(
         "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose \
         another --out, or replace it with --overwrite"
     )]
     Larger { folder: String, found: u64, asked: u64 },
-    /// Its shards are of different plans.
+    /// It has a result of an earlier version of the program.
     #[error(
-        "`{folder}` has rows of different plans: {conflict}\nremove the manifest of the wrong one, so that its parts \
-        are made again, or run the campaign with --overwrite"
+        "`{folder}` contains a result of format 5, which an earlier version of spindrift made and this one does not \
+        read; remove it, or choose another --out"
     )]
-    Mixed {
-        folder: String,
-        /// Which shard differs, in which keys.
-        conflict: String,
-    },
-    /// It has a plan and rows, and no manifest.
-    #[error(
-        "`{folder}` has lost its manifest.jsonl; this makes its rows again from its plan.toml: spindrift verify \
-        {folder} --repair"
-    )]
-    Lost { folder: String },
+    Old { folder: String },
     /// Everything is there, and a shard has other keys that change no row.
     #[error(
         "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign \
         without --shard: it answers from the rows that are there"
     )]
     Answered { folder: String },
+    /// Other shards have other keys that change no row.
+    #[error(
+        "`{folder}` has shards that ask other questions:\n  {differences}\nrun all shards with one plan, or the \
+        campaign without --shard: it answers from the rows that are there"
+    )]
+    Asked { folder: String, differences: String },
     #[error(
         "`{folder}` contains `{entry}`, which is not part of a result of spindrift; move it away, or choose another \
         --out"
     )]
     Foreign { folder: String, entry: String },
     /// Another process writes to it.
-    #[error("another process is using `{folder}`{owner}; wait for it, or choose another folder")]
-    Busy {
-        folder: String,
-        /// Who it is, where that is known.
-        owner: String,
-    },
+    #[error("another process is using `{folder}`; wait for it, or choose another folder")]
+    Busy { folder: String },
     /// It has a result that is to be replaced, and cannot be renamed.
     #[error(
         "`{folder}` cannot be replaced, because it cannot be renamed: {why}; choose a folder below it or another one \
@@ -80,35 +85,39 @@ pub enum FolderError {
     #[error("`{folder}` has no result of spindrift: {why}")]
     Nothing { folder: String, why: String },
     #[error(transparent)]
-    Storage(#[from] StorageError),
+    Store(#[from] StoreError),
 }
 
-/// The keys that change rows in which the plan of the text `there` differs from `plan`, with both values.
-fn differing_rows(there: &str, plan: &Plan) -> Vec<String> {
-    // keys that do not change rows are no reason
-    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
-    text_differences(there, &plan.text()).into_iter().filter(is_reason).map(said).collect()
-}
-
-fn said(one: KeyDifference) -> String {
+fn shown(one: KeyDifference) -> String {
     let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
     format!("{}: {} there, {} here", one.key, value(one.first), value(one.second))
 }
 
-/// The same as one text; `None` where there are none, or there is no plan.
-pub(super) fn row_differences(there: &str, plan: &Plan) -> Option<String> {
-    let list = differing_rows(there, plan);
-    (!there.is_empty() && !list.is_empty()).then(|| list.join("\n  "))
+/// The keys but the number of samples in which the plan of the text `there` differs from `plan`.
+pub(super) fn other_questions(there: &str, plan: &Plan) -> Option<String> {
+    let mut keys = text_differences(there, &plan.text());
+    keys.retain(|one| one.key != "campaign.samples");
+    (!keys.is_empty()).then(|| keys.into_iter().map(shown).collect::<Vec<_>>().join("\n  "))
 }
 
-/// That `found` in `folder` has the rows `there`, and not those of `plan`, which have the identity `identity`.
+/// The error that `store`, where `found` was found, has the rows `there`, and not those of `plan`, which are
+/// `identity`.
 pub(super) fn occupied(
-    folder: String,
+    store: &dyn Store,
     found: &Found,
     there: &Identity,
     (plan, identity): (&Plan, &Identity),
 ) -> FolderError {
-    let differences = reasons(differing_rows(&found.plan, plan), there, identity);
+    let text = store.read(PLAN, super::dataset::MOST).ok().and_then(|read| String::from_utf8(read.ok()?).ok());
+    let text = if found.plan.is_empty() { text.unwrap_or_default() } else { found.plan.clone() };
+    let folder = store.root().display().to_string();
+    if !store.replaces() {
+        return FolderError::Kept { folder, differences: all_differences((&text, there), (plan, identity)) };
+    }
+    // keys that do not change rows are no reason
+    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
+    let keys = text_differences(&text, &plan.text()).into_iter().filter(|one| !text.is_empty() && is_reason(one));
+    let differences = reasons(keys.map(shown).collect(), there, identity);
     let what = if found.is_finished { "the result" } else { "an unfinished result" };
     FolderError::Occupied { folder, what, differences }
 }
@@ -116,7 +125,8 @@ pub(super) fn occupied(
 /// All keys in which the plan of the text `there`, whose rows are `rows`, differs from `plan`, whose rows are
 /// `identity`, one a line.
 pub(super) fn all_differences((there, rows): (&str, &Identity), (plan, identity): (&Plan, &Identity)) -> String {
-    reasons(text_differences(there, &plan.text()).into_iter().map(said).collect(), rows, identity)
+    let keys = if there.is_empty() { Vec::new() } else { text_differences(there, &plan.text()) };
+    reasons(keys.into_iter().map(shown).collect(), rows, identity)
 }
 
 /// The text of a `list` of keys that differ, where the rows are `there` and not `identity`: what else differs is added,
@@ -127,6 +137,9 @@ fn reasons(mut list: Vec<String>, there: &Identity, identity: &Identity) -> Stri
             "version of the row arithmetic: {}.{} there, {}.{} here",
             there.format, there.arithmetic, identity.format, identity.arithmetic
         ));
+    }
+    if there.seed != identity.seed && list.iter().all(|key| !key.starts_with("campaign.seed")) {
+        list.push(format!("campaign.seed: {} there, {} here", there.seed, identity.seed));
     }
     if list.is_empty() {
         list.push(if there.columns == identity.columns {

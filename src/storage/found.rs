@@ -1,28 +1,28 @@
-//! [`contents`]: what is in the folder of a result, as it was found: its manifests, its plan, and what does not belong
-//! there.
+//! [`contents`]: what is in the place of a dataset; [`Found::examine`]: which of its parts are whole.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::num::NonZeroUsize;
 
-use crate::campaign::difference::text_differences;
-use crate::storage::disk::{Storage, StorageError, at, is_absent};
-use crate::storage::folder::MOST_MANIFEST;
-use crate::storage::identity::in_rows;
-use crate::storage::manifest::{FileRecord, Identity, Manifest, PartRecord};
+use crate::campaign::Plan;
+use crate::ensemble::{Part, PartId, Parts};
+use crate::storage::dataset::{FileRecord, Head, MOST, Manifest, PartRecord};
+use crate::storage::identity::{Identity, RowsMetadata, sealed, sha256};
 use crate::storage::names::{
-    DATA, FOLDERS, MANIFEST, PLAN, REPLACEMENT, REPORT, SHARDS, SUCCESS, UNFINISHED, is_derived, is_ours,
+    DATA, FOLDERS, HEAD, MANIFEST, PART_BANDS, PLAN, REPORT, RUNS, SUCCESS, UNFINISHED, bands_of, is_of_part, is_ours,
+    part_of, rows_of,
 };
-use crate::storage::stored_file::is_unfit;
+use crate::storage::parallel::in_parallel;
+use crate::storage::store::{Store, StoreError};
 
-/// Most bytes of a plan that is read.
-pub(super) const MOST_PLAN: u64 = 1 << 28;
+/// The manifest of a dataset of an earlier format.
+const OLD_MANIFEST: &str = "manifest.jsonl";
 
-/// What a folder of results has in it.
 #[derive(Debug)]
-pub enum FolderContents {
-    /// Nothing, or only what a campaign left that was stopped before it wrote its manifest.
-    Blank,
+pub enum Contents {
+    /// Without an identity: only what a process left that was stopped before it began one, or nothing.
     Dataset(Box<Found>),
+    /// A dataset of format 5 or earlier.
+    Old,
     /// Something that is no dataset: the first entry.
     Foreign(String),
 }
@@ -30,260 +30,300 @@ pub enum FolderContents {
 /// A dataset as it was found.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// The text of its plan: that of `plan.toml` where a manifest has the same, else that of a manifest; empty where
-    /// there is none.
+    /// The text of its plan; empty where there is none.
     pub plan: String,
-    /// What is wrong with `plan.toml`, where it is not the plan.
-    pub plan_damage: Option<String>,
-    /// What its rows are; where no manifest says, what the first file of rows says. `None` where nothing does.
+    /// What its rows are.
     pub identity: Option<Identity>,
-    /// Which manifest is of other rows than another, and the keys that differ.
-    pub conflict: Option<String>,
-    /// Which shard has a plan with other keys than another, though of the same rows, and these keys.
-    pub shards_differ: Option<String>,
-    /// The records of its manifests by their names.
-    pub manifests: BTreeMap<String, Manifest>,
+    /// Most samples of a part, where a file that is whole says so.
+    pub largest_part: Option<u64>,
+    /// The manifest, where it is whole.
+    pub manifest: Option<Manifest>,
     pub is_finished: bool,
-    /// Whether it has a page, or had one.
-    pub has_page: bool,
+    /// What is wrong with the head, the manifest and the plan, each with its file.
+    pub damage: Vec<String>,
+    /// The files under names of the dataset.
+    pub files: BTreeSet<String>,
     /// The first entry that has a name of the dataset and is something else: a link, or a folder where a file should
     /// be.
     pub foreign: Option<String>,
-    /// Entries whose names no file of a dataset has: they are left alone.
+    /// Entries whose names no file of a dataset has.
     pub strays: Vec<String>,
-    /// Files with names of the dataset that no manifest lists although everything is there.
-    pub unlisted: Vec<String>,
-    /// Of a result that is not finished: the files that follow from rows and that no manifest lists. Nothing says what
-    /// should be in them.
-    pub unchecked: Vec<String>,
 }
 
 impl Found {
-    /// All parts that are listed, by number.
-    pub fn parts(&self) -> BTreeMap<u64, PartRecord> {
-        self.manifests.values().flat_map(|manifest| manifest.parts.clone()).collect()
-    }
-
-    /// The files of rows of the dataset in `root`, in the order of their samples.
-    pub fn row_files(&self, root: &Path) -> Vec<PathBuf> {
-        let files = self.parts().into_values().flat_map(|part| part.files.into_iter().take(1));
-        files.map(|file| root.join(file.name)).collect()
-    }
-
-    /// The names of all files that are listed.
-    pub(super) fn listed(&self) -> BTreeSet<String> {
-        let parts = self.manifests.values().flat_map(|manifest| manifest.parts.values());
-        parts.flat_map(|part| &part.files).map(|file| file.name.clone()).collect()
-    }
-
-    /// The files that follow from plan and rows, of a result in which everything is there.
-    pub fn derived(&self) -> &[FileRecord] {
-        if self.is_finished { self.written() } else { &[] }
-    }
-
-    /// The same of a result of which only the mark may be missing.
-    pub fn written(&self) -> &[FileRecord] {
-        self.manifests.get(MANIFEST).filter(|manifest| manifest.is_finished).map_or(&[], |manifest| &manifest.derived)
-    }
-
     /// What a note says of each entry that is not part of the result, and is left alone.
     pub fn notes(&self) -> Vec<String> {
-        let notes = self.strays.iter().chain(&self.unlisted);
+        let notes = self.strays.iter().map(String::as_str).chain(self.unlisted());
         notes.map(|entry| format!("{entry}: not part of the result; left alone")).collect()
     }
 
     /// The first entry that is not part of the dataset.
-    pub(super) fn not_its_own(&self) -> Option<&String> {
-        self.foreign.iter().chain(&self.strays).chain(&self.unlisted).next()
+    pub(super) fn not_its_own(&self) -> Option<&str> {
+        self.foreign.iter().chain(&self.strays).map(String::as_str).chain(self.unlisted()).next()
     }
 
-    pub fn rows(&self) -> u64 {
-        self.parts().values().map(|part| part.rows).sum()
+    /// Files with names of the dataset that a finished one does not list.
+    pub fn unlisted(&self) -> impl Iterator<Item = &str> {
+        let listed: BTreeSet<&str> = self.listed().map(|file| &*file.name).chain([MANIFEST, SUCCESS]).collect();
+        let all = self.files.iter().filter(|_| self.is_finished).map(String::as_str);
+        all.filter(move |name| !listed.contains(name) && !name.ends_with(UNFINISHED))
     }
 
-    /// Number of samples up to the last one of a part that is listed. Parts are not made in order: it may be more than
-    /// the rows.
-    pub(super) fn extent(&self) -> u64 {
-        self.parts().values().map(|part| part.first_sample.saturating_add(part.rows)).max().unwrap_or(0)
+    fn listed(&self) -> impl Iterator<Item = &FileRecord> {
+        self.manifest.iter().flat_map(|manifest| &manifest.files)
     }
 
-    /// What is wrong with manifests and plan, each with its file.
-    pub fn damage(&self) -> Vec<String> {
-        let lines = |(name, manifest): (&String, &Manifest)| -> Vec<String> {
-            manifest.damaged.iter().map(|line| format!("{name}:{line}: damaged line")).collect()
+    /// Whether there is a page, or was one.
+    pub fn has_page(&self) -> bool {
+        self.files.contains(REPORT) || self.listed().any(|file| file.name == REPORT)
+    }
+
+    /// Of a result without a manifest: the files that follow from its rows. Nothing lists what should be in them.
+    pub fn unchecked(&self) -> Vec<String> {
+        let is_unchecked = |name: &&String| {
+            let is_known = [HEAD, PLAN, MANIFEST, SUCCESS].contains(&name.as_str()) || name.starts_with(DATA);
+            !is_known && !is_of_part(name) && !name.ends_with(UNFINISHED)
         };
-        self.manifests.iter().flat_map(lines).chain(self.plan_damage.clone()).collect()
+        let all = self.files.iter().filter(|_| self.manifest.is_none());
+        all.filter(is_unchecked).cloned().collect()
+    }
+
+    /// The number of rows: of a finished result, or by the names of the files of the `parts`.
+    pub fn rows(&self, parts: Parts) -> u64 {
+        let named = || self.files.iter().filter_map(|name| parts.part(part_of(name)?)).map(|part| part.count as u64);
+        self.manifest.as_ref().map_or_else(|| named().sum(), |manifest| manifest.rows)
+    }
+
+    /// What is wrong with the files that follow from the rows, each with its name.
+    ///
+    /// # Errors
+    /// Where one cannot be read now.
+    pub fn derived_damage(&self, store: &dyn Store) -> Result<Vec<String>, StoreError> {
+        let mut found = Vec::new();
+        for file in self.manifest.iter().flat_map(Manifest::derived) {
+            // the damage of these is known
+            if ![HEAD, PLAN].contains(&file.name.as_str()) {
+                found.extend(checked(store, file)?.err().map(|what| format!("{}: {what}", file.name)));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Reads the parts that `is_mine` chooses on `threads` threads: those of the rows of `plan`, which have `identity`
+    /// and are divided as `head` says.
+    ///
+    /// # Errors
+    /// Where a file cannot be read now: that of the first part.
+    pub fn examine(
+        &self,
+        store: &dyn Store,
+        (plan, head): (&Plan, &Head),
+        is_mine: &(dyn Fn(PartId) -> bool + Sync),
+        threads: usize,
+    ) -> Result<Examined, StoreError> {
+        let listed: BTreeMap<PartId, PartRecord> =
+            self.manifest.iter().flat_map(Manifest::parts).map(|part| (part.part.id, part)).collect();
+        // of a finished result the parts that it lists
+        let named = self.files.iter().filter(|_| listed.is_empty()).filter_map(|name| part_of(name));
+        let parts: Vec<PartId> = named.chain(listed.keys().copied()).filter(|part| is_mine(*part)).collect();
+        let all = in_parallel(parts, NonZeroUsize::new(threads), |id| {
+            Ok((id, part_there(store, (plan, head), id, listed.get(&id))?))
+        });
+        let mut examined = Examined::default();
+        for one in all {
+            let (id, state) = one?;
+            match state {
+                Ok(part) => examined.parts.push(part),
+                Err(what) => examined.damaged.push((id, what)),
+            }
+        }
+        Ok(examined)
     }
 }
 
-/// What is in `root`.
+/// What became of the parts of a dataset.
+#[derive(Clone, Debug, Default)]
+pub struct Examined {
+    /// Those that are whole, in order; the last may have fewer rows than the plan has for it.
+    pub parts: Vec<PartRecord>,
+    /// The others, each with what is wrong.
+    pub damaged: Vec<(PartId, String)>,
+}
+
+impl Examined {
+    pub fn rows(&self) -> u64 {
+        self.parts.iter().map(|part| part.part.count as u64).sum()
+    }
+
+    /// Number of samples up to the last one. Parts are not made in order: it may be more than the rows.
+    pub fn extent(&self) -> u64 {
+        self.parts.last().map_or(0, |part| part.part.first.0 + part.part.count as u64)
+    }
+}
+
+/// The content of a file; what is wrong with it where it is not what was written.
+fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, String>, StoreError> {
+    Ok(match store.read(&file.name, file.bytes)? {
+        Err(error) => Err(reason(&error)),
+        Ok(bytes) if bytes.len() as u64 != file.bytes => {
+            Err(format!("{} bytes instead of {}", bytes.len(), file.bytes))
+        }
+        Ok(bytes) if sha256(&bytes) != file.sha256 => Err("its content has changed".to_owned()),
+        Ok(bytes) => Ok(bytes),
+    })
+}
+
+/// How the damage of a file ends that is not there.
+pub const MISSING: &str = "missing";
+
+fn reason(error: &std::io::Error) -> String {
+    if error.kind() == std::io::ErrorKind::NotFound { MISSING.to_owned() } else { error.to_string() }
+}
+
+/// The part `id`, which the manifest may list as `listed`; what is wrong with it.
+fn part_there(
+    store: &dyn Store,
+    (plan, head): (&Plan, &Head),
+    id: PartId,
+    listed: Option<&PartRecord>,
+) -> Result<Result<PartRecord, String>, StoreError> {
+    let name = rows_of(id);
+    let wrong = |what: String| Ok(Err(format!("{name}: {what}")));
+    let changed = "its content has changed";
+    let bytes = match store.read(&name, MOST)? {
+        Ok(bytes) => bytes,
+        Err(error) => return wrong(reason(&error)),
+    };
+    let Some(sha256_of_rows) = sealed(&bytes) else { return wrong(changed.to_owned()) };
+    let rows = FileRecord { name: name.clone(), bytes: bytes.len() as u64, sha256: sha256_of_rows };
+    let Some(there) = RowsMetadata::of(bytes.into()) else { return wrong("is not a file of rows".to_owned()) };
+    if there.identity != head.identity {
+        return wrong(format!(
+            "has the rows of another plan (seed {} and row hash {}, not {} and {})",
+            there.identity.seed, there.identity.row_hash, head.identity.seed, head.identity.row_hash
+        ));
+    }
+    let whole = head.parts(u64::MAX).part(id);
+    let part = whole.map(|whole| Part { count: there.rows as usize, ..whole }).filter(|part| {
+        let is_first = part.first.0 >= plan.rows() || plan.sample(part.first.0).0 == there.first;
+        let fits = 0 < part.count && whole.is_some_and(|whole| part.count <= whole.count);
+        there.part == id.0 && is_first && fits
+    });
+    let Some(part) = part else { return wrong(format!("has the {} rows of part {}", there.rows, there.part)) };
+    let mut files = vec![rows];
+    if let Some(sha256_of_bands) = there.bands {
+        let name = bands_of(id);
+        let wrong = |what: String| Ok(Err(format!("{name}: {what}")));
+        match store.read(&name, MOST)? {
+            Ok(bytes) if sha256(&bytes) == sha256_of_bands => {
+                files.push(FileRecord { name, bytes: bytes.len() as u64, sha256: sha256_of_bands });
+            }
+            Ok(_) => return wrong(changed.to_owned()),
+            Err(error) => return wrong(reason(&error)),
+        }
+    }
+    let record = PartRecord { part, files };
+    if listed.is_some_and(|listed| *listed != record) {
+        return wrong(format!("{changed}, with its seal: {MANIFEST} lists another one"));
+    }
+    Ok(Ok(record))
+}
+
+/// What is in `store`.
 ///
 /// # Errors
 /// Where a file operation fails.
-pub fn contents(storage: &dyn Storage, root: &Path) -> Result<FolderContents, StorageError> {
-    let top = storage.list(root).map_err(at(root))?;
+pub fn contents(store: &dyn Store) -> Result<Contents, StoreError> {
+    let top = store.entries("")?;
     let mut found = Found::default();
-    let mut names: Vec<String> =
-        top.iter().filter(|entry| entry.is_file && entry.name == MANIFEST).map(|_| MANIFEST.to_owned()).collect();
-    let mut files = Vec::new();
     for entry in &top {
-        if entry.is_folder && FOLDERS.contains(&entry.name.as_str()) {
-            let folder = root.join(&entry.name);
-            // it was listed just now
-            for inner in storage.entries(&folder).map_err(at(&folder))? {
-                let name = format!("{}/{}", entry.name, inner.name);
-                if !is_ours(&entry.name, &inner.name) {
-                    found.strays.push(name);
-                } else if !inner.is_file {
-                    found.foreign.get_or_insert(name);
-                } else if entry.name == SHARDS && !inner.name.ends_with(UNFINISHED) {
-                    names.push(name);
-                } else {
-                    files.push(name);
-                }
+        let name = &entry.name;
+        if entry.is_folder && FOLDERS.contains(&name.as_str()) {
+            for inner in store.entries(name)? {
+                found.add(format!("{name}/{}", inner.name), inner.is_file);
             }
-        } else if !is_ours("", &entry.name) && !FOLDERS.contains(&entry.name.as_str()) {
-            found.strays.push(entry.name.clone());
-        } else if !(entry.is_file && is_ours("", &entry.name)) {
-            found.foreign.get_or_insert(entry.name.clone());
+        } else if FOLDERS.contains(&name.as_str()) {
+            found.foreign.get_or_insert(name.clone());
+        } else {
+            found.add(name.clone(), entry.is_file);
         }
     }
-    for name in names {
-        let path = root.join(&name);
-        let manifest = Manifest::of(&storage.read(&path, MOST_MANIFEST).map_err(at(&path))?);
-        found.manifests.insert(name, manifest);
-    }
-    let is_marked = found.manifests.values().any(|manifest| manifest.identity.is_some() || !manifest.parts.is_empty());
-    if !is_marked {
-        // a folder without a manifest of ours is nobody's: only temporary files of this program may be in it
-        let is_whole = |name: &str| !name.ends_with(UNFINISHED) && name != REPLACEMENT;
-        let whole = top.iter().find(|entry| entry.is_file && is_whole(&entry.name)).map(|entry| entry.name.clone());
-        return Ok(
-            match found
-                .not_its_own()
-                .cloned()
-                .or(whole)
-                .or_else(|| files.into_iter().find(|file| !file.ends_with(UNFINISHED)))
-            {
-                Some(entry) => FolderContents::Foreign(entry),
-                None => FolderContents::Blank,
-            },
-        );
-    }
-    let has = |name: &str| top.iter().any(|entry| entry.is_file && entry.name == name);
-    let is_marked_whole = top.iter().any(|entry| entry.is_file && entry.name == SUCCESS && entry.size == 0);
-    found.is_finished = is_marked_whole && found.manifests.get(MANIFEST).is_some_and(|manifest| manifest.is_finished);
-    found.conflict = conflict(&found.manifests, |manifest| manifest.identity.as_ref());
-    let shards = found.manifests.iter().filter(|(name, _)| name.starts_with(SHARDS));
-    found.shards_differ = conflict(shards, |manifest| manifest.plan.as_ref());
-    found.identity = match found.manifests.values().find_map(|manifest| manifest.identity.clone()) {
-        None => identity_in_rows(storage, &found.row_files(root))?,
-        identity => identity,
+    let read = |name: &str| found.files.contains(name).then(|| store.read(name, MOST)).transpose();
+    let bytes =
+        |read: &Option<Result<Vec<u8>, std::io::Error>>| read.as_ref().and_then(|read| read.as_ref().ok().cloned());
+    let (head, manifest) = (read(HEAD)?, read(MANIFEST)?);
+    let there = bytes(&head).filter(|bytes| sealed(bytes).is_some());
+    let there: Option<Head> = there.and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    found.manifest = bytes(&manifest).and_then(|bytes| Manifest::of(&bytes));
+    let known = there.clone().or_else(|| found.manifest.as_ref().map(|manifest| manifest.head.clone()));
+    found.largest_part = known.as_ref().map(|head| head.largest_part);
+    found.identity = match known {
+        Some(head) => Some(head.identity),
+        None => found.identity_of_rows(store)?,
     };
-    found.has_page = has(REPORT) || found.derived().iter().any(|file| file.name == REPORT);
-    let mut listed = found.listed();
-    listed.extend(found.derived().iter().map(|file| file.name.clone()));
-    if !found.is_finished {
-        let written: BTreeSet<&str> = found.written().iter().map(|file| file.name.as_str()).collect();
-        // the manifest has the plan, and the plan has the checksums of files of numbers
-        let is_unchecked = |name: &String| {
-            is_derived(name) && name != PLAN && !name.starts_with(DATA) && !written.contains(name.as_str())
-        };
-        let top = top.iter().filter(|entry| entry.is_file).map(|entry| &entry.name);
-        found.unchecked = top.chain(&files).filter(|name| is_unchecked(name)).cloned().collect();
-    } else {
-        let top = top.iter().filter(|entry| entry.is_file && is_derived(&entry.name)).map(|entry| entry.name.clone());
-        let is_unlisted = |name: &String| !name.ends_with(UNFINISHED) && !listed.contains(name);
-        found.unlisted = files.into_iter().chain(top).filter(is_unlisted).collect();
+    if found.identity.is_none() {
+        if top.iter().any(|entry| entry.name == OLD_MANIFEST && entry.is_file) {
+            return Ok(Contents::Old);
+        }
+        let whole = found.files.iter().find(|name| !name.ends_with(UNFINISHED)).map(String::as_str);
+        let foreign = found.foreign.as_deref().or(found.strays.first().map(String::as_str)).or(whole);
+        return Ok(match foreign {
+            Some(entry) => Contents::Foreign(entry.to_owned()),
+            None => Contents::Dataset(Box::new(found)),
+        });
     }
-    (found.plan, found.plan_damage) = plan_of(&found.manifests, plan_text(storage, root)?);
-    Ok(FolderContents::Dataset(Box::new(found)))
+    let damage =
+        |name: &str, is_there: bool| format!("{name}: {}", if is_there { "its content has changed" } else { MISSING });
+    if there.is_none() {
+        found.damage.push(damage(HEAD, head.is_some()));
+    }
+    let is_marked = top.iter().any(|entry| entry.is_file && entry.name == SUCCESS && entry.size == 0);
+    found.is_finished = is_marked && found.manifest.is_some();
+    if found.manifest.is_none() && (is_marked || manifest.is_some()) {
+        found.damage.push(damage(MANIFEST, manifest.is_some()));
+    }
+    if found.manifest.as_ref().zip(there).is_some_and(|(manifest, head)| manifest.head != head) {
+        found.damage.push(format!("{MANIFEST}: lists other rows than those of {HEAD}"));
+        (found.manifest, found.is_finished) = (None, false);
+    }
+    let plan = store.read(PLAN, MOST)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    found.plan = plan.clone().unwrap_or_default();
+    if let Some(manifest) = found.manifest.as_ref().filter(|manifest| plan.as_ref() != Some(&manifest.plan)) {
+        found.damage.push(damage(PLAN, found.files.contains(PLAN)));
+        found.plan = manifest.plan.clone();
+    }
+    Ok(Contents::Dataset(Box::new(found)))
 }
 
-/// Which of `manifests` has something else than the first that has it, and the keys in which their plans differ.
-fn conflict<'m, T: PartialEq + 'm>(
-    manifests: impl IntoIterator<Item = (&'m String, &'m Manifest)>,
-    what: impl Fn(&'m Manifest) -> Option<&'m T>,
-) -> Option<String> {
-    let mut known = manifests.into_iter().filter_map(|(name, manifest)| Some((name, what(manifest)?, manifest)));
-    let (first, of_first, one) = known.next()?;
-    let (name, _, other) = known.find(|(_, of_other, _)| *of_other != of_first)?;
-    let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
-    let text = |plan: &Option<String>| plan.clone().unwrap_or_default();
-    let keys = text_differences(&text(&one.plan), &text(&other.plan)).into_iter();
-    let mut keys: Vec<String> = keys
-        .map(|one| format!("{}: {} in {first}, {} in {name}", one.key, value(one.first), value(one.second)))
-        .collect();
-    if keys.is_empty() {
-        keys.push(format!("{:?} in {first}, {:?} in {name}", one.identity, other.identity));
+impl Found {
+    fn add(&mut self, name: String, is_file: bool) {
+        if !is_ours(&name) {
+            self.strays.push(name);
+        } else if is_file {
+            self.files.insert(name);
+        } else {
+            self.foreign.get_or_insert(name);
+        }
     }
-    Some(format!("{name} is of another plan than {first}:\n  {}", keys.join("\n  ")))
-}
 
-/// What the first of the files of rows says that is one.
-fn identity_in_rows(storage: &dyn Storage, files: &[PathBuf]) -> Result<Option<Identity>, StorageError> {
-    for path in files {
-        match storage.read(path, u64::MAX) {
-            Ok(bytes) => {
-                if let Some((identity, ..)) = in_rows(bytes.into()) {
-                    return Ok(Some(identity));
-                }
+    /// The identity that the first sealed file of rows records.
+    fn identity_of_rows(&self, store: &dyn Store) -> Result<Option<Identity>, StoreError> {
+        for name in self.files.iter().filter(|name| part_of(name).is_some()) {
+            if let Ok(bytes) = store.read(name, MOST)?
+                && sealed(&bytes).is_some()
+                && let Some(rows) = RowsMetadata::of(bytes.into())
+            {
+                return Ok(Some(rows.identity));
             }
-            Err(error) if is_unfit(&error) || error.kind() == std::io::ErrorKind::NotFound => {}
-            Err(error) => return Err(at(path)(error)),
         }
+        Ok(None)
     }
-    Ok(None)
-}
 
-/// The plan of a dataset in which `plan.toml` has the text `there`, and what is wrong with that.
-fn plan_of(manifests: &BTreeMap<String, Manifest>, there: String) -> (String, Option<String>) {
-    let mut recorded = manifests.values().filter_map(|manifest| manifest.plan.as_ref());
-    let Some(first) = recorded.clone().next() else { return (there, None) };
-    if recorded.any(|plan| *plan == there) {
-        return (there, None);
-    }
-    let what = if there.is_empty() { "is missing, or no text file" } else { "its content has changed" };
-    (first.clone(), Some(format!("{PLAN}: {what}; {MANIFEST} has the plan")))
-}
-
-/// The text of `plan.toml` in `root`; empty where there is none, or no text.
-///
-/// # Errors
-/// Where it cannot be read.
-pub fn plan_text(storage: &dyn Storage, root: &Path) -> Result<String, StorageError> {
-    let path = root.join(PLAN);
-    let text = |bytes| String::from_utf8(bytes).unwrap_or_default();
-    match storage.read(&path, MOST_PLAN) {
-        Ok(bytes) => Ok(text(bytes)),
-        Err(error) if is_unfit(&error) || is_absent(storage, root, &path, &error)? => Ok(String::new()),
-        // its folder lists it now: another shard has just written it
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            storage.read(&path, MOST_PLAN).map(text).map_err(at(&path))
-        }
-        Err(error) => Err(at(&path)(error)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::storage::disk::Disk;
-
-    /// Law: without a manifest, files that are whole are not taken for this program's, and what it left unfinished is
-    /// nothing.
-    #[test]
-    fn whole_files_without_a_manifest_are_foreign() {
-        let root = std::env::temp_dir().join(format!("spindrift-found-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&root);
-        let runs = root.join(crate::storage::names::RUNS);
-        std::fs::create_dir_all(&runs).expect("a folder");
-        let found = || contents(&Disk, &root).expect("readable");
-        assert!(matches!(found(), FolderContents::Blank), "an empty folder");
-        std::fs::write(runs.join("part-000000.parquet.tmp"), b"half").expect("written");
-        assert!(matches!(found(), FolderContents::Blank), "an unfinished part");
-        std::fs::write(runs.join("part-000001.parquet"), b"whole").expect("written");
-        assert!(matches!(found(), FolderContents::Foreign(name) if name == "runs/part-000001.parquet"), "a whole part");
-        std::fs::remove_dir_all(&root).expect("removed");
+    /// What an interrupted process left in an unfinished dataset: temporary files, and bands without rows.
+    pub(super) fn leftovers(&self) -> impl Iterator<Item = &String> {
+        let has_rows = |name: &str| self.files.contains(&name.replacen(PART_BANDS, RUNS, 1));
+        self.files.iter().filter(move |name| {
+            name.ends_with(UNFINISHED) || name.starts_with(&format!("{PART_BANDS}/")) && !has_rows(name)
+        })
     }
 }

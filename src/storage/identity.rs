@@ -1,16 +1,44 @@
-//! [`Identity`] of rows: of a plan and its columns ([`of`]), as the metadata of a file of rows ([`metadata`]), and read
-//! from there ([`in_rows`]).
+//! [`Identity`] of rows, as every file of rows records it; and the [`seal`] by which a file proves its own bytes.
 
 use bytes::Bytes;
 use parquet::file::metadata::ParquetMetaDataReader;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, HashMap};
 
 use crate::campaign::Plan;
-use crate::ensemble::{Part, PartId};
+use crate::ensemble::Part;
 use crate::sampling::SampleId;
-use crate::storage::manifest::{ARITHMETIC, FORMAT, Identity};
 use crate::table::Column;
+
+/// Version of the files of a dataset: counts are Int64 since 2, parts have other sizes and bands coarser buckets since
+/// 3; since 4 every file of rows has the whole [`Identity`]; since 5 bands of large campaigns count the first runs
+/// only; since 6 `dataset.json` records the identity and the sizes of parts, and every file of rows is sealed.
+pub const FORMAT: u32 = 6;
+
+/// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is
+/// no part of it. Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine
+/// matrix. Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the body; since 4
+/// estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that change within
+/// an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors through
+/// repeated periods, past separatrices, and from perigee to perigee.
+pub const ARITHMETIC: u32 = 6;
+
+/// What the rows of a dataset are. Rows of two datasets with the same identity can be mixed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Always `dataset`: the mark by which a folder is recognised.
+    pub spindrift: String,
+    /// [`FORMAT`].
+    pub format: u32,
+    /// [`ARITHMETIC`].
+    pub arithmetic: u32,
+    /// SHA-256 of the row plan, in hexadecimal.
+    pub row_hash: String,
+    pub seed: u64,
+    /// SHA-256 of names and types of the columns, in hexadecimal.
+    pub columns: String,
+}
 
 /// What an [`Identity`] calls itself.
 const MARK: &str = "dataset";
@@ -24,10 +52,56 @@ const COLUMNS_KEY: &str = "spindrift.columns";
 pub const PART_KEY: &str = "spindrift.part";
 const FIRST_KEY: &str = "spindrift.first_sample";
 const SAMPLES_KEY: &str = "spindrift.samples";
+/// SHA-256 of the part's file of bands.
+pub const BANDS_KEY: &str = "spindrift.part_bands_sha256";
+/// The key, in Parquet's metadata or in JSON, of the seal: the SHA-256 of all bytes of the file with [`UNSEALED`] in
+/// place of the seal itself.
+pub const SEAL_KEY: &str = "spindrift.seal";
+/// What a file has for a seal before it is sealed.
+pub const UNSEALED: &str = "0000000000000000000000000000000000000000000000000000000000000000";
+
+fn hexadecimal(sha256: Sha256) -> String {
+    sha256.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
 
 /// SHA-256 of `bytes`, in hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(Sha256::new().chain_update(bytes))
+}
+
+/// Where the digits of the seal begin. Between them and the key are two bytes of Parquet or up to four of JSON, none of
+/// which is a hexadecimal digit.
+fn digits_of_seal(bytes: &[u8]) -> Option<usize> {
+    let key = bytes.windows(SEAL_KEY.len()).rposition(|window| window == SEAL_KEY.as_bytes())? + SEAL_KEY.len();
+    let start = (key..key + 5).find(|at| bytes.get(*at).is_some_and(u8::is_ascii_hexdigit))?;
+    (start + UNSEALED.len() <= bytes.len()).then_some(start)
+}
+
+/// The seal that `bytes` should have at `start`, and the SHA-256 of the whole where `seal` is there.
+fn checksums(bytes: &[u8], start: usize, seal: Option<&[u8]>) -> [String; 2] {
+    let (before, after) = (Sha256::new().chain_update(&bytes[..start]), &bytes[start + UNSEALED.len()..]);
+    let expected = hexadecimal(before.clone().chain_update(UNSEALED).chain_update(after));
+    let whole = before.chain_update(seal.unwrap_or(expected.as_bytes())).chain_update(after);
+    [expected, hexadecimal(whole)]
+}
+
+/// Seals a file that has [`UNSEALED`] under [`SEAL_KEY`]. Returns its SHA-256, in hexadecimal.
+///
+/// # Panics
+/// Where it has no such key.
+pub fn seal(bytes: &mut [u8]) -> String {
+    let start = digits_of_seal(bytes).expect("the key of the seal is there");
+    let [seal, sha256] = checksums(bytes, start, None);
+    bytes[start..start + seal.len()].copy_from_slice(seal.as_bytes());
+    sha256
+}
+
+/// The SHA-256 of a file whose seal is right; `None` of any other one.
+pub fn sealed(bytes: &[u8]) -> Option<String> {
+    let start = digits_of_seal(bytes)?;
+    let seal = &bytes[start..start + UNSEALED.len()];
+    let [expected, sha256] = checksums(bytes, start, Some(seal));
+    (expected.as_bytes() == seal).then_some(sha256)
 }
 
 /// The identity of rows of `plan` with these columns.
@@ -44,46 +118,58 @@ pub fn of(plan: &Plan, columns: &[Column]) -> Identity {
     }
 }
 
-/// What every file of rows says of them.
-pub fn metadata(identity: &Identity) -> [(&'static str, String); 5] {
-    [
-        (FORMAT_KEY, identity.format.to_string()),
-        (ARITHMETIC_KEY, identity.arithmetic.to_string()),
-        (ROW_HASH_KEY, identity.row_hash.clone()),
-        (SEED_KEY, identity.seed.to_string()),
-        (COLUMNS_KEY, identity.columns.clone()),
-    ]
-}
-
-/// What the file of rows of one part says of it: `first` is the number of its first sample.
+/// What the file of one part records of it: `first` is the number of its first sample.
 pub fn part_metadata(part: Part, first: SampleId) -> [(&'static str, String); 3] {
     [(PART_KEY, part.id.0.to_string()), (FIRST_KEY, first.to_string()), (SAMPLES_KEY, part.count.to_string())]
 }
 
-/// The rows of a file, and number and size of its part, as its metadata say; `None` where the bytes are no file of
-/// rows.
-pub fn in_rows(bytes: Bytes) -> Option<(Identity, PartId, usize)> {
-    let read = std::panic::catch_unwind(|| ParquetMetaDataReader::new().parse_and_finish(&bytes).ok());
-    let metadata = read.ok().flatten()?;
-    let pairs = metadata.file_metadata().key_value_metadata()?.iter();
-    let pairs: HashMap<&str, &str> = pairs.filter_map(|pair| Some((&*pair.key, pair.value.as_deref()?))).collect();
-    let identity = Identity {
-        spindrift: MARK.to_owned(),
-        format: pairs.get(FORMAT_KEY)?.parse().ok()?,
-        arithmetic: pairs.get(ARITHMETIC_KEY)?.parse().ok()?,
-        row_hash: (*pairs.get(ROW_HASH_KEY)?).to_owned(),
-        seed: pairs.get(SEED_KEY)?.parse().ok()?,
-        columns: (*pairs.get(COLUMNS_KEY)?).to_owned(),
-    };
-    Some((identity, PartId(pairs.get(PART_KEY)?.parse().ok()?), pairs.get(SAMPLES_KEY)?.parse().ok()?))
+/// The metadata of a file of rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowsMetadata {
+    pub identity: Identity,
+    pub part: u64,
+    /// The number of the first sample.
+    pub first: u64,
+    pub rows: u64,
+    /// SHA-256 of the file of bands, where the part has one.
+    pub bands: Option<String>,
+}
+
+impl RowsMetadata {
+    /// Reads them; `None` where the bytes are no file of rows.
+    pub fn of(bytes: Bytes) -> Option<Self> {
+        let read = std::panic::catch_unwind(|| ParquetMetaDataReader::new().parse_and_finish(&bytes).ok());
+        let metadata = read.ok().flatten()?;
+        let pairs = metadata.file_metadata().key_value_metadata()?.iter();
+        let pairs: HashMap<&str, &str> = pairs.filter_map(|pair| Some((&*pair.key, pair.value.as_deref()?))).collect();
+        let number = |key: &str| pairs.get(key)?.parse::<u64>().ok();
+        let text = |key: &str| pairs.get(key).map(|text| (*text).to_owned());
+        let version = |key: &str| number(key)?.try_into().ok();
+        let identity = Identity {
+            spindrift: MARK.to_owned(),
+            format: version(FORMAT_KEY)?,
+            arithmetic: version(ARITHMETIC_KEY)?,
+            row_hash: text(ROW_HASH_KEY)?,
+            seed: number(SEED_KEY)?,
+            columns: text(COLUMNS_KEY)?,
+        };
+        let [part, first, rows] = [number(PART_KEY)?, number(FIRST_KEY)?, number(SAMPLES_KEY)?];
+        Some(RowsMetadata { identity, part, first, rows, bands: text(BANDS_KEY) })
+    }
 }
 
 /// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the
 /// campaign, the version of the program and the instruction set are not part of it: no bit of a row depends on them.
 pub fn row_provenance(plan: &Plan, identity: &Identity) -> BTreeMap<String, String> {
-    let plan = ("spindrift.row_plan", plan.row_text());
-    let pairs = metadata(identity).into_iter().chain([plan]);
-    pairs.map(|(key, value)| (key.to_owned(), value)).collect()
+    let pairs = [
+        (FORMAT_KEY, identity.format.to_string()),
+        (ARITHMETIC_KEY, identity.arithmetic.to_string()),
+        (ROW_HASH_KEY, identity.row_hash.clone()),
+        (SEED_KEY, identity.seed.to_string()),
+        (COLUMNS_KEY, identity.columns.clone()),
+        ("spindrift.row_plan", plan.row_text()),
+    ];
+    pairs.map(|(key, value)| (key.to_owned(), value)).into()
 }
 
 /// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of
@@ -97,4 +183,25 @@ pub fn provenance(plan: &Plan) -> BTreeMap<String, String> {
         ("spindrift.plan", plan.text()),
     ];
     pairs.map(|(key, value)| (key.to_owned(), value)).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a sealed file has the SHA-256 that is returned; whichever bit changes, in the seal or elsewhere, and
+    /// wherever it is cut off, its seal is wrong.
+    #[test]
+    fn every_changed_bit_breaks_the_seal() {
+        let mut bytes = format!("{{\"a\": 1, \"{SEAL_KEY}\": \"{UNSEALED}\"}}\n").into_bytes();
+        assert_eq!(sealed(&bytes), None);
+        let whole = seal(&mut bytes);
+        assert_eq!((sealed(&bytes), sha256(&bytes)), (Some(whole.clone()), whole));
+        for bit in 0..8 * bytes.len() {
+            let mut changed = bytes.clone();
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert_eq!(sealed(&changed), None, "bit {bit}");
+            assert_eq!(sealed(&bytes[..bit / 8]), None, "the first {} bytes", bit / 8);
+        }
+    }
 }

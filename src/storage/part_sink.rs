@@ -11,11 +11,11 @@ use thiserror::Error;
 
 use crate::ensemble::{Ensemble, Part, Rows, Sink};
 use crate::storage::bands_file::BandsFile;
-use crate::storage::disk::StorageError;
-use crate::storage::folder::{Folder, PartFile};
-use crate::storage::manifest::PartRecord;
+use crate::storage::dataset::{Dataset, FileRecord, PartFile};
+use crate::storage::identity::seal;
 use crate::storage::names::{bands_of, rows_of};
 use crate::storage::rows_file::RowsFile;
+use crate::storage::store::StoreError;
 
 /// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
 const WAITING: usize = 1;
@@ -27,7 +27,7 @@ pub enum PartError {
     #[error("a part could not be encoded: {0}")]
     Encoding(#[from] ParquetError),
     #[error(transparent)]
-    Storage(#[from] StorageError),
+    Store(#[from] StoreError),
     /// The thread that writes could not be started.
     #[error("cannot start a thread: {0}")]
     Thread(std::io::Error),
@@ -92,9 +92,8 @@ impl PartFiles {
         mut buffers: impl Iterator<Item = Vec<u8>>,
     ) -> Result<Vec<PartFile>, ParquetError> {
         let part = rows.part();
-        let mut bytes = buffers.next().unwrap_or_default();
-        self.rows.write(rows, &mut bytes)?;
-        let mut files = vec![PartFile::new(rows_of(part.id), bytes)];
+        let [mut bytes, of_bands] = [(); 2].map(|()| buffers.next().unwrap_or_default());
+        let mut files = Vec::new();
         if let Some(bands) = rows.bands() {
             let file = match self.bands.get() {
                 Some(file) => file,
@@ -103,10 +102,15 @@ impl PartFiles {
                     self.bands.get_or_init(|| file)
                 }
             };
-            let mut bytes = buffers.next().unwrap_or_default();
+            let mut bytes = of_bands;
             file.write(part, bands, &mut bytes)?;
-            files.push(PartFile::new(bands_of(part.id), bytes));
+            files.push(PartFile { record: FileRecord::of(&bands_of(part.id), &bytes), bytes });
         }
+        let of_bands = files.first().map(|file| file.record.sha256.as_str());
+        self.rows.write(rows, of_bands, &mut bytes)?;
+        let sha256 = seal(&mut bytes);
+        let record = FileRecord { name: rows_of(part.id), bytes: bytes.len() as u64, sha256 };
+        files.insert(0, PartFile { record, bytes });
         Ok(files)
     }
 }
@@ -142,19 +146,16 @@ impl Sink for PartSink<'_> {
     }
 }
 
-/// Is told of each part once it is in its folder.
-pub type Written<'a> = &'a (dyn Fn(&PartRecord) -> Result<(), StorageError> + Sync);
-
 /// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every
-/// part that the sink took is in `folder` and `written` was told of it, or an error says why not. An error of writing
-/// is reported before one of `body`.
+/// part that the sink took is in `dataset`, or an error says why not. An error of writing is reported before one of
+/// `body`.
 ///
 /// # Errors
 /// Where parts could not be encoded or written.
 pub fn write_parts<R>(
-    folder: &Folder,
+    dataset: &Dataset,
     ensemble: &Ensemble<'_>,
-    (counts, written): (Option<&dyn CountRows>, Written<'_>),
+    counts: Option<&dyn CountRows>,
     body: impl FnOnce(&PartSink<'_>) -> R,
 ) -> Result<R, PartError> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
@@ -163,9 +164,9 @@ pub fn write_parts<R>(
     let sink = PartSink { files, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
         let (buffers, waiting) = (&buffers, waiting);
-        let write = move || -> Result<(), StorageError> {
+        let write = move || -> Result<(), StoreError> {
             waiting.iter().try_for_each(|(part, files)| {
-                written(&folder.commit(part, &files)?)?;
+                dataset.commit(part, &files)?;
                 buffers.give(files);
                 Ok(())
             })

@@ -12,8 +12,7 @@ use crate::observables::ColumnKind;
 use crate::observables::headlines::headlines;
 use crate::run::Quantity;
 use crate::storage::columnar::{Layout, Packing};
-use crate::storage::identity::{self, part_metadata, row_provenance};
-use crate::storage::manifest::Identity;
+use crate::storage::identity::{self, BANDS_KEY, Identity, SEAL_KEY, UNSEALED, part_metadata, row_provenance};
 use crate::table::{Column, Content, Values};
 
 /// Name of the column that numbers the samples.
@@ -136,14 +135,17 @@ impl RowsFile {
         Ok(RowsFile { layout, contents, audits, audited: audited_observables(ensemble) })
     }
 
-    /// Writes `rows` to `out`.
+    /// Writes `rows` to `out`, which is then to be sealed ([`identity::seal`]); `bands` is the SHA-256 of the bands.
     ///
     /// A value that a run does not have is null: NaN and infinite in memory, whether the run is `ok` or not.
     ///
     /// # Errors
     /// Where writing fails.
-    pub fn write<W: Write + Send>(&self, rows: &Rows, out: W) -> Result<(), ParquetError> {
-        let own = part_metadata(rows.part(), rows.samples().first().copied().unwrap_or(rows.part().first));
+    pub fn write<W: Write + Send>(&self, rows: &Rows, bands: Option<&str>, out: W) -> Result<(), ParquetError> {
+        let first = rows.samples().first().copied().unwrap_or(rows.part().first);
+        let bands = bands.map(|sha256| (BANDS_KEY, sha256.to_owned()));
+        let seal = (SEAL_KEY, UNSEALED.to_owned());
+        let own: Vec<_> = part_metadata(rows.part(), first).into_iter().chain(bands).chain([seal]).collect();
         let shape = rows.shape();
         let fixed = [
             Values::Count(rows.samples().iter().map(|sample| sample.0).collect()),

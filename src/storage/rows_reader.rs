@@ -6,23 +6,24 @@
 //! that is damaged.
 
 use std::borrow::Cow;
+use std::io::{self, BufReader, Read};
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
+use bytes::Bytes;
 use parquet::basic::Type;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
 use thiserror::Error;
 
 use crate::run::Status;
 use crate::sampling::SampleId;
-use crate::storage::disk::Storage;
 use crate::storage::parallel::in_order;
-use crate::storage::parquet_source::ParquetSource;
 use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
+use crate::storage::store::{Store, StoredFile, read_some};
 use crate::table::Values;
 
 /// Why rows could not be read.
@@ -34,11 +35,13 @@ pub struct RowsError {
     pub what: String,
 }
 
-/// The files of rows of a result, in the order of their samples.
+/// The parts of a result, in the order of their samples.
 #[derive(Clone, Debug)]
 pub struct RowsReader {
-    storage: &'static dyn Storage,
-    files: Vec<PathBuf>,
+    store: Arc<dyn Store>,
+    /// The names of the files of rows, and those of the files of their bands.
+    files: Vec<String>,
+    bands: Vec<String>,
 }
 
 /// One file of rows, open. It belongs to one thread: others open the same file for themselves.
@@ -50,17 +53,18 @@ pub struct PartReader {
 }
 
 impl RowsReader {
-    /// A reader of `files`, which are in the order of their samples.
-    pub fn new(storage: &'static dyn Storage, files: Vec<PathBuf>) -> Self {
-        RowsReader { storage, files }
+    /// A reader of the files of rows `files` of `store`, and of their `bands`, in the order of their samples.
+    pub fn new(store: Arc<dyn Store>, files: Vec<String>, bands: Vec<String>) -> Self {
+        RowsReader { store, files, bands }
     }
 
-    pub fn storage(&self) -> &'static dyn Storage {
-        self.storage
+    pub fn store(&self) -> &dyn Store {
+        &*self.store
     }
 
-    pub fn files(&self) -> &[PathBuf] {
-        &self.files
+    /// The names of the files of bands.
+    pub fn bands(&self) -> &[String] {
+        &self.bands
     }
 
     /// Opens the part of this index; `None` after the last.
@@ -68,7 +72,7 @@ impl RowsReader {
     /// # Errors
     /// Where the file cannot be opened or is no Parquet file.
     pub fn part(&self, index: usize) -> Option<Result<PartReader, RowsError>> {
-        self.files.get(index).map(|path| PartReader::open(self.storage, path))
+        self.files.get(index).map(|name| PartReader::open(&*self.store, name))
     }
 
     /// The parts with the first `rows` rows, in their order: no part after the one with the last of them.
@@ -94,7 +98,7 @@ impl RowsReader {
         merge: impl FnMut(T) -> Result<(), E> + Send,
     ) -> Result<(), E> {
         let read_part = |index: usize| {
-            let part = PartReader::open(self.storage, &self.files[index]);
+            let part = PartReader::open(&*self.store, &self.files[index]);
             part.map_err(E::from).and_then(|mut part| read(&mut part))
         };
         in_order(self.files.len(), threads, read_part, merge)
@@ -124,13 +128,13 @@ fn general(what: impl Into<String>) -> ParquetError {
 }
 
 impl PartReader {
-    /// Opens the file `path`.
+    /// Opens the file `name`.
     ///
     /// # Errors
     /// Where it cannot be opened or is no Parquet file.
-    pub fn open(storage: &dyn Storage, path: &Path) -> Result<Self, RowsError> {
-        let shown = path.display().to_string();
-        let source = ParquetSource::open(storage, path)
+    pub fn open(store: &dyn Store, name: &str) -> Result<Self, RowsError> {
+        let shown = store.path(name).display().to_string();
+        let source = ParquetSource::open(store, name)
             .map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
         let (reader, rows) = caught(&shown, &source, || {
             let reader = SerializedFileReader::new(source.clone())?;
@@ -329,16 +333,96 @@ fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Cow<'static
     present.iter().map(|present| if *present == 1 { values.next().unwrap_or(f64::NAN) } else { f64::NAN }).collect()
 }
 
+/// An open file, and the first error of reading it: the Parquet reader makes texts of its own of errors, and may panic
+/// where a read has failed.
+#[derive(Clone, Debug)]
+struct ParquetSource {
+    file: Arc<dyn StoredFile>,
+    length: u64,
+    failure: Arc<Mutex<Option<io::Error>>>,
+}
+
+impl ParquetSource {
+    fn open(store: &dyn Store, name: &str) -> io::Result<Self> {
+        let file: Arc<dyn StoredFile> = store.get(name)?.into();
+        let length = file.length()?;
+        Ok(ParquetSource { file, length, failure: Arc::default() })
+    }
+
+    /// What the first read said that failed; the next call has nothing to say.
+    fn failure(&self) -> Option<io::Error> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
+impl Length for ParquetSource {
+    fn len(&self) -> u64 {
+        self.length
+    }
+}
+
+impl ChunkReader for ParquetSource {
+    type T = BufReader<FileRest>;
+
+    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
+        Ok(BufReader::new(FileRest { source: self.clone(), offset: start }))
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes, ParquetError> {
+        // what a damaged file claims is not allocated
+        if start.checked_add(length as u64).is_none_or(|end| end > self.length) {
+            return Err(ParquetError::EOF(format!(
+                "{length} bytes from byte {start} on, where the file has {}",
+                self.length
+            )));
+        }
+        let mut bytes = vec![0; length];
+        FileRest { source: self.clone(), offset: start }.read_exact(&mut bytes)?;
+        Ok(bytes.into())
+    }
+}
+
+/// The rest of a file, from an offset on.
+#[derive(Debug)]
+struct FileRest {
+    source: ParquetSource,
+    offset: u64,
+}
+
+impl Read for FileRest {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let source = &self.source;
+        match read_some(&*source.file, (self.offset, source.length), bytes) {
+            Ok(count) => {
+                self.offset += count as u64;
+                Ok(count)
+            }
+            Err(error) => {
+                let told = io::Error::new(error.kind(), error.to_string());
+                source.failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                Err(told)
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::run::Quantity;
     use crate::storage::columnar::{Layout, Packing};
-    use crate::storage::disk::Disk;
+    use crate::storage::disk::folder as store;
     use crate::table::{Column, Content};
     use std::collections::BTreeMap;
 
-    struct Folder(PathBuf);
+    struct Folder(std::path::PathBuf);
+
+    impl Folder {
+        /// A reader of these files.
+        fn reader(&self, files: Vec<String>) -> RowsReader {
+            RowsReader::new(store(&self.0), files, Vec::new())
+        }
+    }
 
     impl Folder {
         fn new(name: &str) -> Self {
@@ -360,7 +444,7 @@ mod tests {
     }
 
     /// A file of three rows from sample `first` on.
-    fn file(folder: &Folder, first: u64) -> PathBuf {
+    fn file(folder: &Folder, first: u64) -> String {
         let headings = [
             heading(SAMPLE_ID, Content::Count),
             heading(STATUS, Content::Word),
@@ -369,8 +453,8 @@ mod tests {
             heading("steps", Content::Count).nullable(),
         ];
         let layout = Layout::new(&headings, BTreeMap::new(), Packing::Lz4).expect("a layout");
-        let path = folder.0.join(format!("part-{first:06}.parquet"));
-        let out = std::fs::File::create(&path).expect("a file");
+        let name = format!("part-{first:06}.parquet");
+        let out = std::fs::File::create(folder.0.join(&name)).expect("a file");
         let x = [first as f64 + 0.5, f64::NAN, 41.5];
         let values = [
             Values::Count((first..first + 3).collect()),
@@ -380,14 +464,14 @@ mod tests {
             Values::Counted(vec![7.0, f64::NAN, 9.0].into()),
         ];
         layout.write(out, &[], values.into_iter()).expect("written");
-        path
+        name
     }
 
     /// Law: what was written is read: numbers of samples, statuses, reasons, values; null is NaN, counts are doubles.
     #[test]
     fn rows_are_read_as_written() {
         let folder = Folder::new("read");
-        let reader = RowsReader::new(&Disk, vec![file(&folder, 40)]);
+        let reader = folder.reader(vec![file(&folder, 40)]);
         let part = reader.part(0).expect("one part").expect("readable");
         assert_eq!((part.rows(), part.samples()), (3, Ok(vec![SampleId(40), SampleId(41), SampleId(42)])));
         assert_eq!(part.statuses(), Ok(vec![Status::Done, Status::StepLimit, Status::Done]));
@@ -414,7 +498,7 @@ mod tests {
                 writer.group(std::iter::once(Values::Count(vec![group]))).expect("written");
             }
             writer.finish().expect("finished");
-            PartReader::open(&Disk, &path).map(|part| part.rows())
+            PartReader::open(&*store(&folder.0), &format!("{groups}.parquet")).map(|part| part.rows())
         };
         assert_eq!([opened(0), opened(1)], [Ok(0), Ok(1)]);
         for groups in [2, 6000] {
@@ -426,48 +510,11 @@ mod tests {
     #[test]
     fn the_first_parts_have_the_first_rows() {
         let folder = Folder::new("first");
-        let reader = RowsReader::new(&Disk, (0..3).map(|k| file(&folder, 3 * k)).collect());
+        let reader = folder.reader((0..3).map(|k| file(&folder, 3 * k)).collect());
         let parts = |rows: usize| reader.first_parts(rows).map(|part| part.expect("readable").rows()).sum::<usize>();
         assert_eq!([0, 1, 3, 4, 6, 7, 9, 100].map(parts), [0, 3, 3, 6, 6, 9, 9, 9]);
-        let missing = RowsReader::new(&Disk, vec![folder.0.join("none.parquet")]);
+        let missing = folder.reader(vec!["none.parquet".to_owned()]);
         assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
-    }
-
-    /// Law: parts are merged in their order for any number of threads, and the error is that of the first part that
-    /// fails.
-    #[test]
-    fn parts_are_merged_in_order() {
-        let folder = Folder::new("order");
-        let files: Vec<PathBuf> = (0..20).map(|k| file(&folder, 3 * k)).collect();
-        let reader = RowsReader::new(&Disk, files.clone());
-        for threads in [1, 2, 3, 7, 64] {
-            let threads = NonZeroUsize::new(threads);
-            let mut seen = Vec::new();
-            let all = reader.visit::<_, RowsError>(
-                threads,
-                |part| {
-                    // the first parts take longest, so that later ones have to wait
-                    let first = part.samples()?[0].0;
-                    std::thread::sleep(std::time::Duration::from_micros(2000 / (first + 1)));
-                    Ok(first)
-                },
-                |first| {
-                    seen.push(first);
-                    Ok(())
-                },
-            );
-            assert_eq!((all, seen), (Ok(()), (0..20).map(|k| 3 * k).collect()));
-            let failed = reader.visit::<_, RowsError>(
-                threads,
-                |part| match part.samples()?[0].0 {
-                    first @ (27 | 45) => Err(RowsError { path: part.path().to_owned(), what: first.to_string() }),
-                    first => Ok(first),
-                },
-                |_| Ok(()),
-            );
-            assert_eq!(failed.expect_err("two parts fail").what, "27");
-        }
-        assert_eq!(RowsReader::new(&Disk, Vec::new()).visit::<(), RowsError>(None, |_| Ok(()), |()| Ok(())), Ok(()));
     }
 
     /// Law: a damaged file is an error that names it, never a panic, at whichever byte it is damaged.
@@ -475,11 +522,11 @@ mod tests {
     fn damaged_files_are_errors() {
         let folder = Folder::new("damaged");
         let whole = file(&folder, 0);
-        let bytes = std::fs::read(&whole).expect("bytes");
+        let bytes = std::fs::read(folder.0.join(whole)).expect("bytes");
         let path = folder.0.join("damaged.parquet");
         let read = |content: &[u8]| -> Result<(), RowsError> {
             std::fs::write(&path, content).expect("written");
-            let part = PartReader::open(&Disk, &path)?;
+            let part = PartReader::open(&*store(&folder.0), "damaged.parquet")?;
             part.samples()?;
             part.statuses()?;
             part.reasons()?;
@@ -501,6 +548,6 @@ mod tests {
             assert!(read(&bytes[..length]).is_err(), "{length} bytes");
         }
         std::fs::remove_file(&path).expect("removed");
-        assert!(PartReader::open(&Disk, &path).is_err());
+        assert!(PartReader::open(&*store(&folder.0), "damaged.parquet").is_err());
     }
 }

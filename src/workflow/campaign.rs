@@ -1,22 +1,22 @@
 //! [`Campaign`]: a campaign file, what is changed of it, where its result goes; it runs what is not there yet.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::campaign::{FilesRead, Overrides, Plan};
 use crate::control::laws::asked;
 use crate::ensemble::Ensemble;
-use crate::storage::claim::{Claim, ClaimOptions, Shard, claim};
-use crate::storage::rows_file::identity;
+use crate::storage::claim::{Claim, Shard};
+use crate::storage::store::Store;
 use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::plan_of_failed;
-use crate::workflow::finishing::{Outputs, keep_data, say_notes};
+use crate::workflow::finishing::{Outputs, keep, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::results::Results;
 use crate::workflow::running::{Running, run_missing};
 use crate::workflow::session::Session;
-use crate::workflow::source::plan_and_files;
-use crate::workflow::stored::{Stored, address};
+use crate::workflow::source::{claimed, plan_and_files};
 use crate::workflow::workload::Workload;
 
 /// Default folder of results, in the current folder.
@@ -161,19 +161,15 @@ impl<'a> Campaign<'a> {
         if let Some(Shard { number, of }) = self.shard {
             refuse_shards_with_stop(&plan, &format!("--shard {number}/{of}"))?;
         }
-        let named = self.root.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
-        let stored = match address(&named)? {
-            Some(_) if self.overwrite => {
-                return Err(WorkflowError::Input(format!(
-                    "--overwrite: must be left out for {}: what is in a store is not replaced; choose another --out",
-                    named.display()
-                )));
-            }
-            Some(address) => Some(Stored::of(&self.session, address, &Ensemble::new(&plan, self.session.isa))?),
-            None => None,
-        };
-        let root = stored.as_ref().map_or_else(|| named.clone(), |stored| stored.root().to_owned());
-        Ok(Some(PreparedCampaign { campaign: self, plan, files, named, root, stored }))
+        let root = self.root.clone().unwrap_or_else(|| PathBuf::from(RESULTS).join(&plan.name));
+        let store = self.session.store(&root)?;
+        if self.overwrite && !store.replaces() {
+            return Err(WorkflowError::Input(format!(
+                "--overwrite: must be left out for {}: what is in a store is not replaced; choose another --out",
+                root.display()
+            )));
+        }
+        Ok(Some(PreparedCampaign { campaign: self, plan, files, root, store }))
     }
 
     /// Runs what is not there yet, and opens the finished result.
@@ -201,9 +197,8 @@ pub struct PreparedCampaign<'a> {
     campaign: Campaign<'a>,
     plan: Plan,
     files: FilesRead,
-    named: PathBuf,
     root: PathBuf,
-    stored: Option<Stored<'a>>,
+    store: Arc<dyn Store>,
 }
 
 impl PreparedCampaign<'_> {
@@ -216,14 +211,9 @@ impl PreparedCampaign<'_> {
         &self.files
     }
 
-    /// The folder of the result; of one in an object store, that in which this machine works on it.
+    /// The folder or address of the result.
     pub fn root(&self) -> &Path {
         &self.root
-    }
-
-    /// Where the result is for its user: its folder or address.
-    pub fn named(&self) -> &Path {
-        &self.named
     }
 
     /// The plan ready to run.
@@ -238,7 +228,7 @@ impl PreparedCampaign<'_> {
     pub fn refuse_work(&self, yes: bool) -> Result<(), WorkflowError> {
         let Campaign { session, shard, overwrite, .. } = &self.campaign;
         let (plan, root, ensemble) = (&self.plan, &*self.root, self.ensemble());
-        let there = Some(root).filter(|_| !overwrite);
+        let there = Some(&*self.store).filter(|_| !overwrite);
         let work =
             |samples| Workload::of_campaign((&ensemble, samples), there, *shard, session.threads).measured(&ensemble);
         if let [first, .., last] = plan.looks()[..] {
@@ -257,16 +247,12 @@ impl PreparedCampaign<'_> {
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
         asked::refuse_unanswered(self.plan.loop_spec()).map_err(WorkflowError::Input)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
-        let (ensemble, root, stored) = (self.ensemble(), &*self.root, self.stored.as_ref());
-        let is_stored = stored.map_or(Ok(true), |stored| stored.begin(&ensemble, &self.files))?;
-        let claimed = ClaimOptions { overwrite: *overwrite, shard: *shard, threads: session.readers() };
-        let claimed = claim(session.storage, root, (&self.plan, &identity(&ensemble)), claimed);
-        let mut ready = match claimed.map_err(WorkflowError::files)? {
+        let (ensemble, root) = (self.ensemble(), &*self.root);
+        let ready = match claimed(session, &self.store, &ensemble, (*overwrite, *shard))? {
             Claim::Finished(finished) => {
                 say_notes(session, root, &finished.notes);
-                let end = end_of_finished(session, root, &self.plan, &finished)?;
+                let end = end_of_finished(session, &self.plan, &finished)?;
                 drop(finished);
-                stored.filter(|_| !is_stored).map_or(Ok(()), Stored::publish)?;
                 if let Some(file) = outputs.junit.as_deref().filter(|_| shard.is_none()) {
                     Results::open(root, *session)?.write_junit(file)?;
                 }
@@ -274,11 +260,8 @@ impl PreparedCampaign<'_> {
             }
             Claim::Ready(ready) => *ready,
         };
-        keep_data(&ready.folder, &self.files)?;
-        if let Some(stored) = stored {
-            stored.join(&ensemble, &mut ready, *shard)?;
-        }
-        let outcome = run_missing(&Running {
+        keep(&ready, &self.files)?;
+        run_missing(&Running {
             session: *session,
             ensemble: &ensemble,
             ready: &ready,
@@ -286,12 +269,7 @@ impl PreparedCampaign<'_> {
             outputs,
             shard: *shard,
             fail_fast: *fail_fast,
-            stored,
-        })?;
-        if let (Some(stored), CampaignOutcome::Finished(_)) = (stored, &outcome) {
-            stored.publish()?;
-        }
-        Ok(outcome)
+        })
     }
 }
 

@@ -12,12 +12,11 @@ use crate::report::summary;
 use crate::sampling::SampleId;
 use crate::storage::bands_table;
 use crate::storage::columnar::{self, Packing};
-use crate::storage::disk::StorageError;
-use crate::storage::folder::Folder;
+use crate::storage::dataset::{Dataset, PartRecord};
 use crate::storage::identity::provenance;
-use crate::storage::manifest::PartRecord;
 use crate::storage::names::{BANDS, OBSERVABLES, REPORT, SENSITIVITY, STATISTICS, SUMMARY};
 use crate::storage::rows_reader::RowsReader;
+use crate::storage::store::StoreError;
 use crate::table::Table;
 use crate::workflow::analysed::{Analysed, computed};
 use crate::workflow::error::WorkflowError;
@@ -27,18 +26,18 @@ use crate::workflow::session::Session;
 /// Where the files go; called from any thread.
 pub(super) trait Destination: Sync {
     /// Takes the file `name` with this content.
-    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError>;
+    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError>;
 
     /// Is told that the dataset has no file `name`.
-    fn leave_out(&self, name: &str) -> Result<(), StorageError>;
+    fn leave_out(&self, name: &str) -> Result<(), StoreError>;
 }
 
-impl Destination for Folder {
-    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
-        self.write(name, bytes)
+impl Destination for Dataset {
+    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        self.put(name, bytes)
     }
 
-    fn leave_out(&self, name: &str) -> Result<(), StorageError> {
+    fn leave_out(&self, name: &str) -> Result<(), StoreError> {
         self.remove(name)
     }
 }

@@ -3,20 +3,16 @@
 //! any.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::analysis::fold::Gathered;
 use crate::analysis::trajectories::file_name;
 use crate::campaign::{FilesRead, data};
 use crate::ensemble::Ensemble;
 use crate::sampling::SampleId;
-use crate::storage::disk::{StorageError, at};
-use crate::storage::found::Found;
-use crate::storage::manifest::PartsRead;
-use crate::storage::manifest::{FileRecord, PartRecord};
-use crate::storage::names::{DATA, PLAN, REPORT, SUMMARY, TRAJECTORIES};
-use crate::storage::rows_reader::RowsReader;
+use crate::storage::dataset::{FileRecord, MOST, Manifest, PartRecord, rows};
+use crate::storage::names::{DATA, HEAD, PLAN, REPORT, SUMMARY, TRAJECTORIES};
+use crate::storage::store::{Store, StoreError};
 use crate::workflow::derived::{Derivation, Destination, PageKind, derive};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::page::noise_scenes;
@@ -54,18 +50,18 @@ impl Comparison<'_> {
         match self.listed.get(name) {
             Some(listed) if **listed == FileRecord::of(name, bytes) => {}
             Some(_) => self.add(name, "is not what this program makes of plan and rows, though its checksum is right"),
-            None => self.add(name, "is missing, and no line of the manifest lists it"),
+            None => self.add(name, "is missing, and the manifest does not list it"),
         }
     }
 }
 
 impl Destination for Comparison<'_> {
-    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StorageError> {
+    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         self.compare(name, bytes);
         Ok(())
     }
 
-    fn leave_out(&self, name: &str) -> Result<(), StorageError> {
+    fn leave_out(&self, name: &str) -> Result<(), StoreError> {
         if self.is_listed(name) {
             self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
             self.add(name, "is listed, and plan and rows have no such file");
@@ -74,44 +70,42 @@ impl Destination for Comparison<'_> {
     }
 }
 
-/// Makes the files that follow from plan and rows of the result in `root` again, and compares them with those that are
-/// listed there; of the time series those that `chosen` chooses. The parts are `records`; every checksum was compared.
+/// Makes the files that follow from plan and rows of the result in `store` again, and compares them with those that its
+/// manifest lists; of the time series those that `chosen` chooses. The parts are `records`, whose checksums are right.
 ///
 /// # Errors
 /// Where a file cannot be read.
 pub(super) fn derived_problems(
     session: &Session<'_>,
-    (root, found): (&Path, &Found),
+    (store, manifest): (&Arc<dyn Store>, &Manifest),
     (ensemble, read): (&Ensemble<'_>, &FilesRead),
     records: &[PartRecord],
     chosen: &dyn Fn(&[SampleId]) -> Vec<SampleId>,
 ) -> Result<DerivedCheck, WorkflowError> {
-    let (storage, plan) = (session.storage, ensemble.plan());
-    let listed = found.written().iter().map(|file| (file.name.as_str(), file)).collect();
+    let plan = ensemble.plan();
+    let listed = manifest.derived().map(|file| (file.name.as_str(), file)).collect();
     let files = Comparison { listed, made: Mutex::default(), problems: Mutex::default() };
-    let parts = PartsRead::of(records, |name| root.join(name));
-    let reader = RowsReader::new(storage, parts.rows);
-    let gathered =
-        Gathered::of_files(ensemble, (&reader, &parts.bands), session.threads).map_err(WorkflowError::files)?;
+    let reader = rows(store, records);
+    let gathered = Gathered::of_files(ensemble, &reader, session.threads).map_err(WorkflowError::files)?;
     let retained = gathered.retained.clone();
     let made_again = chosen(&retained);
     let page = match files.listed.get(REPORT) {
         None => PageKind::Without,
         Some(page) => {
-            let path = root.join(REPORT);
-            let html = storage.read(&path, page.bytes).map_err(at(&path)).map_err(WorkflowError::files)?;
+            let html = store.read(REPORT, page.bytes).map_err(WorkflowError::files)?.unwrap_or_default();
             noise_scenes(&html).map_or(PageKind::OfRows, PageKind::WithNoise)
         }
     };
     let job = Derivation { session: *session, ensemble, reader: &reader, records, page, retained: &made_again };
     derive(&job, gathered, &files)?;
     files.compare(PLAN, plan.text().as_bytes());
+    files.compare(HEAD, &manifest.head.bytes());
     let series: BTreeSet<String> =
         retained.iter().map(|sample| format!("{TRAJECTORIES}/{}", file_name(*sample))).collect();
     let copies: BTreeSet<String> =
         read.data.iter().map(|(path, sha256)| format!("{DATA}/{}", data::copy_name(path, sha256))).collect();
     for name in series.iter().chain(&copies).filter(|name| !files.is_listed(name)) {
-        files.add(name, "is missing, and no line of the manifest lists it");
+        files.add(name, "is missing, and the manifest does not list it");
     }
     let made = files.made.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut problems = files.problems.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -121,7 +115,7 @@ pub(super) fn derived_problems(
             .map(|name| format!("{name}: is listed, and plan and rows have no such file")),
     );
     if problems.iter().any(|what| what.starts_with(SUMMARY))
-        && let Some(version) = other_version(session, root)?
+        && let Some(version) = other_version(&**store)?
     {
         problems.push(format!("{SUMMARY}: says that version {version} of the program made it, and this one is {THIS}"));
     }
@@ -133,11 +127,10 @@ pub(super) fn derived_problems(
 /// The version of this program.
 const THIS: &str = env!("CARGO_PKG_VERSION");
 
-/// The version that the summary in `root` names, where it is not this one.
-fn other_version(session: &Session<'_>, root: &Path) -> Result<Option<String>, WorkflowError> {
-    let path = root.join(SUMMARY);
-    let bytes = session.storage.read(&path, crate::storage::folder::MOST_SUMMARY).map_err(at(&path));
-    let summary: serde_json::Value = serde_json::from_slice(&bytes.map_err(WorkflowError::files)?).unwrap_or_default();
+/// The version that the summary names, where it is not this one.
+fn other_version(store: &dyn Store) -> Result<Option<String>, WorkflowError> {
+    let bytes = store.read(SUMMARY, MOST).map_err(WorkflowError::files)?.unwrap_or_default();
+    let summary: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
     let version = summary.get("version").and_then(serde_json::Value::as_str);
     Ok(version.filter(|version| *version != THIS).map(str::to_owned))
 }

@@ -1,7 +1,5 @@
 //! [`end_of`]: how the campaign of a finished result ended: what its rows say, and that its summary says the same.
 
-use std::path::{Path, PathBuf};
-
 use crate::analysis::ending::ending;
 use crate::campaign::Plan;
 use crate::ensemble::Ensemble;
@@ -10,21 +8,21 @@ use crate::findings::requirement::EndVerdict;
 use crate::findings::shell_word::quoted_path;
 use crate::report::summary;
 use crate::storage::claim::Finished;
-use crate::storage::manifest::PartsRead;
+use crate::storage::dataset::rows;
 use crate::storage::names::{MANIFEST, SUMMARY};
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
-/// How the campaign `plan` ended, by its rows in a finished result. The `summary` in `root` has to say the same:
-/// programs read that.
+/// How the campaign `plan` ended, by its rows in a finished result. Its `summary` has to say the same: programs read
+/// that.
 ///
 /// # Errors
 /// Where rows cannot be read, or the summary says something else.
 pub(super) fn end_of(
-    (root, summary): (&Path, &[u8]),
+    summary: &[u8],
     plan: &Plan,
-    rows: (&RowsReader, &[PathBuf]),
+    rows: &RowsReader,
     session: &Session<'_>,
 ) -> Result<SummaryEnd, WorkflowError> {
     let ensemble = Ensemble::new(plan, session.isa);
@@ -39,8 +37,8 @@ pub(super) fn end_of(
     Err(WorkflowError::Files(format!(
         "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: \
         spindrift verify {} --repair",
-        root.join(SUMMARY).display(),
-        quoted_path(root)
+        rows.store().path(SUMMARY).display(),
+        quoted_path(rows.store().root())
     )))
 }
 
@@ -50,13 +48,10 @@ pub(super) fn end_of(
 /// As [`end_of`].
 pub(super) fn end_of_finished(
     session: &Session<'_>,
-    root: &Path,
     plan: &Plan,
     finished: &Finished,
 ) -> Result<SummaryEnd, WorkflowError> {
-    let rows: u64 = finished.parts.iter().map(|part| part.rows).sum();
-    let read = PartsRead::of(&finished.parts, |name| root.join(name));
-    let reader = RowsReader::new(session.storage, read.rows);
-    let plan = plan.clone().at_look(rows);
-    end_of((root, finished.summary.as_bytes()), &plan, (&reader, &read.bands), session)
+    let samples = finished.parts.iter().map(|part| part.part.count as u64).sum();
+    let plan = plan.clone().at_look(samples);
+    end_of(finished.summary.as_bytes(), &plan, &rows(&finished.store, &finished.parts), session)
 }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::campaign::CampaignError;
-use crate::storage::claim::FolderError;
+use crate::storage::folder_error::FolderError;
 
 /// Why a campaign could not run, or a result could not be used. The text says where, what is wrong, and what to do.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]

@@ -12,12 +12,12 @@ use crate::findings::number::counted;
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
+use crate::storage::dataset::rows;
 use crate::storage::part_sink::{PartError, PartSink};
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
-use crate::workflow::source::{plan_and_files, plan_of_sound};
-use crate::workflow::stored::fetched;
+use crate::workflow::source::{plan_and_files, sound};
 
 /// The samples whose runs are not `ok`, in the order of the files.
 fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
@@ -36,14 +36,14 @@ pub fn plan_of_failed(
     of: &Path,
     overrides: Overrides,
 ) -> Result<Option<(Plan, FilesRead)>, WorkflowError> {
-    let of = &*fetched(session, of)?;
-    let (found, _locks) = open(session.storage, of, true)?;
-    let drawn = plan_of_sound(session, (of, &found), None)?;
+    let store = session.store(of)?;
+    let (found, _lock) = open(&*store, true)?;
+    let (drawn, parts) = sound(session, (&*store, &found), None)?;
     if !found.is_finished {
         session.watch.note(&format!(
             "{}: not finished: the failures among {} so far",
             of.display(),
-            counted(found.rows(), "row")
+            counted(parts.iter().map(|part| part.part.count).sum::<usize>(), "row")
         ));
     }
     let mut samples = Vec::new();
@@ -51,7 +51,7 @@ pub fn plan_of_failed(
         samples.extend(some.into_iter().map(|sample| sample.0));
         Ok::<(), RowsError>(())
     };
-    RowsReader::new(session.storage, found.row_files(of)).visit(None, failed, add).map_err(WorkflowError::files)?;
+    rows(&store, &parts).visit(None, failed, add).map_err(WorkflowError::files)?;
     let same = Overrides { samples: Some(drawn.samples), seed: Some(drawn.seed), ..overrides };
     let (plan, files) = plan_and_files(file, same)?;
     if samples.is_empty() {
@@ -72,7 +72,7 @@ pub struct FailedRun {
 ///
 /// # Errors
 /// Where a file cannot be read.
-pub fn first_failed(rows: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
+pub fn first_failed(reader: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
     let mut first = None;
     let read = |part: &mut PartReader| -> Result<Option<FailedRun>, RowsError> {
         let statuses = part.statuses()?;
@@ -80,7 +80,7 @@ pub fn first_failed(rows: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
         let reason = part.reasons()?.swap_remove(row);
         Ok(Some(FailedRun { sample: part.samples()?[row], what: said(statuses[row], reason.as_deref()) }))
     };
-    rows.visit(None, read, |found| {
+    reader.visit(None, read, |found| {
         first = first.take().or(found);
         Ok::<(), RowsError>(())
     })?;

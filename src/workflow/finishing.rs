@@ -9,19 +9,14 @@ use std::time::Duration;
 
 use crate::analysis::fold::Gathered;
 use crate::campaign::{FilesRead, Plan};
-use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Part};
 use crate::findings::Findings;
 use crate::findings::end::SummaryEnd;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
-use crate::storage::claim::{Claim, ClaimOptions, Ready, claim, open};
-use crate::storage::folder::Folder;
-use crate::storage::manifest::PartsRead;
-use crate::storage::names::{PLAN, TRAJECTORIES};
+use crate::storage::claim::{Claim, Ready, open};
+use crate::storage::names::{PLAN, TRAJECTORIES, rows_of};
 use crate::storage::replacement::replace;
-use crate::storage::rows_file::identity;
-use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{end_of_analysed, write_junit};
 use crate::workflow::derived::{Derivation, Derived, PageKind, derive};
 use crate::workflow::ending::end_of_finished;
@@ -29,8 +24,7 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::page;
 use crate::workflow::results::Results;
 use crate::workflow::session::Session;
-use crate::workflow::source::{data_copies, plan_in};
-use crate::workflow::stored::{Stored, address};
+use crate::workflow::source::{at_rows_of, claimed, data_copies, plan_in};
 
 /// What is made of the rows beside the tables and the summary.
 #[derive(Clone, Debug, Default)]
@@ -89,30 +83,29 @@ pub struct Finishing<'a> {
 /// # Errors
 /// Where parts are missing, rows cannot be read or a file operation fails.
 pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Completed, WorkflowError> {
-    let (plan, folder, threads) = (job.ensemble.plan(), &job.ready.folder, job.session.threads);
-    let parts = parts(plan, job.ensemble.isa());
-    refuse_missing(&folder.missing(parts.iter()), job.root)?;
-    let records = folder.parts();
-    let (reader, bands) = rows_of(job.ready);
+    let (plan, dataset, threads) = (job.ensemble.plan(), &job.ready.dataset, job.session.threads);
+    refuse_missing(&dataset.missing(dataset.head().parts(plan.rows())), job.root)?;
+    let (records, reader) = (dataset.parts(), dataset.rows());
     let gathered = match gathered {
         Some(gathered) => gathered,
-        None => Gathered::of_files(job.ensemble, (&reader, &bands), threads).map_err(WorkflowError::files)?,
+        None => Gathered::of_files(job.ensemble, &reader, threads).map_err(WorkflowError::files)?,
     };
     let retained = gathered.retained.clone();
-    prepare_trajectories(folder, !retained.is_empty())?;
+    // an earlier end of the campaign may have left others
+    dataset.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
     let page = if job.outputs.without_page { PageKind::Without } else { PageKind::OfRows };
     let session = job.session;
     let derivation =
         Derivation { session, ensemble: job.ensemble, reader: &reader, records: &records, page, retained: &retained };
-    let Derived { analysed, page, findings } = derive(&derivation, gathered, folder)?;
+    let Derived { analysed, page, findings } = derive(&derivation, gathered, dataset)?;
     if let Some(page) = page {
         page::save_figures(&session, plan, &page, job.outputs.figures.as_deref())?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
     let end = end_of_analysed(&analysed, &findings);
-    folder.finish().map_err(WorkflowError::files)?;
+    dataset.finish().map_err(WorkflowError::files)?;
     if let Some(old) = &job.ready.replaces {
-        replace(folder.storage(), folder.root(), old).map_err(WorkflowError::files)?;
+        replace(session.folders, dataset.store(), old).map_err(WorkflowError::files)?;
     }
     Ok(Completed {
         plan: plan.clone(),
@@ -122,22 +115,8 @@ pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Compl
         made: job.made,
         is_audited: analysed.tally.audits.is_some(),
         files: records.len(),
-        bytes: folder.size(),
+        bytes: dataset.size(),
     })
-}
-
-/// Prepares the folder of time series: without those that an earlier end of the campaign left there, and none where
-/// none are retained.
-fn prepare_trajectories(folder: &Folder, is_needed: bool) -> Result<(), WorkflowError> {
-    let path = folder.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
-    let created = if is_needed { folder.storage().create_folder(&path) } else { Ok(()) };
-    created.map_err(|error| WorkflowError::files(format!("{}: {error}", path.display())))
-}
-
-/// The rows of a dataset that are there, and the files of their bands.
-pub(super) fn rows_of(ready: &Ready) -> (RowsReader, Vec<PathBuf>) {
-    let parts = PartsRead::of(&ready.folder.parts(), |name| ready.folder.path(name));
-    (RowsReader::new(ready.folder.storage(), parts.rows), parts.bands)
 }
 
 /// That an unfinished result with `[stop]` is completed by the command that looks at it.
@@ -153,29 +132,25 @@ pub(super) fn stop_is_continued(root: &Path) -> String {
 
 /// Refuses to finish the result in `root` where these parts of it are missing.
 fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
-    let (Some(first), Some(last)) = (missing.first(), missing.last()) else { return Ok(()) };
+    let Some(first) = missing.first() else { return Ok(()) };
     Err(WorkflowError::Files(format!(
-        "{}: {} missing, from part {} to part {}; this makes what is missing and finishes: spindrift campaign {} --out \
-        {}",
+        "{}: {} missing, the first of them {}; this makes what is missing and finishes: spindrift campaign {} --out {}",
         root.display(),
         counted(missing.len(), "part"),
-        first.id.0,
-        last.id.0,
+        rows_of(first.id),
         quoted_path(&root.join(PLAN)),
         quoted_path(root),
     )))
 }
 
-/// Copies the files of numbers and the module of the plan into the dataset, which is then complete in itself: whatever
-/// works on it reads its plan.
+/// Copies the files of numbers and the module of the plan into the dataset, and then the plan: the dataset is complete
+/// in itself.
 ///
 /// # Errors
 /// Where one has changed since the plan was made, or a file operation fails.
-pub(super) fn keep_data(folder: &Folder, files: &FilesRead) -> Result<(), WorkflowError> {
-    data_copies(files).try_for_each(|copy| {
-        let (name, bytes) = copy?;
-        folder.keep_data(&name, &bytes).map_err(WorkflowError::files)
-    })
+pub(super) fn keep(ready: &Ready, files: &FilesRead) -> Result<(), WorkflowError> {
+    let copies = data_copies(files).collect::<Result<Vec<_>, _>>()?;
+    ready.dataset.keep(&copies).map_err(WorkflowError::files)
 }
 
 /// Says what is in the folder and not part of the result.
@@ -202,36 +177,21 @@ pub fn finish(
     outputs: &Outputs,
     check: &dyn Fn(&FilesRead) -> Result<(), WorkflowError>,
 ) -> Result<Finished, WorkflowError> {
-    if let Some(address) = address(root)? {
-        let stored = Stored::there(session, address)?;
-        let is_whole = stored.fetch(false)?;
-        let finished = finish(session, stored.root(), outputs, check)?;
-        return if is_whole { Ok(finished) } else { stored.publish().map(|()| finished) };
-    }
+    let store = session.store(root)?;
     // a folder that is none is not created
-    let (found, locks) = open(session.storage, root, false)?;
-    if let Some(difference) = &found.shards_differ {
-        return Err(WorkflowError::Files(format!(
-            "{}: its shards ask different questions: {difference}\nthis answers those of a file, from the rows that \
-            are there: spindrift campaign FILE --out {}",
-            root.display(),
-            quoted_path(root)
-        )));
-    }
-    let (plan, files) = plan_in(session, root, &found)?;
+    let (found, lock) = open(&*store, false)?;
+    let (plan, files) = plan_in(session, &*store, &found)?;
     if plan.analysis.stop.is_some() && !found.is_finished {
         return Err(WorkflowError::Files(stop_is_continued(root)));
     }
-    let plan = plan.at_look(found.rows());
-    drop(locks);
+    let plan = at_rows_of(plan, &found);
+    drop(lock);
     check(&files)?;
     let ensemble = Ensemble::new(&plan, session.isa);
-    let claimed = ClaimOptions { overwrite: false, shard: None, threads: session.readers() };
-    let claimed = claim(session.storage, root, (&plan, &identity(&ensemble)), claimed).map_err(WorkflowError::files)?;
-    let ready = match claimed {
+    let ready = match claimed(session, &store, &ensemble, (false, None))? {
         Claim::Finished(finished) => {
             say_notes(session, root, &finished.notes);
-            let end = end_of_finished(session, root, &plan, &finished)?;
+            let end = end_of_finished(session, &plan, &finished)?;
             drop(finished);
             if let Some(file) = &outputs.junit {
                 Results::open(root, *session)?.write_junit(file)?;
@@ -242,8 +202,8 @@ pub fn finish(
     };
     say_notes(session, root, &ready.notes);
     ready.damaged.iter().for_each(|what| session.watch.note(&format!("{}: damaged: {what}", root.display())));
-    refuse_missing(&ready.folder.missing(parts(&plan, ensemble.isa()).iter()), root)?;
-    keep_data(&ready.folder, &files)?;
+    refuse_missing(&ready.dataset.missing(ready.dataset.head().parts(plan.rows())), root)?;
+    keep(&ready, &files)?;
     let job = Finishing { session: *session, ensemble: &ensemble, ready: &ready, root, outputs, made: None };
     complete(&job, None).map(|completed| Finished::Now(Box::new(completed)))
 }

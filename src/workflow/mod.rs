@@ -11,7 +11,6 @@
 //! - [`failed_samples`]: samples that failed, again or as the end.
 //! - [`source`]: where plans come from.
 //! - [`session`]: disk, threads, control law, and who is told.
-//! - `stored`: results in an object store.
 //! - [`columns`]: the columns that rows may have. [`threads`]: how many are allowed. [`error`].
 //! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left
 //!   of memory and disk.
@@ -38,7 +37,6 @@ mod running;
 pub mod session;
 pub mod simulated;
 pub mod source;
-mod stored;
 pub mod threads;
 pub mod verification;
 pub mod workload;

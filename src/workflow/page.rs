@@ -17,17 +17,13 @@ use crate::report::page::runs::{KnownRow, asked as asked_of, listed};
 use crate::report::page::{Contents, Page};
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
-use crate::storage::folder::relist;
-use crate::storage::manifest::PartsRead;
-use crate::storage::manifest::{FileRecord, PartRecord};
-use crate::storage::names::{MANIFEST, REPORT};
+use crate::storage::dataset::{PartRecord, replace_file, rows};
+use crate::storage::names::REPORT;
 use crate::storage::rows_reader::{RowsError, RowsReader};
-use crate::storage::whole_file::place;
 use crate::workflow::analysed::{Analysed, computed, end_of_analysed};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
-use crate::workflow::source::plan_of_sound;
-use crate::workflow::stored::fetched;
+use crate::workflow::source::sound;
 
 /// A page that was made again.
 #[derive(Clone, Debug)]
@@ -54,16 +50,16 @@ pub fn remade(
     figures: Option<&Path>,
     noise: Option<u64>,
 ) -> Result<Remade, WorkflowError> {
-    let (storage, threads, root) = (session.storage, session.threads, &*fetched(session, root)?);
-    let (there, _locks) = open(storage, root, false)?;
-    let Some(manifest) = there.manifests.get(MANIFEST).filter(|_| there.is_finished) else {
+    let (store, threads) = (session.store(root)?, session.threads);
+    let (there, _lock) = open(&*store, false)?;
+    let Some(manifest) = there.manifest.as_ref().filter(|_| there.is_finished) else {
         return Err(WorkflowError::Input(format!(
             "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
             root.display(),
             quoted_path(root)
         )));
     };
-    let plan = plan_of_sound(session, (root, &there), Some(REPORT))?;
+    let (plan, records) = sound(session, (&*store, &there), Some(REPORT))?;
     asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(
@@ -72,16 +68,12 @@ pub fn remade(
         )));
     }
     let ensemble = Ensemble::new(&plan, session.isa);
-    let records: Vec<PartRecord> = there.parts().into_values().collect();
-    let parts = PartsRead::of(&records, |name| root.join(name));
-    let reader = RowsReader::new(storage, parts.rows);
-    let gathered = Gathered::of_files(&ensemble, (&reader, &parts.bands), threads).map_err(WorkflowError::files)?;
+    let reader = rows(&store, &records);
+    let gathered = Gathered::of_files(&ensemble, &reader, threads).map_err(WorkflowError::files)?;
     let analysed = computed(&plan, &reader, gathered, threads).map_err(WorkflowError::files)?;
     let (page, found) = made_page(session, &ensemble, &analysed, (&reader, &records), noise)?;
     let path = root.join(REPORT);
-    place(storage, &path, page.html.as_bytes()).map_err(WorkflowError::files)?;
-    relist(storage, root, (manifest, &there.plan), FileRecord::of(REPORT, page.html.as_bytes()))
-        .map_err(WorkflowError::files)?;
+    replace_file(&*store, manifest, (REPORT, page.html.as_bytes())).map_err(WorkflowError::files)?;
     save_figures(session, &plan, &page, figures)?;
     let end = end_of_analysed(&analysed, &found);
     let noise = found.of(Kind::Driver).filter(|one| one.id.starts_with("noise_")).cloned().collect();
@@ -142,7 +134,7 @@ fn rows_of(
     let wanted: Vec<String> = columns.iter().map(|column| column.quantity.name().to_owned()).chain(inputs).collect();
     let mut rows = Vec::new();
     for (index, record) in records.iter().enumerate() {
-        let part = record.samples();
+        let part = record.part;
         // chosen samples have their own numbers
         let may_have = |sample: &SampleId| (part.first.0..part.first.0 + part.count as u64).contains(&sample.0);
         let Some(part) = reader.part(index).filter(|_| plan.chosen.is_some() || samples.iter().any(may_have)) else {

@@ -10,10 +10,9 @@ use crate::campaign::Plan;
 use crate::ensemble::{Bands, Ensemble, SingleRun};
 use crate::findings::end::SummaryEnd;
 use crate::sampling::SampleId;
-use crate::storage::claim::{Locks, open};
-use crate::storage::folder::MOST_SUMMARY;
-use crate::storage::manifest::PartRecord;
-use crate::storage::manifest::PartsRead;
+use crate::storage::claim::open;
+use crate::storage::dataset::{MOST, PartRecord, rows};
+use crate::storage::lock::Lock;
 use crate::storage::names::{SUMMARY, TRAJECTORIES};
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{Analysed, computed, write_junit};
@@ -21,8 +20,7 @@ use crate::workflow::ending::end_of;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::simulated::not_physical;
-use crate::workflow::source::plan_of_sound;
-use crate::workflow::stored::fetched;
+use crate::workflow::source::sound;
 
 /// A finished result, whose checksums were compared. No process changes it while this is there.
 pub struct Results<'a> {
@@ -31,27 +29,25 @@ pub struct Results<'a> {
     plan: Plan,
     parts: Vec<PartRecord>,
     reader: RowsReader,
-    bands: Vec<PathBuf>,
-    _locks: Locks,
+    _lock: Lock,
 }
 
 impl<'a> Results<'a> {
-    /// The result in the folder `root`, or a copy of that at an address of an object store. A campaign that flew a
-    /// control law is opened with that law in `session`.
+    /// The result in the folder or at the address `root`. A campaign that flew a control law is opened with that law in
+    /// `session`.
     ///
     /// # Errors
     /// Where there is none, it is not finished, or it is damaged.
     pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self, WorkflowError> {
-        let root = fetched(&session, &root.into())?.into_owned();
-        let (found, locks) = open(session.storage, &root, true)?;
+        let root = root.into();
+        let store = session.store(&root)?;
+        let (found, lock) = open(&*store, true)?;
         if !found.is_finished {
             return Err(WorkflowError::Input(format!("the result in `{}` is not finished", root.display())));
         }
-        let plan = plan_of_sound(&session, (&root, &found), None)?;
-        let parts: Vec<PartRecord> = found.parts().into_values().collect();
-        let read = PartsRead::of(&parts, |name| root.join(name));
-        let reader = RowsReader::new(session.storage, read.rows);
-        Ok(Results { session, root, plan, parts, reader, bands: read.bands, _locks: locks })
+        let (plan, parts) = sound(&session, (&*store, &found), None)?;
+        let reader = rows(&store, &parts);
+        Ok(Results { session, root, plan, parts, reader, _lock: lock })
     }
 
     pub fn root(&self) -> &Path {
@@ -92,8 +88,7 @@ impl<'a> Results<'a> {
     /// Where a file cannot be read.
     pub fn analysed(&self) -> Result<Analysed, WorkflowError> {
         let (ensemble, threads) = (Ensemble::new(&self.plan, self.session.isa), self.session.threads);
-        let gathered =
-            Gathered::of_files(&ensemble, (&self.reader, &self.bands), threads).map_err(WorkflowError::files)?;
+        let gathered = Gathered::of_files(&ensemble, &self.reader, threads).map_err(WorkflowError::files)?;
         computed(&self.plan, &self.reader, gathered, threads).map_err(WorkflowError::files)
     }
 
@@ -134,15 +129,16 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where their folder cannot be read.
     pub fn retained(&self) -> Result<Vec<PathBuf>, WorkflowError> {
-        let folder = self.root.join(TRAJECTORIES);
-        if !folder.is_dir() {
-            return Ok(Vec::new());
-        }
-        let entries = std::fs::read_dir(&folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
-        let entries = entries.map_err(|error| WorkflowError::files(format!("{}: {error}", folder.display())))?;
-        let mut files: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
-        files.sort();
-        Ok(files)
+        let entries = self.reader.store().entries(TRAJECTORIES).map_err(WorkflowError::files)?;
+        Ok(entries.into_iter().map(|entry| self.root.join(TRAJECTORIES).join(entry.name)).collect())
+    }
+
+    /// The content of the file `name`, such as `summary.json`; `None` where there is none.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>, WorkflowError> {
+        Ok(self.reader.store().read(name, MOST).map_err(WorkflowError::files)?.ok())
     }
 
     /// The run of a sample again, with its states over time: bit for bit that of its row.
@@ -172,9 +168,6 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where rows or summary cannot be read, or the summary says something else.
     pub fn end(&self) -> Result<SummaryEnd, WorkflowError> {
-        let path = self.root.join(SUMMARY);
-        let damaged = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
-        let summary = self.session.storage.read(&path, MOST_SUMMARY).map_err(|error| damaged(&error))?;
-        end_of((&self.root, &summary), &self.plan, (&self.reader, &self.bands), &self.session)
+        end_of(&self.file(SUMMARY)?.unwrap_or_default(), &self.plan, &self.reader, &self.session)
     }
 }

@@ -13,8 +13,8 @@ use crate::findings::end::SummaryEnd;
 use crate::findings::results_index::{IndexEntry, Unreadable};
 use crate::report::summary;
 use crate::scene::epoch::date_of;
-use crate::storage::folder::MOST_SUMMARY;
-use crate::storage::names::{MANIFEST, PLAN, REPORT, SUMMARY};
+use crate::storage::dataset::MOST;
+use crate::storage::names::{HEAD, PLAN, REPORT, SUMMARY};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
@@ -24,8 +24,6 @@ const DEEPEST: usize = 6;
 const MOST_KEYS: usize = 4;
 /// A file says of itself that it is of this day since 1970 at most: of the year 9999.
 const LAST_DAY: u64 = 2_932_896;
-/// Most bytes of a plan that is read.
-const MOST_PLAN: u64 = 16 << 20;
 
 /// What is below a folder.
 #[derive(Clone, Debug, Default)]
@@ -83,9 +81,9 @@ pub fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, Workf
     Ok(index)
 }
 
-/// Collects the folders of results: those with a plan or a manifest. Within a result there is no other.
+/// Collects the folders of results: those with a head or a summary. Within a result there is no other.
 fn visit(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
-    if [MANIFEST, SUMMARY].iter().any(|name| folder.join(name).is_file()) {
+    if [HEAD, SUMMARY].iter().any(|name| folder.join(name).is_file()) {
         found.push(folder.to_owned());
         return;
     }
@@ -100,12 +98,14 @@ fn visit(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
 /// What the result in `folder` says; the reason where it says nothing.
 fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, String> {
     let path = folder.join(SUMMARY);
-    let bytes = session.storage.read(&path, MOST_SUMMARY).map_err(|_| format!("not finished: no {SUMMARY}"))?;
+    let store = (session.folders)(folder);
+    let read = |name: &str| store.read(name, MOST).map_err(|error| error.to_string());
+    let bytes = read(SUMMARY)?.map_err(|_| format!("not finished: no {SUMMARY}"))?;
     let value: Value = serde_json::from_slice(&bytes).map_err(|error| format!("{SUMMARY}: {error}"))?;
     let end = summary::read(&bytes).ok_or_else(|| format!("{SUMMARY} is none of spindrift"))?;
     let text = |key: &str| value[key].as_str().map(str::to_owned);
     let campaign = text("campaign").ok_or_else(|| format!("{SUMMARY} names no campaign"))?;
-    let plan = session.storage.read(&folder.join(PLAN), MOST_PLAN).map_err(|error| error.to_string())?;
+    let plan = read(PLAN)?.map_err(|error| error.to_string())?;
     let plan = String::from_utf8(plan).map_err(|_| format!("{PLAN} is not text"))?;
     let question = toml::from_str::<toml::Table>(&plan)
         .ok()

@@ -8,20 +8,17 @@ use std::time::Instant;
 use crate::analysis::fold::RunningFold;
 use crate::analysis::stopping::look;
 use crate::campaign::Plan;
-use crate::ensemble::run_cost::parts;
 use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
 use crate::findings::loss::stop_text;
 use crate::findings::number::counted;
 use crate::storage::claim::{Ready, Shard};
-use crate::storage::manifest::PartRecord;
 use crate::storage::part_sink::{CountRows, PartSink, write_parts};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::{FailFast, FailedRun, first_failed};
-use crate::workflow::finishing::{Finishing, Made, Outputs, complete, rows_of, say_notes};
+use crate::workflow::finishing::{Finishing, Made, Outputs, complete, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::session::Session;
-use crate::workflow::stored::Stored;
 
 /// A campaign whose folder is claimed.
 pub(super) struct Running<'a> {
@@ -32,17 +29,15 @@ pub(super) struct Running<'a> {
     pub outputs: &'a Outputs,
     pub shard: Option<Shard>,
     pub fail_fast: bool,
-    /// The store into which parts are put.
-    pub stored: Option<&'a Stored<'a>>,
 }
 
 /// Runs what is missing, and finishes the result.
 pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, WorkflowError> {
     let (plan, ready) = (job.ensemble.plan(), job.ready);
-    let parts = parts(plan, job.ensemble.isa());
+    let parts = ready.dataset.head().parts(plan.rows());
     let mut made = Made::default();
     // what is there already was counted by no one
-    let is_whole = ready.folder.parts().is_empty() && job.shard.is_none() && plan.analysis.stop.is_none();
+    let is_whole = ready.dataset.parts().is_empty() && job.shard.is_none() && plan.analysis.stop.is_none();
     let counts = if is_whole { RunningFold::of(job.ensemble) } else { None };
     plan.notes().iter().for_each(|note| job.session.watch.note(note));
     let targets = plan.looks();
@@ -53,8 +48,7 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
         if let Some(outcome) = job.run_to(parts.with_samples(target), counts.as_ref(), &mut made)? {
             return Ok(outcome);
         }
-        let (rows, bands) = rows_of(ready);
-        match look(plan, (&rows, &bands), target, job.session.threads).map_err(WorkflowError::files)? {
+        match look(plan, &ready.dataset.rows(), target, job.session.threads).map_err(WorkflowError::files)? {
             Some(found) if !found.ends() => {
                 job.session.watch.note(&format!("{}: {}", plan.name, stop_text(plan, &found)));
             }
@@ -77,7 +71,7 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
 
 impl Running<'_> {
     fn is_mine(&self, part: &Part) -> bool {
-        self.shard.is_none_or(|shard| part.id.0 % shard.of == shard.number - 1)
+        self.shard.is_none_or(|shard| shard.has(part.id))
     }
 
     /// Runs those of `parts` that are missing; an outcome where that ends the campaign: a stop, or a shard.
@@ -87,16 +81,12 @@ impl Running<'_> {
         counts: Option<&RunningFold>,
         made: &mut Made,
     ) -> Result<Option<CampaignOutcome>, WorkflowError> {
-        let folder = &self.ready.folder;
+        let dataset = &self.ready.dataset;
         // a last part of fewer samples is made again with its further rows
-        let is_outgrown = |record: &PartRecord| {
-            self.is_mine(&record.samples())
-                && parts.part(record.samples().id).is_none_or(|part| part != record.samples())
-        };
-        let outgrown: Vec<u64> =
-            folder.parts().iter().filter(|record| is_outgrown(record)).map(|record| record.part).collect();
-        folder.drop_parts(outgrown).map_err(WorkflowError::files)?;
-        let mut missing = folder.missing(parts.iter());
+        let there = dataset.parts().into_iter().map(|record| record.part);
+        let outgrown = there.filter(|part| self.is_mine(part) && parts.part(part.id) != Some(*part));
+        dataset.drop_parts(outgrown.map(|part| part.id)).map_err(WorkflowError::files)?;
+        let mut missing = dataset.missing(parts);
         missing.retain(|part| self.is_mine(part));
         if made.samples == 0 {
             let samples = parts.iter().filter(|part| self.is_mine(part)).map(|part| part.count as u64).sum();
@@ -104,14 +94,14 @@ impl Running<'_> {
             self.say_idle_threads(missing.len());
         }
         if self.fail_fast
-            && let Some(failed) = first_failed(&rows_of(self.ready).0).map_err(WorkflowError::files)?
+            && let Some(failed) = first_failed(&dataset.rows()).map_err(WorkflowError::files)?
         {
             return Ok(Some(CampaignOutcome::FailedFast(failed)));
         }
         if let Some(failed) = self.run_them(&missing, counts, made)? {
             return Ok(Some(CampaignOutcome::FailedFast(failed)));
         }
-        let left = folder.missing(parts.iter());
+        let left = dataset.missing(parts);
         // the parts of other shards are theirs
         if left.iter().any(|part| self.is_mine(part)) {
             let left = left.iter().map(|part| part.count as u64).sum();
@@ -134,8 +124,7 @@ impl Running<'_> {
         let progress = |samples| watch.advance(samples);
         let supervision = self.session.supervision(&progress);
         let counts = counts.map(|counts| counts as &dyn CountRows);
-        let put = |part: &PartRecord| self.stored.map_or(Ok(()), |stored| stored.put(self.ensemble, part));
-        let ended = write_parts(&self.ready.folder, self.ensemble, (counts, &put), |sink: &PartSink<'_>| {
+        let ended = write_parts(&self.ready.dataset, self.ensemble, counts, |sink: &PartSink<'_>| {
             let watched = FailFast { sink, is_on: self.fail_fast, stop: watch.stop(), first: &first };
             let missing = missing.iter().copied();
             run_parts(self.ensemble, missing, self.session.threads, &watched, supervision).map(|()| sink.seconds())

@@ -1,7 +1,9 @@
 //! [`Session`]: with what all work on campaigns and results is done; [`Watch`]: who is told of it, and may stop it.
 
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, OnceLock};
 
 use super::error::WorkflowError;
 use crate::campaign::Overrides;
@@ -12,7 +14,9 @@ use crate::ensemble::crew::{Alone, Crew};
 use crate::ensemble::runner::threads;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
-use crate::storage::disk::{Disk, Storage};
+use crate::storage::address::Address;
+use crate::storage::disk::{folder, meant};
+use crate::storage::store::{OpenFolder, Store, at};
 
 /// Is told what happens, and may stop it; called from any thread.
 pub trait Watch: Sync {
@@ -52,10 +56,33 @@ impl Watch for Quiet {
     }
 }
 
+/// Connects to the store at an address.
+///
+/// # Errors
+/// Where the environment does not say how to get there, or the store does not answer, or refuses.
+pub type Connect = fn(&Address) -> std::io::Result<Arc<dyn Store>>;
+
+static CONNECT: OnceLock<Connect> = OnceLock::new();
+
+/// Makes `connect` the client of this process, where the build has none of its own: so the Python package has object
+/// stores and the library of the program, compiled once.
+pub fn connect_by(connect: Connect) {
+    let _ = CONNECT.set(connect);
+}
+
+/// How this process connects to a store, where it can.
+pub fn connect() -> Option<Connect> {
+    #[cfg(feature = "cloud")]
+    return Some(crate::storage::s3::connect);
+    #[cfg(not(feature = "cloud"))]
+    CONNECT.get().copied()
+}
+
 /// With what work is done.
 #[derive(Clone, Copy)]
 pub struct Session<'a> {
-    pub storage: &'static dyn Storage,
+    /// Opens folders of results.
+    pub folders: &'a OpenFolder<'a>,
     pub isa: Isa,
     /// How many threads run and read; `None`: one per core.
     pub threads: Option<NonZeroUsize>,
@@ -74,7 +101,22 @@ impl<'a> Session<'a> {
     /// # Errors
     /// Where the environment names an instruction set that is not available.
     pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
-        Ok(Session { storage: &Disk, isa: isa()?, threads: None, law: None, attitude_law: None, crew: &Alone, watch })
+        let isa = isa()?;
+        Ok(Session { folders: &folder, isa, threads: None, law: None, attitude_law: None, crew: &Alone, watch })
+    }
+
+    /// The place of a result: a folder, or an address `s3://bucket/name` of an object store.
+    ///
+    /// # Errors
+    /// Where it is no address, or the store cannot be reached.
+    pub fn store(&self, root: &Path) -> Result<Arc<dyn Store>, WorkflowError> {
+        let Some(address) = Address::of(root, connect().is_some()).map_err(WorkflowError::Input)? else {
+            let root = meant(root).map_err(at(root)).map_err(WorkflowError::files)?;
+            return Ok((self.folders)(&root));
+        };
+        let none = || std::io::Error::other("this build of spindrift has no object stores");
+        let connected = connect().ok_or_else(none).and_then(|connect| connect(&address));
+        connected.map_err(at(root)).map_err(WorkflowError::files)
     }
 
     /// The same on so many threads.

@@ -1,17 +1,22 @@
-//! Where plans come from: a campaign file ([`plan_and_files`]), or a result that is there ([`plan_of_sound`]).
+//! Where plans come from: a campaign file ([`plan_and_files`]), or a result that is there ([`sound`]).
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::campaign::{FilesRead, Overrides, Plan, data, find, nearest_file};
-use crate::ensemble::Ensemble;
+use crate::ensemble::run_cost::parts;
+use crate::ensemble::{Ensemble, Parts};
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
+use crate::storage::atomic::{make_folder, write_bytes};
+use crate::storage::claim::{Claim, ClaimOptions, Shard, Wanted, claim};
+use crate::storage::dataset::{Head, MOST, PartRecord};
+use crate::storage::disk::above;
 use crate::storage::found::Found;
-use crate::storage::identity::sha256;
-use crate::storage::manifest::{Identity, PartRecord};
+use crate::storage::identity::{Identity, sha256};
 use crate::storage::names::{DATA, PLAN};
 use crate::storage::rows_file::identity;
-use crate::storage::verify::{damaged, derived_damage};
+use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
@@ -49,59 +54,105 @@ pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesR
     Ok(Plan::load_with_files(&path, overrides)?)
 }
 
-/// The plan of a result that is in a folder, and the files that it was made from.
+/// The plan of the result in `store`, and the files that it was made from.
 ///
 /// # Errors
 /// Where the plan is missing or wrong.
-pub fn plan_in(session: &Session<'_>, root: &Path, found: &Found) -> Result<(Plan, FilesRead), WorkflowError> {
-    let overrides = session.overrides();
-    let path = root.join(PLAN);
+pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Result<(Plan, FilesRead), WorkflowError> {
+    let path = store.path(PLAN);
     let remedy = "the campaign's command with its file writes it again";
     if found.plan.is_empty() {
         return Err(WorkflowError::Files(format!("{}: is missing, or no text file; {remedy}", path.display())));
     }
-    Plan::from_text_of(&path, &found.plan, overrides).map_err(|error| {
-        let copies = found.derived().iter().filter(|file| file.name.starts_with(DATA));
-        if let Some(what) =
-            derived_damage(session.storage, root, copies).ok().and_then(|damage| damage.into_iter().next())
-        {
-            return WorkflowError::Files(format!("{}: {what}; {remedy}", root.display()));
+    let folder = folder_of_data(store, found)?;
+    Plan::from_text_of(&folder.join(PLAN), &found.plan, session.overrides()).map_err(|error| {
+        let damage = found.derived_damage(store).unwrap_or_default();
+        if let Some(what) = damage.into_iter().find(|what| what.starts_with(DATA)) {
+            return WorkflowError::Files(format!("{}: {what}; {remedy}", store.root().display()));
         }
         WorkflowError::Files(format!("{}: cannot be used; {remedy}\n{}", path.display(), error.with_excerpts()))
     })
 }
 
-/// The plan of the result in `root`, after every checksum was compared: for commands that read it. The file `remade` is
-/// not looked at.
+/// The folder with the copies of the files of numbers of the result in `store`: its own, or a temporary one with those
+/// of an object store.
+fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf, WorkflowError> {
+    if store.replaces() {
+        return Ok(store.root().to_owned());
+    }
+    let folder = std::env::temp_dir().join(format!("spindrift-{}", &sha256(found.plan.as_bytes())[..16]));
+    for name in found.files.iter().filter(|name| name.starts_with(DATA)) {
+        let path = folder.join(name);
+        if !path.exists() {
+            let bytes = store.read(name, MOST).map_err(WorkflowError::files)?.unwrap_or_default();
+            make_folder(above(&path))?;
+            write_bytes(&path, &bytes)?;
+        }
+    }
+    Ok(folder)
+}
+
+/// The `plan` of a result with the number of samples that it has, or that `[stop]` looks at next.
+pub fn at_rows_of(plan: Plan, found: &Found) -> Plan {
+    let parts = Parts::up_to(u64::MAX, found.largest_part.unwrap_or(u64::MAX));
+    plan.at_look(found.rows(parts))
+}
+
+/// The rows of `ensemble`, and how a dataset divides them that may be there.
+pub fn head_of(ensemble: &Ensemble<'_>, found: &Found) -> Head {
+    let largest_part = found.largest_part.unwrap_or_else(|| parts(ensemble.plan(), ensemble.isa()).largest());
+    Head { identity: identity(ensemble), largest_part }
+}
+
+/// Claims `store` for the rows of `ensemble`: in place of another result or not, for a shard or all.
+///
+/// # Errors
+/// Where something is there that must not be replaced, or a file operation fails.
+pub fn claimed(
+    session: &Session<'_>,
+    store: &Arc<dyn Store>,
+    ensemble: &Ensemble<'_>,
+    (overwrite, shard): (bool, Option<Shard>),
+) -> Result<Claim, WorkflowError> {
+    let options = ClaimOptions { folders: session.folders, overwrite, shard, threads: session.readers() };
+    let (plan, isa) = (ensemble.plan(), ensemble.isa());
+    let wanted = Wanted { plan, identity: &identity(ensemble), parts: &|| parts(plan, isa) };
+    claim(store, wanted, options).map_err(WorkflowError::files)
+}
+
+/// The plan of the result in `store` and its parts, after every checksum was compared: for commands that read it. The
+/// file `remade` is not looked at.
 ///
 /// # Errors
 /// Where it is damaged, or its plan is not that of its rows; or where a file operation fails.
-pub fn plan_of_sound(
+pub fn sound(
     session: &Session<'_>,
-    (root, found): (&Path, &Found),
+    (store, found): (&dyn Store, &Found),
     remade: Option<&str>,
-) -> Result<Plan, WorkflowError> {
-    let plan = plan_of_result(session, root, found)?;
-    let expected = identity(&Ensemble::new(&plan, session.isa));
-    refuse_other_rows(root, found, &expected)?;
-    let records: Vec<PartRecord> = found.parts().into_values().collect();
-    let broken =
-        damaged(session.storage, root, &expected, &records, session.readers()).map_err(WorkflowError::files)?;
-    let derived = found.derived().iter().filter(|file| Some(file.name.as_str()) != remade);
-    let derived = derived_damage(session.storage, root, derived).map_err(WorkflowError::files)?;
-    let problems = found.damage().into_iter().chain(broken.into_iter().map(|(_, what)| what));
-    let problems: Vec<String> = problems.chain(derived).collect();
+) -> Result<(Plan, Vec<PartRecord>), WorkflowError> {
+    let plan = at_rows_of(plan_in(session, store, found)?.0, found);
+    let head = head_of(&Ensemble::new(&plan, session.isa), found);
+    refuse_other_rows(store, found, &head.identity)?;
+    let examined = found.examine(store, (&plan, &head), &|_| true, session.readers()).map_err(WorkflowError::files)?;
+    let mut problems = found.damage.clone();
+    problems.extend(examined.damaged.into_iter().map(|(_, what)| what));
+    problems.extend(found.derived_damage(store).map_err(WorkflowError::files)?);
+    problems.retain(|what| remade.is_none_or(|remade| !what.starts_with(remade)));
     match problems.first() {
-        None => Ok(plan),
+        None => Ok((plan, examined.parts)),
         Some(first) => Err(WorkflowError::Files(format!(
-            "{}: {first}{}; this makes it again: spindrift verify {} --repair",
-            root.display(),
+            "{}: {first}{}; {}",
+            store.root().display(),
             if problems.len() > 1 {
                 format!(" (and {})", counted(problems.len() - 1, "more problem"))
             } else {
                 String::new()
             },
-            quoted_path(root),
+            if store.replaces() {
+                format!("this makes it again: spindrift verify {} --repair", quoted_path(store.root()))
+            } else {
+                "remove what has changed, and the campaign's command with this --out puts it again".to_owned()
+            },
         ))),
     }
 }
@@ -110,12 +161,13 @@ pub fn plan_of_sound(
 ///
 /// # Errors
 /// Where they have another.
-pub fn refuse_other_rows(root: &Path, found: &Found, expected: &Identity) -> Result<(), WorkflowError> {
+pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) -> Result<(), WorkflowError> {
     let there = found.identity.as_ref().filter(|there| *there != expected);
     let Some(there) = there else { return Ok(()) };
     let why = if (there.format, there.arithmetic) == (expected.format, expected.arithmetic) {
         format!(
-            "plan.toml is not the plan of these rows (row hash {}, not {}); bring back the plan that belongs to them",
+            "plan.toml is not the plan of the rows of dataset.json (row hash {}, not {}); bring back the \
+            one that belongs to them",
             there.row_hash, expected.row_hash
         )
     } else {
@@ -125,15 +177,7 @@ pub fn refuse_other_rows(root: &Path, found: &Found, expected: &Identity) -> Res
             there.format, there.arithmetic, expected.format, expected.arithmetic
         )
     };
-    Err(WorkflowError::Files(format!("{}: {why}", root.display())))
-}
-
-/// The plan of a result that is in a folder, with the number of samples that it has, or that `[stop]` looks at next.
-///
-/// # Errors
-/// Where the plan is missing or wrong.
-pub fn plan_of_result(session: &Session<'_>, root: &Path, found: &Found) -> Result<Plan, WorkflowError> {
-    plan_in(session, root, found).map(|(plan, _)| plan.at_look(found.rows()))
+    Err(WorkflowError::Files(format!("{}: {why}", store.root().display())))
 }
 
 /// The files of numbers and the module of the plan, each with the name that its copy has.

@@ -16,9 +16,9 @@ use crate::observables::band_series::band_series;
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::sampling::SampleId;
 use crate::storage::claim::Shard;
-use crate::storage::disk::Disk;
-use crate::storage::found::{FolderContents, contents};
+use crate::storage::found::{Contents, contents};
 use crate::storage::rows_file;
+use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::machine::{free_disk, free_memory};
 
@@ -74,23 +74,23 @@ pub fn plotted_samples(plan: &Plan) -> u64 {
 }
 
 impl Workload {
-    /// The first `samples` samples of the campaign of `ensemble` as far as the dataset in `root` does not have them
+    /// The first `samples` samples of the campaign of `ensemble` as far as the dataset in `store` does not have them
     /// (`None`: it is made again from the start), or the part `shard` of that, on at most `asked` threads.
     pub fn of_campaign(
         (ensemble, samples): (&Ensemble<'_>, u64),
-        root: Option<&Path>,
+        store: Option<&dyn Store>,
         shard: Option<Shard>,
         asked: Option<NonZeroUsize>,
     ) -> Self {
         let plan = ensemble.plan();
-        let there = match root.map(|root| contents(&Disk, root)) {
-            Some(Ok(FolderContents::Dataset(found))) => found.rows().min(samples),
+        let run_seconds = run_seconds(plan, ensemble.isa());
+        let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
+        let there = match store.map(contents) {
+            Some(Ok(Contents::Dataset(found))) => found.rows(whole).min(samples),
             _ => 0,
         };
         let share = shard.map_or(1.0, |shard| 1.0 / shard.of as f64);
         let runs = (samples - there) as f64 * share;
-        let run_seconds = run_seconds(plan, ensemble.isa());
-        let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
         let parts = whole.count() as f64 * runs / samples as f64;
         let (columns, points) = (rows_file::columns(ensemble).len() as f64, plan.grid.points() as f64);
         let bands = (band_series(ensemble.request()).len() * plan.band_points) as f64;

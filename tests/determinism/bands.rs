@@ -16,7 +16,7 @@ use spindrift::statistics::deviation::RELATIVE_ERROR;
 use spindrift::statistics::gate::GateLimit;
 use spindrift::statistics::quantile::quantile;
 use spindrift::storage::bands_file::{self, BandsFile};
-use spindrift::storage::disk::Disk;
+use spindrift::storage::disk::folder;
 
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -65,13 +65,13 @@ fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
 fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
     // tests run side by side
     static FOLDERS: AtomicUsize = AtomicUsize::new(0);
-    let folder = ScratchFolder::new(&format!("bands-{}", FOLDERS.fetch_add(1, Ordering::Relaxed)));
+    let scratch = ScratchFolder::new(&format!("bands-{}", FOLDERS.fetch_add(1, Ordering::Relaxed)));
     let written = files.into_iter().zip(0..).map(|(bytes, number)| {
-        let path = folder.path(&format!("part-{number:06}.parquet"));
-        std::fs::write(&path, bytes).unwrap();
-        path
+        let name = format!("part-{number:06}.parquet");
+        std::fs::write(scratch.path(&name), bytes).unwrap();
+        name
     });
-    bands_file::read(&Disk, &written.collect::<Vec<_>>(), None).unwrap().expect("bands")
+    bands_file::read(&*folder(&scratch.0), &written.collect::<Vec<_>>(), None).unwrap().expect("bands")
 }
 
 /// For each series with bands its values at the points of the bands, sample by sample, from runs as `simulate` makes

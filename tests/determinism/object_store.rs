@@ -2,10 +2,9 @@
 //! replaced, and nothing that is not whole looks whole. The store is a real server ([`super::store_proxy`]), which
 //! `.ci/cloud` starts.
 
-use std::fs;
 use std::process::{Command, Stdio};
 
-use super::store_bench::{Bench, COMMITS, HEAD, HEAD_OBJECT, KEY, SECRET, SUCCESS, assert_whole, direct};
+use super::store_bench::{Bench, HEAD, HEAD_OBJECT, KEY, SECRET, SUCCESS, assert_whole, direct};
 use super::store_proxy::{Fate, Message, Proxy};
 use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::scratch_folder::contents;
@@ -20,44 +19,31 @@ fn a_store_has_the_files_of_a_folder() {
         let is_conditional = request.method() != "PUT" || request.header("if-none-match").as_deref() == Some("*");
         if is_conditional { Fate::Passed } else { Fate::Answered(400, "no condition") }
     });
-    assert_eq!(bench.behind(&proxy, "campaign stored.toml --out s3:x", "one"), Some(0));
+    assert_eq!(bench.behind(&proxy, "campaign stored.toml --out s3:x"), Some(0));
     let found = bench.objects("x");
     assert_whole(&found, &whole, "x");
-    assert!(
-        found.keys().any(|name| name.starts_with("trajectories/"))
-            && found.keys().any(|name| name.starts_with("data/"))
-    );
-    assert!(found.keys().filter(|name| name.starts_with("runs/")).count() > 2 && found.contains_key("report.html"));
-    // first what the plan names, whose copy is compared at the end, then the plan; last what says that everything is
-    // there
+    for kind in ["trajectories/", "data/", "report.html", "runs/part-000002"] {
+        assert!(found.keys().any(|name| name.starts_with(kind)), "{kind}");
+    }
+    // first whose rows these are, then what the plan names, then the plan; last the mark
     let puts: Vec<String> = proxy.requests().into_iter().filter(|request| request.starts_with("PUT")).collect();
-    assert!(puts[0].contains("/data/") && puts[1].ends_with(HEAD_OBJECT) && puts.len() == found.len() + 1, "{puts:?}");
-    assert!(puts[puts.len() - 2].ends_with("manifest.jsonl") && puts[puts.len() - 1].ends_with(SUCCESS), "{puts:?}");
-
-    let at = |object: &str| puts.iter().position(|put| put.ends_with(object)).expect("a put");
+    let at = |object: &str| puts.iter().position(|put| put.contains(object)).expect("a put");
+    assert_eq!([HEAD_OBJECT, "/data/", "plan.toml"].map(at), [0, 1, 2], "{puts:?}");
+    assert_eq!(["manifest.json", SUCCESS].map(at), [puts.len() - 2, puts.len() - 1], "{puts:?}");
+    assert_eq!(puts.len(), found.len());
     for part in 0..3 {
-        let commit = at(&format!("_commits/part-{part:06}.jsonl"));
-        assert!(
-            ["runs", "bands"].iter().all(|folder| at(&format!("/{folder}/part-{part:06}.parquet")) < commit),
-            "{puts:?}"
-        );
+        let [bands, rows] = ["bands", "runs"].map(|folder| at(&format!("/{folder}/part-{part:06}.parquet")));
+        assert!(bands < rows, "{puts:?}");
     }
-
-    let said = bench.prints("verify s3:x --fraction 1", "two", 0);
-    assert!(said.contains("sound"), "{said}");
-    assert!(bench.prints("compare s3:x whole --tolerance 0", "three", 0).contains("PASS"));
-    bench.prints("report s3:x", "four", 0);
-    bench.prints("finish s3:x", "five", 0);
-    bench.prints("campaign stored.toml --only-failed-of s3:x --out again", "six", 0);
-    // a copy has the files of the folder, too
-    let copies: Vec<_> = fs::read_dir(bench.scratch.path("four")).unwrap().map(|copy| copy.unwrap().path()).collect();
-    assert!(copies.len() == 1 && contents(&copies[0]) == whole);
+    assert!(bench.prints("verify s3:x --fraction 1", 0).contains("sound"));
+    assert!(bench.prints("compare s3:x whole --tolerance 0", 0).contains("PASS"));
+    bench.prints("report s3:x", 0);
+    bench.prints("finish s3:x", 0);
+    bench.prints("campaign stored.toml --only-failed-of s3:x --out again", 0);
     let before = proxy.requests().len();
-    for cache in ["one", "seven"] {
-        assert_eq!(bench.behind(&proxy, "campaign stored.toml --out s3:x", cache), Some(0));
-    }
+    assert_eq!(bench.behind(&proxy, "campaign stored.toml --out s3:x"), Some(0));
     assert!(proxy.requests()[before..].iter().all(|request| request.starts_with("GET")));
-    assert!(bench.prints("campaign stored.toml --out s3:x", "one", 0).contains("already complete in s3://"));
+    assert!(bench.prints("campaign stored.toml --out s3:x", 0).contains("already complete in s3://"));
     assert!(bench.objects("x") == found);
     assert!(!contents(&bench.scratch.0).values().any(|bytes| {
         [SECRET, KEY].iter().any(|secret| bytes.windows(secret.len()).any(|some| some == secret.as_bytes()))
@@ -70,56 +56,55 @@ fn a_store_has_the_files_of_a_folder() {
 fn shards_meet_in_a_store() {
     let bench = Bench::new("shards");
     let whole = bench.whole("");
-    let said = bench.prints("campaign stored.toml --shard 1/2 --out s3:x", "one", 0);
+    let said = bench.prints("campaign stored.toml --shard 1/2 --out s3:x", 0);
     assert!(said.contains(&format!("spindrift finish s3://{}/x", bench.bucket)), "{said}");
-    assert!(bench.prints("finish s3:x", "early", 4).contains("1 part missing"));
-    assert!(bench.prints("verify s3:x", "early", 5).contains("1 part not made yet"));
-    assert!(bench.prints("report s3:x", "reader", 2).contains("is not finished"));
-    bench.prints("campaign stored.toml --shard 2/2 --out s3:x", "two", 0);
+    assert!(bench.prints("finish s3:x", 4).contains("1 part missing"));
+    assert!(bench.prints("verify s3:x", 5).contains("1 part not made yet"));
+    assert!(bench.prints("report s3:x", 2).contains("is not finished"));
+    bench.prints("campaign stored.toml --shard 2/2 --out s3:x", 0);
     assert!(!bench.objects("x").contains_key(SUCCESS));
-    assert!(bench.prints("verify s3:x", "reader", 5).contains("not finished"));
-    bench.prints("finish s3:x", "three", 0);
+    assert!(bench.prints("verify s3:x", 5).contains("not finished"));
+    bench.prints("finish s3:x", 0);
     assert_whole(&bench.objects("x"), &whole, "shards");
     // the counter-test: no shard ran what the other had put
     let proxy = Proxy::new(|_, _: &Message| Fate::Passed);
-    assert_eq!(bench.behind(&proxy, "campaign stored.toml --shard 1/2 --out s3:x", "four"), Some(0));
+    assert_eq!(bench.behind(&proxy, "campaign stored.toml --shard 1/2 --out s3:x"), Some(0));
     assert!(proxy.requests().iter().all(|request| request.starts_with("GET")));
 }
 
 /// Law: a process that is killed at any request, before the store sees it or before its answer, leaves nothing that
-/// looks whole and is not; the same command makes the whole result of the same bytes, on the same machine and on
-/// another.
+/// looks whole and is not; the same command makes the whole result of the same bytes.
 #[test]
 fn a_kill_at_every_request_changes_no_byte() {
     let bench = Bench::new("kills");
     let whole = bench.whole("--no-report");
-    let parts = whole.keys().filter(|name| name.starts_with("runs/")).count();
-    let command = |prefix: &str| format!("campaign stored.toml --no-report --out s3:{prefix}");
     let mut killed = 0;
     for (variant, fate) in [Fate::KilledBefore, Fate::KilledAfter].into_iter().enumerate() {
         for at in 0.. {
             let prefix = format!("{at}-{variant}");
+            let command = format!("campaign stored.toml --no-report --out s3:{prefix}");
             let fate = fate.clone();
             let proxy = Proxy::new(move |count, _: &Message| if count == at { fate.clone() } else { Fate::Passed });
-            let ended = bench.behind(&proxy, &command(&prefix), &prefix);
+            let ended = bench.behind(&proxy, &command);
             let found = bench.objects(&prefix);
             if found.contains_key(SUCCESS) {
                 assert_whole(&found, &whole, &prefix);
             } else {
                 assert!(ended.is_none(), "{prefix}");
-                // 5: what is there is sound; 2: there is no result yet
-                let code = if found.contains_key("_commits/plan.jsonl") { 5 } else { 2 };
-                if at % 5 == 0 {
-                    bench.prints(&format!("verify s3:{prefix}"), &format!("reader-{prefix}"), code);
-                }
+                // 5: what is there is sound; 4: it has no plan yet; 2: there is no result yet
+                let code = match (found.contains_key("plan.toml"), found.contains_key(HEAD_OBJECT)) {
+                    (true, _) => 5,
+                    (false, true) => 4,
+                    (false, false) => 2,
+                };
+                bench.prints(&format!("verify s3:{prefix}"), code);
             }
             if ended.is_some() {
                 assert_eq!(ended, Some(0));
                 break;
             }
             killed += 1;
-            let cache = if at % 2 == 0 { prefix.clone() } else { format!("other-{prefix}") };
-            bench.prints(&command(&prefix), &cache, 0);
+            bench.prints(&command, 0);
             assert_whole(&bench.objects(&prefix), &whole, &prefix);
         }
     }
@@ -134,19 +119,21 @@ fn a_kill_at_every_request_changes_no_byte() {
 fn parts_are_put_once_they_are_final() {
     let bench = Bench::new("final");
     let whole = bench.whole("--no-report");
-    let parts = whole.keys().filter(|name| name.starts_with("runs/")).count();
+    let of_rows = |names: &std::collections::BTreeMap<String, Vec<u8>>| {
+        names.keys().filter(|name| name.starts_with("runs/")).count()
+    };
     let killed_at =
         |at: usize| Proxy::new(move |count, _: &Message| if count == at { Fate::KilledBefore } else { Fate::Passed });
     for at in 0.. {
         let prefix = format!("shard-{at}");
         let command = format!("campaign stored.toml --shard 1/1 --out s3:{prefix}");
-        let ended = bench.behind(&killed_at(at), &command, &prefix);
-        bench.prints(&command, &prefix, 0);
+        let ended = bench.behind(&killed_at(at), &command);
+        bench.prints(&command, 0);
         let found = bench.objects(&prefix);
-        assert_eq!(found.keys().filter(|name| name.starts_with("_commits/part-")).count(), parts, "{at}");
+        assert_eq!(of_rows(&found), of_rows(&whole), "{at}");
         assert!(!found.contains_key(SUCCESS));
         if ended.is_some() {
-            bench.prints(&format!("finish s3:{prefix} --no-report"), "finisher", 0);
+            bench.prints(&format!("finish s3:{prefix} --no-report"), 0);
             assert_whole(&bench.objects(&prefix), &whole, &prefix);
             assert!(at > 10, "{at}");
             break;
@@ -159,37 +146,17 @@ fn parts_are_put_once_they_are_final() {
         .scratch
         .file("stop.toml", &[&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat());
     // 5: it does not become so precise
-    bench.prints("campaign stop.toml --no-report --out stopped", "unused", 5);
+    bench.prints("campaign stop.toml --no-report --out stopped", 5);
     let whole = contents(&bench.scratch.path("stopped"));
     for at in (0..).step_by(4) {
         let prefix = format!("stop-{at}");
         let command = format!("campaign stop.toml --no-report --out s3:{prefix}");
-        let ended = bench.behind(&killed_at(at), &command, &prefix);
-        let cache = if at % 8 == 0 { prefix.clone() } else { format!("other-{prefix}") };
-        bench.prints(&command, &cache, 5);
+        let ended = bench.behind(&killed_at(at), &command);
+        bench.prints(&command, 5);
         assert_whole(&bench.objects(&prefix), &whole, &prefix);
         if ended.is_some() {
             break;
         }
-    }
-}
-
-/// Law: a reader that is killed at any request reads the same at its next try.
-#[test]
-fn a_reader_that_is_killed_reads_again() {
-    let bench = Bench::new("readers");
-    let whole = bench.whole("");
-    bench.prints("campaign stored.toml --out s3:x", "one", 0);
-    for at in 0.. {
-        let proxy = Proxy::new(move |count, _: &Message| if count == at { Fate::KilledBefore } else { Fate::Passed });
-        let cache = format!("reader-{at}");
-        if bench.behind(&proxy, "report s3:x", &cache).is_some() {
-            assert!(at > 10, "{at}");
-            break;
-        }
-        bench.prints("report s3:x", &cache, 0);
-        let copy = fs::read_dir(bench.scratch.path(&cache)).unwrap().next().unwrap().unwrap().path();
-        assert!(contents(&copy) == whole, "{at}");
     }
 }
 
@@ -199,78 +166,72 @@ fn a_reader_that_is_killed_reads_again() {
 fn the_first_content_stays() {
     let bench = Bench::new("writers");
     let whole = bench.whole("");
-    let start = |cache: &str| {
-        let mut command = bench.command("campaign stored.toml --out s3:x", cache, direct());
+    let start = |_| {
+        let mut command = bench.command("campaign stored.toml --out s3:x", direct());
         command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a process")
     };
-    let writers = ["one", "two", "three"].map(start);
+    let writers = [(); 3].map(start);
     for mut writer in writers {
         assert!(writer.wait().expect("a process").success());
     }
     let found = bench.objects("x");
     assert_whole(&found, &whole, "writers");
 
-    let said = bench.prints("campaign stored.toml --seed 8 --set campaign.duration_s=2 --out s3:x", "four", 4);
+    let said = bench.prints("campaign stored.toml --seed 8 --set campaign.duration_s=2 --out s3:x", 4);
     let named = ["another plan", "campaign.seed: 7 there, 8 here", "campaign.duration_s", "choose another --out"];
     assert!(named.iter().all(|part| said.contains(part)), "{said}");
     // a question that changes no row is another plan, too
-    let said = bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", "four", 4);
+    let said = bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", 4);
     assert!(said.contains("campaign.description"), "{said}");
     assert!(bench.objects("x") == found);
 
-    for object in ["runs/part-000001.parquet", "_commits/part-000001.jsonl", "summary.json", "manifest.jsonl"] {
+    for object in ["runs/part-000001.parquet", "summary.json", "manifest.json"] {
         let prefix = format!("y-{}", object.replace('/', "-"));
         bench.put(&format!("{prefix}/{object}"), b"of somebody else");
-        let said = bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), &prefix, 4);
+        let said = bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), 4);
         let there = bench.objects(&prefix);
         assert!(said.contains(object), "{said}");
         assert!(there[object] == b"of somebody else" && !there.contains_key(SUCCESS), "{object}");
         bench.remove(&format!("{prefix}/{object}"));
-        bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), &prefix, 0);
+        bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), 0);
         assert_whole(&bench.objects(&prefix), &whole, object);
     }
 }
 
-/// Law: whatever object is changed or missing, `verify` and commands that read it say which; once what has changed is
+/// Law: whatever object is changed or missing, `verify` and commands that read it name it; once what has changed is
 /// removed, the campaign's command puts the same bytes again.
 #[test]
 fn every_damaged_object_is_found() {
     let bench = Bench::new("damage");
     let whole = bench.whole("");
-    bench.prints("campaign stored.toml --out s3:x", "one", 0);
-    let found = bench.objects("x");
-    for (name, bytes) in found.iter().filter(|(name, _)| *name != SUCCESS) {
+    let campaign = "campaign stored.toml --out s3:x";
+    bench.prints(campaign, 0);
+    for (name, bytes) in whole.iter().filter(|(name, _)| *name != SUCCESS) {
         let mut changed = bytes.clone();
         changed[bytes.len() / 2] ^= 1;
         bench.put(&format!("x/{name}"), &changed);
-        let said = bench.prints("verify s3:x", "one", 4);
-        assert!(said.contains(name), "{name}: {said}");
-        if !name.starts_with(COMMITS) {
-            let said = bench.prints("report s3:x", &format!("reader-{}", name.replace('/', "-")), 4);
-            assert!(said.contains(name), "{name}: {said}");
+        for command in ["verify s3:x", "report s3:x", campaign] {
+            let said = bench.prints(command, 4);
+            assert!(said.contains(name), "{name}, {command}: {said}");
         }
-        let said = bench.prints("campaign stored.toml --out s3:x", "one", 4);
-        assert!(said.contains(name) && bench.objects("x")[name] == changed, "{name}: {said}");
+        assert!(bench.objects("x")[name] == changed, "{name}");
         bench.remove(&format!("x/{name}"));
-        if name != HEAD_OBJECT {
-            let said = bench.prints("verify s3:x", "one", 4);
-            assert!(said.contains(name) && said.contains("missing"), "{name}: {said}");
-        }
-        let cache = if name.len() % 2 == 0 { "one".to_owned() } else { format!("other-{}", name.replace('/', "-")) };
-        bench.prints("campaign stored.toml --out s3:x", &cache, 0);
+        let said = bench.prints("verify s3:x", 4);
+        assert!(said.contains(name) && said.contains("missing"), "{name}: {said}");
+        bench.prints(campaign, 0);
         assert_whole(&bench.objects("x"), &whole, name);
     }
-    // of a result that is not finished, too: a part that is listed and not there is put again
-    for name in [SUCCESS, "runs/part-000001.parquet"] {
+    // of a result that is not finished, too
+    for name in [SUCCESS, "manifest.json", "runs/part-000001.parquet"] {
         bench.remove(&format!("x/{name}"));
     }
-    assert!(bench.prints("verify s3:x", "unfinished", 5).contains("1 part not made yet"));
-    bench.prints("campaign stored.toml --out s3:x", "one", 0);
+    assert!(bench.prints("verify s3:x", 5).contains("1 part not made yet"));
+    bench.prints(campaign, 0);
     assert_whole(&bench.objects("x"), &whole, "unfinished");
     // the mark has no content that could change
     bench.remove(&format!("x/{SUCCESS}"));
-    assert!(bench.prints("verify s3:x", "two", 5).contains("not finished"));
-    bench.prints("finish s3:x", "three", 0);
+    assert!(bench.prints("verify s3:x", 5).contains("not finished"));
+    bench.prints("finish s3:x", 0);
     assert_whole(&bench.objects("x"), &whole, SUCCESS);
 }
 
@@ -294,7 +255,7 @@ fn what_a_store_refuses_for_a_moment_is_tried_again() {
     );
     let lost = Proxy::new(|count, _: &Message| if count % 3 == 2 { Fate::Lost } else { Fate::Passed });
     for (name, proxy) in [("conflicts", conflicts), ("busy", busy), ("lost", lost)] {
-        let ended = bench.behind(&proxy, &format!("campaign stored.toml --no-report --out s3:{name}"), name);
+        let ended = bench.behind(&proxy, &format!("campaign stored.toml --no-report --out s3:{name}"));
         assert_eq!(ended, Some(0), "{name}");
         assert_whole(&bench.objects(name), &whole, name);
     }
@@ -302,11 +263,11 @@ fn what_a_store_refuses_for_a_moment_is_tried_again() {
         let is_refused = request.method() == "PUT" && request.head.contains("/runs/");
         if is_refused { Fate::Answered(409, "<Code>ConditionalRequestConflict</Code>") } else { Fate::Passed }
     });
-    let mut command = bench.command("campaign stored.toml --no-report --out s3:never", "never", never.port);
+    let mut command = bench.command("campaign stored.toml --no-report --out s3:never", never.port);
     let said = bench.scratch.outputs(&mut command, 4);
     assert!(said.contains("/runs/part-00000") && said.contains("ConditionalRequestConflict"), "{said}");
     assert!(!bench.objects("never").keys().any(|name| name.starts_with("runs/") || name == SUCCESS));
-    bench.prints("campaign stored.toml --no-report --out s3:never", "never", 0);
+    bench.prints("campaign stored.toml --no-report --out s3:never", 0);
     assert_whole(&bench.objects("never"), &whole, "never");
 }
 
@@ -328,7 +289,7 @@ fn what_is_missing_is_said() {
         assert!(parts.iter().all(|part| said.contains(part)), "{said}");
         assert!(!said.contains(SECRET) && !said.contains(KEY), "{said}");
     };
-    let run = |address: &str, port: u16| bench.command(&format!("campaign stored.toml --out {address}"), "one", port);
+    let run = |address: &str, port: u16| bench.command(&format!("campaign stored.toml --out {address}"), port);
     says(run("s3:x", refusing.port), 4, &["refused (InvalidAccessKeyId", "AWS_ACCESS_KEY_ID", "/x"]);
     says(run("s3:x", unavailable.port), 4, &["SlowDown", "the same command continues"]);
     says(run("s3:x", closed), 4, &["Connection refused", "AWS_ENDPOINT_URL"]);
@@ -351,9 +312,9 @@ fn what_is_missing_is_said() {
         ("campaign stored.toml --overwrite --out s3:x", ["--overwrite", "is not replaced"]),
         ("verify --repair s3:x", ["--repair", "is not replaced"]),
     ] {
-        says(bench.command(arguments, "one", direct()), 2, &parts);
+        says(bench.command(arguments, direct()), 2, &parts);
     }
-    says(bench.command("report s3:x", "one", direct()), 2, &["/x: there is no result of spindrift"]);
+    says(bench.command("report s3:x", direct()), 2, &["/x` has no result of spindrift"]);
     // nothing of this has put anything
     assert!(bench.objects("x").is_empty());
 }

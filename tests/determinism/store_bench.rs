@@ -24,9 +24,7 @@ file = "table.csv"
 [retain]
 trajectories = "worst:2 by energy_error_max"
 "#;
-/// The objects that a folder has not.
-pub const COMMITS: &str = "_commits/";
-pub const HEAD_OBJECT: &str = "_commits/plan.jsonl";
+pub const HEAD_OBJECT: &str = "dataset.json";
 pub const SUCCESS: &str = "_SUCCESS";
 /// What no message and no file has.
 pub const SECRET: &str = "a-secret-that-nobody-reads";
@@ -52,8 +50,8 @@ impl Bench {
         Bench { scratch, bucket }
     }
 
-    /// The program on the machine `cache`, which finds the store at `port`; `s3:x` is the address of `x` in the bucket.
-    pub fn command(&self, arguments: &str, cache: &str, port: u16) -> Command {
+    /// The program, which finds the store at `port`; `s3:x` is the address of `x` in the bucket.
+    pub fn command(&self, arguments: &str, port: u16) -> Command {
         let bucket = format!("s3://{}/", self.bucket);
         let arguments =
             if arguments.contains("://") { arguments.to_owned() } else { arguments.replace("s3:", &bucket) };
@@ -65,20 +63,20 @@ impl Bench {
         }
         command.env("AWS_ACCESS_KEY_ID", KEY).env("AWS_SECRET_ACCESS_KEY", SECRET).env("AWS_REGION", "us-east-1");
         command.env("AWS_ENDPOINT_URL", format!("http://127.0.0.1:{port}")).env("AWS_ALLOW_HTTP", "true");
-        command.env("SPINDRIFT_CACHE", cache).env("COLUMNS", "1000");
+        command.env("COLUMNS", "1000");
         command
     }
 
     /// Runs it without a proxy and checks its exit code; what it prints.
-    pub fn prints(&self, arguments: &str, cache: &str, code: i32) -> String {
-        let said = self.scratch.outputs(&mut self.command(arguments, cache, direct()), code);
+    pub fn prints(&self, arguments: &str, code: i32) -> String {
+        let said = self.scratch.outputs(&mut self.command(arguments, direct()), code);
         assert!(!said.contains(SECRET) && !said.contains(KEY), "{said}");
         said
     }
 
     /// Runs it behind `proxy`; its exit code, `None` where it was killed.
-    pub fn behind(&self, proxy: &Proxy, arguments: &str, cache: &str) -> Option<i32> {
-        let mut command = self.command(arguments, cache, proxy.port);
+    pub fn behind(&self, proxy: &Proxy, arguments: &str) -> Option<i32> {
+        let mut command = self.command(arguments, proxy.port);
         proxy.watch(command.stdout(Stdio::null()).stderr(Stdio::null()))
     }
 
@@ -88,7 +86,7 @@ impl Bench {
 
     /// The files of the result that a folder has: what the store has to have.
     pub fn whole(&self, options: &str) -> Objects {
-        self.prints(&format!("campaign stored.toml --out whole {options}"), "unused", 0);
+        self.prints(&format!("campaign stored.toml --out whole {options}"), 0);
         contents(&self.scratch.path("whole"))
     }
 
@@ -105,27 +103,10 @@ pub fn direct() -> u16 {
     server().rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port")
 }
 
-/// The objects that are files of a folder.
-pub fn files(objects: &Objects) -> Objects {
-    objects
-        .iter()
-        .filter(|(name, _)| !name.starts_with(COMMITS))
-        .map(|(name, bytes)| (name.clone(), bytes.clone()))
-        .collect()
-}
-
-/// Checks that the store has the files `whole`, byte for byte, and the commits of their manifest.
+/// Checks that the store has the files `whole`, byte for byte.
 pub fn assert_whole(found: &Objects, whole: &Objects, what: &str) {
-    let (names, expected): (Vec<_>, Vec<_>) = (files(found).into_keys().collect(), whole.keys().cloned().collect());
-    assert_eq!(names, expected, "{what}");
+    assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>(), "{what}");
     for (name, bytes) in whole {
         assert!(found[name] == *bytes, "{what}: {name} differs");
     }
-    let commits = found.iter().filter(|(name, _)| name.starts_with(COMMITS) && *name != HEAD_OBJECT);
-    let lines: Vec<u8> = found[HEAD_OBJECT].iter().copied().chain(commits.flat_map(|(_, line)| line.clone())).collect();
-    let manifest = &whole["manifest.jsonl"];
-    assert!(
-        manifest.starts_with(&lines) && manifest[lines.len()..].iter().filter(|byte| **byte == b'\n').count() == 1,
-        "{what}"
-    );
 }

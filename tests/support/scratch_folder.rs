@@ -9,6 +9,9 @@ use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 
+use spindrift::storage::disk::folder;
+use spindrift::storage::rows_reader::RowsReader;
+
 use super::parquet_tables;
 
 /// The file system in memory of Linux: waiting for a disk is half of the time of the tests.
@@ -93,6 +96,18 @@ impl ScratchFolder {
         let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
         files.sort();
         files
+    }
+
+    /// A reader of the rows of `result`, and of their bands.
+    pub fn reader(&self, result: &str) -> RowsReader {
+        let names = |folder: &str| {
+            let entries = fs::read_dir(self.path(result).join(folder)).into_iter().flatten();
+            let name = |entry: fs::DirEntry| format!("{folder}/{}", entry.file_name().to_string_lossy());
+            let mut names: Vec<String> = entries.map(|entry| name(entry.unwrap())).collect();
+            names.sort();
+            names
+        };
+        RowsReader::new(folder(&self.path(result)), names("runs"), names("bands"))
     }
 
     /// Names and contents of the files of rows of `result`.

@@ -3,14 +3,12 @@
 //! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe whose packages it does not have is skipped,
 //! and said so.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use spindrift::run::Status;
 use spindrift::statistics::quantile::quantile;
 use spindrift::storage::bands_file;
-use spindrift::storage::disk::Disk;
-use spindrift::storage::rows_reader::RowsReader;
 
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -46,7 +44,7 @@ fn after(printed: &str, word: &str) -> f64 {
 fn recipes_give_the_numbers_of_the_rows() {
     let scratch = ScratchFolder::new("recipes");
     scratch.says("campaign", "spin_sweep.toml", "--samples 300", 0);
-    let reader = RowsReader::new(&Disk, scratch.part_files("results/spin_sweep"));
+    let reader = scratch.reader("results/spin_sweep");
     let mut errors = Vec::new();
     for part in (0..).map_while(|index| reader.part(index)) {
         let part = part.unwrap();
@@ -55,10 +53,7 @@ fn recipes_give_the_numbers_of_the_rows() {
     }
     errors.sort_by(f64::total_cmp);
 
-    let entries = std::fs::read_dir(scratch.path("results/spin_sweep/bands")).unwrap();
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    let bands = bands_file::read(&Disk, &files, None).unwrap().expect("bands");
+    let bands = bands_file::read(reader.store(), reader.bands(), None).unwrap().expect("bands");
     let wheel = bands.find("exchange_w1_j").expect("bands of wheel 1");
     let p95 = (0..bands.times().len()).filter_map(|point| bands.quantile(wheel, point, 0.95)).fold(0.0, f64::max);
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use crate::page::numbers::{failing, quantile};
-use crate::reliability::faulty_storage::contents;
+use crate::reliability::failing_store::contents;
 use crate::small_campaign::mixed_failures;
 use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 use spindrift::statistics::binomial::interval;

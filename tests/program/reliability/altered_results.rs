@@ -3,9 +3,8 @@
 
 use std::fs;
 
-use spindrift::storage::identity::sha256;
-
-use crate::reliability::faulty_storage::contents;
+use crate::reliability::failing_store::contents;
+use crate::reliability::false_rows::alter;
 use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -33,28 +32,6 @@ column = "wall"
     scratch.prints(&format!("campaign all.toml --seed {seed} --out {result}"), 3);
 }
 
-/// The lines of the manifest of `r`.
-fn lines(scratch: &ScratchFolder) -> Vec<String> {
-    scratch.text("r/manifest.jsonl").lines().map(str::to_owned).collect()
-}
-
-/// Writes the file `name` of `r` with the content `bytes`, and the manifest with its checksum.
-fn alter(scratch: &ScratchFolder, name: &str, bytes: &[u8]) {
-    let path = scratch.path("r").join(name);
-    let record =
-        |bytes: &[u8]| format!("\"name\":\"{name}\",\"bytes\":{},\"sha256\":\"{}\"", bytes.len(), sha256(bytes));
-    let (before, after) = (record(&fs::read(&path).unwrap()), record(bytes));
-    fs::write(&path, bytes).unwrap();
-    let altered = |line: String| {
-        let (body, _) = line.rsplit_once(",\"crc\"").unwrap();
-        let body = body.replace(&before, &after);
-        format!("{body},\"crc\":\"{:08x}\"}}\n", crc32fast::hash(body.as_bytes()))
-    };
-    let text: String = lines(scratch).into_iter().map(altered).collect();
-    assert!(text.contains(&after), "{name} is listed");
-    scratch.file("r/manifest.jsonl", &text);
-}
-
 /// Law: whichever file that follows from the rows is replaced by that of other rows, under right checksums: `verify`
 /// finds it and names it, and a repair makes the same bytes again.
 #[test]
@@ -64,7 +41,7 @@ fn every_altered_file_is_found_under_right_checksums() {
     everything(&scratch, "other", 8);
     let (whole, other) = (contents(&scratch.path("r")), contents(&scratch.path("other")));
     let is_derived = |name: &&String| {
-        let is_own = ["manifest.jsonl", "_SUCCESS"].contains(&name.as_str());
+        let is_own = ["manifest.json", "_SUCCESS"].contains(&name.as_str());
         !is_own && !["runs/", "bands/"].iter().any(|folder| name.starts_with(folder))
     };
     let names: Vec<&String> = whole.keys().filter(is_derived).collect();
@@ -75,7 +52,7 @@ fn every_altered_file_is_found_under_right_checksums() {
         let altered = other.get(name).filter(|bytes| **bytes != whole[name]).cloned();
         // what no other rows have under this name gets a byte more
         let altered = altered.unwrap_or_else(|| [whole[name].as_slice(), b"\n"].concat());
-        alter(&scratch, name, &altered);
+        alter(&scratch, &[(name, &altered)]);
         let said = scratch.prints("verify r --fraction 1", 4);
         let shown = match name.split('/').next() {
             // its name is its checksum, which the plan has
@@ -83,8 +60,8 @@ fn every_altered_file_is_found_under_right_checksums() {
             _ => name,
         };
         assert!(said.contains(shown), "{name}: {said}");
-        // a plan and a file of numbers follow from nothing
-        if name == "plan.toml" || name.starts_with("data/") {
+        // the plan, its rows' identity and a file of numbers follow from nothing
+        if ["plan.toml", "dataset.json"].contains(&name.as_str()) || name.starts_with("data/") {
             fs::remove_dir_all(scratch.path("r")).unwrap();
             everything(&scratch, "r", 7);
         } else {
@@ -108,12 +85,12 @@ fn verdicts_are_those_of_the_rows() {
         [("\"verdict\": \"FAIL\"", "\"verdict\": \"PASS\""), ("\"ok\": 40", "\"ok\": 39"), ("<= 1e-30", "<= 1e-3")];
     for (from, to) in changes {
         assert!(text.contains(from), "{from} in {text}");
-        alter(&scratch, "summary.json", text.replace(from, to).as_bytes());
+        alter(&scratch, &[("summary.json", text.replace(from, to).as_bytes())]);
         for command in commands {
             let said = scratch.prints(command, 4);
             assert!(said.contains("summary.json") && !said.contains("PASS"), "{command}: {said}");
         }
-        alter(&scratch, "summary.json", text.as_bytes());
+        alter(&scratch, &[("summary.json", text.as_bytes())]);
     }
     for command in &commands[..2] {
         assert!(scratch.prints(command, 3).contains("FAIL"), "{command}");
@@ -138,26 +115,24 @@ fn a_result_without_its_mark_is_not_sound() {
         fs::write(scratch.path("r/statistics.parquet"), "altered").unwrap();
         assert!(scratch.prints("verify r", 4).contains("statistics.parquet"));
         fs::write(scratch.path("r/statistics.parquet"), &whole["statistics.parquet"]).unwrap();
-        alter(&scratch, "summary.json", text.replace("\"verdict\": \"FAIL\"", "\"verdict\": \"PASS\"").as_bytes());
+        alter(&scratch, &[("summary.json", text.replace("\"verdict\": \"FAIL\"", "\"verdict\": \"PASS\"").as_bytes())]);
         assert!(scratch.prints("verify r", 4).contains("summary.json"));
         scratch.prints("campaign all.toml --seed 7 --out r", 3);
         assert!(contents(&scratch.path("r")) == whole);
     }
 }
 
-/// Law: where the manifest has no last line, nothing says what follows from the rows: `verify` names every such file as
-/// not compared, and ends with 5.
+/// Law: where no manifest is, nothing lists what follows from the rows: `verify` names every such file as not compared,
+/// and ends with 5.
 #[test]
 fn what_is_not_compared_is_named() {
     let scratch = folder("altered-unlisted");
     everything(&scratch, "r", 7);
     let whole = contents(&scratch.path("r"));
-    let mut kept = lines(&scratch);
-    kept.pop();
-    scratch.file("r/manifest.jsonl", &(kept.join("\n") + "\n"));
+    ["r/manifest.json", "r/_SUCCESS"].into_iter().for_each(|name| fs::remove_file(scratch.path(name)).unwrap());
     let said = scratch.prints_wide("verify r --fraction 1", 5);
     let (_, named) = said.split_once("not compared, since nothing says what should be in them: ").expect("named");
-    let top = ["plan.toml", "manifest.jsonl", "_SUCCESS"];
+    let top = ["dataset.json", "plan.toml", "manifest.json", "_SUCCESS"];
     for name in whole.keys() {
         let is_compared =
             top.contains(&name.as_str()) || ["runs/", "bands/", "data/"].iter().any(|folder| name.starts_with(folder));
@@ -168,7 +143,7 @@ fn what_is_not_compared_is_named() {
 }
 
 /// Law: a result whose campaign was stopped before its first part, or before its last one, is sound and not finished,
-/// and `verify` ends with 5; a part that is listed and not there is damage. The campaign's command makes the rest.
+/// and `verify` ends with 5; a part without its bands is damage. The campaign's command makes the rest.
 #[test]
 fn what_is_not_made_yet_is_no_damage() {
     let scratch = folder("altered-early");
@@ -176,25 +151,22 @@ fn what_is_not_made_yet_is_no_damage() {
     let command = "campaign all.toml --seed 7 --samples 300 --out r";
     scratch.prints(command, 3);
     let whole = contents(&scratch.path("r"));
-    let all = lines(&scratch);
-    let first = all.iter().position(|line| line.contains("part-000000")).expect("a part");
     // two parts at least, of which the first is whole
-    let parts = all.iter().filter(|line| line.contains("runs/part-")).count();
+    let parts = whole.keys().filter(|name| name.starts_with("runs/part-")).count();
     for made in [0, 1] {
-        for name in whole.keys().filter(|name| !["plan.toml", "manifest.jsonl"].contains(&name.as_str())) {
+        for name in whole.keys().filter(|name| !["plan.toml", "dataset.json"].contains(&name.as_str())) {
             // what the plan reads is copied before the first part
             if !name.starts_with("data/") && (made == 0 || !name.ends_with("part-000000.parquet")) {
                 fs::remove_file(scratch.path("r").join(name)).unwrap();
             }
         }
-        scratch.file("r/manifest.jsonl", &(all[..first + made].join("\n") + "\n"));
         let said = scratch.prints_wide("verify r --fraction 1", 5);
         let left = parts - made;
         let left = if left == 1 { "1 part".to_owned() } else { format!("{left} parts") };
         assert!(said.contains(&format!("{left} not made yet; the campaign's command makes the rest")), "{said}");
         if made == 1 {
-            fs::remove_file(scratch.path("r/runs/part-000000.parquet")).unwrap();
-            assert!(scratch.prints("verify r", 4).contains("part-000000"));
+            fs::remove_file(scratch.path("r/bands/part-000000.parquet")).unwrap();
+            assert!(scratch.prints("verify r", 4).contains("bands/part-000000.parquet: missing"));
         }
         scratch.prints(command, 3);
         assert!(contents(&scratch.path("r")) == whole, "{made}");

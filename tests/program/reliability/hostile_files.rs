@@ -81,7 +81,7 @@ fn a_result_has_its_data() {
     scratch.prints("verify campaigns/moved --fraction 1", 0);
     scratch.prints("report campaigns/moved", 0);
     scratch.prints("simulate campaigns/moved/plan.toml --sample 1", 0);
-    for file in ["manifest.jsonl", "plan.toml", "statistics.parquet", "summary.json", "report.html"] {
+    for file in ["manifest.json", "dataset.json", "plan.toml", "statistics.parquet", "summary.json", "report.html"] {
         let [whole, moved] = ["whole", "campaigns/moved"].map(|root| fs::read(scratch.path(root).join(file)).unwrap());
         assert!(whole == moved, "{file}");
     }
@@ -170,7 +170,7 @@ fn planted_links_are_not_followed() {
     assert!(said.contains("`r` contains `runs`, which is not part of a result"), "{said}");
     // where nothing is yet, and where the rows are those of another result
     fs::create_dir_all(scratch.path("new/runs")).unwrap();
-    for name in ["manifest.jsonl.tmp", "plan.toml.tmp", "runs/part-000000.parquet.tmp"] {
+    for name in ["dataset.json.tmp", "plan.toml.tmp", "runs/part-000000.parquet.tmp"] {
         symlink(scratch.path("precious/file"), scratch.path("new").join(name)).unwrap();
     }
     let said = scratch.prints("campaign small.toml --samples 3 --out new", 4);

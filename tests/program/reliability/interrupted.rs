@@ -5,7 +5,7 @@ use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use crate::reliability::faulty_storage::listed_files;
+use crate::reliability::failing_store::whole_parts;
 use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
@@ -32,17 +32,8 @@ pub fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
     scratch.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
-/// The files that the manifest of an interrupted result lists; each must be there whole.
-fn committed(scratch: &ScratchFolder, result: &str) -> usize {
-    let files = listed_files(&scratch.path(result));
-    for file in &files {
-        assert_eq!(fs::metadata(&file.path).unwrap().len(), file.bytes, "{}", file.path.display());
-    }
-    files.len()
-}
-
 /// Kills the campaign `kills` times at instants that follow from `seed`, continuing it until it is complete, and starts
-/// again; every complete result is that of the uninterrupted campaign, and no committed part is lost.
+/// again; every complete result is that of the uninterrupted campaign, and no part is lost.
 fn kill_and_continue(kills: u32, seed: u64) {
     let scratch = folder(&format!("kill-{seed}"));
     let command = format!("campaign small.toml --samples {SAMPLES} --no-report");
@@ -62,8 +53,8 @@ fn kill_and_continue(kills: u32, seed: u64) {
                 break;
             }
             killed += 1;
-            let now = committed(&scratch, "half");
-            assert!(now >= before, "{now} files are listed after {before}");
+            let now = whole_parts(&scratch.path("half"));
+            assert!(now >= before, "{now} parts after {before}");
             before = now;
         }
         scratch.prints(&format!("{command} --out half"), 0);
@@ -115,61 +106,49 @@ fn other_questions_of_the_same_rows_run_nothing() {
     scratch.prints("campaign strict.toml --out r", 3);
 }
 
-/// Law: whichever line of the manifest is damaged, it is said once, and the result is made whole.
+/// Law: whichever line of the manifest is damaged, or if it is gone, that is said once, and the result is made whole.
 #[test]
 fn a_damaged_manifest_is_recovered() {
     let scratch = folder("manifest");
     scratch.prints("campaign small.toml --out whole", 0);
-    let text = scratch.text("whole/manifest.jsonl");
+    scratch.prints("campaign small.toml --out r", 0);
+    let text = scratch.text("whole/manifest.json");
     let lines = text.lines().count();
-    for line in 1..lines {
+    for line in 0..=lines {
         let mut changed: Vec<String> = text.lines().map(str::to_owned).collect();
-        changed[line] = changed[line].replacen('0', "1", 1).replacen("true", "tru3", 1);
-        scratch.prints("campaign small.toml --out r", 0);
-        fs::write(scratch.path("r/manifest.jsonl"), format!("{}\n", changed.join("\n"))).unwrap();
+        match changed.get_mut(line) {
+            Some(line) => *line += " ",
+            None => changed.clear(),
+        }
+        scratch.file("r/manifest.json", &format!("{}\n", changed.join("\n")));
+        if line == lines {
+            fs::remove_file(scratch.path("r/manifest.json")).unwrap();
+        }
         let said = scratch.prints("campaign small.toml --out r", 0);
-        assert_eq!(said.matches("manifest.jsonl:").count(), 1, "{said}");
+        assert_eq!(said.matches("manifest.json:").count(), 1, "{said}");
         assert_same(&scratch, "r", "whole");
     }
 }
 
-/// Law: what a campaign that was stopped has left beyond the samples that are asked for now is not part of the result:
-/// neither a part that is listed, since parts are not made in order, nor files that no line lists, as a crash before
-/// that line leaves them.
+/// Law: parts beyond the samples that are asked for now are not given up without a word; what a killed process has left
+/// of a part is, and a folder that was to replace a result is only continued by the same rows.
 #[test]
 fn fewer_samples_than_before() {
     let scratch = folder("fewer");
     scratch.prints("campaign small.toml --out whole", 0);
-    let longer = |result: &str, kept: &[&str]| {
-        scratch.prints(&format!("campaign small.toml --samples 1100 --shard 1/1 --out {result}"), 0);
-        let shard = scratch.path(result).join("shards/1-of-1.jsonl");
-        let text = fs::read_to_string(&shard).unwrap();
-        let lines = text.lines().filter(|line| kept.iter().any(|kept| line.contains(kept)));
-        fs::write(
-            scratch.path(result).join("manifest.jsonl"),
-            lines.map(|line| format!("{line}\n")).collect::<String>(),
-        )
-        .unwrap();
-        fs::remove_file(shard).unwrap();
+    let without = |result: &str, part: u32| {
+        fs::remove_file(scratch.path(&format!("{result}/runs/part-{part:06}.parquet"))).unwrap();
     };
-    // parts 0 and 3 are listed: 512 rows, up to sample 1023
-    longer("r", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
+    let longer =
+        |result: &str| scratch.prints(&format!("campaign small.toml --samples 1100 --shard 1/1 --out {result}"), 0);
+    longer("r");
+    [1, 2, 4].into_iter().for_each(|part| without("r", part));
     let said = scratch.prints("campaign small.toml --out r", 4);
     assert!(said.contains("1024 rows of this plan, more than its 600 samples"), "{said}");
-    // parts 0 and 1 are listed, and the files of 2, 3 and 4 are there
-    longer("s", &["\"spindrift\"", "\"part\":0", "\"part\":1"]);
-    assert!(scratch.path("s/runs/part-000004.parquet").exists());
-    scratch.prints("campaign small.toml --out s", 0);
-    assert_same(&scratch, "s", "whole");
-    // the same in the folder that is to replace a result, as an interrupted command leaves it
-    longer("u", &["\"spindrift\"", "\"part\":0", "\"part\":3"]);
-    scratch.prints("campaign small.toml --out t --seed 9", 0);
-    let digits = "0123456789abcdef";
-    scratch.file("u/_REPLACEMENT", &format!("{digits}\n"));
-    fs::rename(scratch.path("u"), scratch.path(&format!(".t.{digits}.new"))).unwrap();
-    scratch.prints("campaign small.toml --out t --overwrite", 0);
-    assert!(!scratch.path(&format!(".t.{digits}.new")).exists());
-    assert_same(&scratch, "t", "whole");
+    without("r", 3);
+    // the bands of parts 1 to 4 are there
+    scratch.prints("campaign small.toml --out r", 0);
+    assert_same(&scratch, "r", "whole");
 }
 
 /// Law: `--overwrite` keeps the old result until the new one is complete, and never touches what is not ours.
@@ -222,7 +201,7 @@ pub fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| u64::from_str_radix(mask.trim(), 16).unwrap() >> (signal - 1) & 1 == 1)
 }
 
-/// Law: a signal ends a campaign with its code, keeps what is committed, and the same command continues.
+/// Law: a signal ends a campaign with its code, keeps the parts that are there, and the same command continues.
 #[cfg(unix)]
 #[test]
 fn signals_stop_and_the_command_continues() {
@@ -234,15 +213,15 @@ fn signals_stop_and_the_command_continues() {
             continue;
         }
         let code = 128 + number;
-        let before = committed(&scratch, "r");
+        let before = whole_parts(&scratch.path("r"));
         let mut child = start(&scratch, &format!("{command} --out r"));
-        while committed(&scratch, "r") == before && child.try_wait().unwrap().is_none() {
+        while whole_parts(&scratch.path("r")) == before && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));
         }
         send(signal, child.id());
         let ended = child.wait().unwrap();
         assert_eq!(ended.code(), Some(code), "SIG{signal}");
-        assert!(committed(&scratch, "r") > before);
+        assert!(whole_parts(&scratch.path("r")) > before);
     }
     scratch.prints(&format!("{command} --out r"), 0);
     scratch.prints(&format!("{command} --out whole"), 0);

@@ -4,9 +4,9 @@ pub mod altered_results;
 pub mod cluster_recipes;
 pub mod derived_files;
 pub mod extremes;
-pub mod false_manifests;
+pub mod failing_store;
+pub mod false_rows;
 pub mod faults;
-pub mod faulty_storage;
 pub mod hostile_files;
 pub mod interrupted;
 #[cfg(target_os = "linux")]

@@ -5,15 +5,14 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use spindrift::storage::disk::{Disk, Storage};
-use spindrift::storage::manifest::{Manifest, PartRecord};
 use spindrift::workflow::compared::compared;
 use spindrift::workflow::finishing::finish as finished;
 use spindrift::workflow::page::remade;
 use spindrift::workflow::{Outputs, Results, Verification, WorkflowError as Failure, verify as verified};
 
-use crate::reliability::faulty_storage::{Fault, Faulty, Operation, contents, make, on, plan, reason, unlocked};
+use crate::reliability::failing_store::{Fault, Making, Operation, Plot, contents, made, on, reason};
 use crate::support::scratch_folder::ScratchFolder;
 
 type Files = BTreeMap<String, Vec<u8>>;
@@ -46,47 +45,41 @@ fn faults(operation: Operation) -> Vec<Fault> {
 /// What the message says of a fault. A folder that is not there, by what the disk says, is an empty one.
 fn causes(fault: Fault) -> Vec<String> {
     match fault.error() {
-        Some(error) => {
-            vec![error.to_string(), "has no result of spindrift".to_owned(), "its folder did not show it".to_owned()]
-        }
+        Some(error) => vec![error.to_string(), "has no result of spindrift".to_owned()],
         None => vec!["the file ends after ".to_owned()],
     }
 }
 
 /// A command on the dataset in a folder.
-type Command = fn(&'static dyn Storage, &Path) -> Result<(), Failure>;
+type Command = fn(&Arc<Plot>, &Path) -> Result<(), Failure>;
 
-fn make_small(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    make(storage, root, &plan(SAMPLES[0]), false)
+fn make_large(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
+    Making::of(SAMPLES[1]).make(plot, root)
 }
 
-fn make_large(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    make(storage, root, &plan(SAMPLES[1]), false)
-}
-
-fn finish(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
+fn finish(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
     let outputs = Outputs { without_page: true, ..Outputs::default() };
-    on(storage, |session| finished(session, root, &outputs, &|_| Ok(())).map(|_| ()))
+    on(plot, |session| finished(session, root, &outputs, &|_| Ok(())).map(|_| ()))
 }
 
-fn verify(storage: &'static dyn Storage, root: &Path, repair: bool) -> Result<(), Failure> {
-    on(storage, |session| verified(session, root, Verification { fraction: 0.0, repair }).map(|_| ()))
+fn verify(plot: &Arc<Plot>, root: &Path, repair: bool) -> Result<(), Failure> {
+    on(plot, |session| verified(session, root, Verification { fraction: 0.0, repair }).map(|_| ()))
 }
 
-fn verify_only(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    verify(storage, root, false)
+fn verify_only(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
+    verify(plot, root, false)
 }
 
-fn repair(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    verify(storage, root, true)
+fn repair(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
+    verify(plot, root, true)
 }
 
-fn report(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    on(storage, |session| remade(session, root, None, None).map(|_| ()))
+fn report(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
+    on(plot, |session| remade(session, root, None, None).map(|_| ()))
 }
 
-fn compare(storage: &'static dyn Storage, root: &Path) -> Result<(), Failure> {
-    on(storage, |session| {
+fn compare(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
+    on(plot, |session| {
         let [first, second] = [Results::open(root, *session)?, Results::open(root, *session)?];
         compared([&first, &second], ["first", "second"].map(str::to_owned)).map(|_| ())
     })
@@ -102,24 +95,13 @@ fn restore(root: &Path, files: &Files) {
     }
 }
 
-/// The parts that the manifest lists.
-fn parts(files: &Files) -> BTreeMap<u64, PartRecord> {
-    Manifest::of(&files["manifest.jsonl"]).parts
-}
-
-/// Whether the summary says that it is of the rows that are there.
-fn is_finished(files: &Files) -> bool {
-    let summary: serde_json::Value = serde_json::from_slice(&files["summary.json"]).unwrap();
-    summary["finished"].as_bool().unwrap()
-}
-
 /// A dataset before a command, and the command.
 struct Case<'a> {
     name: &'a str,
     command: Command,
     start: &'a Files,
-    /// The part that is damaged at the start, or has more rows at the end.
-    made_again: Option<u64>,
+    /// The name of the part that is damaged at the start, or has more rows at the end.
+    made_again: &'static str,
 }
 
 /// How many reads a command has, and how many of their faults it said.
@@ -136,14 +118,14 @@ impl Case<'_> {
     fn check(&self, root: &Path, step: usize) -> Count {
         let (name, start) = (self.name, self.start);
         restore(root, start);
-        let counted = Faulty::new(is_read, u64::MAX, false, Fault::End);
-        (self.command)(counted, root).unwrap_or_else(|error| panic!("{name}: {error:?}"));
+        let counted = Plot::harmless(is_read);
+        (self.command)(&counted, root).unwrap_or_else(|error| panic!("{name}: {error:?}"));
         let goal = contents(root);
         let reads = counted.done();
         println!("{name}: {} reads", reads.len());
         // bytes that come in pieces, some of them after an interruption, are the same bytes
         restore(root, start);
-        (self.command)(Faulty::new(is_read, 0, true, Fault::Piecewise), root).unwrap();
+        (self.command)(&Plot::new(is_read, 0, true, Fault::Piecewise), root).unwrap();
         assert!(contents(root) == goal, "{name}: in pieces");
         restore(root, start);
         let mut count = Count { reads: reads.len(), ..Count::default() };
@@ -161,12 +143,12 @@ impl Case<'_> {
                     "{name}: {fault:?} at read {fails} ({operation:?} {}), persists: {persists}",
                     path.display()
                 );
-                let faulty = Faulty::new(is_read, fails as u64, persists, fault);
-                let ended = (self.command)(faulty, root);
+                let plot = Plot::new(is_read, fails as u64, persists, fault);
+                let ended = (self.command)(&plot, root);
                 count.faults += 1;
                 count.errors += usize::from(ended.is_err());
                 // what is looked for and may be absent is told by the next read only
-                let failed = faulty.done().split_off(fails);
+                let failed = plot.done().split_off(fails);
                 let paths = failed.iter().take(if persists { failed.len() } else { 1 }).map(|(_, path)| path);
                 self.check_end(&what, root, paths.collect(), (ended, fault), &goal);
             }
@@ -200,25 +182,18 @@ impl Case<'_> {
             // running again starts from the same files: that is how the goal was made
             return;
         }
-        let (before, after) = (parts(self.start), parts(&now));
-        for (number, part) in before.iter().filter(|(number, _)| self.made_again != Some(**number)) {
-            assert_eq!(after.get(number), Some(part), "{what}: part {number} was dropped");
-            for file in &part.files {
-                assert!(now.get(&file.name) == self.start.get(&file.name), "{what}: {} was changed", file.name);
-            }
+        for (name, bytes) in
+            self.start.iter().filter(|(name, _)| ["runs/", "bands/"].iter().any(|of| name.starts_with(of)))
+        {
+            let is_sound = self.made_again.is_empty() || !name.contains(self.made_again);
+            assert!(!is_sound || now.get(name) == Some(bytes), "{what}: {name} was dropped or changed");
         }
-        // the summary of the rows before says so while there are others
-        let is_growing = |name: &str| {
-            name.ends_with(".tmp")
-                || name.ends_with("manifest.jsonl")
-                || name.ends_with("summary.json") && !is_finished(&now)
-        };
-        for (name, bytes) in now.iter().filter(|(name, _)| !is_growing(name)) {
+        for (name, bytes) in now.iter().filter(|(name, _)| !name.ends_with(".tmp")) {
             let is_known = [goal, self.start].iter().any(|files| files.get(name) == Some(bytes));
             assert!(is_known, "{what}: {name} is neither as before nor as it will be");
         }
         if now != *goal {
-            unlocked(|| (self.command)(&Disk, root)).unwrap_or_else(|error| panic!("{what}: again: {error:?}"));
+            (self.command)(&Plot::harmless(is_read), root).unwrap_or_else(|error| panic!("{what}: again: {error:?}"));
             let again = contents(root);
             assert_eq!(again.keys().collect::<Vec<_>>(), goal.keys().collect::<Vec<_>>(), "{what}: again");
             assert!(again == *goal, "{what}: again");
@@ -270,38 +245,27 @@ fn every_read_may_fail() {
 fn reads_fail(of: &str, step: usize) {
     let scratch = ScratchFolder::new(&format!("read-faults-{of}-{step}"));
     let root = scratch.path("r");
-    make_small(&Disk, &root).unwrap();
-    let whole = contents(&root);
-    make_large(&Disk, &root).unwrap();
-    let longer = contents(&root);
-    // what a killed process leaves: parts and their manifest
+    let [whole, longer] = SAMPLES.map(|samples| made(Making::of(samples), &root));
+    // what a killed process leaves
     let without_end = |files: &Files, parts: usize| -> Files {
-        let made = ["runs/", "bands/"];
         let numbers: Vec<String> = (0..parts).map(|part| format!("part-{part:06}.")).collect();
         let is_kept = |name: &str| {
-            name == "plan.toml"
-                || made.iter().any(|folder| name.starts_with(folder))
-                    && numbers.iter().any(|number| name.contains(number))
+            ["plan.toml", "dataset.json"].contains(&name) || numbers.iter().any(|number| name.contains(number))
         };
-        let mut kept: Files =
-            files.iter().filter(|(name, _)| is_kept(name)).map(|(name, bytes)| (name.clone(), bytes.clone())).collect();
-        let manifest = String::from_utf8(files["manifest.jsonl"].clone()).unwrap();
-        let lines = manifest.lines().take(2 + parts).map(|line| format!("{line}\n"));
-        kept.insert("manifest.jsonl".to_owned(), lines.collect::<String>().into_bytes());
-        kept
+        files.iter().filter(|(name, _)| is_kept(name)).map(|(name, bytes)| (name.clone(), bytes.clone())).collect()
     };
     let (interrupted, unfinished) = (without_end(&longer, 2), without_end(&whole, 2));
     let mut damaged = whole.clone();
     damaged.get_mut("runs/part-000001.parquet").unwrap()[200] ^= 4;
-    let case = |name, command, start| Case { name, command, start, made_again: None };
+    let case = |name, command, start| Case { name, command, start, made_again: "" };
     let cases = [
         case("campaign, interrupted", make_large as Command, &interrupted),
-        Case { name: "campaign, extended", command: make_large, start: &whole, made_again: Some(1) },
+        Case { made_again: "part-000001", ..case("campaign, extended", make_large, &whole) },
         case("campaign, complete", make_large, &longer),
         case("finish", finish, &unfinished),
         case("verify", verify_only, &longer),
         case("verify --repair of a sound result", repair, &longer),
-        Case { name: "verify --repair", command: repair, start: &damaged, made_again: Some(1) },
+        Case { made_again: "part-000001", ..case("verify --repair", repair, &damaged) },
         case("report", report, &whole),
         case("compare", compare, &whole),
     ];

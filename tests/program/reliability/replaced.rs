@@ -4,13 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{fs, io};
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::storage::claim::ClaimOptions;
-use spindrift::storage::disk::{Disk, Storage};
-
-use crate::reliability::faulty_storage::{self, Fault, Faulty, Operation, make, make_with, plan, reason};
+use crate::reliability::failing_store::{Fault, Making, Operation, Plot, made, reason, whole_parts};
 use crate::reliability::interrupted::{assert_same, start};
-use crate::small_campaign::{campaign_without_debris, folder};
+use crate::small_campaign::folder;
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// What is beside the results, by name.
@@ -22,10 +18,9 @@ fn entries(folder: &Path) -> BTreeSet<String> {
 const SAMPLES: u64 = 300;
 
 /// Folders beside a result `r` that no command made, with the names that replacements have or had.
-const NOT_OURS: [&str; 5] =
-    [".r.old", ".r.new", ".r.0123456789abcdef.new", ".r.0123456789abcdef.old", ".r.fedcba9876543210.new"];
+const NOT_OURS: [&str; 4] = [".r.old", ".r.new", ".r.0123456789abcdef.new", ".r.0123456789abcdef.old"];
 
-/// Makes folders of these names: notes, whole results, and one whose proof is that of another folder.
+/// Makes folders of these names: whole results whose digits are of other rows.
 fn plant(scratch: &ScratchFolder, result: &Path) {
     for name in NOT_OURS {
         let folder = scratch.path(name);
@@ -33,9 +28,6 @@ fn plant(scratch: &ScratchFolder, result: &Path) {
         for (name, bytes) in contents(result) {
             fs::create_dir_all(folder.join(&name).parent().unwrap()).unwrap();
             fs::write(folder.join(&name), bytes).unwrap();
-        }
-        if name.starts_with(".r.f") {
-            fs::write(folder.join("_REPLACEMENT"), "0123456789abcdef\n").unwrap();
         }
     }
 }
@@ -47,85 +39,43 @@ fn plant(scratch: &ScratchFolder, result: &Path) {
 fn every_operation_of_a_replacement_may_fail() {
     let scratch = ScratchFolder::new("replaced-faults");
     let root = scratch.path("r");
-    let overrides = Overrides { samples: Some(SAMPLES), seed: Some(99), ..Overrides::default() };
-    let text = campaign_without_debris().replace("points = 11\n", "points = 11\ngroups = [\"energy_conservation\"]\n");
-    let (old, new) = (plan(SAMPLES), Plan::from_text("small", &text, overrides).unwrap());
-    let options = ClaimOptions { overwrite: true, shard: None, threads: 1 };
-    let overwrite = |storage: &'static dyn Storage| make_with(options, storage, &root, &new, false);
-    make(&Disk, &scratch.path("old"), &old, false).unwrap();
-    make(&Disk, &scratch.path("new"), &new, false).unwrap();
-    let [before, after] = ["old", "new"].map(|name| contents(&scratch.path(name)));
+    let (old, new) = (Making::of(SAMPLES), Making { seed: 99, overwrite: true, ..Making::of(SAMPLES) });
+    let before = made(old, &scratch.path("old"));
+    let after = made(new, &scratch.path("new"));
     plant(&scratch, &scratch.path("old"));
     let planted = NOT_OURS.map(|name| contents(&scratch.path(name)));
     let beside = entries(&scratch.0);
     let is_counted = |operation| !matches!(operation, Operation::Length | Operation::Read);
-    let never = || Faulty::new(is_counted, u64::MAX, false, Fault::Kind(io::ErrorKind::Other));
-    let begin = || make(&Disk, &root, &old, false).unwrap();
-    begin();
-    let counted = never();
-    overwrite(counted).unwrap();
+    made(old, &root);
+    let counted = Plot::harmless(is_counted);
+    new.make(&counted, &root).unwrap();
     assert!(contents(&root) == after);
-    let operations = counted.done().len() as u64;
+    let operations = counted.done().len();
     let (mut errors, mut gone) = (0, 0);
-    for persists in [false, true] {
+    for (persists, late) in [(false, false), (false, true), (true, false)] {
         for fails in 0..operations {
             fs::remove_dir_all(&root).unwrap();
-            begin();
-            let kind = if fails % 2 == 0 { io::ErrorKind::Other } else { io::ErrorKind::StorageFull };
-            let ended = overwrite(Faulty::new(is_counted, fails, persists, Fault::Kind(kind)));
-            if let Err(failure) = &ended {
+            made(old, &root);
+            let kind = io::ErrorKind::StorageFull;
+            let fault = if late { Fault::Late(kind) } else { Fault::Kind(kind) };
+            if let Err(failure) = new.make(&Plot::new(is_counted, fails as u64, persists, fault), &root) {
                 errors += 1;
-                assert!(reason(failure).contains("spindrift-"), "operation {fails}: {failure:?}");
+                assert!(reason(&failure).contains("spindrift-"), "operation {fails}: {failure:?}");
             }
-            let is_whole = |folder: &Path| {
-                let mut found = if folder.exists() { contents(folder) } else { return false };
-                found.remove("_REPLACEMENT");
-                found == before || found == after
-            };
-            let made =
+            let is_whole = |folder: &Path| folder.exists() && [&before, &after].contains(&&contents(folder));
+            let made_beside =
                 || entries(&scratch.0).into_iter().filter(|name| !beside.contains(name) && name.starts_with(".r."));
             gone += u32::from(!root.exists());
             assert!(
-                is_whole(&root) || made().any(|name| is_whole(&scratch.path(&name))),
+                is_whole(&root) || made_beside().any(|name| is_whole(&scratch.path(&name))),
                 "operation {fails}: both results are lost"
             );
-            overwrite(never()).unwrap_or_else(|error| panic!("operation {fails}: {error:?}"));
-            assert!(contents(&root) == after, "operation {fails}, persists: {persists}");
-            // of a folder that was to get a proof and did not, nobody knows whose it is
-            let (known, empty): (Vec<String>, Vec<String>) =
-                made().partition(|name| !persists || scratch.path(name).join("_REPLACEMENT").exists());
-            assert_eq!(known, [""; 0], "operation {fails}, persists: {persists}");
-            for name in empty {
-                let left = entries(&scratch.path(&name));
-                assert!(left.iter().all(|name| name.ends_with(".tmp")), "operation {fails}: {left:?}");
-                fs::remove_dir_all(scratch.path(&name)).unwrap();
-            }
+            assert!(made(new, &root) == after, "operation {fails}, {fault:?}, persists: {persists}");
+            assert_eq!(made_beside().next(), None, "operation {fails}, {fault:?}, persists: {persists}");
         }
     }
     assert!(errors > operations && gone > 0, "{errors} errors of {operations} operations, {gone} between two renames");
     assert!(NOT_OURS.map(|name| contents(&scratch.path(name))) == planted, "what was beside is as it was");
-}
-
-/// Law: a new folder, and each above it, is made durable in the folder above, and so are the names of a replacement.
-#[test]
-fn names_of_folders_are_flushed() {
-    let scratch = ScratchFolder::new("replaced-flushed");
-    let root = scratch.path("a/b/r");
-    let all =
-        || Faulty::new(|operation| operation == Operation::Write, u64::MAX, false, Fault::Kind(io::ErrorKind::Other));
-    let times = |storage: &Faulty, folder: &Path| storage.done().iter().filter(|(_, path)| path == folder).count();
-    let made = all();
-    make(made, &root, &plan(20), false).unwrap();
-    assert_eq!(["", "a", "a/b"].map(|folder| times(made, &scratch.path(folder))), [1, 1, 1]);
-    let again = all();
-    make(again, &root, &plan(20), false).unwrap();
-    assert_eq!(times(again, &scratch.path("a/b")), 0, "nothing was created");
-    let replaced = all();
-    let options = ClaimOptions { overwrite: true, shard: None, threads: 1 };
-    make_with(options, replaced, &root, &plan(30), false).unwrap();
-    let [new, renamed, removed] = [1, 1, 1];
-    assert_eq!(times(replaced, &scratch.path("a/b")), new + renamed + removed);
-    assert!(contents(&root).contains_key("_SUCCESS"));
 }
 
 /// Law: a link that is named as the folder of a result means the folder that it leads to, whether that is there already
@@ -217,7 +167,7 @@ fn links_swapped_in_during_a_run_are_not_followed() {
         std::os::unix::fs::symlink(scratch.path(target), &link).unwrap();
         let swap = || renameat_with(CWD, &folder, CWD, &link, RenameFlags::EXCHANGE).unwrap();
         let mut child = start(&scratch, &format!("{command} --out r"));
-        while faulty_storage::listed_files(&scratch.path("r")).is_empty() {
+        while whole_parts(&scratch.path("r")) == 0 {
             assert!(child.try_wait().unwrap().is_none());
             std::thread::sleep(std::time::Duration::from_millis(2));
         }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::reliability::faulty_storage::contents;
+use crate::reliability::failing_store::contents;
 use crate::small_campaign::{campaign, campaign_without_debris, folder};
 
 /// Law: counts that no disk and no memory has are refused at once with rows, bytes and time, and nothing is written.
@@ -62,7 +62,7 @@ fn a_slip_in_an_address_makes_no_folder() {
     }
     assert!(fs::read_dir(&scratch.0).unwrap().all(|entry| !entry.unwrap().file_name().to_string_lossy().contains(':')));
     scratch.prints("campaign small.toml --samples 2 --no-report --out ./s3:/x", 0);
-    assert!(scratch.path("s3:/x/manifest.jsonl").exists());
+    assert!(scratch.path("s3:/x/dataset.json").exists());
 }
 
 /// Law: a long campaign starts with `--yes` only; a shard of it, and what is left of one that is nearly there, without.

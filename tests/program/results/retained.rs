@@ -1,6 +1,6 @@
 //! Retained runs: which they are follows from the rows, and their files are those of `simulate`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -11,14 +11,11 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::analysis::accumulator::of_files;
 use spindrift::analysis::trajectories::{Retained, file_name, save};
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::Ensemble;
 use spindrift::math::Isa;
 use spindrift::sampling::SampleId;
-use spindrift::storage::disk::Disk;
-use spindrift::storage::folder::Folder;
-use spindrift::storage::names::MANIFEST;
-use spindrift::storage::rows_file::identity;
+use spindrift::storage::disk;
 use spindrift::storage::rows_reader::{RowsError, RowsReader};
+use spindrift::storage::store::StoreError;
 
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
@@ -34,7 +31,7 @@ fn plan(retain: &str) -> Plan {
 }
 
 fn rows(scratch: &ScratchFolder) -> RowsReader {
-    RowsReader::new(&Disk, scratch.part_files("r"))
+    scratch.reader("r")
 }
 
 /// The samples whose runs are retained.
@@ -91,10 +88,10 @@ fn rules_choose_what_they_say() {
     assert_eq!(chosen("sample:599").len(), physical.len() - 1);
 }
 
-/// A dataset without parts in `root`.
-fn dataset(plan: &Plan, root: &Path) -> Folder {
-    let identity = identity(&Ensemble::new(plan, Isa::best()));
-    Folder::open(&Disk, root, (plan.text(), identity), (MANIFEST.to_owned(), None), BTreeMap::new()).unwrap()
+/// Puts files into the folder `root`.
+fn taken(root: &Path) -> impl Fn(&str, &[u8]) -> Result<(), StoreError> + Sync {
+    let store = disk::folder(root);
+    move |name, bytes| store.put(name, bytes).map_err(store.at(name))
 }
 
 /// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed,
@@ -110,9 +107,7 @@ fn files_are_those_of_simulate() {
     let samples: Vec<SampleId> = [0, 2].into_iter().map(SampleId).chain(failed.into_iter().take(2)).collect();
     let [one, two] = ["one", "two"].map(|name| scratch.path(name).join("trajectories"));
     for (path, threads) in [(&one, 1), (&two, 2)] {
-        fs::create_dir_all(path).unwrap();
-        let dataset = dataset(&plan, path.parent().unwrap());
-        save(&plan, &samples, (isa, NonZeroUsize::new(threads)), &|name, bytes| dataset.write(name, bytes)).unwrap();
+        save(&plan, &samples, (isa, NonZeroUsize::new(threads)), &taken(path.parent().unwrap())).unwrap();
     }
     let mut seen = BTreeSet::new();
     for sample in &samples {
@@ -125,11 +120,9 @@ fn files_are_those_of_simulate() {
         assert!(seen.insert(bytes), "{name} is like another");
     }
     assert_eq!(fs::read_dir(&one).unwrap().count(), samples.len());
-    fs::create_dir(scratch.path("missing")).unwrap();
-    let dataset = dataset(&plan, &scratch.path("missing"));
-    let refused =
-        save(&plan, &samples, (isa, None), &|name, bytes| dataset.write(name, bytes)).unwrap_err().to_string();
-    assert!(refused.contains("missing") && refused.contains("sample-00000"), "{refused}");
+    scratch.file("a_file", "");
+    let refused = save(&plan, &samples, (isa, None), &taken(&scratch.path("a_file"))).unwrap_err().to_string();
+    assert!(refused.contains("a_file") && refused.contains("sample-00000"), "{refused}");
 }
 
 /// Law: a campaign ends with the trajectories that its file asks for; where only that is changed, no sample is run

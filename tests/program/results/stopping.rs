@@ -90,13 +90,12 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     let checked = scratch.prints("verify stopped --fraction 0", 0);
     assert!(checked.contains(&format!(" {samples} rows: checksums compared")), "the manifest: {checked}");
     // an unfinished one is continued by the command that looks
-    let manifest = scratch.text("stopped/manifest.jsonl");
-    let unfinished: Vec<&str> = manifest.lines().collect();
-    scratch.file("stopped/manifest.jsonl", &(unfinished[..unfinished.len() - 1].join("\n") + "\n"));
+    let manifest = scratch.text("stopped/manifest.json");
+    fs::remove_file(scratch.path("stopped/manifest.json")).unwrap();
     let refused = scratch.prints("finish stopped", 4);
     assert!(refused.contains("spindrift campaign"), "{refused}");
     scratch.prints("campaign stop.toml --out stopped", 0);
-    assert_eq!(scratch.text("stopped/manifest.jsonl"), manifest);
+    assert_eq!(scratch.text("stopped/manifest.json"), manifest);
     assert!(scratch.prints("campaign never.toml --out never", 5).contains("already complete"));
     scratch.prints("verify stopped --fraction 1", 0);
     let before = fs::read(scratch.path("stopped/report.html")).unwrap();

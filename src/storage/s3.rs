@@ -1,21 +1,28 @@
-//! [`connect`]: requests to the store of an address, and what their errors mean. A part of the library with the feature
-//! `cloud`, and of the Python package.
+//! [`connect`]: a dataset in an object store with S3's interface. Compiled into the library with the feature `cloud`,
+//! and into the Python package.
 //!
-//! The crate `object_store` tries a request again that the store could not answer (5xx, 429, a connection that broke).
-//! An object that is put on the condition that there is none of its name needs more: an answer that was lost, 409 and
-//! 412 all leave open what is there. So it is looked at: the same content is success, whoever has put it; nothing is a
-//! reason to try again; anything else is the caller's.
+//! Each object is put on the condition that there is none of its name. The crate `object_store` tries a request again
+//! that the store could not answer (5xx, 429, a connection that broke). A conditional put needs more: an answer that
+//! was lost, 409 and 412 all leave open what is there. So it is looked at: the same content is success, whoever has put
+//! it; nothing is a reason to try again; anything else is refused, since nothing in a store is replaced or removed.
 
+use std::collections::BTreeMap;
 use std::error::Error as _;
-use std::io;
+use std::fs::{File, TryLockError};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use bytes::Bytes;
 use object_store::aws::{AmazonS3, AmazonS3Builder, AmazonS3ConfigKey};
 use object_store::path::Path as Key;
 use object_store::{ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutMode, PutOptions, RetryConfig};
 use tokio::runtime::{Builder, Runtime};
 
-use super::address::{Address, Connected, Objects};
+use super::address::Address;
+use super::identity::sha256;
+use super::store::{Entry, Store, StoredFile};
 
 /// How often a request is tried again: with pauses up to 15 s, some minute in all.
 const RETRIES: usize = 10;
@@ -45,82 +52,163 @@ const ENDPOINTS: [&str; 3] = ["AWS_ENDPOINT_URL_S3", "AWS_ENDPOINT_URL", "AWS_EN
 /// What a store says where the bucket is not there, and not only the object.
 const NO_BUCKET: &str = "NoSuchBucket";
 
+/// The object that is asked for first, so that the client is known to work.
+const FIRST: &str = "dataset.json";
+
 /// The objects below an address, each by its name below that.
-struct Client {
+#[derive(Debug)]
+struct S3 {
     address: Address,
+    root: PathBuf,
     runtime: Runtime,
     store: AmazonS3,
+    /// Files of which a later version may come.
+    for_now: Mutex<BTreeMap<String, Bytes>>,
 }
 
-/// The client for `address`, and the content of the object `first`, if there is one: so it is known to work.
-///
-/// # Errors
-/// Where the environment does not say how to get there, or the store does not answer, or refuses.
-pub fn connect(address: &Address, first: &str) -> io::Result<Connected> {
-    // connections are encrypted by ring; it is an error to say so twice
-    let _ = rustls::crypto::ring::default_provider().install_default();
-    let runtime = Builder::new_current_thread().enable_all().build()?;
-    let store = |retries| store(address, retries).map_err(|error| said(address, &error));
-    let client = Client { address: address.clone(), runtime, store: store(FIRST_RETRIES)? };
-    let found = client.get(first)?;
-    Ok((Box::new(Client { store: store(RETRIES)?, ..client }), found))
-}
+/// An object that was got as a whole: a part is read column by column, and a request takes longer than its bytes.
+#[derive(Debug)]
+struct Object(Bytes);
 
-impl Client {
-    fn key(&self, name: &str) -> Key {
-        Key::from(format!("{}/{name}", self.address.prefix))
+impl StoredFile for Object {
+    fn length(&self) -> io::Result<u64> {
+        Ok(self.0.len() as u64)
+    }
+
+    fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        let rest = usize::try_from(offset).ok().and_then(|offset| self.0.get(offset..)).unwrap_or_default();
+        let count = rest.len().min(bytes.len());
+        bytes[..count].copy_from_slice(&rest[..count]);
+        Ok(count)
     }
 }
 
-impl Objects for Client {
-    fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Vec<u8>>> {
+/// The store at `address`.
+///
+/// # Errors
+/// Where the environment does not say how to get there, or the store does not answer, or refuses.
+pub fn connect(address: &Address) -> io::Result<Arc<dyn Store>> {
+    // connections are encrypted by ring; it is an error to say so twice
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let runtime = Builder::new_current_thread().enable_all().build()?;
+    let store = |retries| store(address, retries).map_err(|error| explained(address, &error));
+    let root = PathBuf::from(address.to_string());
+    let first = S3 { address: address.clone(), root, runtime, store: store(FIRST_RETRIES)?, for_now: Mutex::default() };
+    first.object(FIRST)?;
+    Ok(Arc::new(S3 { store: store(RETRIES)?, ..first }))
+}
+
+impl S3 {
+    fn key(&self, name: &str) -> Key {
+        Key::from(format!("{}/{name}", self.address.prefix))
+    }
+
+    /// The content of the object `name`; `None` where there is none.
+    fn object(&self, name: &str) -> io::Result<Option<Bytes>> {
         let key = self.key(name);
+        match self.runtime.block_on(async { self.store.get(&key).await?.bytes().await }) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(error @ Error::NotFound { .. }) if !error.to_string().contains(NO_BUCKET) => Ok(None),
+            Err(error) => Err(explained(&self.address, &error)),
+        }
+    }
+
+    /// Puts the object `name`, unless there is one: the content of that, where it is another.
+    fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Bytes>> {
+        let (key, payload) = (self.key(name), Bytes::copy_from_slice(bytes));
         let mut last = None;
         for attempt in 0..ATTEMPTS {
             if attempt > 0 {
                 std::thread::sleep(PAUSE * 2_u32.pow(attempt - 1));
             }
             let options = PutOptions { mode: PutMode::Create, ..PutOptions::default() };
-            let payload = bytes.to_vec().into();
-            let error = match self.runtime.block_on(self.store.put_opts(&key, payload, options)) {
+            let put = self.store.put_opts(&key, payload.clone().into(), options);
+            let error = match self.runtime.block_on(put) {
                 Ok(_) => return Ok(None),
                 Err(error @ (Error::AlreadyExists { .. } | Error::Generic { .. })) => error,
-                Err(error) => return Err(said(&self.address, &error)),
+                Err(error) => return Err(explained(&self.address, &error)),
             };
-            match self.get(name) {
-                Ok(Some(there)) if there == bytes => return Ok(None),
-                Ok(Some(there)) => return Ok(Some(there)),
+            match self.object(name) {
+                Ok(Some(there)) => return Ok(Some(there).filter(|there| there != bytes)),
                 // refused for another one's sake that did not put it either
-                Ok(None) if matches!(error, Error::AlreadyExists { .. }) => last = Some(said(&self.address, &error)),
+                Ok(None) if matches!(error, Error::AlreadyExists { .. }) => {
+                    last = Some(explained(&self.address, &error));
+                }
                 // it was tried again already, or is an error that stays
-                Ok(None) | Err(_) => return Err(said(&self.address, &error)),
+                Ok(None) | Err(_) => return Err(explained(&self.address, &error)),
             }
         }
         Err(last.unwrap_or_else(|| io::Error::other("was not put")))
     }
+}
 
-    fn get(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
-        let key = self.key(name);
-        let got = self.runtime.block_on(async { self.store.get(&key).await?.bytes().await });
-        match got {
-            Ok(bytes) => Ok(Some(bytes.into())),
-            Err(error @ Error::NotFound { .. }) if !error.to_string().contains(NO_BUCKET) => Ok(None),
-            Err(error) => Err(said(&self.address, &error)),
-        }
+impl Store for S3 {
+    fn root(&self) -> &Path {
+        &self.root
     }
 
-    fn list(&self, folder: &str) -> io::Result<Vec<String>> {
+    fn put(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        self.for_now.lock().unwrap_or_else(PoisonError::into_inner).remove(name);
+        let Some(there) = self.create(name, bytes)? else { return Ok(()) };
+        Err(io::Error::other(format!(
+            "has another content (SHA-256 {}) than this process has for it (SHA-256 {}), and what is in a store is not \
+            replaced: choose another --out; or, if that object is damaged, remove it, and the same command puts it \
+            again",
+            sha256(&there),
+            sha256(bytes)
+        )))
+    }
+
+    fn put_for_now(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let mut for_now = self.for_now.lock().unwrap_or_else(PoisonError::into_inner);
+        for_now.insert(name.to_owned(), Bytes::copy_from_slice(bytes));
+        Ok(())
+    }
+
+    fn put_if_absent(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        self.create(name, bytes).map(|_| ())
+    }
+
+    fn get(&self, name: &str) -> io::Result<Box<dyn StoredFile>> {
+        let for_now = self.for_now.lock().unwrap_or_else(PoisonError::into_inner).get(name).cloned();
+        let found = for_now.map_or_else(|| self.object(name), |bytes| Ok(Some(bytes)))?;
+        found.map(|bytes| Box::new(Object(bytes)) as _).ok_or_else(|| ErrorKind::NotFound.into())
+    }
+
+    fn list(&self, folder: &str) -> io::Result<Vec<Entry>> {
         let listed = self.runtime.block_on(self.store.list_with_delimiter(Some(&self.key(folder))));
-        let objects = listed.map_err(|error| said(&self.address, &error))?.objects;
-        let name = |location: &Key| location.filename().map(|file| format!("{folder}/{file}"));
-        Ok(objects.iter().filter_map(|object| name(&object.location)).collect())
+        let listed = listed.map_err(|error| explained(&self.address, &error))?;
+        let folders = listed.common_prefixes.iter().map(|key| (key, true, 0));
+        let all = listed.objects.iter().map(|object| (&object.location, false, object.size)).chain(folders);
+        let entry = |(key, is_folder, size): (&Key, bool, u64)| {
+            Some(Entry { name: key.filename()?.to_owned(), is_folder, is_file: !is_folder, size })
+        };
+        let mut entries: Vec<Entry> = all.filter_map(entry).collect();
+        entries.sort();
+        Ok(entries)
+    }
+
+    fn remove(&self, _: &str) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn lock(&self, _: bool) -> Result<Option<File>, TryLockError> {
+        Ok(None)
+    }
+
+    fn rename(&self, _: &Path) -> io::Result<()> {
+        Err(ErrorKind::Unsupported.into())
+    }
+
+    fn replaces(&self) -> bool {
+        false
     }
 }
 
 /// What `error` means, and what to do; without a word of the credentials.
-fn said(address: &Address, error: &Error) -> io::Error {
+fn explained(address: &Address, error: &Error) -> io::Error {
     let (text, cause) = (error.to_string(), cause(error));
-    let said = match error {
+    let text_of = match error {
         Error::NotFound { .. } if text.contains(NO_BUCKET) => {
             format!("there is no bucket `{}`: create it, or correct the address or AWS_ENDPOINT_URL", address.bucket)
         }
@@ -146,7 +234,7 @@ fn said(address: &Address, error: &Error) -> io::Error {
         ),
     };
     let values = SECRETS.iter().filter_map(|name| variable(name));
-    io::Error::other(values.fold(said, |said, value| said.replace(&value, "***")))
+    io::Error::other(values.fold(text_of, |text, value| text.replace(&value, "***")))
 }
 
 /// The value of a variable of the environment that is set.

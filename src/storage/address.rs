@@ -1,31 +1,7 @@
-//! [`Address`]: where a result is in an object store; [`Objects`]: what a client does there.
+//! [`Address`]: where a result is in an object store.
 
+use std::fmt;
 use std::path::Path;
-use std::{fmt, io};
-
-/// The objects below an address, each by its name below that: what a client of a store does.
-pub trait Objects: Send + Sync {
-    /// Puts the object `name`, unless there is one. `None` where it has this content now; else what it has.
-    ///
-    /// # Errors
-    /// Where it is not known to be there.
-    fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Vec<u8>>>;
-
-    /// The content of the object `name`; `None` where there is none.
-    ///
-    /// # Errors
-    /// Where that is not known.
-    fn get(&self, name: &str) -> io::Result<Option<Vec<u8>>>;
-
-    /// The names of the objects of the folder `folder`.
-    ///
-    /// # Errors
-    /// Where they are not known.
-    fn list(&self, folder: &str) -> io::Result<Vec<String>>;
-}
-
-/// A client, and the content of an object, if there is one: so the client is known to work.
-pub type Connected = (Box<dyn Objects>, Option<Vec<u8>>);
 
 /// Where a result is in an object store: `s3://bucket/prefix`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,7 +28,7 @@ impl Address {
         let Some(rest) = rest.strip_prefix("//").filter(|_| scheme == "s3") else {
             return Err(format!(
                 "{shown}: must be a folder, or an address in a store that has S3's interface: s3://bucket/name; \
-                         a folder with this name is ./{shown}"
+                a folder with this name is ./{shown}"
             ));
         };
         if !has_client {

@@ -1,0 +1,64 @@
+//! [`lock`]: keeps other processes away from a result. It is for people: results are right without it.
+
+use std::fs::{File, TryLockError};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::storage::folder_error::FolderError;
+use crate::storage::store::Store;
+
+/// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed
+/// its files, and a program that the owner starts has copies of the owner's files for a moment.
+const PATIENCE: Duration = Duration::from_millis(300);
+/// Between two tries of a lock.
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// A lock that keeps other processes away until it is dropped; none where there are no locks.
+#[derive(Debug, Default)]
+pub struct Lock(#[allow(dead_code, reason = "is closed when it is dropped")] Option<File>);
+
+/// Locks `store`, shared with other shards and readers or not.
+///
+/// # Errors
+/// Where another process has it, or it cannot be opened.
+pub fn lock(store: &dyn Store, is_shared: bool) -> Result<Lock, FolderError> {
+    let start = Instant::now();
+    loop {
+        match store.lock(is_shared) {
+            Ok(lock) => return Ok(Lock(lock)),
+            Err(TryLockError::WouldBlock) if start.elapsed() < PATIENCE => sleep(PAUSE),
+            Err(TryLockError::WouldBlock) => {
+                return Err(FolderError::Busy { folder: store.root().display().to_string() });
+            }
+            // without knowing whether another process writes, nothing is written
+            Err(TryLockError::Error(error)) => return Err(store.at("")(error).into()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::storage::disk::folder;
+
+    /// Law: a lock that ends within a moment is waited for; one that is held is refused, within a second.
+    #[test]
+    fn a_lock_that_ends_is_waited_for() {
+        let root = std::env::temp_dir().join(format!("spindrift-lock-{}", std::process::id()));
+        std::fs::create_dir_all(&root).expect("a folder");
+        let store = folder(&root);
+        let held = store.lock(false).expect("the first lock");
+        let start = Instant::now();
+        let refused = lock(&*store, false);
+        assert!(matches!(refused, Err(FolderError::Busy { .. })), "{refused:?}");
+        assert!(start.elapsed() >= PATIENCE);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                sleep(PAUSE * 2);
+                drop(held);
+            });
+            lock(&*store, false).expect("a lock after the other has ended");
+        });
+        std::fs::remove_dir(&root).expect("no file of the test");
+    }
+}

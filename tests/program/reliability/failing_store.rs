@@ -1,0 +1,279 @@
+//! [`Failing`]: a folder in which the k-th operation fails; and the making of a small dataset in it.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use spindrift::storage::disk::folder;
+use spindrift::storage::identity::{RowsMetadata, sealed, sha256};
+use spindrift::storage::store::{Entry, Store, StoredFile};
+use spindrift::workflow::{Campaign, Outputs, Quiet, Session, WorkflowError as Failure};
+
+use crate::small_campaign::campaign_without_debris;
+pub use crate::support::scratch_folder::contents;
+
+/// The number of parts of a dataset; each is whole, with its bands.
+pub fn whole_parts(root: &Path) -> usize {
+    let entries = fs::read_dir(root.join("runs")).into_iter().flatten().map(|entry| entry.unwrap().path());
+    let files = entries.filter(|path| path.extension().is_some_and(|extension| extension == "parquet"));
+    let check = |path: PathBuf| {
+        // a part that is made again is removed first
+        let Ok(bytes) = fs::read(&path) else { return };
+        assert!(sealed(&bytes).is_some(), "{} is not whole", path.display());
+        let rows = RowsMetadata::of(bytes.into()).expect("rows");
+        if let Ok(bands) = fs::read(root.join("bands").join(path.file_name().unwrap())) {
+            assert!(rows.bands == Some(sha256(&bands)), "{}: of other bands", path.display());
+        }
+    };
+    files.map(check).count()
+}
+
+/// What is done to a file or folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// It is put, removed or renamed.
+    Write,
+    Open,
+    Length,
+    /// A piece of it is read.
+    Read,
+    List,
+    Lock,
+}
+
+/// How an operation fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// An error of this kind; a file that was to be put leaves half of itself under a temporary name.
+    Kind(io::ErrorKind),
+    /// The same error after the operation was done: its answer is lost.
+    Late(io::ErrorKind),
+    /// The error of the operating system with this number.
+    System(i32),
+    /// Of a read: there is nothing more.
+    End,
+    /// Of a read: it is interrupted, or has some of the bytes only. No error.
+    Piecewise,
+}
+
+impl Fault {
+    /// The error; none where it shows otherwise.
+    pub fn error(self) -> Option<io::Error> {
+        match self {
+            Fault::Kind(kind) | Fault::Late(kind) => Some(kind.into()),
+            Fault::System(number) => Some(io::Error::from_raw_os_error(number)),
+            Fault::End | Fault::Piecewise => None,
+        }
+    }
+}
+
+/// Which operation fails, and what was done so far.
+#[derive(Debug)]
+pub struct Plot {
+    /// Which operations are counted, and may fail.
+    is_counted: fn(Operation) -> bool,
+    /// The operation that fails, from zero.
+    fails: u64,
+    /// Whether all later ones fail too.
+    persists: bool,
+    fault: Fault,
+    /// The dataset whose parts are checked before every operation.
+    watched: Option<PathBuf>,
+    done: Mutex<Vec<(Operation, PathBuf)>>,
+}
+
+impl Plot {
+    /// Operation `fails` of those that are counted fails, and all later ones where the fault `persists`.
+    pub fn new(is_counted: fn(Operation) -> bool, fails: u64, persists: bool, fault: Fault) -> Arc<Self> {
+        Arc::new(Plot { is_counted, fails, persists, fault, watched: None, done: Mutex::default() })
+    }
+
+    /// No operation fails.
+    pub fn harmless(is_counted: fn(Operation) -> bool) -> Arc<Self> {
+        Plot::new(is_counted, u64::MAX, false, Fault::End)
+    }
+
+    /// No operation fails, and at each the parts of the dataset in `root` are whole.
+    pub fn watched(root: &Path) -> Arc<Self> {
+        let (fault, watched) = (Fault::End, Some(root.to_owned()));
+        let is_counted = |operation| operation == Operation::Write;
+        Arc::new(Plot { is_counted, fails: u64::MAX, persists: false, fault, watched, done: Mutex::default() })
+    }
+
+    /// The operations that were counted so far, each with its path.
+    pub fn done(&self) -> Vec<(Operation, PathBuf)> {
+        self.done.lock().unwrap().clone()
+    }
+
+    fn is_due(&self, operation: Operation, path: &Path) -> bool {
+        if !(self.is_counted)(operation) {
+            return false;
+        }
+        self.watched.iter().for_each(|root| {
+            whole_parts(root);
+        });
+        let mut done = self.done.lock().unwrap();
+        let now = done.len() as u64;
+        done.push((operation, path.to_owned()));
+        now == self.fails || (self.persists && now > self.fails)
+    }
+
+    fn check(&self, operation: Operation, path: &Path) -> io::Result<()> {
+        let is_due = self.is_due(operation, path);
+        self.fault.error().filter(|_| is_due).map_or(Ok(()), Err)
+    }
+}
+
+/// A folder of a disk in which operations fail.
+#[derive(Debug)]
+struct Failing {
+    plot: Arc<Plot>,
+    disk: Arc<dyn Store>,
+}
+
+impl Failing {
+    /// Does what changes files, unless it fails; then `half` of it may be left.
+    fn change(
+        &self,
+        name: &str,
+        change: impl FnOnce() -> io::Result<()>,
+        half: impl FnOnce() -> io::Result<()>,
+    ) -> io::Result<()> {
+        let failed = self.plot.check(Operation::Write, &self.disk.path(name));
+        match (failed, self.plot.fault) {
+            (Ok(()), _) => change(),
+            (Err(error), Fault::Late(_)) => change().and(Err(error)),
+            (Err(error), _) => half().and(Err(error)),
+        }
+    }
+
+    fn half(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let path = self.disk.path(&format!("{name}.0123456789abcdef.tmp"));
+        fs::create_dir_all(path.parent().unwrap())?;
+        fs::write(path, &bytes[..bytes.len() / 2])
+    }
+}
+
+impl Store for Failing {
+    fn root(&self) -> &Path {
+        self.disk.root()
+    }
+
+    fn put(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        self.change(name, || self.disk.put(name, bytes), || self.half(name, bytes))
+    }
+
+    fn put_if_absent(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        self.change(name, || self.disk.put_if_absent(name, bytes), || self.half(name, bytes))
+    }
+
+    fn get(&self, name: &str) -> io::Result<Box<dyn StoredFile>> {
+        let path = self.disk.path(name);
+        self.plot.check(Operation::Open, &path)?;
+        Ok(Box::new(FailingFile { plot: self.plot.clone(), path, file: self.disk.get(name)? }))
+    }
+
+    fn list(&self, folder: &str) -> io::Result<Vec<Entry>> {
+        self.plot.check(Operation::List, &self.disk.path(folder))?;
+        self.disk.list(folder)
+    }
+
+    fn remove(&self, name: &str) -> io::Result<()> {
+        self.change(name, || self.disk.remove(name), || Ok(()))
+    }
+
+    fn lock(&self, _: bool) -> Result<Option<File>, TryLockError> {
+        // no real lock: a process that another test is about to start would have it too, from its fork to its exec
+        self.plot.check(Operation::Lock, self.root()).map(|()| None).map_err(TryLockError::Error)
+    }
+
+    fn rename(&self, to: &Path) -> io::Result<()> {
+        self.change("", || self.disk.rename(to), || Ok(()))
+    }
+}
+
+/// An open file of a [`Failing`] folder.
+#[derive(Debug)]
+struct FailingFile {
+    plot: Arc<Plot>,
+    path: PathBuf,
+    file: Box<dyn StoredFile>,
+}
+
+impl StoredFile for FailingFile {
+    fn length(&self) -> io::Result<u64> {
+        self.plot.check(Operation::Length, &self.path)?;
+        self.file.length()
+    }
+
+    fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        if !self.plot.is_due(Operation::Read, &self.path) {
+            return self.file.read_at(offset, bytes);
+        }
+        match self.plot.fault {
+            Fault::End => Ok(0),
+            Fault::Piecewise if self.plot.done.lock().unwrap().len().is_multiple_of(2) => {
+                Err(io::ErrorKind::Interrupted.into())
+            }
+            Fault::Piecewise => {
+                let some = bytes.len().div_ceil(2);
+                self.file.read_at(offset, &mut bytes[..some])
+            }
+            Fault::Kind(_) | Fault::Late(_) | Fault::System(_) => self.plot.fault.error().map_or(Ok(0), Err),
+        }
+    }
+}
+
+/// Does `work` with one thread in folders that fail as `plot` says.
+pub fn on(plot: &Arc<Plot>, work: impl FnOnce(&Session<'_>) -> Result<(), Failure>) -> Result<(), Failure> {
+    let folders = |root: &Path| -> Arc<dyn Store> { Arc::new(Failing { plot: plot.clone(), disk: folder(root) }) };
+    let watch = Quiet::default();
+    let session = Session::new(&watch).expect("an instruction set").on_threads(NonZeroUsize::new(1));
+    work(&Session { folders: &folders, ..session })
+}
+
+/// How a dataset is made.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Making {
+    /// In parts of 256.
+    pub samples: u64,
+    pub seed: u64,
+    pub has_page: bool,
+    pub overwrite: bool,
+}
+
+impl Making {
+    pub fn of(samples: u64) -> Self {
+        Making { samples, seed: 7, ..Making::default() }
+    }
+
+    /// Makes the dataset in `root`, or what is missing of it. It has few columns, since the work is done a thousand
+    /// times.
+    pub fn make(self, plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
+        let observed = "points = 11\ngroups = [\"energy_conservation\"]\n";
+        let text = campaign_without_debris().replace("points = 11\n", observed);
+        let text = format!("{text}[retain]\ntrajectories = \"sample:2\"\n");
+        on(plot, |session| {
+            let outputs = Outputs { without_page: !self.has_page, ..Outputs::default() };
+            let campaign = Campaign::from_text("small.toml", &text, *session).samples(self.samples).seed(self.seed);
+            let campaign = campaign.store(root).outputs(outputs);
+            let campaign = if self.overwrite { campaign.overwrite() } else { campaign };
+            campaign.prepare()?.expect("a campaign").run().map(|_| ())
+        })
+    }
+}
+
+/// Makes the dataset without a fault; its files.
+pub fn made(making: Making, root: &Path) -> BTreeMap<String, Vec<u8>> {
+    making.make(&Plot::harmless(|_| false), root).unwrap_or_else(|error| panic!("{error:?}"));
+    contents(root)
+}
+
+/// The reason of a failure.
+pub fn reason(failure: &Failure) -> &str {
+    let (Failure::Files(reason) | Failure::Input(reason)) = failure;
+    reason
+}
