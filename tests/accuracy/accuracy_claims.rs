@@ -1,5 +1,4 @@
-//! Accuracy claims for states, compared with the reference solution in double-double: thousands of radians of random
-//! gyrostats, and difficult scenes.
+//! Accuracy claims for states, compared with the reference solution in double-double.
 
 use crate::support::claims::hold;
 use crate::support::exact::distance;
@@ -30,7 +29,6 @@ const WORST_STATE: f64 = 1e-9;
 /// Relative error of energy after them.
 const ENERGY: f64 = 9e-15;
 
-/// General gyrostats: two wheels, products of inertia, a centre of mass off the axis; and the time of [`REVOLUTIONS`].
 fn gyrostats(count: u64, mode: WheelMode) -> Vec<(Scene, f64)> {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: false };
     let scene = |seed: u64| {
@@ -53,7 +51,6 @@ fn run(method: Method, scene: &Scene, grid: &Grid) -> Run {
     run
 }
 
-/// State errors of each of `methods` at five times, the largest of each scene, ascending.
 fn state_errors(methods: [Method; 2], scenes: &[(Scene, f64)]) -> [Vec<f64>; 2] {
     let fields = blocks([StateField::Rate, StateField::Attitude]);
     let error = |(scene, time): &(Scene, f64)| {
@@ -73,7 +70,6 @@ fn state_errors(methods: [Method; 2], scenes: &[(Scene, f64)]) -> [Vec<f64>; 2] 
     })
 }
 
-/// Largest relative error of energy of `method`.
 fn energy_errors(method: Method, scenes: &[(Scene, f64)]) -> Vec<f64> {
     let error = |(scene, time): &(Scene, f64)| {
         let run = run(method, scene, &Grid::uniform(*time, 9));
@@ -87,7 +83,6 @@ fn largest(errors: &[f64]) -> f64 {
     errors.iter().fold(0.0, |worst, e| if e.is_nan() { f64::INFINITY } else { worst.max(*e) })
 }
 
-/// Checks the claims for `count` scenes; `solved` of them are compared with a reference solution.
 fn hold_gyrostats(count: u64, solved: u64) {
     for (mode, wheels) in [(WheelMode::Free, "free"), (WheelMode::SpeedHeld, "speed-held")] {
         let what = format!("two {wheels} wheels, 1000 revolutions");
@@ -113,21 +108,6 @@ fn gyrostats_after_a_thousand_revolutions() {
     -- --ignored many_gyrostats"]
 fn many_gyrostats_after_a_thousand_revolutions() {
     hold_gyrostats(1000, 100);
-}
-
-/// Counter-test: a moment of inertia that is off by 1e-12 breaks the bound.
-#[test]
-fn a_wrong_coefficient_breaks_the_bound() {
-    let (scene, time) = gyrostats(1, WheelMode::Free).remove(0);
-    let grid = Grid::at(vec![0.0, time]);
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
-    let mut wrong = scene.clone();
-    wrong.mass.inertia_free[1][1] *= 1.0 + 1e-12;
-    let truth =
-        ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TRUE).expect("the reference solution is complete");
-    let [rate, attitude] = distance(&run(Method::Auto, &wrong, &grid).table, &grid, &truth);
-    // 1e-12 of 6283 rad is 6e-9 rad; measured: 1.6e-9, 160 times the bound
-    assert!(rate.max(attitude) > 10.0 * STATE, "{rate:e} {attitude:e}");
 }
 
 /// A difficult scene.
@@ -198,7 +178,6 @@ fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     [2, 4, 6, 8].into_iter().map(moved).fold(0.0, f64::max)
 }
 
-/// Law: difficult scenes are as accurate as others, apart from their amplification of one rounding.
 #[test]
 fn hard_scenes_are_exact_to_their_conditioning() {
     for Hard { name, scene, horizon } in hard() {

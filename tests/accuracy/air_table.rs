@@ -11,13 +11,11 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField};
 use spindrift::scene::{EnvironmentInput, Scene};
 
-/// The adaptive methods that have drag.
 fn methods() -> impl Iterator<Item = Method> {
     let model = ForceModel::of(&in_thin_air(1, 3)[0]);
     Method::ALL.into_iter().filter(move |method| method.integrates(model) && !method.has_fixed_step())
 }
 
-/// `scenes` in the air of `environment`.
 fn in_air(scenes: &[Scene], environment: impl Fn(&mut EnvironmentInput)) -> Vec<Scene> {
     let changed = |mut scene: Scene| {
         environment(&mut scene.environment);
@@ -26,8 +24,6 @@ fn in_air(scenes: &[Scene], environment: impl Fn(&mut EnvironmentInput)) -> Vec<
     scenes.iter().cloned().map(changed).collect()
 }
 
-/// Law: Vallado's table, written as one's own, gives the bits of every state and every step, in lanes of different
-/// tables too.
 #[test]
 fn the_same_table_gives_the_same_bits() {
     let grid = Grid::uniform(6_000.0, 31);
@@ -51,7 +47,6 @@ fn the_same_table_gives_the_same_bits() {
     }
 }
 
-/// Law: a table of one exponential, at one or at many heights, is the exponential atmosphere.
 #[test]
 fn a_table_of_one_exponential_is_that_atmosphere() {
     let grid = Grid::uniform(6_000.0, 31);

@@ -10,7 +10,6 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField};
 use spindrift::scene::{DebrisInput, Scene};
 
-/// A campaign with a debris of these keys, and tables of its own.
 fn plan(debris: &str, rest: &str) -> Result<Plan, String> {
     let text = format!(
         "[campaign]\nname = \"bodies\"\nsamples = 4\nseed = 1\nduration_s = 1.0\n{FUSELAGE}{WHEEL1_AT_REST}{}\
@@ -20,22 +19,6 @@ fn plan(debris: &str, rest: &str) -> Result<Plan, String> {
     Plan::from_text("bodies.toml", &text, Overrides::default()).map_err(|e| e.to_string())
 }
 
-/// Law: a debris is described in one way; another key beside it is refused by its name, with a remedy.
-#[test]
-fn contradictions_are_refused_by_key_with_a_remedy() {
-    let unit = "inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]";
-    for (debris, key, says) in [
-        ("mass_kg = 3", "debris.inertia_kg_m2", "given with mass_kg"),
-        (&format!("mass_kg = 3\nside_m = 0.2\n{unit}"), "debris.side_m", "left out where the debris is given by mass"),
-        (unit, "debris.mass_kg", "add mass_kg"),
-        ("side_m = 0.2\nsize_m = [1, 1, 1]\ndensity_kg_m3 = 1", "debris.size_m", "left out where side_m is given"),
-    ] {
-        let message = plan(debris, "").map(|_| ()).expect_err(key);
-        assert!(message.contains(&format!(" {key}")) && message.contains(says), "{key}: {message}");
-    }
-}
-
-/// What a draw makes impossible is an invalid sample with its reason, and nothing is drawn again.
 #[test]
 fn draws_that_pull_or_turn_inside_out_are_invalid() {
     let disperse = |key: &str, std: f64| {
@@ -62,7 +45,7 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
 }
 
 /// Law: a debris turns as the same body described in its principal frame, whichever products of inertia its tensor has,
-/// with equal moments on the diagonal too; for every method.
+/// with equal moments on the diagonal too.
 #[test]
 fn a_debris_turns_as_in_its_principal_frame() {
     let grid = Grid::uniform(4.0, 9);
@@ -100,8 +83,6 @@ fn a_debris_turns_as_in_its_principal_frame() {
     }
 }
 
-/// A thruster that fails, and one that works again, are in the same campaign: what is integrated follows from the
-/// commands.
 #[test]
 fn a_scaled_actuator_is_a_scaled_command() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: true };

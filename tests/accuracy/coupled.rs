@@ -1,5 +1,4 @@
-//! Air and light that move the spacecraft (`environment.coupled`): an independent integration of the orbit, the
-//! reference solution by every method, the work of the forces, and lanes.
+//! Air and light that move the spacecraft (`environment.coupled`).
 
 use crate::support::orbits::{MU, body, circle, near_rounding, plated};
 use crate::support::runs::{adaptive, everything, propagate};
@@ -31,7 +30,6 @@ fn epoch() -> Epoch {
     Epoch::parse("2026-06-01T00:00:00Z").expect("a date")
 }
 
-/// A body that does not turn, with one plate of the normal `normal`.
 fn one_plate(orbit: OrbitInput, normal: [f64; 3]) -> SceneInput {
     let mut input = body([6.0, 5.0, 4.0], OrbitInput { epoch: Some(epoch()), ..orbit });
     (input.body.mass_kg, input.body.center_of_mass_m) = (Some(MASS), Some([0.0, 0.0, 0.02]));
@@ -61,7 +59,6 @@ fn in_air() -> SceneInput {
     input
 }
 
-/// On an orbit that sees the Sun all the time: across the direction to it.
 fn in_light() -> SceneInput {
     let [x, y, z] = sun(epoch().days_since_j2000()).direction;
     let orbit = OrbitInput { ascending_node_rad: Some(x.atan2(-y)), ..circle(1e7, z.acos()) };
@@ -76,7 +73,6 @@ fn resolved(input: &SceneInput) -> Scene {
     Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]))
 }
 
-/// The force on the plate of `input` at `time`, F_e, N: the formulas of docs/environment.md, written here again.
 fn force(input: &SceneInput, time: f64, [r, v]: [[f64; 3]; 2]) -> [f64; 3] {
     let n = input.plates[0].normal;
     if input.environment.drag {
@@ -90,8 +86,8 @@ fn force(input: &SceneInput, time: f64, [r, v]: [[f64; 3]; 2]) -> [f64; 3] {
     scaled(-PRESSURE / (sun.distance * sun.distance) * AREA * cosine, push)
 }
 
-/// Position and velocity after [`DURATION`], by the classical Runge-Kutta method with steps of 0.05 s,
-/// so short because they do not end where the plate turns on and off.
+/// Position and velocity after [`DURATION`], by the classical Runge-Kutta method with steps of 0.05 s, so short because
+/// they do not end where the plate turns on and off.
 fn integrated(input: &SceneInput, pushed: bool) -> [[f64; 3]; 2] {
     let orbit = Orbit::of(input.orbit.as_ref().expect("an orbit"));
     let rate = |time: f64, state: [[f64; 3]; 2]| {
@@ -117,8 +113,6 @@ fn integrated(input: &SceneInput, pushed: bool) -> [[f64; 3]; 2] {
     state
 }
 
-/// Law: the centre of mass moves as the forces of air and of light say, by an integration that has nothing of the
-/// program; without `coupled` it stays on its orbit. What is left is that of the other integration.
 #[test]
 fn the_centre_of_mass_moves_as_the_forces_say() {
     for (name, mut input, least) in [("air", in_air(), 100.0), ("light", in_light(), 1.0)] {
@@ -145,7 +139,6 @@ fn the_centre_of_mass_moves_as_the_forces_say() {
     }
 }
 
-/// Random bodies with plates and without wheels, that air and light turn and move.
 fn scenes(count: u64, seed: u64) -> Vec<Scene> {
     let mut scenes: Vec<Scene> =
         plated(2 * count, seed, [0.5, 20.0]).into_iter().filter(|scene| scene.mass.wheels.is_empty()).collect();
@@ -156,7 +149,6 @@ fn scenes(count: u64, seed: u64) -> Vec<Scene> {
     scenes
 }
 
-/// Law: every method finds the reference solution, which integrates orbit, offset and attitude together.
 #[test]
 fn every_method_finds_the_reference_solution() {
     let grid = Grid::uniform(DURATION, 31);
@@ -174,7 +166,6 @@ fn every_method_finds_the_reference_solution() {
     }
 }
 
-/// Law: the work of gravity, air and light is what the kinetic energy of translation and rotation changes by.
 #[test]
 fn the_work_is_the_change_of_the_kinetic_energy() {
     let grid = Grid::uniform(20_000.0, 101);
@@ -195,7 +186,6 @@ fn the_work_is_the_change_of_the_kinetic_energy() {
     }
 }
 
-/// Law: a run in lanes has the bits that it has alone.
 #[test]
 fn lanes_are_runs_alone() {
     let scenes = scenes(11, 5);

@@ -58,14 +58,11 @@ fn spins() -> Vec<Spin> {
         .collect()
 }
 
-/// The squares of the momenta of the ellipse or hyperbola, with (K - A)/A and (K - B)/B.
 fn conic([a, b]: [f64; 2]) -> (f64, [f64; 2]) {
     let weights = [(BOUNDARY - a) / a, (BOUNDARY - b) / b];
     (weights[0] * (a * TRANSVERSE).powi(2) + weights[1] * (b * TRANSVERSE).powi(2), weights)
 }
 
-/// Laws: a stable spin nutates as far as its ellipse reaches, an unstable one leaves; and the value of K that separates
-/// those that stayed from those that left is the classical one.
 #[test]
 fn the_campaign_finds_the_classical_boundary() {
     let spins = spins();

@@ -20,7 +20,6 @@ const METHODS: [(Method, Control, f64); 7] = [
     (Method::NullSpace, adaptive(1e-11), 5e-10),
 ];
 
-/// |a - b| over |b|, at least one.
 fn off<const K: usize>(run: &Run, field: StateField, point: usize, expected: [f64; K]) -> f64 {
     let found = run.table.at::<K>(field, point);
     let size = expected.iter().map(|x| x * x).sum::<f64>().sqrt().max(1.0);
@@ -28,7 +27,7 @@ fn off<const K: usize>(run: &Run, field: StateField, point: usize, expected: [f6
 }
 
 /// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by w t + tau
-/// t^2/(2 J); it does the work J (w(t)^2 - w(0)^2)/2, and its angular impulse is tau t.
+/// t^2/(2 J).
 #[test]
 fn an_axisymmetric_body_spins_up() {
     let (rate, torque) = (0.5, 40.0);

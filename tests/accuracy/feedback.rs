@@ -36,7 +36,6 @@ const FIELDS: [StateField; 8] = [
     StateField::AngularImpulse,
 ];
 
-/// Largest distance of any field of a run from the reference, each over the field's largest magnitude (at least one).
 fn distance(flight: &Flight, reference: &ReferenceSolution) -> f64 {
     let table = &flight.run.table;
     let mut worst = 0.0_f64;
@@ -59,8 +58,6 @@ fn distance(flight: &Flight, reference: &ReferenceSolution) -> f64 {
     worst
 }
 
-/// Law: closed loops of all methods agree with the double-double solution under the same law, to the errors of the
-/// methods.
 #[test]
 fn all_methods_fly_the_same_closed_loop() {
     let grid = Grid::uniform(HORIZON, 29);

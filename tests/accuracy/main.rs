@@ -36,4 +36,3 @@ mod report_figures;
 mod round_off;
 mod stress;
 mod tolerance;
-mod wheels;

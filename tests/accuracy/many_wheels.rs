@@ -1,10 +1,4 @@
-//! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters: every kernel and method
-//! against the double-double solution.
-//!
-//! Laws: null space, gyrostat with each method and the double-double solution agree: Berdoz's form with its redundant
-//! states and the gyrostat share no equation; Taylor, periodic and Runge-Kutta propagation share no integrator. Energy
-//! minus work, momentum minus impulse and angular momentum minus angular impulse are constant; tables have columns only
-//! for wheels that turn.
+//! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters.
 
 use rayon::prelude::*;
 
@@ -51,8 +45,6 @@ const METHODS: [(Method, Control, f64); 7] = [
     (Method::NullSpace, adaptive(TOLERANCE), 3e-10),
 ];
 
-/// Scene number `k`: every number of wheels in turn, half of each number forced; with a cube of debris, a box or none;
-/// some under a constant torque.
 fn input(k: u64) -> SceneInput {
     let turn = COUNTS.len() as u64;
     let mut input = many_wheels(COUNTS[(k % turn) as usize], k, (k / turn) % 2 == 1, HORIZON);
@@ -67,7 +59,6 @@ fn input(k: u64) -> SceneInput {
     input
 }
 
-/// The angle of body, wheels and debris over the run, rad: what an error of the rate is multiplied with.
 fn angle(scene: &Scene) -> f64 {
     let initial = &scene.initial;
     let wheels = initial.wheel_rates.iter().map(|rate| rate.abs()).fold(0.0, f64::max);
@@ -95,7 +86,6 @@ fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
     terms.chain([pushed]).fold(1.0, f64::max)
 }
 
-/// The largest distance of any state at any point, relative to its size (at least one in its unit).
 fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f64, &'static str) {
     let mut worst = (0.0, "nothing");
     let mut take = |error: f64, what| {
@@ -136,12 +126,6 @@ fn distance(scene: &Scene, found: &StateTable, expected: &StateTable) -> (f64, &
     worst
 }
 
-/// Every step may add its tolerance to the rate, relative, and what a rate is off by turns the body for the rest of the
-/// run: steps x tolerance x (1 + angle) bounds the error for states of the size of the rate. That the step taken is of
-/// a higher order than its estimate makes up for lever arms, works and impulses that are larger. Measured, of steps x
-/// tolerance x (1 + angle): 0.11 Dormand-Prince, 0.16 DOP853; 0.0016 null-space, whose steps are those of its 62
-/// states, and most of these turn with the wheels; 0.007 fixed steps of 1 ms (Runge-Kutta 4) and 10 ms
-/// (Gauss-Legendre), which know no tolerance.
 fn bound(scene: &Scene, method: Method, outcome: &Outcome) -> f64 {
     let steps = outcome.effort.steps as f64 * TOLERANCE;
     let local = match method {
@@ -167,7 +151,6 @@ fn run(scene: &Scene, grid: &Grid, method: Method, control: Control) -> Run {
     run
 }
 
-/// The largest errors of energy, momentum and angular momentum of a run, as a campaign measures them.
 fn balances(input: &SceneInput, scene: &Scene, grid: &Grid, method: Method, run: &Run) -> [f64; 3] {
     let request = Request {
         actuated: Actuated::of(input),
@@ -225,46 +208,4 @@ fn every_kernel_and_method_agrees_with_the_double_double_solution() {
         println!("{:15} states {:.3}, balances {:.3} of their bounds", kernel.name(), worst[0], worst[1]);
     }
     assert!(wrong.is_empty(), "of their bounds:\n{}", wrong.join("\n"));
-}
-
-/// The random scenes are of every kind.
-#[test]
-fn the_scenes_are_of_every_kind() {
-    let inputs: Vec<SceneInput> = (0..SCENES).map(input).collect();
-    for count in COUNTS {
-        let of_count = || inputs.iter().filter(|input| input.wheels.len() == count);
-        assert!(of_count().count() >= 33 && of_count().any(|input| !input.actuation.is_empty()), "{count}");
-    }
-    let modes = |mode| inputs.iter().flat_map(|input| &input.wheels).filter(|wheel| wheel.mode == mode).count();
-    for mode in WheelMode::ALL {
-        assert!(modes(mode) > 80, "{mode:?}: {}", modes(mode));
-    }
-    let thrusters: Vec<usize> = inputs.iter().map(|input| input.thrusters.len()).collect();
-    assert!(thrusters.contains(&0) && thrusters.contains(&16), "{thrusters:?}");
-    assert!(thrusters.iter().max() == Some(&16), "{thrusters:?}");
-}
-
-/// Counter-test: an axis of the last of eight wheels that is off by a milliradian is seen by every method, with its
-/// tolerance.
-#[test]
-fn the_last_wheel_is_seen() {
-    let grid = Grid::uniform(HORIZON, POINTS);
-    let mut input = many_wheels(8, 5, true, HORIZON);
-    input.wheels.iter_mut().for_each(|wheel| wheel.mode = WheelMode::Free);
-    let last = &mut input.wheels[7];
-    (last.radius_m, last.length_m, last.density_kg_m3) = (Some(0.25), Some(0.1), Some(2700.0));
-    last.rate_rad_s = 80.0;
-    let right = scene(&input);
-    input.wheels[7].tilt_rad[0] += 1e-3;
-    let wrong = scene(&input);
-    let truth = truth(&right, &grid);
-    for (method, control, _) in METHODS {
-        let error = |scene: &Scene| {
-            let run = run(scene, &grid, method, control);
-            distance(&right, &run.table, &truth.high).0 / bound(&right, method, &run.outcome)
-        };
-        let (own, other) = (error(&right), error(&wrong));
-        println!("{:15} {own:.3} {other:.3e}", method.name());
-        assert!(own <= 1.0 && other > 1.0, "{}: {own:e} {other:e}", method.name());
-    }
 }

@@ -1,9 +1,5 @@
 //! The right-hand side of the null-space kernel: the block form against the matrices as printed and against the
 //! gyrostat equations.
-//!
-//! Laws: the null-space form is equivalent to the gyrostat equations; energy changes by the power fed in, momentum by
-//! the thrust, angular momentum by the torque; constraints hold at the level of rates. Counter-test: with the printed
-//! sign of a-hat_non,s energy is not conserved.
 
 use crate::null_space_matrices as matrices;
 use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, State, with_printed_sign};
@@ -18,7 +14,6 @@ use spindrift::scene::{Actuation, DebrisInput, Scene};
 /// Rates of random scenes, relative to the size of their terms: roundings. Measured: 7.7e-16.
 const RATE_TOLERANCE: f64 = 7e-15;
 
-/// A scene with everything general, or with bodies missing, in a random state.
 fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
     let bodies = (any::<[bool; 3]>(), prop::array::uniform3(-0.3f64..0.3), prop::array::uniform3(-200.0f64..200.0));
     let rates = (prop::array::uniform3(-20.0f64..20.0), prop::array::uniform2(-300.0f64..300.0));
@@ -79,7 +74,6 @@ fn tensor(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| rows[i][j])
 }
 
-/// The state moved along its derivative.
 fn moved(state: &State, rate: &State, time: f64) -> State {
     let (x, f): ([f64; COMPONENTS], [f64; COMPONENTS]) = (state.components(), rate.components());
     State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))

@@ -1,7 +1,6 @@
-//! The gravity gradient on two-body orbits, by every method that integrates it: librations, the constant of a circular
-//! orbit; and orbits themselves. NASA's numbers are in `jeod.rs`.
+//! The gravity gradient on two-body orbits, by every method that integrates it.
 
-use super::jeod::JEOD_RUNS;
+use super::jeod::jeod_runs;
 use crate::support::exact::solved;
 use crate::support::orbits::{MU, body, circle, leaving, near_rounding, plated, tumbling};
 use crate::support::runs::{Run, adaptive, everything, fixed, propagate, propagate_on};
@@ -20,7 +19,6 @@ use spindrift::scene::{
     Actuation, Arc, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput, PlateInput, Scene, SceneInput, TorqueRod,
 };
 
-/// The methods that integrate the gravity gradient, with settings near rounding for motions of some mrad/s.
 fn methods() -> Vec<(Method, Control)> {
     near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))
 }
@@ -63,53 +61,7 @@ fn librations_in_pitch() {
     }
 }
 
-/// Law: small librations in roll phi and yaw psi obey the linear equations of the textbook (P. Hughes, 1986, section
-/// 9.2; n^2 as unit): J1 phi'' = (J1 - J2 + J3) n psi' - 4 n^2 (J2 - J3) phi, J3 psi'' = -(J1 - J2 + J3) n phi' - n^2
-/// (J2 - J1) psi.
-#[test]
-fn librations_in_roll_and_yaw() {
-    const AMPLITUDE: f64 = 1e-6;
-    let (radius, [j1, j2, j3]): (f64, [f64; 3]) = (7e6, [90.0, 100.0, 40.0]);
-    let n = (MU / radius).sqrt() / radius;
-    let mut input = body([j1, j2, j3], circle(radius, 0.0));
-    aligned(&mut input, n);
-    // roll and yaw at rest in the orbit's frame: the body is aligned, and turns about o1
-    input.initial.angular_velocity_rad_s[0] += AMPLITUDE * n;
-    let scene = Scene::resolve(&input).expect("a legal scene");
-    let grid = Grid::uniform(12_000.0, 201);
-    let run = propagate(Method::Auto, adaptive(1e-16), &grid, &[scene]).remove(0);
-    // y = phi, psi, phi', psi' by the classical Runge-Kutta method
-    let slope = |y: [f64; 4]| {
-        let mixed = (j1 - j2 + j3) * n;
-        [
-            y[2],
-            y[3],
-            (mixed * y[3] - 4.0 * n * n * (j2 - j3) * y[0]) / j1,
-            (-mixed * y[2] - n * n * (j2 - j1) * y[1]) / j3,
-        ]
-    };
-    let along = |y: [f64; 4], s: f64, k: [f64; 4]| -> [f64; 4] { std::array::from_fn(|i| y[i] + s * k[i]) };
-    let (mut y, mut worst) = ([0.0, 0.0, AMPLITUDE * n, 0.0], 0.0_f64);
-    for point in 0..grid.points() {
-        // omega = (phi' - n psi, -n, psi' + n phi) to first order
-        let expected = [y[2] - n * y[1], -n, y[3] + n * y[0]];
-        let rate = run.table.at::<3>(StateField::Rate, point);
-        worst = worst.max(norm(difference(rate, expected)) / (AMPLITUDE * n));
-        let step = 6.0;
-        for _ in 0..10 {
-            let a = slope(y);
-            let b = slope(along(y, 0.5 * step, a));
-            let c = slope(along(y, 0.5 * step, b));
-            let d = slope(along(y, step, c));
-            y = std::array::from_fn(|i| y[i] + step / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
-        }
-    }
-    // terms of the second order: 1e-6 of the amplitude
-    assert!(worst < 1e-5, "{worst:e}");
-}
-
-/// Largest change of the constant of a circular orbit, over n^2 J: omega_r' J omega_r/2 + (3/2) n^2 o3' J o3 - n^2 o2'
-/// J o2/2 with the rate omega_r relative to the orbit's frame.
+/// Largest change of the constant of a circular orbit, over n^2 J.
 fn change_of_the_constant(scene: &Scene, run: &Run, n: f64) -> f64 {
     let inertia = scene.mass.inertia;
     let form = |v: [f64; 3]| dot(v, product(inertia, v));
@@ -127,7 +79,6 @@ fn change_of_the_constant(scene: &Scene, run: &Run, n: f64) -> f64 {
     (1..run.table.points()).map(|point| (constant(point) - first).abs() / size).fold(0.0, f64::max)
 }
 
-/// Law: the constant of the circular orbit is constant, of large librations and of a tumbling body.
 fn the_constant_is_constant(orbits: f64, methods: &[(Method, Control)], bound: impl Fn(Method) -> f64) {
     let radius = 7e6_f64;
     let n = (MU / radius).sqrt() / radius;
@@ -153,8 +104,6 @@ fn the_constant_of_the_circular_orbit() {
     the_constant_is_constant(20.0, &methods(), |_| 1e-12);
 }
 
-/// Taylor methods have the time in two numbers: measured 4e-14. The others see the orbit at a time that is rounded to
-/// 1e-9 s, 1e-12 rad of the orbit, in each of their 1e5 to 1e6 steps: measured 1.1e-10.
 #[test]
 #[ignore = "minutes: cargo test --release --test accuracy -- --ignored a_thousand_orbits"]
 fn the_constant_over_a_thousand_orbits() {
@@ -163,9 +112,8 @@ fn the_constant_over_a_thousand_orbits() {
     the_constant_is_constant(1000.0, &fast, bound);
 }
 
-/// A scene on which one effect acts, and the same without it.
 fn with_and_without(effect: Effect) -> [Scene; 2] {
-    let mut input = JEOD_RUNS[0].input(true);
+    let mut input = jeod_runs()[0].input(true);
     input.orbit.as_mut().expect("an orbit").epoch = Epoch::parse("2026-06-01T00:00:00Z");
     let plate = |name, normal, center_m| PlateInput {
         name: Name::of(name),
@@ -235,8 +183,7 @@ fn arcs_of_rods(until: &[f64], dipoles: &[[f64; 3]]) -> Vec<Arc> {
 }
 
 /// Law, over all effects and all methods: a method that integrates an effect finds the reference solution under it,
-/// rotation and place; one that does not refuses (`tests/campaign_files` has the words); and the reference solution is
-/// another with the effect than without it.
+/// rotation and place.
 #[test]
 fn every_method_has_every_effect_or_says_so() {
     let grid = Grid::uniform(3_000.0, 31);
@@ -289,13 +236,11 @@ fn every_method_has_every_effect_or_says_so() {
     assert!(found >= 24, "{found} pairs");
 }
 
-/// Law: an orbit without a gravity gradient is another translation and no other rotation: the same bits in the same
-/// steps.
 #[test]
 fn an_orbit_without_gradient_costs_nothing() {
     for method in Method::ALL.into_iter().filter(|method| method.integrates(ForceModel::NONE.with(Effect::Gravity))) {
         let control = if method.has_fixed_step() { fixed(10.0) } else { adaptive(1e-12) };
-        let mut input = JEOD_RUNS[0].input(true);
+        let mut input = jeod_runs()[0].input(true);
         input.environment.gravity_gradient = false;
         let flat = SceneInput { orbit: None, ..input.clone() };
         let runs = [input, flat].map(|input| {
@@ -312,7 +257,6 @@ fn an_orbit_without_gradient_costs_nothing() {
     }
 }
 
-/// Law: each key of `[orbit]` does what the textbook says, and a key without such a truth fails here.
 #[test]
 fn each_key_of_an_orbit_has_a_truth() {
     let elements = |axis: f64, e: f64, i: f64, node: f64, periapsis: f64, anomaly: f64| OrbitInput {
@@ -375,9 +319,6 @@ fn each_key_of_an_orbit_has_a_truth() {
 /// What a change of a key does to the torques of drag and of light.
 type Truth = (&'static str, fn(&mut EnvironmentInput), [f64; 2]);
 
-/// Law: every row of `[environment]` is an effect, whose truth is in this folder: a constant torque in closed form
-/// (`environment.rs`), the gravity gradient here; or a parameter of drag and light, which changes their torques as it
-/// says. A key that is neither fails.
 #[test]
 fn each_key_of_the_environment_has_a_truth() {
     let [mut scene, _] = with_and_without(Effect::Drag);
@@ -435,13 +376,12 @@ fn each_key_of_the_environment_has_a_truth() {
 }
 
 /// Law: energy and angular momentum minus work and angular impulse are constant to rounding on eccentric orbits, with
-/// wheels and without: the balances judge the gravity gradient too.
+/// wheels and without.
 #[test]
 fn the_balances_hold() {
     balances_hold(&tumbling(8, 61, [0.5, 20.0]), 1e-12);
 }
 
-/// The same under drag and light, whose plates turn on and off.
 #[test]
 fn the_balances_hold_with_plates() {
     balances_hold(&plated(8, 61, [0.5, 20.0]), 1e-11);

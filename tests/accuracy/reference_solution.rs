@@ -11,7 +11,6 @@ use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLE
 use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::scene::Scene;
 
-/// All that a scene has.
 fn everything() -> StateFields {
     let constraints = [StateField::Dcm, StateField::Residuals];
     StateField::ALL.into_iter().filter(|block| !constraints.contains(block)).fold(StateFields::NONE, StateFields::with)
@@ -53,44 +52,16 @@ fn agrees_with_forty_digits_as_far_as_the_scene_is_rounded() {
     }
 }
 
-/// |q - p| with the sign that fits.
 fn off_attitude(q: [f64; 4], p: [f64; 4]) -> f64 {
     let square = |sign: f64| (0..4).map(|i| (q[i] - sign * p[i]).powi(2)).sum::<f64>();
     square(1.0).min(square(-1.0)).sqrt()
 }
 
-/// Some hundred steps of a few roundings each (2.5e-32), and the tolerance of the coarser solution. Measured: 5.9e-29
-/// between two tolerances; three times that, for the walk of roundings in other steps.
-const SELF_CONSISTENT: f64 = 2e-28;
 /// The same of the balances. Measured: 3.4e-30.
 const BALANCED: f64 = 3e-29;
 
-#[test]
-fn two_tolerances_agree() {
-    for name in ["table1", "forced"] {
-        let (golden, _, fine) = solved(name, TOLERANCE);
-        let (_, _, coarse) = solved(name, 100.0 * TOLERANCE);
-        let (_, _, poor) = solved(name, 1e-20);
-        let (mut worst, mut worst_poor) = (0.0_f64, 0.0_f64);
-        for point in 0..golden.truth.len() {
-            let size = fine.high.at::<3>(StateField::Rate, point);
-            let off = |other: &ReferenceSolution| {
-                let rate = difference(fine.at::<3>(StateField::Rate, point), other.at(StateField::Rate, point));
-                let (q, p) = (fine.at::<4>(StateField::Attitude, point), other.at::<4>(StateField::Attitude, point));
-                let turn = (0..4).map(|i| (q[i] - p[i]).high.abs()).fold(0.0, f64::max);
-                turn.max(norm(rate).high / norm(size))
-            };
-            (worst, worst_poor) = (worst.max(off(&coarse)), worst_poor.max(off(&poor)));
-        }
-        println!("{name}: {worst:e}, from 1e-20: {worst_poor:e}");
-        assert!(worst < SELF_CONSISTENT, "{name}: {worst:e}");
-        // measured: 6.3e-22 and 8.6e-21
-        assert!(worst_poor > 1e-24, "{name}: a tolerance of 1e-20 must show: {worst_poor:e}");
-    }
-}
-
 /// Law: energy minus work, momentum minus impulse, angular momentum minus angular impulse are constant, to the digits
-/// of the arithmetic; and a state of another time breaks it.
+/// of the arithmetic.
 #[test]
 fn balances_hold_to_the_last_digits() {
     for name in ["table1", "forced"] {
@@ -128,10 +99,5 @@ fn balances_hold_to_the_last_digits() {
         let worst = (0..=last).flat_map(|point| off(balances(point, point))).fold(0.0, f64::max);
         println!("{name}: balances {worst:e}");
         assert!(worst < BALANCED, "{name}: {worst:e}");
-        if name == "forced" {
-            let broken = off(balances(last, 1));
-            // measured: 5.8e-3, 0.045 and 4.9e-3
-            assert!(broken.iter().all(|error| *error > 1e-3), "work of another time must show: {broken:?}");
-        }
     }
 }

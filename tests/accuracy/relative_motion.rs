@@ -16,7 +16,7 @@ fn ellipse() -> OrbitInput {
 }
 
 /// Truth: debris minus spacecraft on their Kepler orbits, by the script of `kernels/src/dynamics/relative_orbit.rs`
-/// with both offsets of this test. The body hardly turns, so that the steps are those of the orbit.
+/// with both offsets of this test.
 #[test]
 fn a_day_beside_an_orbit_without_thrust() {
     #[rustfmt::skip]
@@ -99,8 +99,6 @@ fn thrust_on_an_orbit() {
     assert!(norm(difference(reference.high.at(StateField::ComPosition, 30), y[0])) < 1e-5);
 }
 
-/// Law: energy minus work and angular momentum minus angular impulse are constant to rounding with thrust beside an
-/// orbit; energies are those of 1,000 kg at 7.6 km/s.
 #[test]
 fn the_balances_hold_beside_an_orbit() {
     let mut input = leaving(body([90.0, 100.0, 40.0], ellipse()));

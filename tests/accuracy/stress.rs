@@ -1,8 +1,5 @@
 //! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes that no campaign file can
 //! describe.
-//!
-//! Law for all: every run is complete, no number in the row of a complete run is missing, and conservation errors stay
-//! near rounding. In addition each theme has a law of its own: flip times, impulses, exact scaling with units.
 
 use crate::support::claims::hold;
 use crate::support::golden::Golden;
@@ -33,13 +30,10 @@ const ERRORS: [&str; 6] = [
     "dcm_orthonormality_max",
 ];
 
-/// How a run that reached its end is judged: by its estimate alone, because what is tried here conserves energy and
-/// momentum.
 fn judged(estimate: f64) -> Status {
     if estimate >= INACCURATE_STATE { Status::Inaccurate } else { Status::Done }
 }
 
-/// The largest conservation error in any row; every run must be complete, with all its numbers.
 fn largest_error(what: &str, table: &Table) -> f64 {
     for (sample, (status, estimate)) in table.statuses.iter().zip(table.column("state_error_estimate")).enumerate() {
         assert_eq!(*status, judged(*estimate), "{what}: sample {sample}");
@@ -58,7 +52,6 @@ fn largest_error(what: &str, table: &Table) -> f64 {
     worst
 }
 
-/// A plan for one scene of this file: `auto` at 1e-16.
 fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
     let text = "[campaign]\nname = \"stress\"\nsamples = 1\nseed = 1\nduration_s = 1\n[integrator]\ntolerance = 1e-16\n\
                 [body]\nmass_kg = 1\ncenter_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n\
@@ -70,7 +63,6 @@ fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
     plan
 }
 
-/// The largest conservation error of one scene.
 fn error_of(what: &str, scene: &SceneInput, duration: f64) -> f64 {
     let worst = largest_error(what, &rows(&plan(scene, duration, 41)));
     println!("{what}: {worst:.1e}");
@@ -81,7 +73,6 @@ fn table_one() -> SceneInput {
     Golden::load("table1").scene
 }
 
-/// A body with moments of inertia of its own and no wheels.
 fn body(inertia: [[f64; 3]; 3], omega: [f64; 3]) -> SceneInput {
     let mut input = table_one();
     input.body.inertia_kg_m2 = Some(inertia);
@@ -101,7 +92,6 @@ fn run(scene: &Scene, method: Method, tolerance: f64, grid: Grid) -> Run {
     propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0)
 }
 
-/// Law: every stress campaign passes in its small version.
 #[test]
 fn stress_campaigns_pass() {
     for name in ["separatrix", "rates", "shapes", "actuation", "horizon", "scales"] {
@@ -110,7 +100,6 @@ fn stress_campaigns_pass() {
     }
 }
 
-/// Law: as the start nears the unstable axis the first flip comes later in proportion to ln(1/delta), by 1/lambda each.
 #[test]
 fn flips_come_later_with_the_logarithm_of_the_offset() {
     let moments = [1000.0_f64, 1500.0, 2000.0];
@@ -138,7 +127,6 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     hold(SECTION, "the same: relative distance of the slope from 1/lambda", 3e-5, (slope * lambda - 1.0).abs());
 }
 
-/// Law: no rate is too slow or too fast.
 #[test]
 fn any_rate_passes() {
     let mut worst = 0.0_f64;
@@ -170,7 +158,6 @@ fn any_rate_passes() {
     hold(SECTION, "spin 1e-9 to 1e6 rad/s, wheels to 1e5, debris 1e4: largest conservation error", CONSERVED, worst);
 }
 
-/// Law: no shape is too long, too flat or too round.
 #[test]
 fn any_shape_passes() {
     let omega = [1.0, -2.0, 0.5];
@@ -218,8 +205,6 @@ fn any_shape_passes() {
     hold(SECTION, regime, CONSERVED, worst);
 }
 
-/// Law: a million seconds and any tolerance that a file may contain pass, with every method that chooses its steps; a
-/// larger tolerance has larger errors.
 #[test]
 fn any_tolerance_passes() {
     let mut scene = table_one();
@@ -244,7 +229,6 @@ fn any_tolerance_passes() {
     }
 }
 
-/// Law: no switch is missed, however short its interval: the impulse is the thrust times its time.
 #[test]
 fn short_thrusts_are_not_missed() {
     let mut worst = 0.0_f64;
@@ -278,7 +262,6 @@ fn short_thrusts_are_not_missed() {
     hold(SECTION, "thrust for 1e-6, 1e-9 and 1e-12 s: error of the impulse and of all balances", 4e-15, worst);
 }
 
-/// The same scene in other units: lengths `length` and masses `mass` times as large.
 fn scaled(input: &SceneInput, length: f64, mass: f64) -> SceneInput {
     let mut input = input.clone();
     let density = mass / (length * length * length);
@@ -305,8 +288,6 @@ fn scaled(input: &SceneInput, length: f64, mass: f64) -> SceneInput {
     input
 }
 
-/// Law: the motion does not depend on the units of length and mass: to the bit for powers of two, to rounding for
-/// others.
 #[test]
 fn units_do_not_matter() {
     let mut input = table_one();

@@ -1,5 +1,4 @@
-//! What a tolerance, a step and a direction of time promise: errors against the exact motion (double-double) fall in
-//! proportion to the tolerance, or with the order of the method; and a run that is turned round comes back.
+//! What a tolerance, a step and a direction of time promise.
 
 use crate::support::claims::hold;
 use crate::support::exact::Exact;
@@ -12,12 +11,10 @@ use spindrift::scene::Scene;
 
 const SECTION: &str = "tolerance";
 
-/// Scenes of an experiment over `horizon` seconds.
 fn exact(count: u64, forced: bool, horizon: f64) -> Exact {
     Exact::new(mixed(count, forced, horizon), Grid::uniform(horizon, 9))
 }
 
-/// The root mean square error over the scenes, and the mean number of steps.
 fn error(exact: &Exact, method: Method, control: Control) -> (f64, f64) {
     let runs = exact.runs(method, control);
     let errors = exact.errors(&runs);
@@ -26,7 +23,6 @@ fn error(exact: &Exact, method: Method, control: Control) -> (f64, f64) {
     ((errors.iter().map(|e| e * e).sum::<f64>() / count).sqrt(), steps)
 }
 
-/// Slope of the least-squares line through the points.
 fn slope(points: &[[f64; 2]]) -> f64 {
     let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(0), mean(1));
@@ -52,7 +48,6 @@ const STAIRCASE: f64 = 0.15;
 /// What rounding leaves of these runs; tolerances whose errors are near it say nothing about proportion.
 const FLOOR: f64 = 2e-14;
 
-/// Law: from 1e-4 to 1e-13 the global error falls in proportion to the tolerance.
 #[test]
 fn errors_fall_in_proportion_to_the_tolerance() {
     for (method, count, horizon, factor) in PROPORTIONS {
@@ -82,7 +77,7 @@ fn errors_fall_in_proportion_to_the_tolerance() {
 const ORDER_SLACK: f64 = 0.3;
 
 /// Law: errors fall with the order of the method, with the step where it is fixed, with the number of steps where it
-/// follows the tolerance; on coasting scenes and on scenes with thrust and motors, whose switches are landed on.
+/// follows the tolerance.
 #[test]
 fn methods_have_their_order() {
     for forced in [false, true] {
@@ -115,7 +110,6 @@ fn methods_have_their_order() {
 /// How far a run may end from where it began, once forward and once back: 1e3 eps.
 const RETURN: f64 = 1e3 * f64::EPSILON;
 
-/// Law: the equations do not know the direction of time: with all rates reversed a run returns to its start.
 #[test]
 fn runs_are_reversible() {
     for (method, control, horizon) in reversals() {
@@ -123,13 +117,8 @@ fn runs_are_reversible() {
         let regime = format!("`{}`, {horizon} s forward and back: distance from the start", method.name());
         hold(SECTION, &regime, RETURN, off);
     }
-    // counter-test: with the wheels' rates a part in 1e9 too large it does not
-    let off = there_and_back(Method::Taylor, adaptive(1e-16), 10.0, -(1.0 + 1e-9));
-    // measured: 2.5e-9
-    assert!(off > 100.0 * RETURN, "{off:e}");
 }
 
-/// How each method is turned round: at its best.
 fn reversals() -> [(Method, Control, f64); 7] {
     [
         (Method::Auto, adaptive(1e-16), 10.0),
@@ -142,8 +131,6 @@ fn reversals() -> [(Method, Control, f64); 7] {
     ]
 }
 
-/// The same scene at the end of `run`, with all rates turned round: what it did it now does backwards. `wheels`: the
-/// factor of their rates, -1 where the scene is to return.
 fn reversed(scene: &Scene, run: &Run, wheels: f64) -> Scene {
     let last = run.table.points() - 1;
     let mut back = scene.clone();
@@ -154,7 +141,6 @@ fn reversed(scene: &Scene, run: &Run, wheels: f64) -> Scene {
     back
 }
 
-/// How far scenes are from their start, relative, when they have gone forward and back by `method`.
 fn there_and_back(method: Method, control: Control, horizon: f64, wheels: f64) -> f64 {
     let there = Exact { scenes: mixed(8, false, horizon), grid: Grid::uniform(horizon, 3), truths: Vec::new() };
     let runs = there.runs(method, control);

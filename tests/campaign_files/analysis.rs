@@ -75,27 +75,6 @@ fn every_key_is_read_and_written() {
     assert_eq!((&again, again.text()), (&plan, plan.text()));
 }
 
-/// Law: nothing of this changes what is drawn or observed.
-#[test]
-fn rows_do_not_depend_on_it() {
-    let (with, without) = (plan(FULL), plan(""));
-    assert_eq!(with.request(), without.request());
-    assert_eq!(Plan { analysis: without.analysis.clone(), ..with }, without);
-    assert_eq!(without.analysis, Analysis::default());
-}
-
-const OBSERVABLE: &str = "[[observable]]\nname = \"twice\"\nexpression = \"2 * energy_error_max\"\n";
-
-/// Law: two observables have two names.
-#[test]
-fn an_observable_is_derived_once() {
-    let error = Plan::from_text("bad.toml", &(good() + OBSERVABLE + OBSERVABLE), Overrides::default());
-    let said = error.expect_err("twice").to_string();
-    assert!(said.contains("observable[1].name = \"twice\": must be a name of its own"), "{said}");
-}
-
-/// Law: the unit in which a limit or a dispersion is written is that in which it is shown, after `[display]`; the limit
-/// itself is in the unit of the column, whatever unit it is written in.
 #[test]
 fn units_that_are_written_come_back() {
     let text = "[[observable]]\nname = \"rate_deg_s\"\nunit = \"deg/s\"\nexpression = \"57.29577951308232 * \
@@ -128,20 +107,4 @@ fn units_that_are_written_come_back() {
     assert_eq!((&again, again.text()), (&plan, plan.text()));
     let other = self::plan(&text.replace("arcsec", "deg"));
     assert_eq!((other.row_hash(), other.hash() == plan.hash()), (plan.row_hash(), false));
-}
-
-/// Law: a unit of another kind, a column that is not there, and a second unit of one kind are refused.
-#[test]
-fn units_that_show_nothing_are_refused() {
-    for (text, told) in [
-        ("units = [\"degs\"]", "must be one of deg"),
-        ("units = [\"deg\", \"arcsec\"]", "of different quantities"),
-        ("columns = { energy_error_max = \"deg\" }", "a unit in place of 1"),
-        ("columns = { omega_se_s_x_final_rad_s = \"deg\" }", "a unit in place of rad/s"),
-        ("columns = { omega_se_s_q = \"deg\" }", "a unit of a column of the rows"),
-    ] {
-        let text = format!("{}[display]\n{text}\n", good());
-        let error = Plan::from_text("x.toml", &text, Overrides::default()).expect_err(&text).to_string();
-        assert!(error.contains(told), "{text}: {error}");
-    }
 }

@@ -1,5 +1,4 @@
-//! Bad campaign files: every message names file, line, key, value, what is allowed and a remedy; all errors of a file
-//! at once.
+//! Bad campaign files: every message names file, line, key, value, what is allowed and a remedy.
 
 use crate::refusals::good;
 use spindrift::campaign::{CampaignError, Overrides, Plan};
@@ -66,24 +65,11 @@ fn an_empty_file_asks_for_its_tables() {
 }
 
 #[test]
-fn overrides_are_checked_too() {
-    let error = Plan::from_text(
-        "bad.toml",
-        &good(),
-        Overrides { samples: Some(0), seed: Some(u64::MAX), ..Overrides::default() },
-    );
-    let keys: Vec<String> = error.expect_err("bad overrides").problems.into_iter().map(|p| p.key).collect();
-    assert_eq!(keys, ["--samples", "--seed"]);
-}
-
-#[test]
 fn a_file_that_is_not_there_is_said_to_be_so() {
     let error = Plan::load(std::path::Path::new("no/such.toml"), Overrides::default()).expect_err("no such file");
     assert!(error.to_string().starts_with("no/such.toml: file = "), "{error}");
 }
 
-/// Law: the first syntax error of a file is told alone, with a mark and a remedy: neither what follows from it, nor
-/// errors of the keys after it.
 #[test]
 fn a_syntax_error_is_told_alone() {
     let good = good();

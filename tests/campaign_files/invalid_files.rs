@@ -1,6 +1,4 @@
-//! Hundreds of invalid files, made by changing one thing of a valid one at a time: none panics, and each is told with
-//! file, line, key, value, what is allowed and a remedy. `cargo test --release --test campaign_files invalid --
-//! --nocapture` says how long the slowest answer took.
+//! Hundreds of invalid files, made by changing one thing of a valid one at a time.
 
 use std::time::Instant;
 
@@ -30,7 +28,6 @@ const VALUES: [&str; 18] = [
     "-0.0",
 ];
 
-/// Texts that are no campaign at all, each with a name.
 fn other_texts() -> Vec<(&'static str, String)> {
     vec![
         ("nothing", String::new()),
@@ -65,7 +62,6 @@ fn other_texts() -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The invalid files, each with what was changed.
 fn cases() -> Vec<(String, String)> {
     let lines: Vec<&str> = EVERY_TABLE.lines().collect();
     let with = |at: usize, changed: &[String]| -> String {
@@ -95,7 +91,6 @@ fn cases() -> Vec<(String, String)> {
     cases
 }
 
-/// Law: each key of each table with a value that no key takes is refused at its line, by its key, with the value.
 #[test]
 fn every_key_is_told_by_line_key_and_value() {
     let lines: Vec<&str> = EVERY_TABLE.lines().collect();
@@ -156,7 +151,6 @@ fn invalid_files_are_refused_in_words() {
     assert!(refused >= 300, "{refused} refused");
 }
 
-/// Law: of more problems than are listed the others are counted, and those that are listed are the first by line.
 #[test]
 fn many_problems_are_counted() {
     let text = format!("{EVERY_TABLE}{}", "\n[[actuation]]\nstart_s = -1\nend_s = -2\n".repeat(20_000));
@@ -170,7 +164,6 @@ fn many_problems_are_counted() {
     assert!(lines.is_sorted() && lines[0] > 100, "{lines:?}");
 }
 
-/// Law: a schedule of 20,000 arcs is read, and one of too many keys or bytes is refused with the limit.
 #[test]
 fn large_files_have_a_limit() {
     let head = EVERY_TABLE.replace("duration_s = 10.0", "duration_s = 1e6");
@@ -190,7 +183,6 @@ fn large_files_have_a_limit() {
     assert!(said.contains("9437184 bytes: must be a campaign file of at most 8388608 bytes"), "{said}");
 }
 
-/// Law: all problems of a file come together, each that has a line with that line and a mark under what is wrong.
 #[test]
 fn problems_have_excerpts() {
     let text = EVERY_TABLE.replace("samples = 10", "samples = -10").replace("seed = 1", "sede = 1");

@@ -1,7 +1,4 @@
 //! Every key and every name of a value, misspelt by one edit, gets the right suggestion.
-//!
-//! The names come from the program itself: a key that no table has is refused with the keys of that table, and a name
-//! that no key takes with the names that it takes.
 
 use std::collections::BTreeSet;
 
@@ -17,8 +14,6 @@ fn error(text: &str) -> CampaignError {
     Plan::from_text("bad.toml", text, Overrides::default()).expect_err(text)
 }
 
-/// `word` with one edit, at its start, in its middle and at its end: a letter left out, doubled, replaced, or exchanged
-/// with the next.
 fn edits(word: &str) -> BTreeSet<String> {
     let letters: Vec<char> = word.chars().collect();
     let mut found = BTreeSet::new();
@@ -38,8 +33,6 @@ fn edits(word: &str) -> BTreeSet<String> {
     found
 }
 
-/// Edits between two words, an exchange of neighbours counted as one (optimal string alignment), by the textbook's
-/// table.
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut table = vec![vec![0; b.len() + 1]; a.len() + 1];
@@ -60,7 +53,6 @@ fn distance(a: &str, b: &str) -> usize {
     table[a.len()][b.len()]
 }
 
-/// Whether `error` suggests `meant` in place of `written`, or another of `names` that is as near.
 fn suggests(error: &CampaignError, written: &str, meant: &str, names: &[String]) -> bool {
     let is_as_near = |name: &String| distance(written, name) <= distance(written, meant);
     let right: Vec<&String> = names.iter().filter(|name| is_as_near(name)).collect();
@@ -72,14 +64,12 @@ fn suggests(error: &CampaignError, written: &str, meant: &str, names: &[String])
     })
 }
 
-/// The names in a message, between `start` and `end`.
 fn listed(error: &CampaignError, start: &str, end: char) -> Vec<String> {
     let message = error.problems.iter().find_map(|problem| problem.allowed.split_once(start)).map(|(_, rest)| rest);
     let names = message.map(|rest| rest.split(end).next().unwrap_or_default());
     names.unwrap_or_default().split(", ").filter(|name| !name.is_empty()).map(str::to_owned).collect()
 }
 
-/// Every table of a campaign file, each as the text around the line where a key can be added.
 fn tables() -> Vec<(String, [String; 2])> {
     let mut found = vec![("the file".to_owned(), [String::new(), EVERY_TABLE.to_owned()])];
     let mut start = 0;
@@ -95,7 +85,6 @@ fn tables() -> Vec<(String, [String; 2])> {
     found
 }
 
-/// Law: each key of each table, misspelt by one edit, is refused with the key that was meant.
 #[test]
 fn every_misspelt_key_gets_its_suggestion() {
     if let Err(error) = Plan::from_text("good.toml", EVERY_TABLE, Overrides::default()) {
@@ -139,7 +128,6 @@ const NAMED: [(&str, &str); 9] = [
     ("which = \"last\"", "which = \"{}\""),
 ];
 
-/// Law: each name of a value, misspelt by one edit, is refused with the name that was meant.
 #[test]
 fn every_misspelt_name_gets_its_suggestion() {
     let (mut wrong, mut tried) = (Vec::new(), 0);
@@ -162,7 +150,6 @@ fn every_misspelt_name_gets_its_suggestion() {
     assert!(tried > 300, "{tried} misspellings");
 }
 
-/// Law: the same of the names of dispersable parameters and of observables.
 #[test]
 fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
     // the default groups have most observables
@@ -190,7 +177,6 @@ fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
     assert!(tried > 100, "{tried} misspellings");
 }
 
-/// A file whose bodies are on an orbit, with a line for each of `keys`.
 fn on_an_orbit(keys: &str) -> String {
     format!(
         "[campaign]\nname = \"o\"\nsamples = 2\nseed = 1\nduration_s = 10.0\n[body]\nmass_kg = 10\n\
@@ -202,7 +188,6 @@ fn on_an_orbit(keys: &str) -> String {
     )
 }
 
-/// Law: a key in another unit of its dimension is refused with what to write, and that means the same.
 #[test]
 fn a_key_in_another_unit_gets_its_value_with_the_unit() {
     for (right, wrong, si) in [
@@ -240,37 +225,4 @@ fn a_key_in_another_unit_gets_its_value_with_the_unit() {
         let plan = plan.unwrap_or_else(|error| panic!("{advice}: {error}"));
         assert!(plan.text().contains(si), "{wrong}: {advice}: {}", plan.text());
     }
-}
-
-/// Law: a quantity of another meaning is refused with the key that it gives and how, not as a misspelling.
-#[test]
-fn a_quantity_of_another_meaning_is_refused_with_its_conversion() {
-    for (written, key, how) in [
-        ("mean_anomaly_rad", "true_anomaly_rad", "E - e sin E = M"),
-        ("mean_anomaly_deg", "true_anomaly_rad", "E - e sin E = M"),
-        ("eccentric_anomaly_rad", "true_anomaly_rad", "tan(E / 2)"),
-        ("argument_of_latitude_rad", "true_anomaly_rad", "less argument_of_periapsis_rad"),
-        ("longitude_of_periapsis_rad", "argument_of_periapsis_rad", "less ascending_node_rad"),
-        ("longitude_of_ascending_node_deg", "ascending_node_rad", "sidereal time"),
-        ("local_time_of_ascending_node", "ascending_node_rad", "mean Sun"),
-        ("perigee_altitude_km", "semi_major_axis_m", "plus the mean of the altitudes"),
-        ("apogee_radius_m", "semi_major_axis_m", "half of their difference"),
-        ("altitude_m", "semi_major_axis_m", "plus the altitude"),
-        ("orbital_period_s", "semi_major_axis_m", "cube root"),
-        ("mean_motion_rad_s", "semi_major_axis_m", "cube root"),
-    ] {
-        let error = error(&on_an_orbit(&format!("{written} = 1\n")));
-        let remedy = &error.problems[0].remedy;
-        assert!(remedy.starts_with(&format!("write {key}: ")) && remedy.contains(how), "{written}: {error}");
-    }
-}
-
-/// Counter-test: a wrong suggestion, and none, are seen.
-#[test]
-fn a_wrong_suggestion_is_seen() {
-    let error = error(&EVERY_TABLE.replacen("samples = 10", "sampels = 10", 1));
-    let names = ["samples", "seed"].map(str::to_owned);
-    assert!(suggests(&error, "sampels", "samples", &names));
-    assert!(!suggests(&error, "sampels", "samples", &["seed".to_owned()]));
-    assert_eq!((distance("sampels", "samples"), distance("kitten", "sitting"), distance("", "ab")), (1, 3, 2));
 }

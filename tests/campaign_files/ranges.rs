@@ -1,5 +1,4 @@
-//! Ranges of numbers: each end is accepted, and the next number beyond it is refused, by its key. The numbers of scenes
-//! come from the schema, each with the limit of its row; the others are listed here.
+//! Ranges of numbers: each end is accepted, and the next number beyond it is refused, by its key.
 
 use std::f64::consts::PI;
 
@@ -16,12 +15,10 @@ fn read(text: &str) -> Result<Plan, CampaignError> {
     Plan::from_text("ranges.toml", text, Overrides::default())
 }
 
-/// Whether `text` is refused for `key`.
 fn is_refused(text: &str, key: &str) -> bool {
     read(text).err().is_some_and(|error| error.problems.iter().any(|problem| problem.key == key))
 }
 
-/// Values of a parameter of a scene, each with whether its limit allows it: the ends, and the numbers beyond them.
 fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
     let each = |ends: &[(f64, bool)]| -> Vec<(Vec<f64>, bool)> {
         let with = |x: f64, component: usize| (0..width).map(|i| if i == component { x } else { 1.0 }).collect();
@@ -71,7 +68,6 @@ fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
     }
 }
 
-/// Law: each number of each row of the schema is refused just beyond its limit, and accepted at it.
 #[test]
 fn each_row_of_the_schema_holds_its_limit() {
     let (mut wrong, mut counts) = (Vec::new(), [0; 2]);
@@ -130,7 +126,6 @@ velocity_m_s = [1, 2, 3]
 angular_velocity_rad_s = [0, 0, 1]
 "#;
 
-/// A file, with the place of a number as `@`.
 fn with(from: &str, to: &str) -> String {
     assert!(from.is_empty() || SMALL.contains(from), "{from}");
     if from.is_empty() { format!("{SMALL}{to}") } else { SMALL.replace(from, to) }
@@ -151,7 +146,6 @@ fn whole(file: String, key: &'static str, range: [u64; 2]) -> Range {
     Range { file, key, accepted: range.map(|x| x.to_string()).to_vec(), refused: vec![below, beyond] }
 }
 
-/// A number from `low` to `high`.
 fn closed(file: String, key: &'static str, [low, high]: [f64; 2]) -> Range {
     let text = |x: f64| format!("{x:?}");
     Range {
@@ -162,12 +156,10 @@ fn closed(file: String, key: &'static str, [low, high]: [f64; 2]) -> Range {
     }
 }
 
-/// A number between `low` and `high`, neither included.
 fn open(file: String, key: &'static str, [low, high]: [f64; 2]) -> Range {
     closed(file, key, [low.next_up(), high.next_down()])
 }
 
-/// The ranges of docs/campaign-files.md.
 fn ranges() -> Vec<Range> {
     let of = |distribution: &str, keys: &str| {
         let table =
@@ -236,7 +228,6 @@ fn ranges() -> Vec<Range> {
     ]
 }
 
-/// Law: each end of each range is accepted, and the next number beyond it is refused, by its key.
 #[test]
 fn each_end_of_each_range_is_accepted_and_the_next_number_refused() {
     let mut wrong = Vec::new();
@@ -256,7 +247,6 @@ fn each_end_of_each_range_is_accepted_and_the_next_number_refused() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Law: lists and names have at most as many entries and letters as the documents say, and at least one.
 #[test]
 fn lists_and_names_have_their_lengths() {
     let quantiles =
@@ -287,7 +277,6 @@ fn lists_and_names_have_their_lengths() {
     }
 }
 
-/// Law: what the command line says instead of the file has the ranges of the file.
 #[test]
 fn overrides_have_the_ranges_of_the_file() {
     let passes = |overrides: Overrides| Plan::from_text("ranges.toml", SMALL, overrides).is_ok();

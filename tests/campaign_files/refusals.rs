@@ -1,10 +1,9 @@
-//! Files that are refused, one for each kind of refusal: each with one problem, at its line, with key, value, what is
-//! allowed and a remedy.
-//!
-//! The cases are in `refusals.txt`: what is changed in a valid file, and parts of what is said.
+//! Files that are refused, one for each kind of refusal.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan, Problem};
 
+use crate::loops::LOOP;
+use crate::spacecraft::NEWCOMER;
 use crate::support::campaigns::{DEBRIS, FUSELAGE, WHEEL1, WHEEL1_AT_REST};
 
 const CASES: &str = include_str!("refusals.txt");
@@ -41,7 +40,6 @@ relative_std = 0.02
 sigmas = 3
 "#;
 
-/// A valid file with everything.
 pub fn good() -> String {
     [HEAD, FUSELAGE, WHEEL1, DEBRIS, REST].concat()
 }
@@ -134,13 +132,11 @@ gravity_gradient = true
 semi_major_axis_m = 7e6
 "#;
 
-/// A valid file without dispersions, of 22 lines: tables are added from line 23 on.
 fn plain() -> String {
     let head = &HEAD[..HEAD.find("[integrator]").expect("the method")];
     [head, FUSELAGE, WHEEL1_AT_REST, "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n"].concat()
 }
 
-/// The folder with the files that cases name.
 fn folder() -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("spindrift-bad-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
@@ -158,8 +154,6 @@ fn folder() -> std::path::PathBuf {
     folder
 }
 
-/// Law: each case is refused with one problem, at its line, with key and value, what is allowed and a remedy; what is
-/// changed is valid.
 #[test]
 fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
     let folder = folder();
@@ -174,6 +168,9 @@ fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
                 "direct" => DIRECT.to_owned(),
                 "parts" => PARTS.to_owned(),
                 "orbit" => ORBIT.to_owned(),
+                "loop" => LOOP.to_owned(),
+                "rods" => include_str!("rods.toml").to_owned(),
+                "newcomer" => NEWCOMER.to_owned(),
                 _ => plain(),
             };
             read(&base).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -228,7 +225,6 @@ fn refused(text: &str) -> CampaignError {
     }
 }
 
-/// Law: a spacecraft has at most 8 wheels, 16 thrusters and 32 parts; the largest number of each is accepted.
 #[test]
 fn too_many_wheels_thrusters_and_parts_are_refused() {
     let with_wheels = |count| DIRECT.replacen("[initial]", &format!("{}[initial]", wheels(count)), 1);
@@ -253,7 +249,6 @@ fn too_many_wheels_thrusters_and_parts_are_refused() {
     }
 }
 
-/// A file without a body asks for one.
 #[test]
 fn a_spacecraft_without_a_body_is_refused() {
     let start = PARTS.find("[[body.parts]]").expect("parts");
@@ -270,7 +265,7 @@ fn a_spacecraft_without_a_body_is_refused() {
 }
 
 /// Law: every list of tables that the documents show has a limit, so that reading takes no more than a moment however
-/// many there are. Only `[[actuation]]` has none: each arc is read in the same time.
+/// many there are.
 #[test]
 fn every_list_of_tables_has_a_limit() {
     let documents = [include_str!("../../docs/campaign-files.md"), include_str!("../../docs/control.md")];

@@ -57,7 +57,6 @@ fn a_launch_is_judged_by_what_its_file_promises() {
     }
 }
 
-/// The upper limit of a requirement as the plan writes it.
 fn at_most(requirement: &str) -> f64 {
     let line = requirement.lines().find_map(|line| line.strip_prefix("at_most = ")).expect("an upper limit");
     line.trim_matches('"').parse().expect("a number")
@@ -76,7 +75,6 @@ fn a_plan_reads_back_from_its_text() {
     }
 }
 
-/// Law: every digit of a number counts in the hash, and so does the sign of zero; how a number is spelled does not.
 #[test]
 fn numbers_are_what_they_are_and_not_how_they_are_written() {
     let plan = |from: &str, to: &str| {

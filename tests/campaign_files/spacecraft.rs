@@ -7,7 +7,7 @@ use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
 /// 500 kg by mass and tensor, one wheel, a thruster with an alignment error, a spin in degrees per second.
-const NEWCOMER: &str = r#"[campaign]
+pub const NEWCOMER: &str = r#"[campaign]
 name = "first"
 samples = 8
 seed = 1
@@ -45,7 +45,6 @@ fn changed(from: &str, to: &str) -> String {
     NEWCOMER.replacen(from, to, 1)
 }
 
-/// Law: the newcomer's spacecraft takes at most 25 lines, runs to its end, and its energy and momentum are kept.
 #[test]
 fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
     assert!(NEWCOMER.lines().count() <= 25, "{} lines", NEWCOMER.lines().count());
@@ -68,8 +67,6 @@ fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
     assert!(!names.iter().any(|name| name.contains("_wheels_")), "one wheel is all wheels together");
 }
 
-/// Law: names are a lower-case letter, then lower-case letters, digits and underscores, at most 23 of them; each list
-/// has each name once.
 #[test]
 fn names_are_lower_case_letters_digits_and_underscores_and_unique() {
     for name in ["a", "w1", "wheel_1", "x23456789012345678901_3"] {
@@ -116,33 +113,6 @@ fn plan_of_thruster(name: &str) {
     assert_eq!(plan(&changed("\"p1\"", &format!("{name:?}"))).nominal.thrusters[0].name.as_str(), name);
 }
 
-/// Law: a value with its unit is the value in SI, also in the plan, which a reader finds without units.
-#[test]
-fn units_in_values_give_si() {
-    let plan = plan(NEWCOMER);
-    let degree = std::f64::consts::PI / 180.0;
-    let near = |found: f64, expected: f64| {
-        // the factor of the unit and the product: an ulp each; measured: none
-        assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{found:?} {expected:?}");
-    };
-    near(plan.nominal.wheels[0].rate_rad_s, 100.0 * std::f64::consts::PI);
-    near(plan.nominal.thrusters[0].tilt_rad[0], 0.5 * degree);
-    near(plan.nominal.initial.angular_velocity_rad_s[2], 5.0 * degree);
-    assert_eq!(plan.grid.duration(), 1200.0);
-    let text = plan.text();
-    assert!(text.contains("duration_s = 1200.0\n") && text.contains("rate_rad_s = 314.159265358979"), "{text}");
-    for unit in ["deg", "rpm", "min\""] {
-        assert!(!text.lines().any(|line| line.contains('=') && line.contains(unit)), "{unit} in\n{text}");
-    }
-    let again = self::plan(&text);
-    assert_eq!(again, plan);
-    // the same numbers without units
-    let plain =
-        changed("\"20 min\"", "1200").replace("\"3000 rpm\"", &format!("{:?}", plan.nominal.wheels[0].rate_rad_s));
-    assert_eq!(self::plan(&plain).hash(), plan.hash());
-}
-
-/// Law: distributions, schedules and schedules have units like the values that they are about.
 #[test]
 fn units_hold_in_distributions_and_schedules() {
     let more = "[[actuation]]\nstart_s = 0\nend_s = \"500 ms\"\nthrust_n = { p1 = \"2 mN\" }\ntorque_n_m = { w1 = \"-5 \
@@ -161,33 +131,4 @@ fn units_hold_in_distributions_and_schedules() {
         plain.replace("\"1 deg\"", &format!("{:?}", pi / 180.0)).replace("\"2 %\"", "0.02").replace("\"0.4 t\"", "400");
     let plain = self::plan(&format!("{NEWCOMER}{plain}"));
     assert_eq!((plain.row_text(), &plain.nominal), (plan.row_text(), &plan.nominal));
-}
-
-/// Law: a unit of another quantity is refused with line, value and the units that are allowed.
-#[test]
-fn a_wrong_dimension_is_refused() {
-    for (from, to, line, allowed, remedy) in [
-        (
-            "\"5 deg/s\"",
-            "\"5 deg\"",
-            23,
-            "rad/s, deg/s, deg/min, deg/h, mrad/s, rpm, rev/s",
-            "deg is a unit of other quantities (rad)",
-        ),
-        ("\"3000 rpm\"", "\"3000 deg\"", 16, "rpm", "deg is a unit of other quantities (rad)"),
-        ("\"0.5 deg\"", "\"0.5 deg/s\"", 21, "rad, deg, arcmin", "deg/s is a unit of other quantities (rad/s)"),
-        ("\"20 min\"", "\"20 m\"", 5, "s, ms, min, h, day", "m is the unit of other quantities"),
-        ("mass_kg = 500", "mass_kg = \"500 m\"", 7, "kg, g, t", "m is the unit of other quantities"),
-        ("\"3000 rpm\"", "\"3000 rmp\"", 16, "rpm", "is not a known unit"),
-        ("\"3000 rpm\"", "\"3000\"", 16, "rpm", "without quotes, or add the unit"),
-        ("axis = [0, 1, 0]", "axis = [0, \"1 m\", 0]", 12, "%", "m is the unit of other quantities"),
-    ] {
-        let error = read(&changed(from, to)).expect_err(to);
-        assert_eq!(error.problems.len(), 1, "{error}");
-        let problem = &error.problems[0];
-        assert_eq!(problem.line, Some(line), "{problem}");
-        let quoted = to[to.find('"').expect("a quoted value")..].trim_end_matches(", 0]");
-        assert!(problem.value.as_deref().is_some_and(|value| value.contains(quoted)), "{problem}");
-        assert!(problem.allowed.contains(allowed) && problem.remedy.contains(remedy), "{problem}");
-    }
 }

@@ -79,14 +79,11 @@ const TABLE: [(&str, &[(&str, f64)]); 11] = [
     ("1", &[("%", 0.01)]),
 ];
 
-/// The file with `value` in place of the number in `unit`, and 1 in place of the others.
 fn file(unit: &str, value: &str) -> String {
     let with = |text: String, si: &str| text.replace(&format!("@{si}@"), if si == unit { value } else { "1" });
     TABLE.iter().fold(FILE.to_owned(), |text, (si, _)| with(text, si))
 }
 
-/// Law: a value with a unit is the value in SI, for every unit that the program knows of every key; the units are
-/// exactly those of the table.
 #[test]
 fn units_have_their_sizes() {
     let plan = |text: &str| Plan::from_text("units.toml", text, Overrides::default());

@@ -13,8 +13,6 @@ fn set(text: &str, settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
     Plan::from_text("sweep.toml", text, Overrides { settings, ..Overrides::default() })
 }
 
-/// Law: a key that is set is as if the file said so: of a table, of one of a list by its name or number, of a table
-/// that is not there; several; as text with a unit. It is in the plan and its hash.
 #[test]
 fn what_is_set_is_as_if_it_were_written() {
     let text = shipped();
@@ -34,8 +32,6 @@ fn what_is_set_is_as_if_it_were_written() {
     assert_eq!((twice.seed, twice.groups.len()), (6, 1));
 }
 
-/// Law: what is wrong in a setting is told with the setting, its value and what is allowed; other errors keep the lines
-/// of the file.
 #[test]
 fn wrong_settings_are_named() {
     let text = shipped();
@@ -60,23 +56,6 @@ fn wrong_settings_are_named() {
     assert!(both.contains("--set campaign.seed: campaign.seed = -1"), "{both}");
 }
 
-/// Law: the names that other programs have lead to those of this one.
-#[test]
-fn names_of_other_programs_are_understood() {
-    let text = shipped();
-    for (key, value, meant) in [
-        ("disperse[0].distribution", "gaussian", "normal"),
-        ("design.kind", "LHS", "latin_hypercube"),
-        ("integrator.method", "ode45", "dormand_prince"),
-    ] {
-        let said = set(&text, &[(key, value)]).unwrap_err().to_string();
-        assert!(said.contains(&format!("did you mean \"{meant}\"?")), "{said}");
-    }
-}
-
-/// Law: a file that extends another has the keys of both, its own first; tables of lists by their names; the plan is
-/// that of one file with all of it. Paths count from the folder of the file that has them, and errors name file and
-/// line.
 #[test]
 fn a_file_extends_another() {
     let scratch = ScratchFolder::new("extends");

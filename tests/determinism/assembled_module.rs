@@ -40,7 +40,6 @@ pub struct Assembled {
     pub functions: usize,
 }
 
-/// A number as LEB128, signed.
 pub fn leb(mut number: i64) -> Vec<u8> {
     let mut bytes = Vec::new();
     loop {
@@ -54,7 +53,6 @@ pub fn leb(mut number: i64) -> Vec<u8> {
     }
 }
 
-/// The same, without a sign.
 pub fn size(mut number: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
     while number >= 0x80 {
@@ -65,27 +63,22 @@ pub fn size(mut number: usize) -> Vec<u8> {
     bytes
 }
 
-/// Bytes behind their number.
 pub fn sized(bytes: &[u8]) -> Vec<u8> {
     [size(bytes.len()), bytes.to_vec()].concat()
 }
 
-/// Things behind their number.
 pub fn list(things: &[Vec<u8>]) -> Vec<u8> {
     [size(things.len()), things.concat()].concat()
 }
 
-/// The section `id` of a module.
 pub fn section(id: u8, content: Vec<u8>) -> Vec<u8> {
     [vec![id], sized(&content)].concat()
 }
 
-/// `i32.const`.
 pub fn constant(number: i32) -> Vec<u8> {
     [vec![0x41], leb(number.into())].concat()
 }
 
-/// Copies the `count` numbers at `from` to `to`.
 pub fn copied(from: i32, to: i32, count: i32) -> Vec<u8> {
     let one = |index: i32| {
         let load = [constant(from + 8 * index), vec![0x2b, 3, 0]].concat();
@@ -95,7 +88,6 @@ pub fn copied(from: i32, to: i32, count: i32) -> Vec<u8> {
 }
 
 impl Assembled {
-    /// One whose step has this code.
     pub fn with_step(step: &[u8]) -> Self {
         let places = [1, INPUT, OUTPUT, MEASURED, REPORTED];
         let (start, table, tables, misnamed) = (None, None, [None; 2], "");
@@ -117,7 +109,6 @@ impl Assembled {
         }
     }
 
-    /// The module.
     pub fn bytes(&self) -> Vec<u8> {
         // types: 0 without a result, 1 with an i32
         let types = list(&[vec![0x60, 0, 0], vec![0x60, 0, 1, 0x7f]]);

@@ -1,5 +1,4 @@
-//! Events: when quantities of a run cross values. Times are those of closed forms, by every method; bits are a row's
-//! own.
+//! Events: when quantities of a run cross values.
 
 use std::f64::consts::PI;
 
@@ -15,8 +14,7 @@ fn free(method: &str, points: usize, more: &str) -> Plan {
     plan(&(free_body(method, points, 30.0) + more))
 }
 
-/// Law: s3 leaves its direction by alpha with sin(alpha/2) = sin(theta) sin(Omega t/2): its crossings of an angle are
-/// located to 1e-9 of their time or better by every method, and all of them are counted.
+/// Law: s3 leaves its direction by alpha with sin(alpha/2) = sin(theta) sin(Omega t/2).
 #[test]
 fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
     let (rate, angle) = precession();
@@ -53,8 +51,6 @@ fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
     }
 }
 
-/// Law: the rate of a body under a constant torque about an axis is linear in time; of a body that comes to rest and
-/// turns round it is |w - a t|.
 #[test]
 fn a_rate_under_torque_crosses_where_it_must() {
     let of = |value: f64, more: &str| {
@@ -91,8 +87,6 @@ fn a_rate_under_torque_crosses_where_it_must() {
     assert_eq!(of(0.001, "").1, 0.0);
 }
 
-/// Law: an angle that starts at zero by rounding does not cross it, nor what it starts with; in steps of an expression
-/// a crossing is where the steps are left.
 #[test]
 fn a_start_at_the_value_is_no_crossing() {
     let (rate, angle) = precession();
@@ -115,8 +109,6 @@ fn a_start_at_the_value_is_no_crossing() {
     }
 }
 
-/// Law: where the quantity is not a number at an observation point, its event has neither time nor count; a run that it
-/// would end goes on. The counter-test: a quantity that is always a number has both.
 #[test]
 fn what_is_not_a_number_crosses_nothing() {
     let events = event("never", "ln(-1 - spin_axis_angle_rad)", 0.0, "")
@@ -142,8 +134,6 @@ fn what_is_not_a_number_crosses_nothing() {
     }
 }
 
-/// Law: events, extremes and the ends of runs are a row's own; no other column changes by them, but where a run has
-/// ended.
 #[test]
 fn events_extremes_and_ends_are_bits_of_their_row() {
     let late = event("last", "nutation_angle_rad - 0.2 * spin_axis_angle_rad", 0.4, "which = \"last\"");
@@ -174,8 +164,6 @@ fn events_extremes_and_ends_are_bits_of_their_row() {
     }
 }
 
-/// Law: a quantity of a control loop changes at its ticks, and its events are at ticks; whatever the observation points
-/// are.
 #[test]
 fn quantities_of_loops_cross_at_ticks() {
     let shipped = include_str!("../../campaigns/slew_closed.toml");

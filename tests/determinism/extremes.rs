@@ -14,9 +14,7 @@ pub fn extreme(name: &str, quantity: &str, more: &str) -> String {
     format!("[[extreme]]\nname = \"{name}\"\nquantity = \"{quantity}\"\n{more}\n")
 }
 
-/// Law: s3 of a free body leaves its direction by alpha with sin(alpha/2) = sin(theta) |sin(Omega t/2)|: its largest
-/// angle is 2 theta, its smallest one zero, and where it has neither of them after an event, that at the later end; by
-/// every method, with points that are half a radian of precession apart.
+/// Law: s3 of a free body leaves its direction by alpha with sin(alpha/2) = sin(theta) |sin(Omega t/2)|.
 #[test]
 fn extremes_of_a_free_body_are_those_of_its_precession() {
     let (rate, angle) = precession();
@@ -56,8 +54,7 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
     }
 }
 
-/// Law: an extreme is a value that the quantity takes, to the bit: of steps, of plateaus, at kinks, and at the end of a
-/// run. It is null where the quantity is not a number from the start of its interval on.
+/// Law: an extreme is a value that the quantity takes, to the bit.
 #[test]
 fn extremes_are_values_of_the_quantity() {
     let more = SPREAD.to_owned()
@@ -116,8 +113,6 @@ fn extremes_are_those_of_many_points() {
     assert!(beyond > 20, "{beyond} beyond the points");
 }
 
-/// Law: a quantity of a control loop is known at its ticks, and its extremes are the same for all observation points;
-/// those of a shorter interval are no larger.
 #[test]
 fn extremes_of_loops_are_at_ticks() {
     let shipped = include_str!("../../campaigns/slew_closed.toml");

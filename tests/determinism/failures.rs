@@ -73,28 +73,23 @@ fn run(text: &str, sample: u64) -> SingleRun {
     SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("a physical scene")
 }
 
-/// The value of the column `name` of a run.
 fn value(run: &SingleRun, name: &str) -> f64 {
     let columns = run.request.columns();
     let place = columns.iter().position(|column| column.quantity.name() == name);
     run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
 }
 
-/// The states of the body and of the wheels at point `point`, as bits.
 fn bits(table: &StateTable, point: usize) -> Vec<u64> {
     let fields = [StateField::Rate, StateField::Attitude, StateField::WheelRates, StateField::ComVelocity];
     fields.iter().flat_map(|field| (0..table.width(*field)).map(|i| table.column(*field, i)[point].to_bits())).collect()
 }
 
-/// Points whose states are the same bits in both runs: the first ones.
 fn same_points(a: &SingleRun, b: &SingleRun) -> usize {
     (0..a.table.points()).take_while(|point| bits(&a.table, *point) == bits(&b.table, *point)).count()
 }
 
 const DEAD: &str = "[[failure]]\nname = \"dead\"\nwheel = \"w1\"\n";
 
-/// Law: until the last tick before its failure, a run under a loop is the one without it, bit for bit; then it is
-/// another; a failure at the end or after it changes nothing at all. An arc ends at the failure.
 #[test]
 fn a_run_is_the_same_until_the_failure() {
     let healthy = run(&held(), 3);
@@ -123,7 +118,6 @@ fn a_run_is_the_same_until_the_failure() {
     }
 }
 
-/// Law: from the failure on a run is that of the failed device from the state at that time.
 #[test]
 fn after_its_failure_a_wheel_is_another_wheel() {
     for (failure, device) in [
@@ -174,7 +168,6 @@ fn after_its_failure_a_wheel_is_another_wheel() {
     }
 }
 
-/// Law: without a loop a failure is what a schedule with these arcs would be, bit for bit.
 #[test]
 fn a_schedule_has_what_the_failed_devices_apply() {
     let text = held();
@@ -217,7 +210,6 @@ fn a_schedule_has_what_the_failed_devices_apply() {
     }
 }
 
-/// Law: propellant counts what a thruster that is stuck on burns, from its failure to the end.
 #[test]
 fn a_thruster_that_is_stuck_on_burns_propellant() {
     let failed =
@@ -233,8 +225,6 @@ fn a_thruster_that_is_stuck_on_burns_propellant() {
     );
 }
 
-/// Law: the row says when a device failed and that it did, where it did before the end; lanes and shards agree with a
-/// single run.
 #[test]
 fn the_row_says_what_has_failed() {
     let draw = "[[disperse]]\nparameter = \"failure.dead.at_s\"\ndistribution = \"uniform\"\nmin = 0.0\nmax = 160.0\n";
@@ -273,7 +263,6 @@ fn the_row_says_what_has_failed() {
     assert!((4..=16).contains(&happened), "{happened}");
 }
 
-/// Law: a loop flies on with a sensor that is silent, frozen or biased; and what it then knows is wrong by that.
 #[test]
 fn loops_fly_on_without_a_sensor() {
     let shipped = include_str!("../../campaigns/slew_closed.toml");
@@ -298,8 +287,7 @@ fn loops_fly_on_without_a_sensor() {
 }
 
 /// Law: a torque rod that is dead from the start is one of the scale zero, and one that is stuck is a part of the
-/// residual dipole; until its failure a run is the one without it, bit for bit, and then it is another; the run knows
-/// nothing of it.
+/// residual dipole.
 #[test]
 fn a_torque_rod_fails() {
     let shipped = include_str!("../../campaigns/detumble_magnetic.toml").replace("110 min", "30 min");

@@ -48,47 +48,9 @@ fn bits_are_a_run_s_own() {
         }
         let backwards: Vec<Scene> = scenes.iter().rev().cloned().collect();
         assert!(bits(&fly(Isa::best(), &settings, &backwards)).iter().rev().eq(&expected), "{}", method.name());
-        let (first, second) = scenes.split_at(6);
-        let (first, second) = std::thread::scope(|scope| {
-            let settings = &settings;
-            let first = scope.spawn(move || bits(&fly(Isa::best(), settings, first)));
-            let second = scope.spawn(move || bits(&fly(Isa::best(), settings, second)));
-            (first.join().expect("a thread"), second.join().expect("a thread"))
-        });
-        assert!(first.into_iter().chain(second).eq(expected), "{} on two threads", method.name());
     }
 }
 
-/// Law: the record of the arcs flown is a schedule that gives the same bits: as a law, and as the schedule of the
-/// scene.
-#[test]
-fn the_record_flown_again_gives_the_same_bits() {
-    for (method, control) in METHODS {
-        let mut scenes = mixed(13, false, HORIZON);
-        let settings = settings(method, control, &scenes);
-        let flown = fly(Isa::best(), &settings, &scenes);
-        let records: Vec<_> = flown.iter().map(|flight| flight.arcs.clone()).collect();
-        let again = fly_recorded(Isa::best(), &settings, &scenes, &records);
-        assert!(bits(&again) == bits(&flown), "{} as laws", method.name());
-        for (scene, record) in scenes.iter_mut().zip(&records) {
-            scene.schedule = record.clone();
-        }
-        let replayed = fly_schedules(Isa::best(), &settings, &scenes);
-        for (run, (flight, record)) in replayed.iter().zip(&records).enumerate() {
-            assert!(flight.arcs == *record, "{}: arcs of run {run}", method.name());
-        }
-        assert!(bits(&replayed) == bits(&flown), "{} as schedules", method.name());
-        // the law can fail: a record with one switch moved gives another run
-        let moved = &mut scenes[0].schedule[3];
-        moved.applied.body_torque[0] += 1e-6 * (1.0 + moved.applied.body_torque[0].abs());
-        let other = fly_schedules(Isa::best(), &settings, &scenes[..1]);
-        assert!(other[0].run.bits() != flown[0].run.bits(), "{}", method.name());
-    }
-}
-
-/// Law: the environment acts beside a law as beside a schedule: a law that answers from the schedule of the scene, or
-/// nothing where that is empty, flies the open loop of the same scene, bit for bit, and another than without the
-/// environment.
 #[test]
 fn the_environment_acts_beside_a_law() {
     for forced in [false, true] {
@@ -109,7 +71,7 @@ fn the_environment_acts_beside_a_law() {
 }
 
 /// Law: arcs much shorter than a step, of another length and order in every lane, beside lanes with longer ones and
-/// with nothing that acts: bits are a run's own, and its record replayed gives them again.
+/// with nothing that acts.
 #[test]
 fn bits_of_brief_arcs_are_a_run_s_own() {
     let mut scenes = mixed(13, false, HORIZON);
@@ -162,8 +124,6 @@ impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
     }
 }
 
-/// Law: a law's torque on a wheel whose motor holds its speed, or on one that is not there, changes no bit; on a free
-/// wheel it does.
 #[test]
 fn a_torque_on_a_held_wheel_changes_no_bit() {
     let scenes = (0..12).map(|k| Scene::resolve(&many_wheels(4, k, false, HORIZON)).expect("physical"));
@@ -199,8 +159,6 @@ fn scheduled(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRu
     observer.observe(isa, scene, run.table, run.outcome, row);
 }
 
-/// Every column of the runs of `scenes` by `method`, as bits, and the arcs flown; under the laws of the scenes, or by
-/// their schedules.
 fn rows(
     isa: Isa,
     (method, control): (Method, Control),

@@ -1,5 +1,4 @@
-//! What interface 2 of flight code has beside interface 1: measurements, by what sensors deliver; telemetry, as columns
-//! of rows and of time series.
+//! What interface 2 of flight code has beside interface 1.
 
 use super::assembled_module::{Assembled, INPUT, MEASURED, REPORTED, constant, copied};
 use super::flight_code::{plan_in, with};
@@ -9,7 +8,6 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
 
-/// A module that wants these measurements, reports this telemetry, and has this step.
 fn module(sensors: &'static str, telemetry: &'static str, step: &[u8]) -> Assembled {
     let mut module = Assembled::with_step(step);
     module.places[0] = 2;
@@ -17,14 +15,12 @@ fn module(sensors: &'static str, telemetry: &'static str, step: &[u8]) -> Assemb
     module
 }
 
-/// The column `name` of what `run` has recorded, tick by tick.
 fn recorded(run: &SingleRun, name: &str) -> Vec<f64> {
     let place = run.telemetry.quantities.iter().position(|quantity| quantity.name() == name);
     let place = place.unwrap_or_else(|| panic!("no column {name}"));
     run.telemetry.rows.iter().map(|row| row[place]).collect()
 }
 
-/// The column `name` of the row of `run`.
 fn of_row(run: &SingleRun, name: &str) -> f64 {
     let columns = run.request.columns();
     run.row
@@ -32,8 +28,7 @@ fn of_row(run: &SingleRun, name: &str) -> f64 {
 }
 
 /// Law: a module is told of each sensor that it wants what this one has delivered last, in the order of its columns of
-/// telemetry, and how long ago that was measured: -1 and zeros before the first. Independent: the columns of
-/// measurements that the loop records, held, and the sensor's period and latency.
+/// telemetry, and how long ago that was measured.
 #[test]
 fn measurements_are_what_sensors_have_delivered_last() {
     let folder = ScratchFolder::new("flight-code-measurements");
@@ -85,8 +80,7 @@ fn measurements_are_what_sensors_have_delivered_last() {
 }
 
 /// Law: telemetry is a column of time series at each tick, and two of rows: what was reported last, and the largest
-/// magnitude, with the unit and the meaning that the module says; `[[require]]` knows them. Independent: the state of
-/// the loop that its own columns show.
+/// magnitude, with the unit and the meaning that the module says; `[[require]]` knows them.
 #[test]
 fn telemetry_is_columns() {
     let folder = ScratchFolder::new("flight-code-telemetry");
@@ -117,8 +111,7 @@ fn telemetry_is_columns() {
 }
 
 /// Law: telemetry that is no finite number is null where it stands, in the largest magnitude for the whole run, and in
-/// the last value where it is the last; the run goes on. Of a run whose module traps, the last value is that of the
-/// tick before.
+/// the last value where it is the last.
 #[test]
 fn telemetry_that_is_not_finite_is_null() {
     let folder = ScratchFolder::new("flight-code-telemetry-null");
@@ -154,7 +147,6 @@ fn telemetry_that_is_not_finite_is_null() {
     assert!(series.len() == 9 && series[8].is_nan(), "{series:?}");
 }
 
-/// Law: what a module of interface 2 declares is checked against the interface and against the file.
 #[test]
 fn what_is_declared_is_checked() {
     let folder = ScratchFolder::new("flight-code-declared");

@@ -33,7 +33,6 @@ impl Engine for Fragile {
     }
 }
 
-/// Law: a panic is the end of one run: its row says so, and every other row and the bands are what they are without it.
 #[test]
 fn a_panic_ends_one_run() {
     const RUNS: usize = 400;

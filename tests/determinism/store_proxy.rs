@@ -13,7 +13,6 @@ const SERVER: &str = "SPINDRIFT_S3";
 const SIGNED: &str =
     "AWS4-HMAC-SHA256 Credential=tests/20260101/us-east-1/s3/aws4_request, SignedHeaders=host, Signature=0";
 
-/// Where the server listens.
 pub fn server() -> String {
     std::env::var(SERVER)
         .unwrap_or_else(|_| panic!("{SERVER} is not set: these tests need an S3 server; run .ci/cloud"))
@@ -27,7 +26,6 @@ pub struct Message {
 }
 
 impl Message {
-    /// The next message of a connection; `None` where it has ended.
     fn read(stream: &mut impl Read) -> Option<Message> {
         let (mut head, mut byte) = (Vec::new(), [0]);
         while !head.ends_with(b"\r\n\r\n") {
@@ -45,17 +43,14 @@ impl Message {
         lines.find(|(key, _)| key.eq_ignore_ascii_case(name)).map(|(_, value)| value.trim().to_owned())
     }
 
-    /// The method of a request.
     pub fn method(&self) -> &str {
         self.head.split(' ').next().unwrap_or_default()
     }
 
-    /// The status of an answer.
     pub fn status(&self) -> u16 {
         self.head.split(' ').nth(1).and_then(|status| status.parse().ok()).unwrap_or(0)
     }
 
-    /// What the server answers to this request.
     fn answered(&self) -> Option<Vec<u8>> {
         let mut stream = TcpStream::connect(server()).ok()?;
         let lines = self.head.trim_end().lines().filter(|line| !line.to_ascii_lowercase().starts_with("connection:"));
@@ -68,7 +63,6 @@ impl Message {
     }
 }
 
-/// What the server answers to `method path` with `body`: status and body.
 pub fn asked(method: &str, path: &str, body: &[u8]) -> (u16, Vec<u8>) {
     let head = format!(
         "{method} {path} HTTP/1.1\r\nHost: {}\r\nAuthorization: {SIGNED}\r\nContent-Type: \
@@ -82,7 +76,6 @@ pub fn asked(method: &str, path: &str, body: &[u8]) -> (u16, Vec<u8>) {
     (Message { head, body: Vec::new() }.status(), answer[end..].to_vec())
 }
 
-/// The objects of `bucket` whose names begin with `prefix/`, by the rest of their names.
 pub fn objects(bucket: &str, prefix: &str) -> BTreeMap<String, Vec<u8>> {
     let (status, listed) = asked("GET", &format!("/{bucket}?list-type=2&prefix={prefix}%2F"), b"");
     assert_eq!(status, 200);
@@ -128,7 +121,6 @@ pub struct Proxy {
 }
 
 impl Proxy {
-    /// One that does with requests what `rule` says, until the end of the tests.
     pub fn new(rule: impl FnMut(usize, &Message) -> Fate + Send + 'static) -> Proxy {
         let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
         let port = listener.local_addr().expect("an address").port();
@@ -148,12 +140,10 @@ impl Proxy {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The requests so far: method and path.
     pub fn requests(&self) -> Vec<String> {
         self.state().requests.clone()
     }
 
-    /// Runs `command`, whose process requests may kill; its exit code, if it was not.
     pub fn watch(&self, command: &mut Command) -> Option<i32> {
         {
             // no request is seen before it is known who is to be killed

@@ -51,7 +51,6 @@ impl Fnv {
     }
 }
 
-/// Adds the values of one column of one part to `hash`: bits of numbers, a mark for a null.
 fn add_values(hash: &mut Fnv, column: &dyn Array) {
     let each = |hash: &mut Fnv, value: &dyn Fn(usize) -> Vec<u8>| {
         for row in 0..column.len() {
@@ -75,7 +74,6 @@ fn add_values(hash: &mut Fnv, column: &dyn Array) {
     }
 }
 
-/// Hash of each column of the parts of a result.
 fn hashes(parts: &[RecordBatch]) -> BTreeMap<String, String> {
     let schema = parts[0].schema();
     let names = schema.fields().iter().map(|field| field.name().clone());
@@ -87,7 +85,6 @@ fn hashes(parts: &[RecordBatch]) -> BTreeMap<String, String> {
     names.enumerate().map(hash).filter(|(name, _)| !OF_THE_MACHINE.contains(&name.as_str())).collect()
 }
 
-/// What a column without values has for a hash: zeros, nulls, or zeros in the `audited` rows and nulls in the others.
 fn of_nothing(audited: &[bool]) -> [String; 3] {
     let of = |is_zero: &dyn Fn(bool) -> bool| {
         let mut hash = Fnv::new();
@@ -99,7 +96,6 @@ fn of_nothing(audited: &[bool]) -> [String; 3] {
     [of(&|_| true), of(&|_| false), of(&|audited| audited)]
 }
 
-/// Which rows of the parts of a result are audited.
 fn audited(parts: &[RecordBatch]) -> Vec<bool> {
     let of_part = |part: &RecordBatch| {
         let audit = part.column_by_name("audit_omega_error").cloned();
@@ -117,7 +113,6 @@ struct Found {
     nothing: [String; 3],
 }
 
-/// Runs a campaign.
 fn run(scratch: &ScratchFolder, file: &Path) -> Found {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
     let text = fs::read_to_string(file).unwrap();
@@ -135,7 +130,6 @@ fn run(scratch: &ScratchFolder, file: &Path) -> Found {
     Found { rows: audited.len(), columns: hashes(&parts), nothing: of_nothing(&audited) }
 }
 
-/// What differs between the committed hashes and those of now.
 fn differences(
     campaign: &str,
     then: &BTreeMap<String, String>,
@@ -182,24 +176,4 @@ fn shipped_campaigns_keep_their_bits() {
     }
     assert!(wrong.is_empty(), "{} differences:\n{}", wrong.len(), wrong.join("\n"));
     assert!(then.len() >= 18, "every campaign that was shipped then: {}", then.len());
-}
-
-/// Counter-test: a changed bit, a lost column and a lost campaign are seen; the column of an absent part may be
-/// missing.
-#[test]
-fn a_changed_value_is_seen() {
-    let table = |entries: &[(&str, &str)]| -> BTreeMap<String, String> {
-        entries.iter().map(|(name, hash)| ((*name).to_owned(), (*hash).to_owned())).collect()
-    };
-    let audited = [true, false, true];
-    let nothing = of_nothing(&audited);
-    let [zeros, nulls, audited_zeros] = &nothing;
-    let then = table(&[("a", "01"), ("b", "02"), ("debris_x", zeros), ("debris_y", nulls), ("audit_x", audited_zeros)]);
-    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "02"), ("new", "03")]), &nothing), [""; 0]);
-    assert_eq!(differences("c", &then, &table(&[("a", "01"), ("b", "03")]), &nothing).len(), 1);
-    assert_eq!(differences("c", &then, &table(&[("a", "01")]), &nothing).len(), 1);
-    let lost =
-        |audited: &[bool]| differences("c", &then, &table(&[("a", "01"), ("b", "02")]), &of_nothing(audited)).len();
-    assert_eq!(lost(&[true; 4]), 3, "zeros of another length");
-    assert_eq!(lost(&[false, true, true]), 1, "zeros of other rows");
 }

@@ -1,4 +1,4 @@
-//! Plans written in a test, and their rows column by column, for tests of events, extremes, ends of runs and flight code.
+//! Plans written in a test, and their rows column by column.
 
 use crate::support::plans::{RowBits, row_bits};
 use spindrift::campaign::{Overrides, Plan};
@@ -23,7 +23,6 @@ pub fn free_body(integrator: &str, points: usize, middle: f64) -> String {
     )
 }
 
-/// Of the free body with an axis of symmetry: its precession about its momentum, rad/s, and the angle between both, rad.
 pub fn precession() -> (f64, f64) {
     let (across, along): (f64, f64) = (30.0 * 0.3, 20.0 * 0.6);
     (across.hypot(along) / 30.0, across.atan2(along))
@@ -33,7 +32,6 @@ pub fn plan(text: &str) -> Plan {
     Plan::from_text("rows.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// The keys of `method` with settings near rounding for a rate of a radian a second.
 pub fn near_rounding(method: Method) -> String {
     match method.has_fixed_step() {
         true => format!("method = \"{}\"\nstep_s = 0.002", method.name()),
@@ -45,7 +43,6 @@ pub fn event(name: &str, quantity: &str, value: f64, more: &str) -> String {
     format!("[[event]]\nname = \"{name}\"\nquantity = \"{quantity}\"\nvalue = {value:?}\n{more}\n")
 }
 
-/// The rows of `count` samples of `plan` from `first` on.
 pub fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
     let ensemble = Ensemble::new(plan, isa);
     let mut rows = ensemble.rows(count);
@@ -54,17 +51,14 @@ pub fn rows(plan: &Plan, isa: Isa, first: u64, count: usize) -> Rows {
     rows
 }
 
-/// All rows of `rows`, as bits.
 pub fn bits(rows: &Rows) -> Vec<RowBits> {
     (0..rows.statuses().len()).map(|row| row_bits(rows, row)).collect()
 }
 
-/// The run of `sample` alone, on the grid of the plan.
 pub fn single(plan: &Plan, sample: usize) -> SingleRun {
     SingleRun::new(plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("a physical scene")
 }
 
-/// The first `count` rows of `plan`, which have the same bits on every instruction set, in parts and as single runs.
 pub fn own_rows(plan: &Plan, count: usize) -> Rows {
     let all = rows(plan, Isa::best(), 0, count);
     let expected = bits(&all);
@@ -89,7 +83,6 @@ pub fn names(plan: &Plan) -> Vec<String> {
     plan.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect()
 }
 
-/// The column `name` of `rows`.
 pub fn column<'r>(plan: &Plan, rows: &'r Rows, name: &str) -> &'r [f64] {
     rows.observable(names(plan).iter().position(|other| other == name).unwrap_or_else(|| panic!("no {name}")))
 }

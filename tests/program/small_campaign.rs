@@ -31,17 +31,14 @@ max = 0.04
 /// Numbers are shown as they are in the rows, where a test writes no other unit.
 pub const RADIANS: &str = "[display]\nunits = [\"rad\", \"rad/s\"]\n";
 
-/// The text of the campaign.
 pub fn campaign() -> String {
     [HEAD, RADIANS, FUSELAGE, WHEEL1, WHEEL2, DEBRIS, SPACECRAFT_STATE, DEBRIS_STATE, SPIN_DISPERSION].concat()
 }
 
-/// The same without debris.
 pub fn campaign_without_debris() -> String {
     [HEAD, RADIANS, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
 }
 
-/// Spins so different, with steps so long, that of 300 runs some 200 are ok, 40 inaccurate and 60 not physical.
 pub fn mixed_failures() -> String {
     let text = campaign_without_debris()
         .replace("method = \"auto\"\ntolerance = 1e-10", "method = \"runge_kutta_4\"\nstep_s = 0.02")
@@ -49,8 +46,6 @@ pub fn mixed_failures() -> String {
     [text.as_str(), NEGATIVE_WALLS].concat()
 }
 
-/// A file of a table design: for each sample the wall thickness, negative where it `fails`, and the spin; and the
-/// campaign of it.
 pub fn table(samples: impl Iterator<Item = (bool, f64)>) -> (String, String) {
     let row = |(fails, spin): (bool, f64)| format!("{},{spin:?}\n", if fails { "-0.01" } else { "0.03" });
     let names = "body.parts.fuselage.wall_thickness_m,initial.angular_velocity_rad_s.z\n";
@@ -59,7 +54,6 @@ pub fn table(samples: impl Iterator<Item = (bool, f64)>) -> (String, String) {
     (names.to_owned() + &samples.map(row).collect::<String>(), text + design)
 }
 
-/// A folder with the campaign as `small.toml` and an empty folder `campaigns`.
 pub fn folder(name: &str) -> ScratchFolder {
     let folder = ScratchFolder::new(&format!("cli-{name}"));
     fs::create_dir(folder.path("campaigns")).unwrap();

@@ -28,7 +28,6 @@ fn text(file: &Path) -> String {
     std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
 }
 
-/// The documents: every Markdown file at the root, in `docs/` and in `benches/`.
 fn documents() -> Vec<PathBuf> {
     let mut files = Vec::new();
     for folder in ["", "docs", "benches"] {
@@ -69,12 +68,10 @@ fn blocks(document: &str) -> Vec<Block> {
     blocks
 }
 
-/// The file that a part of a campaign file is added to.
 fn base_of_fragments() -> String {
     text(&root().join("campaigns/spin_sweep.toml"))
 }
 
-/// What is wrong with a campaign file, or with a part of one added to `base`.
 fn campaign_problem(block: &Block, base: &str) -> Option<String> {
     let folder = root().join("campaigns");
     let base = if block.is_fragment { base } else { "" };
@@ -85,7 +82,6 @@ fn campaign_problem(block: &Block, base: &str) -> Option<String> {
     }
 }
 
-/// Whether `cargo`'s arguments name a target of this package that exists.
 fn cargo_problem(words: &[&str]) -> Option<String> {
     let folders = [("--test", "tests"), ("--bench", "benches"), ("--example", "examples")];
     for (option, folder) in folders {
@@ -102,7 +98,6 @@ fn cargo_problem(words: &[&str]) -> Option<String> {
     }
 }
 
-/// What is wrong with the arguments of the program.
 fn program_problem(words: &[&str]) -> Option<String> {
     let arguments = match Arguments::try_parse_from([&["spindrift"], words].concat()) {
         Ok(arguments) => arguments,
@@ -132,7 +127,6 @@ fn program_problem(words: &[&str]) -> Option<String> {
     (!is_known).then(|| format!("there is no {}", file.display()))
 }
 
-/// What is wrong with a line of a shell block.
 fn command_problem(line: &str) -> Option<String> {
     let line = line.split(" #").next().unwrap_or_default().replace('"', "");
     let words: Vec<&str> = line.split_whitespace().skip_while(|word| is_setting(word)).collect();
@@ -149,19 +143,16 @@ fn command_problem(line: &str) -> Option<String> {
     }
 }
 
-/// Whether a word sets a variable of the environment.
 fn is_setting(word: &str) -> bool {
     word.split_once('=')
         .is_some_and(|(name, _)| name.chars().all(|letter| letter.is_ascii_uppercase() || letter == '_'))
 }
 
-/// The targets of the relative links of a document.
 fn links(document: &str) -> Vec<&str> {
     let targets = document.match_indices("](").map(|(at, _)| document[at + 2..].split(')').next().unwrap_or_default());
     targets.filter(|target| !target.starts_with("http") && !target.starts_with('#')).collect()
 }
 
-/// The headings of a document as GitHub names them in links.
 fn anchors(document: &str) -> Vec<String> {
     let headings = document.lines().filter(|line| line.starts_with('#'));
     headings
@@ -172,7 +163,6 @@ fn anchors(document: &str) -> Vec<String> {
         .collect()
 }
 
-/// Checked: the README is short.
 #[test]
 fn the_readme_is_short() {
     let lines = text(&root().join("README.md")).lines().count();
@@ -196,8 +186,7 @@ fn the_readme_shows_what_new_writes() {
     assert!(picture.windows(4).any(|four| four == b"acTL"), "it does not move");
 }
 
-/// Checked: every campaign file in the documents is valid. That of the tutorial is written block by block
-/// (`tests/program/commands/tutorial.rs`).
+/// Checked: every campaign file in the documents is valid.
 #[test]
 fn every_campaign_file_is_valid() {
     let mut count = 0;
@@ -211,8 +200,6 @@ fn every_campaign_file_is_valid() {
     assert!(count >= 4, "{count} blocks were found");
 }
 
-/// Checked: the complete example of a campaign file raises no note of `check`; with a rate that looks like a mistake it
-/// would.
 #[test]
 fn the_complete_example_raises_no_note() {
     let document = text(&root().join("docs/campaign-files.md"));
@@ -226,7 +213,6 @@ fn the_complete_example_raises_no_note() {
     assert_eq!(notes(&fast).len(), 2, "its rate, and the angle between two points: {:?}", notes(&fast));
 }
 
-/// Checked: every command in the documents exists, with its options, targets and files.
 #[test]
 fn every_command_exists() {
     let mut count = 0;
@@ -242,8 +228,7 @@ fn every_command_exists() {
     assert!(count >= 10, "{count} commands were found");
 }
 
-/// Checked: every column in a query exists. A name with two underscores or more is that of a column, or a key of a
-/// campaign file.
+/// Checked: every column in a query exists.
 #[test]
 fn every_queried_column_exists() {
     let columns = text(&root().join("docs/columns.md"));
@@ -265,7 +250,6 @@ fn every_queried_column_exists() {
     assert!(count >= 4, "{count} names were found");
 }
 
-/// Checked: every relative link leads to a file, and to a heading where it names one.
 #[test]
 fn every_link_leads_somewhere() {
     for file in documents() {
@@ -280,7 +264,6 @@ fn every_link_leads_somewhere() {
     }
 }
 
-/// Checked: every name that a user writes or reads is documented.
 #[test]
 fn every_name_is_documented() {
     let readme = text(&root().join("README.md"));
@@ -310,8 +293,6 @@ fn every_name_is_documented() {
     assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
 }
 
-/// Checked: the flight code that its document shows is that of the example, and so is its parameters' and its input's
-/// order.
 #[test]
 fn the_flight_code_is_that_of_the_example() {
     let document = text(&root().join("docs/flight-code.md"));
@@ -324,27 +305,4 @@ fn the_flight_code_is_that_of_the_example() {
         rows.filter_map(|(_, rest)| rest.split('`').next()).filter(|name| header.contains(name)).collect();
     let fields = header.lines().filter_map(|line| line.trim().strip_prefix("double ")?.split([';', '[']).next());
     assert_eq!(names, fields.collect::<Vec<_>>());
-}
-
-/// Counter-test: each of the checks finds what it looks for.
-#[test]
-fn the_checks_can_fail() {
-    let document = "a\n<!-- fragment -->\n\n```toml\n[design]\nkind = \"sobol\"\n```\n```toml\n[design]\n```\n";
-    let found = blocks(document);
-    assert_eq!(found.len(), 2);
-    assert!(campaign_problem(&found[0], &text(&root().join("campaigns/spin_sweep.toml"))).is_none());
-    assert!(campaign_problem(&found[1], "").is_some(), "a part of a file is no campaign");
-    for wrong in [
-        "spindrift campaign no_such_file.toml",
-        "spindrift campaign spin_sweep.toml --no-such-option",
-        "cargo run --release -- no_such_command spin_sweep.toml",
-        "cargo test --release --test no_such_test",
-        "SPINDRIFT_WRITE_DOCS=1 cargo bench --bench no_such_bench",
-        "no_such_program",
-    ] {
-        assert!(command_problem(wrong).is_some(), "{wrong}");
-    }
-    assert!(command_problem("spindrift check spin_sweep.toml   # shows the plan").is_none());
-    assert_eq!(links("[a](b.md#c) and [d](https://e) and [f](#g)"), ["b.md#c"]);
-    assert_eq!(anchors("# A b, c\ntext\n## D"), ["a-b-c", "d"]);
 }

@@ -1,4 +1,4 @@
-//! The programs in `examples/` run to their end. They check their own results.
+//! The programs in `examples/` run to their end.
 
 #[path = "../../examples/campaign_in_memory.rs"]
 mod campaign_in_memory;

@@ -1,5 +1,4 @@
-//! `docs/gallery.md`: every shipped campaign with its question, its answer, a picture and the time that it took. That
-//! the picture is what the program draws is checked in `figures/tests/gallery.rs`.
+//! `docs/gallery.md`: every shipped campaign with its question, its answer, a picture and the time that it took.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +12,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
 }
 
-/// What is wrong with the entry of the campaign `name`, whose question and number of samples are these.
 fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<String> {
     let Some((_, entry)) = gallery.split_once(&format!("\n### {name}.toml\n\n")) else {
         return Some("there is no entry".to_owned());
@@ -43,7 +41,6 @@ fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<St
     (!(1..LARGEST).contains(&size)).then(|| format!("{picture} is missing or too large: {size} bytes"))
 }
 
-/// Checked: each shipped campaign has its entry, with the question of its file, and each entry is of a campaign.
 #[test]
 fn every_campaign_is_in_the_gallery() {
     let gallery = fs::read_to_string(root().join("docs/gallery.md")).expect("a gallery");

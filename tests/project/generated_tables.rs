@@ -39,12 +39,10 @@ fn plan(name: &str) -> Plan {
     Plan::load(&root().join("campaigns").join(name), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A cell of a Markdown table.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|")
 }
 
-/// Every column of a row, group by group; of the dispersed values those of one campaign as an example.
 fn columns_of_rows() -> String {
     let mut table = String::new();
     let mut section = |title: &str, rows: &[[String; 4]]| {
@@ -79,7 +77,6 @@ fn columns_of_rows() -> String {
     table
 }
 
-/// The columns of `simulate`, for a scene that has all.
 fn columns_of_series() -> String {
     let plan = plan("burn.toml");
     let isa = Isa::best();
@@ -89,7 +86,6 @@ fn columns_of_series() -> String {
     format!("{}.\n", names.join(", "))
 }
 
-/// The quantities that have bands, of a scene that has all.
 fn quantities_over_time() -> String {
     let request = Request {
         groups: Groups::ALL,
@@ -110,7 +106,6 @@ fn quantities_over_time() -> String {
     table
 }
 
-/// What `check` notes, rule by rule.
 fn rules() -> String {
     let mut table = String::from("| looked at | noted | because | usual |\n| --- | --- | --- | --- |\n");
     for rule in RULES {
@@ -163,7 +158,6 @@ fn dependencies() -> String {
     table
 }
 
-/// Version and comment of every dependency in the list of all packages.
 fn listed_dependencies() -> BTreeMap<String, (String, String)> {
     let text = text("Cargo.toml");
     let (_, list) = text.split_once("\n[workspace.dependencies]\n").expect("the list");
@@ -181,13 +175,10 @@ fn listed_dependencies() -> BTreeMap<String, (String, String)> {
     listed
 }
 
-/// A manifest as a table.
 fn manifest(file: &str) -> toml::Table {
     text(file).parse().unwrap_or_else(|error| panic!("{file}: {error}"))
 }
 
-/// Every numeric key that describes the scene, table by table, from the schema; `[[...]]` where there may be several
-/// tables.
 fn parameters() -> String {
     let mut text = String::new();
     let mut last = "";
@@ -218,7 +209,6 @@ fn parameters() -> String {
     text
 }
 
-/// The keys that parts of control loops declare: a table for each list.
 fn keys_of_loops() -> String {
     use spindrift::control::{actuators::modulation, estimators, laws, net_launch, parameters, sensors};
     let mut lists: Vec<(String, &[LawParameter])> =
@@ -255,7 +245,6 @@ fn keys_of_loops() -> String {
     text
 }
 
-/// The keys of settings, distributions and designs, from their rows and rules.
 fn keys_of_tables() -> String {
     let mut text = String::from(
         "| table | key | value | unit | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- | --- |\n",
@@ -325,7 +314,6 @@ fn keys_of_tables() -> String {
     text
 }
 
-/// The quantities of conditions.
 fn quantities_of_conditions() -> String {
     let mut text = String::from("| name | meaning | only |\n| --- | --- | --- |\n");
     for quantity in &spindrift::control::guidance::condition::QUANTITIES {
@@ -335,7 +323,6 @@ fn quantities_of_conditions() -> String {
     text
 }
 
-/// The columns of a loop that has all.
 fn columns_of_loops() -> String {
     let plan = plan("net_launch.toml");
     let mut text = String::from("| column | unit | what it is |\n| --- | --- | --- |\n");
@@ -346,12 +333,10 @@ fn columns_of_loops() -> String {
     text
 }
 
-/// Whether a file may have several of these tables.
 fn is_list(table: Table) -> bool {
     table.owners(&SceneInput::blank()).is_empty()
 }
 
-/// `document` with the text between the marks of `name` replaced.
 fn replaced(document: &str, name: &str, table: &str) -> String {
     let (begin, end) = (format!("<!-- generated: {name} -->\n"), format!("<!-- end of {name} -->"));
     let from = document.find(&begin).unwrap_or_else(|| panic!("the document has no {begin}")) + begin.len();
@@ -359,7 +344,6 @@ fn replaced(document: &str, name: &str, table: &str) -> String {
     format!("{}\n{}\n{}", &document[..from], table.trim_end(), &document[to..])
 }
 
-/// Checked: what the documents say of columns and dependencies is what the source says.
 #[test]
 fn the_generated_tables_are_up_to_date() {
     let columns = [("columns", columns_of_rows()), ("series", columns_of_series()), ("bands", quantities_over_time())];
@@ -385,28 +369,4 @@ fn the_generated_tables_are_up_to_date() {
             assert!(fresh == written, "{file} is out of date: {WRITE}=1 cargo test --release --test project");
         }
     }
-}
-
-/// Law: the dispersed values are all of them and nothing else; what every row has is of the sample.
-#[test]
-fn columns_are_in_their_sections() {
-    let table = columns_of_rows();
-    let names = |title: &str| -> Vec<String> {
-        let section = table.split("</details>").find(|section| section.contains(title)).expect(title);
-        section.lines().filter_map(|line| Some(line.strip_prefix("| `")?.split_once('`')?.0.to_owned())).collect()
-    };
-    assert_eq!(names("the sample"), ["sample_id", "status", "reason"]);
-    let drawn = plan("spin_sweep.toml").dispersions.columns().len();
-    let dispersed = names("dispersed values");
-    assert_eq!(dispersed.len(), drawn);
-    assert!(dispersed.iter().all(|name| ["initial_", "wheels_", "body_"].iter().any(|start| name.starts_with(start))));
-}
-
-/// Counter-test: a table that is out of date is noticed.
-#[test]
-fn a_stale_table_is_noticed() {
-    let fresh = replaced("<!-- generated: columns -->\n<!-- end of columns -->", "columns", &columns_of_rows());
-    let stale = fresh.replacen("| `sample_id` |", "| `sample` |", 1);
-    assert_ne!(stale, fresh);
-    assert_eq!(replaced(&stale, "columns", &columns_of_rows()), fresh);
 }

@@ -7,7 +7,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
 }
 
-/// The pairs of the table of words: what to say, and what not.
 fn words(architecture: &str) -> Vec<(String, String)> {
     let table = architecture.split_once("| say | not |").expect("a table of words").1;
     let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
@@ -18,7 +17,6 @@ fn words(architecture: &str) -> Vec<(String, String)> {
     rows.map(pair).collect()
 }
 
-/// Files that users read, or whose texts they see.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -31,12 +29,10 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The first line of `text` with `phrase`, comments of code aside.
 fn line_with<'t>(text: &'t str, phrase: &str) -> Option<&'t str> {
     text.lines().find(|line| !line.trim_start().starts_with("//") && line.to_lowercase().contains(phrase))
 }
 
-/// Checked: no text says what the table of words replaces.
 #[test]
 fn words_are_those_of_the_glossary() {
     let words = words(&fs::read_to_string(root().join("ARCHITECTURE.md")).expect("a document"));

@@ -1,6 +1,4 @@
 //! Causal structures of known truth: outcomes of inputs, with the share of the variance that each cause explains alone.
-//!
-//! Shares are known in closed form, unless a structure says how.
 
 use core::f64::consts::{E, PI};
 
@@ -43,7 +41,6 @@ fn with_pareto(x: &mut [f64], u: &[f64], index: f64) -> f64 {
     x[0] + x[1]
 }
 
-/// Makes the first input uniform.
 fn uniform(x: &mut [f64], u: &[f64]) -> f64 {
     x[0] = u[0];
     u[0]
@@ -54,13 +51,11 @@ fn ishigami(x: &mut [f64], u: &[f64]) -> f64 {
     x[0].sin() * (1.0 + 0.1 * x[2].powi(4)) + 7.0 * x[1].sin() * x[1].sin()
 }
 
-/// Makes the second input 0.8 x + 0.6 e; the first one is the outcome.
 fn correlated(x: &mut [f64]) -> f64 {
     x[1] = 0.8 * x[0] + 0.6 * x[1];
     x[0]
 }
 
-/// The list: the place of a structure is a part of the seeds of its campaigns.
 pub fn structures() -> Vec<Structure> {
     const LOG: f64 = E * (E - 1.0);
     // 3^2 p (1 - p) of P(x > 1.5)

@@ -25,13 +25,11 @@ fn normal_number(random: &mut Uniform) -> f64 {
     normal::quantile(random.uniform())
 }
 
-/// Student's t with three degrees of freedom: a normal number over the root of the mean of three squared ones.
 fn t3(random: &mut Uniform) -> f64 {
     let squares: f64 = (0..3).map(|_| normal_number(random).powi(2)).sum();
     normal_number(random) / (squares / 3.0).sqrt()
 }
 
-/// One in a `one_in`, else zero.
 fn rare(random: &mut Uniform, one_in: f64) -> f64 {
     f64::from(u8::from(random.uniform() * one_in < 1.0))
 }
@@ -65,8 +63,6 @@ const MANY_CAMPAIGNS: Campaigns = [(20, 10_000), (100, 10_000), (1000, 10_000)];
 const SCRAMBLES: [(u64, u32); 2] = [(16, 800), (256, 80)];
 const MANY_SCRAMBLES: [(u64, u32); 2] = [(16, 10_000), (256, 3_000)];
 
-/// Whether so many of `campaigns` may miss where each does with at most the probability `risk`: at the exact binomial
-/// level [`ALPHA`].
 fn may_miss(count: u32, risk: f64, campaigns: u32) -> bool {
     count == 0 || binomial::at_least(u64::from(count), u64::from(campaigns), risk) > ALPHA
 }
@@ -76,15 +72,12 @@ fn percent(count: u32, campaigns: u32) -> f64 {
 }
 
 /// Law: each bound of a mean, and so each decision of a gate, errs as seldom as stated, whatever the distribution of
-/// the list and the number of runs. A clear requirement (a standard deviation away) passes, and a clear violation
-/// fails, but for what few runs cannot show. The counter-test: Student's upper bound misses the mean of lognormal
-/// numbers more often.
+/// the list and the number of runs.
 #[test]
 fn bounds_of_means_miss_as_seldom_as_stated() {
     bounds_of_means(CAMPAIGNS);
 }
 
-/// The same laws of all three tests, of 3,000 to 10,000 campaigns each.
 #[test]
 #[ignore = "minutes"]
 fn bounds_miss_as_seldom_as_stated_in_many_campaigns() {
@@ -154,9 +147,6 @@ fn bounds_of_means(all: Campaigns) {
     }
 }
 
-/// Law: each bound of a standard deviation errs as seldom as stated, where the fourth moment shows: not of lognormal
-/// numbers, and not of t3, which has none; those only less often than the bounds of the large-sample error, s(1 +- t
-/// e).
 #[test]
 fn bounds_of_standard_deviations_miss_as_seldom_as_stated() {
     bounds_of_standard_deviations(CAMPAIGNS);
@@ -202,7 +192,6 @@ fn bounds_of_standard_deviations(all: Campaigns) {
 /// A function of uniform inputs: name, number of inputs, function, mean, quantile function.
 type Function = (&'static str, usize, fn(&[f64]) -> f64, f64, fn(f64) -> f64);
 
-/// exp of a standard normal number, made of all inputs alike.
 fn lognormal(inputs: &[f64]) -> f64 {
     libm::exp(inputs.iter().map(|u| normal::quantile(*u)).sum::<f64>() / (inputs.len() as f64).sqrt())
 }
@@ -211,7 +200,6 @@ fn lognormal_quantile(p: f64) -> f64 {
     libm::exp(normal::quantile(p))
 }
 
-/// That of the sum of two uniform numbers.
 fn triangle(p: f64) -> f64 {
     if p <= 0.5 { (2.0 * p).sqrt() } else { 2.0 - (2.0 * (1.0 - p)).sqrt() }
 }
@@ -236,9 +224,6 @@ struct Missed {
 
 const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
-/// Law: bounds of a mean and of a share, and intervals of quantiles, from 16 scrambles of a net err as seldom as
-/// stated: also in the tails, where counts hardly vary, and for a long-tailed mean. No share is below 0 or above 1. The
-/// mean of a smooth function keeps the precision of its design. The counter-test: Student's bounds miss more often.
 #[test]
 fn replicated_scrambles_miss_as_seldom_as_stated() {
     replicated_scrambles(SCRAMBLES);

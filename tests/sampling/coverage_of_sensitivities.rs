@@ -4,7 +4,7 @@
 //! H0 of each: a 95% interval covers in at least 0.93 of the campaigns (in less where few runs do not show the tail of
 //! the observable, as the lists say). Rejected where the count of covered campaigns is below what H0 gives in one case
 //! of 10,000 (alpha 1e-4 for each model). Fixed seeds. Power: intervals of half the width cover in 0.67 and less, which
-//! 300 campaigns find always; the counter-tests do.
+//! 300 campaigns find always.
 //!
 //! The long versions (`cargo test --release --test sampling -- --ignored sensitivities`) have 2,000 campaigns of 100
 //! runs, 1,000 of 1,000 and 300 of 8,000.
@@ -83,7 +83,7 @@ fn linear_measures_are_covered(sizes: &[(usize, u64)]) {
 }
 
 /// Law: intervals of Pearson's coefficient, of regression coefficients and of R^2 cover, whether or not numbers are
-/// normal and their spread is the same everywhere; of an exactly linear model the coefficients have a width.
+/// normal and their spread is the same everywhere.
 #[test]
 fn linear_measures_of_any_distribution_are_covered() {
     linear_measures_are_covered(&[(100, 300), (1000, 60)]);
@@ -119,7 +119,6 @@ fn rank_correlations_are_covered() {
     }
 }
 
-/// The first-order and the total index of factor `i` for f of two of the dimensions, from blocks of a design.
 fn of_blocks(
     number: impl Fn(usize, bool, u64) -> f64,
     blocks: u64,
@@ -170,9 +169,6 @@ fn indices_from_blocks_of_any_two_dimensions_are_covered() {
     assert!(wrong > 0, "the counter-test: no pair");
 }
 
-/// Law: so do those of partial correlations, for which every input held fixed costs a degree of freedom: 40 runs, 20
-/// inputs held fixed; truth: that of two numbers with the coefficients `b` and 1, b/sqrt(b^2 + 1). Power: without that
-/// cost they cover in 0.83 to 0.85, which 600 campaigns find with a probability above 0.99; the counter-test does.
 #[test]
 fn partial_correlations_are_covered() {
     for (seed, b) in [(1, 0.0), (2, 1.0)] {

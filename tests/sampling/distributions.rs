@@ -5,7 +5,6 @@
 
 use crate::support::draws::distance;
 use serde_json::Value;
-use spindrift::math::normal::probability;
 use spindrift::sampling::distribution::Quantile;
 use spindrift::sampling::distribution::beta::BetaQuantile;
 use spindrift::sampling::distribution::choice::ChoiceQuantile;
@@ -24,7 +23,6 @@ use spindrift::sampling::distribution::uniform::UniformQuantile;
 use spindrift::sampling::distribution::weibull::WeibullQuantile;
 use spindrift::sampling::{Distribution, SampleId, Stream};
 
-/// The law that a row of the golden table names.
 fn law(name: &str, p: &[f64]) -> Distribution {
     match name {
         "normal" => Distribution::Normal(NormalQuantile { mean: p[0], std: p[1] }),
@@ -45,7 +43,6 @@ fn law(name: &str, p: &[f64]) -> Distribution {
 /// they compute; a difference of large numbers (a normal value near its mean) is measured against the law's own width.
 const AGREEMENT: f64 = 1e-12;
 
-/// scipy's quantiles of the smooth distributions, in both tails and at the seams of the approximations.
 #[test]
 fn quantiles_are_those_of_scipy() {
     let golden: Value = serde_json::from_str(include_str!("../golden/quantiles.json")).expect("JSON");
@@ -70,7 +67,6 @@ fn quantiles_are_those_of_scipy() {
     assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), rows.len(), wrong.join("\n"));
 }
 
-/// The distributions that a row of mpmath's table names; of beta that from 0 to 1, and from -1 to 0.
 fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
     let beta = |min, max| Distribution::Beta(BetaQuantile::new(p[0], p[1], min, max));
     match name {
@@ -87,8 +83,7 @@ fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
 }
 
 /// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull, exponential and truncated normal
-/// distributions, of very skewed shapes and in far tails too: relative error of the value, of a beta distribution of
-/// its distance from either end, below 1e-12.
+/// distributions, of very skewed shapes and in far tails too.
 #[test]
 fn quantiles_are_those_of_mpmath() {
     let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).expect("JSON");
@@ -126,8 +121,7 @@ fn number(value: &Value) -> f64 {
 
 /// Number of draws and critical value of each Kolmogorov-Smirnov test: alpha = 1e-3 gives sqrt(n) D < 1.949. H0: the
 /// draws follow the law. Power: a distribution function that is off by 0.01 somewhere gives sqrt(n) D = 4.5 there, with
-/// a standard deviation of at most 0.5: missed with probability < 1e-6. The counter-test shows it for distributions
-/// with a parameter slightly off.
+/// a standard deviation of at most 0.5: missed with probability < 1e-6.
 const N: usize = 200_000;
 const CRITICAL: f64 = 1.949;
 
@@ -138,40 +132,8 @@ fn draws(law: &Distribution) -> Vec<f64> {
     values
 }
 
-/// Distribution functions written independently of the quantiles.
 #[test]
 fn draws_follow_their_distributions() {
-    let log_normal = |median: f64| move |x: f64| probability((x / median).ln() / 0.4);
-    let values = draws(&Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }));
-    assert!(distance(values.iter().copied(), log_normal(2.5)) < CRITICAL);
-    assert!(distance(values.iter().copied(), log_normal(2.5 * 1.02)) > CRITICAL, "a median off by 2% is found");
-
-    let values = draws(&Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)));
-    assert!(distance(values.iter().copied(), |x| (x / 0.1).ln() / 100f64.ln()) < CRITICAL);
-    assert!(distance(values.iter().copied(), |x| (x / 0.1).ln() / 103f64.ln()) > CRITICAL, "an end off by 3% is found");
-
-    let triangle = |mode: f64| {
-        move |x: f64| {
-            if x < mode {
-                (x - 1.0).powi(2) / (3.0 * (mode - 1.0))
-            } else {
-                1.0 - (4.0 - x).powi(2) / (3.0 * (4.0 - mode))
-            }
-        }
-    };
-    let values = draws(&Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 1.5, max: 4.0 }));
-    assert!(distance(values.iter().copied(), triangle(1.5)) < CRITICAL);
-    assert!(distance(values.iter().copied(), triangle(1.55)) > CRITICAL, "a mode off by 2% of the width is found");
-
-    // I_x(2, 3) = x^2 (6 - 8 x + 3 x^2)
-    let beta = |x: f64| x * x * (6.0 - 8.0 * x + 3.0 * x * x);
-    assert!(distance(draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.0, 0.0, 1.0))), beta) < CRITICAL);
-    assert!(distance(draws(&Distribution::Beta(BetaQuantile::new(2.0, 3.06, 0.0, 1.0))), beta) > CRITICAL);
-    // PERT from 0 to 4 with mode 4/3: shapes 1 + 4/3 and 1 + 8/3; with mode 1: 2 and 4, I_x(2, 4) = 1 - (1-x)^4 (1 + 4
-    // x)
-    let pert = |x: f64| 1.0 - (1.0 - x / 4.0).powi(4) * (1.0 + x);
-    assert!(distance(draws(&Distribution::Pert(PertQuantile::new(0.0, 1.0, 4.0))), pert) < CRITICAL);
-
     let rayleigh = |scale: f64| move |x: f64| 1.0 - (-0.5 * (x / scale).powi(2)).exp();
     let values = draws(&Distribution::Rayleigh(RayleighQuantile { scale: 0.02 }));
     assert!(distance(values.iter().copied(), rayleigh(0.02)) < CRITICAL);

@@ -15,7 +15,6 @@ use crate::support::scenes::Uniform;
 const ALPHA: f64 = 0.05;
 const MISSED: Occurs = Occurs::Missed { requirement: 0, is_only: true };
 
-/// A free body whose rates about two axes are dispersed, with one more line.
 fn small_plan(line: &str) -> Plan {
     let disperse = |axis: &str| {
         let parameter = format!("initial.angular_velocity_rad_s.{axis}");
@@ -31,21 +30,18 @@ fn small_plan(line: &str) -> Plan {
     Plan::from_text("small.toml", &text, Overrides::default()).expect("a plan")
 }
 
-/// The observable of the tests: the first of the plan, with a limit of 1 in 95% of the runs where there is to be one.
 fn plan(has_limit: bool) -> (Plan, String) {
     let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();
     let limit = format!("require = [{{ observable = \"{name}\", at_most = 1.0, fraction = 0.95 }}]");
     (small_plan(if has_limit { &limit } else { "" }), name)
 }
 
-/// What is found of the outcome `y` of the inputs.
 fn explained(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> (Vec<InputSensitivity>, String) {
     let (plan, name) = plan(has_limit);
     let names: Vec<String> = (0..inputs.len()).map(|input| format!("x{input}")).collect();
     (Prepared::new(inputs.to_vec(), None).explained(&plan, &names, &name, y), name)
 }
 
-/// The names of the drivers: of the event, and of the spread; `None` where that is not asked.
 fn drivers(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> [Option<Vec<String>>; 2] {
     let (all, name) = explained(inputs, y, has_limit);
     let rankings = rankings(&all, &name, ALPHA);
@@ -55,15 +51,12 @@ fn drivers(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> [Option<Vec<Strin
     })
 }
 
-/// A thousand runs of six inputs: uniform, but the last two, which are 0 in some of a hundred runs, else 1.
 fn inputs(random: &mut Uniform) -> Vec<Vec<f64>> {
     let mut inputs: Vec<Vec<f64>> = (0..4).map(|_| (0..1000).map(|_| random.uniform()).collect()).collect();
     inputs.extend((0..2).map(|_| (0..1000).map(|_| f64::from(random.uniform() > 0.014)).collect::<Vec<f64>>()));
     inputs
 }
 
-/// Law: the causes that were built in are named, and no others, over a list: what the outcome is of the inputs and
-/// noise, whether it has the limit 1, the drivers of the event and of the spread.
 #[test]
 fn causes_are_named() {
     type Case =
@@ -112,8 +105,6 @@ fn causes_are_named() {
     }
 }
 
-/// Law: levels are counted as they are, the one that differs most is the cause, and its risk ratio is that of the
-/// counts.
 #[test]
 fn levels_are_counts() {
     let mut random = Uniform::new(8);
@@ -138,9 +129,6 @@ fn levels_are_counts() {
     assert!((ratio.value * share(1.0) / share(0.0) - 1.0).abs() < 1e-12 && ratio.lower > 10.0, "{ratio:?}");
 }
 
-/// Law: an input of three values drives a continuous outcome, with its share of the variance: of levels -1, 0, 1 with
-/// equal shares and noise of variance 1/12, x has 2/3 of 2/3 + 1/12, and x^2 has 2/9 of 2/9 + 1/12. Directions: x
-/// rises, -x falls, x^2 does both.
 #[test]
 fn few_values_have_a_share_and_a_direction() {
     let mut random = Uniform::new(21);
@@ -167,32 +155,6 @@ fn few_values_have_a_share_and_a_direction() {
     }
 }
 
-/// H0: of outcomes that depend on none of 40 inputs, at most 5% have a driver: a continuous one with a tail, a rare yes
-/// or no, and one that is mostly zero; inputs are continuous, rare and in three levels. 120 studies each: 5% and three
-/// standard deviations are 13.
-#[test]
-fn noise_has_seldom_a_driver() {
-    let mut random = Uniform::new(77);
-    let mut wrong = [0; 3];
-    for _ in 0..120 {
-        let rows = 150;
-        let mut column = |of: &dyn Fn(f64) -> f64| (0..rows).map(|_| of(random.uniform())).collect::<Vec<f64>>();
-        let inputs: Vec<Vec<f64>> = (0..40)
-            .map(|input| match input % 4 {
-                0 => column(&|u| f64::from(u > 0.03)),
-                1 => column(&|u| (3.0 * u).floor()),
-                _ => column(&|u| u),
-            })
-            .collect();
-        let outcomes = [column(&|u| u * u), column(&|u| f64::from(u > 0.05)), column(&|u| (u - 0.95).max(0.0))];
-        for (wrong, y) in wrong.iter_mut().zip(outcomes) {
-            *wrong += u32::from(drivers(&inputs, &y, false).iter().flatten().any(|names| !names.is_empty()));
-        }
-    }
-    assert!(wrong.iter().all(|count| *count <= 13), "{wrong:?}");
-}
-
-/// Law: what a test does not show is no driver, whatever its share; a limit at which nothing fails is no event.
 #[test]
 fn limits_that_all_meet_have_no_causes() {
     let mut random = Uniform::new(4);
@@ -204,10 +166,6 @@ fn limits_that_all_meet_have_no_causes() {
     assert_eq!(drivers(&few, &noise, false), [None, Some(Vec::new())]);
 }
 
-/// Law: of an input that has nothing to do with an event, the p-value is at most 0.05 in at most 5% of the cases, over
-/// a list: inputs of two, three and five values, one that is mostly one value, and a uniform one. Six standard
-/// deviations of 2,000 cases are allowed: a test without its correction for several levels, or for two questions, has
-/// 8% and more.
 #[test]
 fn effects_on_an_event_are_seldom_false() {
     const CASES: usize = 2000;
@@ -238,8 +196,7 @@ fn effects_on_an_event_are_seldom_false() {
 }
 
 /// Law: a shift is told by the medians of the runs with the event, then of the others, and by the chance that an input
-/// with it is larger than one without: recomputed from all pairs, for events where the input is large and where it is
-/// small.
+/// with it is larger than one without.
 #[test]
 fn shifts_are_medians_and_chances() {
     let mut random = Uniform::new(5);
@@ -295,9 +252,6 @@ fn questions_are_counted() {
     }
 }
 
-/// Law: each requirement has the event that some runs miss it, by the rows that its verdict counts: NaN misses, unless
-/// it is said to meet, and a run that is not `ok` misses in any case. Requirements that are missed by the same runs
-/// have one event.
 #[test]
 fn events_are_the_violations_of_requirements() {
     let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();

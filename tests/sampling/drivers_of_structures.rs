@@ -49,7 +49,6 @@ fn plan(structure: &Structure, design: &str, runs: u64) -> Plan {
 
 const DESIGNS: [&str; 4] = ["random", "latin_hypercube", "sobol", "halton"];
 
-/// The sum of squares about the mean.
 fn square(column: &[f64]) -> f64 {
     let mean = column.iter().sum::<f64>() / column.len() as f64;
     column.iter().map(|value| (value - mean) * (value - mean)).sum()
@@ -59,7 +58,6 @@ fn is_yes_or_no(y: &[f64]) -> bool {
     y.iter().all(|y| [0.0, 1.0].contains(y))
 }
 
-/// The interval of the share of `name` in a sentence, as shares.
 fn interval(said: &str, name: &str) -> Option<[f64; 2]> {
     let rest = &said[said.find(&format!("{name} "))? + name.len() + 1..];
     let (value, rest) = rest.strip_prefix("explains ").unwrap_or(rest).split_once("% [")?;
@@ -151,7 +149,6 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
     counts
 }
 
-/// Whether a campaign with this design may be, and tells drivers: `[[correlate]]` and strata exclude each other.
 fn tells(structure: &Structure, design: &str, runs: u64) -> bool {
     let is_allowed = structure.others.is_empty() || design != "latin_hypercube";
     is_allowed && plan(structure, design, runs).design.bound(structure.inputs, runs).is_none()
@@ -190,7 +187,6 @@ fn all_hold(designs: &[&str], sizes: &[(u64, u64)]) {
     hold(&list.iter().enumerate().collect::<Vec<_>>(), designs, sizes);
 }
 
-/// Law: intervals that are said cover, no other inputs than causes are named, and the main cause first.
 #[test]
 fn drivers_of_structures() {
     all_hold(&["random"], &[(40, 30), (100, 30), (300, 10)]);

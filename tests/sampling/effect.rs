@@ -1,4 +1,4 @@
-//! What may be dispersed: every key that the scene has. What changes nothing, or no requested column, is noted.
+//! What may be dispersed: every key that the scene has.
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::influence;
@@ -19,19 +19,16 @@ groups = ["energy_conservation"]
 
 const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
 
-/// The plan of a campaign with one wheel and three thrusters, and what `text` adds.
 fn plan(text: &str) -> Result<Plan, String> {
     plan_over(1.0, text)
 }
 
-/// The same over `duration_s`.
 pub fn plan_over(duration_s: f64, text: &str) -> Result<Plan, String> {
     let head = HEAD.replace("DURATION", &format!("{duration_s:?}"));
     let scene = [&head, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL].concat();
     Plan::from_text("test.toml", &format!("{scene}{text}"), Overrides::default()).map_err(|error| error.to_string())
 }
 
-/// The lines that disperse a parameter.
 pub fn dispersed(parameter: &str) -> String {
     with(parameter, "distribution = \"uniform\"\nhalf_width = 0.01")
 }
@@ -48,7 +45,6 @@ fn arc(start: f64) -> String {
     )
 }
 
-/// What is noted of the dispersions of a campaign.
 fn notes(text: &str) -> Vec<String> {
     let plan = plan(text).unwrap_or_else(|error| panic!("{text}: {error}"));
     influence::notes(&plan, Isa::best())
@@ -57,8 +53,6 @@ fn notes(text: &str) -> Vec<String> {
 const UNSEEN: &str = "does not affect any requested column";
 const CONSTANT: &str = "is never varied";
 
-/// Law: a dispersion that changes nothing is accepted with one note, which names it; its neighbour, which changes
-/// something, has none.
 #[test]
 fn what_changes_nothing_is_noted() {
     let (p2, p3, on) = ("thrusters.p2.thrust_scale", "thrusters.p3.thrust_scale", "actuators.switch_on_delay_s");
@@ -137,7 +131,6 @@ fn what_acts_in_some_draws_is_not_noted() {
     assert_eq!(notes(&negative), [""; 0]);
 }
 
-/// Law: keys that the scene does not have are refused, by name.
 #[test]
 fn what_the_scene_does_not_have_is_refused() {
     for key in ["body.mass_kg", "initial.debris_position_m", "wheels.w1.mass_kg", "environment.body_torque_n_m"] {
@@ -146,8 +139,6 @@ fn what_the_scene_does_not_have_is_refused() {
     }
 }
 
-/// Law: columns of actuators are those of commands that may act: not of arcs that start after the run, unless draws
-/// move them.
 #[test]
 fn columns_are_of_commands_that_act() {
     let thrust = |text: &str| plan(text).unwrap_or_else(|error| panic!("{text}: {error}")).request().actuated.thrusters;
@@ -156,8 +147,6 @@ fn columns_are_of_commands_that_act() {
     assert!(plan(&arc(1.0)).expect("legal").request_over(1.5).actuated.thrusters, "in a longer run");
 }
 
-/// Law: samples without dispersions are told to be all the same; where no requested column says how accurate a run is,
-/// a note says so.
 #[test]
 fn what_a_plan_alone_says_is_noted() {
     let has = |plan: Plan, says: &str| plan.notes().iter().any(|note| note.contains(says));

@@ -1,5 +1,4 @@
-//! How often an input that does nothing is named as a driver, design by design: in a campaign whose outcome is an
-//! interaction of two others.
+//! How often an input that does nothing is named as a driver, design by design.
 
 use spindrift::analysis::effects::{TestedInput, on_spread};
 use spindrift::math::normal::quantile;
@@ -10,7 +9,6 @@ use spindrift::statistics::correlation::ascending_order;
 
 const CAMPAIGNS: u64 = 300;
 
-/// The numbers of each of `dimensions` inputs in the first `points` points.
 pub fn numbers(design: &Design, seed: u64, dimensions: usize, points: u64) -> Vec<Vec<f64>> {
     let names: Vec<String> = (0..dimensions).map(|k| format!("d{k}")).collect();
     let factors: Vec<usize> = (0..dimensions).collect();
@@ -27,8 +25,6 @@ pub fn numbers(design: &Design, seed: u64, dimensions: usize, points: u64) -> Ve
     inputs
 }
 
-/// In how many campaigns an input is named although the outcome follows from two others: their product, or whether one
-/// of both is above its median. The campaigns have all pairs of inputs in turn.
 fn named(design: &Design, dimensions: usize, points: u64) -> u64 {
     let pairs: Vec<[usize; 2]> = (0..dimensions).flat_map(|j| (0..j).map(move |k| [k, j])).collect();
     let is_named = |seed: &u64| {

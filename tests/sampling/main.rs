@@ -20,7 +20,6 @@ mod drivers_of_structures;
 mod effect;
 mod false_names;
 mod geometric;
-mod geometric_files;
 mod means_with_tails;
 mod replay;
 mod replicates;

@@ -2,7 +2,6 @@
 //! scene, give the same scene and the same columns, bit for bit.
 
 use crate::support::plans::files;
-use crate::support::scratch_folder::ScratchFolder;
 use spindrift::campaign::{Overrides, Plan, SceneDraws, draw};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
@@ -13,7 +12,6 @@ const SAMPLES: u64 = 24;
 /// Of these, samples that are run.
 const RUN: u64 = 3;
 
-/// The campaign whose nominal scene is written with the recorded values of `sample`, read from its text.
 fn written_again(plan: &Plan, sample: SampleId) -> Plan {
     let mut draws = SceneDraws::new(plan);
     draws.scene(sample).expect("a physical sample");
@@ -56,54 +54,4 @@ fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
         }
     }
     assert!(with_attitude >= 2, "campaigns that disperse an attitude");
-}
-
-/// Law: the attitude recorded is the attitude used; the recorded values of a campaign, given to it as a table, make the
-/// same scenes, bit for bit.
-#[test]
-fn recorded_values_as_a_table_make_the_same_scenes() {
-    let scratch = ScratchFolder::new("replay");
-    let (mut replayed, mut attitudes) = (0, 0);
-    for file in files() {
-        let plan = Plan::load(&file, Overrides::default()).expect("a shipped file");
-        let columns = plan.dispersions.columns();
-        if columns.is_empty() {
-            continue;
-        }
-        let names: Vec<String> = columns.iter().map(|column| column.parameter.column_name(column.component)).collect();
-        let mut draws = SceneDraws::new(&plan);
-        let samples = 1..plan.samples.min(SAMPLES + 1);
-        let scenes: Vec<_> = samples
-            .map(|sample| {
-                let scene = draws.scene(SampleId(sample)).expect("a physical sample").clone();
-                // where a scene divides what was normalised once more by its norm, a third of the rows differ in the
-                // last bit
-                for (column, applied) in columns.iter().zip(draws.applied()) {
-                    if column.parameter.name() == "initial.attitude" {
-                        assert_eq!(applied.to_bits(), scene.initial.q_es[column.component].to_bits(), "{sample}");
-                    }
-                }
-                (scene, draws.applied().iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(","))
-            })
-            .collect();
-        let rows: Vec<&str> = scenes.iter().map(|(_, row)| row.as_str()).collect();
-        std::fs::write(scratch.0.join("draws.csv"), format!("{}\n{}\n", names.join(","), rows.join("\n")))
-            .expect("a file");
-        let mut bare = plan.clone();
-        bare.samples = scenes.len() as u64 + 1;
-        bare.design = Design::DEFAULT;
-        bare.dispersed.clear();
-        bare.correlated.clear();
-        bare.derived.clear();
-        let text = bare.text().replace("[design]\nkind = \"random\"\n", "");
-        let text = format!("{text}\n[design]\nkind = \"table\"\nfile = \"draws.csv\"\n");
-        let table = Plan::from_text_in(&scratch.0, "replay.toml", &text, Overrides::default());
-        let table = table.unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-        for (sample, (scene, _)) in (1..).zip(&scenes) {
-            assert_eq!(draw(&table, SampleId(sample)).as_ref(), Ok(scene), "{} {sample}", file.display());
-        }
-        replayed += 1;
-        attitudes += u32::from(columns.iter().any(|column| column.parameter.width() == 4));
-    }
-    assert!(replayed >= 15 && attitudes >= 2, "{replayed} campaigns, {attitudes} with attitudes");
 }

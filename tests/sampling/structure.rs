@@ -11,7 +11,6 @@ use crate::support::draws;
 use crate::support::every_key::{distribution_tables, without_draws};
 use crate::support::scratch_folder::ScratchFolder;
 
-/// The applied values of samples 1 to `samples` - 1 of `text`, and the parameter of each column.
 fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
     let plan = Plan::from_text_in(folder, "structure.toml", text, Overrides::default());
     let plan = plan.unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -20,8 +19,7 @@ fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
 }
 
 /// Law: of the members of a block, that of a distribution has all numbers of this distribution from the last, and all
-/// others from the first, for every distribution. One of several numbers together is one, that of each component of a
-/// vector another.
+/// others from the first, for every distribution.
 #[test]
 fn saltelli_replaces_the_numbers_of_one_distribution_together() {
     const BLOCKS: usize = 8;
@@ -78,7 +76,6 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
     assert_eq!(names, DistributionKind::NAMES.iter().copied().collect(), "every distribution is here");
 }
 
-/// The digits of a point in base `base`, the lowest first.
 fn digits(mut point: u64, base: u64, count: usize) -> Vec<u64> {
     let mut digit = || {
         let lowest = point % base;
@@ -90,7 +87,7 @@ fn digits(mut point: u64, base: u64, count: usize) -> Vec<u64> {
 
 /// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), but for a
 /// permutation of the values of each digit, the same for all n and another for each digit and dimension (A. B. Owen,
-/// 2017). So every b^m points that follow each other from a multiple of b^m on are one in each interval of width b^-m.
+/// 2017).
 #[test]
 fn halton_permutes_the_digits_of_the_radical_inverse() {
     const PRIMES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

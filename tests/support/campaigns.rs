@@ -82,7 +82,6 @@ std = [0.5, 0.5, 1.5]
 pub const SMALL_BODY: &str = "[body]\nmass_kg = 100\ncenter_of_mass_m = [0, 0, 0]\n\
     inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]\nincludes_wheels = true\n";
 
-/// A wheel of it about `axis`.
 pub fn small_wheel(name: &str, axis: [u8; 3]) -> String {
     format!(
         "[[wheels]]\nname = {name:?}\naxis = {axis:?}\nmass_kg = 1\naxial_inertia_kg_m2 = \

@@ -18,7 +18,6 @@ static DOCUMENT: Mutex<()> = Mutex::new(());
 /// The head of every table.
 const HEAD: [&str; 2] = ["| regime | bound | measured | margin |", "| --- | --- | --- | --- |"];
 
-/// The document.
 pub fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy.md")
 }
@@ -28,19 +27,16 @@ pub fn path() -> PathBuf {
 /// the platform.
 const FRESH: f64 = 1.1;
 
-/// Whether the row of the document states another measured number than `measured`.
-pub fn is_outdated(row: &str, measured: f64) -> bool {
+fn is_outdated(row: &str, measured: f64) -> bool {
     let stated: f64 = row.split('|').nth(3).and_then(|cell| cell.trim().parse().ok()).unwrap_or(f64::NAN);
     let (low, high) = (stated.min(measured), stated.max(measured));
     stated.is_nan() || high > FRESH * low
 }
 
-/// The row of a claim up to its measured number, which may differ from kernel to kernel.
 fn stated(regime: &str, bound: f64) -> String {
     format!("| {regime} | {bound:.1e} |")
 }
 
-/// Holds the claim of `section` that in `regime` the number `measured` is at most `bound`.
 pub fn hold(section: &str, regime: &str, bound: f64, measured: f64) {
     let row = format!("{} {measured:.1e} | {:.1} |", stated(regime, bound), bound / measured);
     println!("{section}: {row}");

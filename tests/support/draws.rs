@@ -4,7 +4,6 @@ use spindrift::campaign::Plan;
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Scene, SceneInput};
 
-/// What `see` makes of the scenes and the applied values of samples.
 pub fn seen<T>(
     plan: &Plan,
     ids: impl IntoIterator<Item = u64>,
@@ -19,28 +18,23 @@ pub fn seen<T>(
     ids.into_iter().map(draw).collect()
 }
 
-/// The applied values of samples, in the order of [`names`].
 pub fn applied(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Vec<f64>> {
     seen(plan, ids, |_, applied| applied.to_vec())
 }
 
-/// The scenes of samples, which are all physical.
 pub fn scenes(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Scene> {
     seen(plan, ids, |input, _| Scene::resolve(input).expect("shipped campaigns draw physical scenes"))
 }
 
-/// What is dispersed, as in a campaign file.
 pub fn names(plan: &Plan) -> Vec<String> {
     plan.dispersions.columns().iter().map(|column| column.parameter.component_name(column.component)).collect()
 }
 
-/// The applied values of one component.
 pub fn column(plan: &Plan, name: &str, ids: impl IntoIterator<Item = u64>) -> Vec<f64> {
     let index = names(plan).iter().position(|known| known == name).unwrap_or_else(|| panic!("{name} is not dispersed"));
     seen(plan, ids, |_, applied| applied[index])
 }
 
-/// Pearson's coefficient.
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len() as f64;
     let (ma, mb) = (a.iter().sum::<f64>() / n, b.iter().sum::<f64>() / n);

@@ -1,183 +1,8 @@
-//! A campaign file with every table, and with tables of every distribution and design: what the tests of wrong files
-//! change.
+//! A campaign file with every table, and with tables of every distribution and design.
 
 /// A valid file with every table that a file can have.
-pub const EVERY_TABLE: &str = r#"[campaign]
-name = "every"
-description = "What is refused?"
-samples = 10
-seed = 1
-duration_s = 10.0
+pub const EVERY_TABLE: &str = include_str!("every_table.toml");
 
-[integrator]
-method = "auto"
-tolerance = 1e-10
-max_steps = 100000
-
-[observe]
-points = 11
-nutation_axis = "principal"
-groups = ["effort", "energy_conservation"]
-
-[body]
-mass_scale = 1.0
-
-[[body.parts]]
-name = "fuselage"
-shape = "hollow_cylinder"
-wall_thickness_m = 0.03
-outer_radius_m = 1.0
-length_m = 3.0
-density_kg_m3 = 2700.0
-position_m = [0, 0, 1.5]
-
-[[body.parts]]
-name = "tank"
-shape = "sphere"
-radius_m = 0.1
-mass_kg = 5.0
-
-[[wheels]]
-name = "w1"
-axis = [0, 1, 0]
-position_m = [0, 0, 1]
-radius_m = 0.25
-length_m = 0.1
-density_kg_m3 = 2700.0
-rate_rad_s = 314.0
-
-[[wheels]]
-name = "w2"
-axis = [0, 0, 1]
-mass_kg = 50.0
-axial_inertia_kg_m2 = 1.5
-transverse_inertia_kg_m2 = 0.8
-mode = "locked"
-
-[[thrusters]]
-name = "p1"
-position_m = [0, 0, 0]
-direction = [0, 0, 1]
-
-[debris]
-side_m = 0.2
-density_kg_m3 = 2700.0
-
-[initial]
-position_m = [0, 0, 0]
-velocity_m_s = [10, 0, 0]
-attitude = [1, 0, 0, 0]
-angular_velocity_rad_s = [0, 3.0, 31.0]
-debris_position_m = [0, 0, 0]
-debris_velocity_m_s = [10, 0, 0]
-debris_attitude = [1, 0, 0, 0]
-debris_relative_angular_velocity_rad_s = [100, 0, 0]
-
-[environment]
-body_torque_n_m = [0, 0.001, 0]
-
-[actuators]
-switch_on_delay_s = 0.001
-
-[[actuation]]
-name = "burn"
-start_s = 0.0
-end_s = 3.0
-thrust_n = { p1 = 100 }
-thrust_scale = 0.99
-torque_n_m = { w1 = 0.5 }
-
-[[failure]]
-name = "weak"
-wheel = "w1"
-at_s = 4.0
-torque_scale = 0.5
-
-[[failure]]
-name = "stuck"
-thruster = "p1"
-at_s = 5.0
-thrust_n = 1.0
-
-[[event]]
-name = "slow"
-quantity = "2 * angular_rate_rad_s"
-value = 62.0
-direction = "falling"
-which = "last"
-
-[[event]]
-name = "fast"
-quantity = "angular_rate_rad_s"
-value = 1000.0
-ends_run = true
-
-[[extreme]]
-name = "angular_rate_late_min_rad_s"
-quantity = "angular_rate_rad_s"
-which = "min"
-after = "slow"
-delay_s = 0.5
-
-[design]
-kind = "random"
-
-[[disperse]]
-parameter = "wheels.w1.radius_m"
-distribution = "uniform"
-half_width = 0.002
-
-[[disperse]]
-parameter = "body.parts.fuselage.density_kg_m3"
-distribution = "normal"
-relative_std = 0.02
-
-[[correlate]]
-parameters = ["wheels.w1.radius_m", "body.parts.fuselage.density_kg_m3"]
-rank_correlation = 0.5
-
-[[derive]]
-parameter = "body.parts.fuselage.position_m.z"
-expression = "body.parts.fuselage.length_m / 2"
-
-[bands]
-points = 5
-runs = 2000
-
-[audit]
-fraction = 0.1
-
-[output]
-compression = "zstd"
-
-[[observable]]
-name = "twice"
-unit = "J"
-expression = "2 * energy_error_max"
-
-[statistics]
-quantiles = [0.5, 0.9]
-confidence = 0.9
-
-[summary]
-columns = ["steps"]
-
-[[require]]
-observable = "energy_error_max"
-quantile = 0.99
-at_most = 1e-9
-
-[stop]
-observable = "energy_error_max"
-quantile = 0.95
-half_width = 1e-12
-max_samples = 5000
-
-[retain]
-trajectories = "failed"
-"#;
-
-/// Tables of distributions, each with the name of the distribution.
 pub fn distributions() -> Vec<(&'static str, String)> {
     let scalar = [
         "normal",
@@ -210,14 +35,13 @@ pub fn distributions() -> Vec<(&'static str, String)> {
     scalar.into_iter().chain(directions).chain(attitudes).chain([rows]).collect()
 }
 
-/// [`EVERY_TABLE`] without what is drawn.
 pub fn without_draws() -> String {
     let at = |header: &str| EVERY_TABLE.find(header).expect("a table of the file");
     [&EVERY_TABLE[..at("[design]")], &EVERY_TABLE[at("[bands]")..]].concat()
 }
 
 /// A valid table of each distribution and each way to say its numbers, for [`without_draws`] and a table `data.csv`
-/// with columns a and b; with the name of the distribution.
+/// with columns a and b.
 pub fn distribution_tables() -> Vec<(&'static str, String)> {
     let of = |parameter: &str, name: &'static str, keys: &str| {
         let target = if parameter.is_empty() { String::new() } else { format!("parameter = {parameter:?}\n") };
@@ -275,7 +99,6 @@ pub fn distribution_tables() -> Vec<(&'static str, String)> {
     scalar.chain(rates).chain(attitudes).chain([of("", "bootstrap", rows)]).collect()
 }
 
-/// Files that together have every number that a scene can have, each with two arcs with names.
 pub fn every_scene() -> Vec<String> {
     const RELATIVE_DEBRIS: &str =
         "debris_attitude = [1, 0, 0, 0]\ndebris_relative_angular_velocity_rad_s = [100, 0, 0]\n";
@@ -320,14 +143,12 @@ pub fn every_scene() -> Vec<String> {
     ]
 }
 
-/// The same with a table of the air of its own.
 fn in_own_air() -> String {
     let exponential = "base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\n";
     on_plates()
         .replace(exponential, "air_heights_m = [3e5, \"400 km\", 6e5]\nair_densities_kg_m3 = [2e-11, 3e-12, 1e-13]\n")
 }
 
-/// The same with plates, in air and light.
 fn on_plates() -> String {
     let plates = "semi_major_axis_m = 9e6\n\
         [[plates]]\nname = \"panel\"\narea_m2 = 2.5\nnormal = [0, 0.5, 1]\ntilt_rad = [0.01, 0.0]\ncenter_m = [0.1, \
@@ -340,7 +161,6 @@ fn on_plates() -> String {
     on_orbit(plates).replace("gravity_gradient = true\n", effects)
 }
 
-/// A body on an orbit with these keys, above a point, under the effects of the environment.
 fn on_orbit(keys: &str) -> String {
     format!(
         "[campaign]\nname = \"orbit\"\nsamples = 10\nseed = 1\nduration_s = 100.0\n\
@@ -429,7 +249,6 @@ pub fn every_loop() -> Vec<String> {
     files
 }
 
-/// Failures of the first sensors, in each of the ways in which one can fail.
 fn failures_of(sensors: &str) -> String {
     let of = |name: &str, keys: &str| {
         let is_there = sensors.contains(&format!("name = \"{name}\""));
@@ -442,13 +261,11 @@ fn failures_of(sensors: &str) -> String {
         + &of("a_tachometers", "output = \"frozen\"")
 }
 
-/// The required keys of a list of parameters, with numbers that they allow.
 fn numbers(parameters: &[spindrift::scene::LawParameter]) -> String {
     let required = parameters.iter().filter(|parameter| parameter.default.is_none());
     required.map(|parameter| format!("{} = 0.5\n", parameter.facts.key)).collect()
 }
 
-/// [`EVERY_TABLE`] without draws, and with what acts under a loop alone.
 fn every_table_of_loops() -> String {
     let failing = "torque_scale = 0.5\n\n[[failure]]";
     let friction = "torque_scale = 0.5\ncoulomb_friction_n_m = 0.02\nviscous_friction_n_m_s = 0.002\n\n[[failure]]";

@@ -17,21 +17,18 @@ pub struct Exact {
     pub truths: Vec<ReferenceSolution>,
 }
 
-/// Largest |omega - reference| over the largest |omega|, and largest angle between the attitudes, rad, at any point.
 pub fn distance(table: &StateTable, grid: &Grid, reference: &ReferenceSolution) -> [f64; 2] {
     let error = RotationError::largest(rotation_errors(reference, grid, table));
     [error.omega, error.attitude].map(|error| if error.is_nan() { f64::INFINITY } else { error })
 }
 
 impl Exact {
-    /// Solves `scenes` in double-double.
     pub fn new(scenes: Vec<Scene>, grid: Grid) -> Self {
         let fields = blocks([StateField::Rate, StateField::Attitude]);
         let truths = scenes.par_iter().map(|scene| solved(scene, &grid, fields)).collect();
         Exact { scenes, grid, truths }
     }
 
-    /// The runs of the scenes by `method`: rate, attitude and wheel rates, which must all be complete.
     pub fn runs(&self, method: Method, control: Control) -> Vec<Run> {
         let fields = blocks([StateField::Rate, StateField::Attitude, StateField::WheelRates]);
         let plan = PropagationSettings::new(method, control, self.grid.clone(), fields, &self.scenes[0]);
@@ -43,7 +40,6 @@ impl Exact {
         runs
     }
 
-    /// The larger of the errors of rate (relative) and attitude (rad) of each run.
     pub fn errors(&self, runs: &[Run]) -> Vec<f64> {
         let worst = |(run, truth): (&Run, &ReferenceSolution)| {
             let [rate, attitude] = distance(&run.table, &self.grid, truth);
@@ -53,7 +49,6 @@ impl Exact {
     }
 }
 
-/// The reference solution of `scene`.
 pub fn solved(scene: &Scene, grid: &Grid, fields: StateFields) -> ReferenceSolution {
     ReferenceSolution::new(Isa::best(), scene, grid, fields, TOLERANCE).expect("the reference solution is complete")
 }

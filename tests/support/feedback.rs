@@ -39,7 +39,6 @@ impl ActuationLaw for ProportionalDerivative {
     }
 }
 
-/// The law of a scene: gains that turn its body within some seconds.
 pub fn law(scene: &Scene) -> ZeroOrderHold<ProportionalDerivative> {
     let inertia = scene.mass.inertia;
     let smallest = inertia[0][0].min(inertia[1][1]).min(inertia[2][2]);
@@ -67,25 +66,21 @@ fn flights(count: usize, propagate: impl FnOnce(&mut dyn FnMut(CompletedRun<'_>)
     flights.into_iter().map(|flight| flight.expect("every run is handed over")).collect()
 }
 
-/// The runs of `scenes` under laws of their own.
 pub fn fly_under(laws: &mut dyn LawSource, isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
     flights(scenes.len(), |finish| {
         settings.engine(isa).propagate_under(Laws::Feedback(laws), scenes, &mut |run| finish(run));
     })
 }
 
-/// The runs of `scenes` under [`law`].
 pub fn fly(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
     fly_under(&mut scenes.iter().map(law).collect::<Vec<_>>(), isa, settings, scenes)
 }
 
-/// The runs of `scenes` by schedules that were recorded, as laws.
 pub fn fly_recorded(isa: Isa, settings: &PropagationSettings, scenes: &[Scene], records: &[Vec<Arc>]) -> Vec<Flight> {
     let mut laws: Vec<_> = records.iter().map(|schedule| OpenLoop { schedule }).collect();
     fly_under(&mut laws, isa, settings, scenes)
 }
 
-/// The runs of `scenes` by their own schedules.
 pub fn fly_schedules(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {
     flights(scenes.len(), |finish| settings.engine(isa).propagate(scenes, &mut |run| finish(run)))
 }

@@ -1,6 +1,4 @@
 //! Golden data: scenes with states to 25 digits, from a 40-digit Taylor solution of the gyrostat equations.
-//!
-//! `tests/golden/*.json` hold numbers as strings (all digits) or as plain JSON numbers; here they become `f64`.
 
 use std::path::Path;
 
@@ -47,7 +45,6 @@ pub struct ReferenceSolution {
 }
 
 impl Golden {
-    /// The golden file `tests/golden/<name>.json`.
     pub fn load(name: &str) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.json"));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -56,13 +53,11 @@ impl Golden {
         Golden { scene: scene(&file["scene"]), truth }
     }
 
-    /// The times of the truth, s.
     pub fn times(&self) -> Vec<f64> {
         self.truth.iter().map(|row| row.time).collect()
     }
 }
 
-/// One number, written as a string of all its digits or as a JSON number.
 fn number(value: &Value) -> f64 {
     match value {
         Value::String(digits) => digits.parse().expect("a decimal number"),

@@ -1,5 +1,4 @@
-//! Energy and angular momentum of a run without actuators from its states, in double-double: rounding of the states is
-//! seen, rounding of the measurement itself is negligible.
+//! Energy and angular momentum of a run without actuators from its states, in double-double.
 
 use spindrift::math::double_double::DoubleDouble;
 use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
@@ -22,7 +21,6 @@ pub struct Invariants {
     pub norm: DoubleDouble,
 }
 
-/// The wheels' momenta that nothing changes, N m s: h_i of a free wheel, J_i Omega_i of one whose speed is held.
 fn wheel_momenta(scene: &Scene) -> Vec<DoubleDouble> {
     let zero = DoubleDouble::exact(0.0);
     let omega = constant(zero, scene.initial.omega_se_s);
@@ -38,7 +36,6 @@ fn wheel_momenta(scene: &Scene) -> Vec<DoubleDouble> {
 }
 
 impl Invariants {
-    /// The invariants of `scene` at point `point` of its states, which hold rate and attitude.
     pub fn of(scene: &Scene, table: &StateTable, point: usize) -> Self {
         let zero = DoubleDouble::exact(0.0);
         let half = zero.splat(0.5);
@@ -56,8 +53,6 @@ impl Invariants {
         Invariants { energy, momentum: vector::norm(momentum), momentum_e, norm }
     }
 
-    /// Signed relative errors against `start`: of energy, of |L|, of the quaternion's norm; and the size of that of the
-    /// vector L.
     pub fn errors(&self, start: &Self) -> [f64; 4] {
         let off = |now: DoubleDouble, then: DoubleDouble| {
             let size = if then.high == 0.0 { DoubleDouble::exact(1.0) } else { then };

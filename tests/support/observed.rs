@@ -13,7 +13,6 @@ use spindrift::scene::{Actuated, Scene};
 /// Names of the wheels of any scene.
 const NAMES: [&str; 8] = ["w1", "w2", "w3", "w4", "w5", "w6", "w7", "w8"];
 
-/// What is observed of spacecraft with `wheels` wheels.
 pub fn request(groups: Groups, wheels: usize, debris: bool, actuated: bool, constrained: bool) -> Request {
     let actuated = if actuated { Actuated::ALL } else { Actuated::NONE };
     Request {
@@ -29,7 +28,6 @@ pub fn request(groups: Groups, wheels: usize, debris: bool, actuated: bool, cons
     }
 }
 
-/// The row of a run by column name, and the observer, which has its series.
 pub fn observed(
     isa: Isa,
     request: Request,

@@ -13,7 +13,6 @@ use spindrift::scene::{
 /// Gravitational parameter of the Earth, m^3/s^2.
 pub const MU: f64 = 3.986004418e14;
 
-/// The methods that integrate `model`, with settings near rounding for motions of some mrad/s.
 pub fn near_rounding(model: ForceModel) -> Vec<(Method, Control)> {
     let control = |method: Method| match method {
         Method::Auto | Method::Taylor | Method::NullSpace => adaptive(1e-16),
@@ -43,13 +42,10 @@ pub fn body(moments: [f64; 3], orbit: OrbitInput) -> SceneInput {
     }
 }
 
-/// A circle of `radius` m, at its ascending node at time zero.
 pub fn circle(radius: f64, inclination: f64) -> OrbitInput {
     OrbitInput { semi_major_axis_m: Some(radius), inclination_rad: Some(inclination), ..OrbitInput::DEFAULT }
 }
 
-/// The same as [`tumbling`] with six plates each, dragged in a dense exponential atmosphere and lit: torques like that
-/// of the gravity gradient.
 pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     let mut u = Uniform::new(seed + 1);
     let plates = |mut input: SceneInput| {
@@ -81,8 +77,7 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
 }
 
 /// The same as [`tumbling`] without a gravity gradient, with a residual dipole in the Earth's field (IGRF for even
-/// numbers, a dipole for the others), and two torque rods that are commanded anew at random times until `duration` s:
-/// torques like that of the gravity gradient.
+/// numbers, a dipole for the others), and two torque rods that are commanded anew at random times until `duration` s.
 pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Scene> {
     let mut u = Uniform::new(seed + 2);
     let magnetic = |(k, mut input): (usize, SceneInput)| {
@@ -153,18 +148,14 @@ pub fn in_thin_air(count: u64, seed: u64) -> Vec<Scene> {
     (0..count).map(|_| scene()).collect()
 }
 
-/// The scene of `input`.
 fn resolved(input: SceneInput) -> Scene {
     Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
 }
 
-/// Bodies of random shapes in random orbits, eccentric up to 0.3, that turn at `rates` times the mean motion; every
-/// other one with a wheel.
 pub fn tumbling(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     inputs(count, seed, rates).into_iter().map(resolved).collect()
 }
 
-/// The scenes of [`tumbling`] as written.
 fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
     let mut u = Uniform::new(seed);
     let input = |k: u64| {
@@ -206,7 +197,6 @@ fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
     (0..count).map(input).collect()
 }
 
-/// `input` with a thruster beside its centre of mass that fires twice, debris, and both bodies beside the orbit.
 pub fn leaving(input: SceneInput) -> SceneInput {
     let mut thruster = ThrusterInput::named("p1", [0.002, -0.001, 0.0], [0.0, 0.0, 1.0]);
     thruster.max_thrust_n = Some(50.0);

@@ -1,5 +1,4 @@
-//! Parquet files as Arrow's arrays, through Parquet's record reader: by another way than the program reads its own
-//! files.
+//! Parquet files as Arrow's arrays, through Parquet's record reader.
 
 use std::fs::File;
 use std::path::Path;
@@ -14,7 +13,6 @@ use parquet::basic::Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-/// Every row group of a file.
 pub fn groups(path: &Path) -> Vec<RecordBatch> {
     let reader = SerializedFileReader::new(File::open(path).unwrap()).unwrap();
     (0..reader.num_row_groups()).map(|index| group(&reader, index)).collect()
@@ -56,7 +54,6 @@ fn array(physical: Type, cells: Vec<Field>) -> ArrayRef {
     }
 }
 
-/// Arrow's schema in the metadata of a file, with units and meanings.
 pub fn schema(reader: &SerializedFileReader<File>) -> Schema {
     let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
     let entry = pairs.iter().find(|pair| pair.key == "ARROW:schema").expect("Arrow's schema");

@@ -11,7 +11,6 @@ use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
-/// The files of the shipped campaigns.
 pub fn files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -20,12 +19,10 @@ pub fn files() -> Vec<PathBuf> {
     files
 }
 
-/// The shipped campaign `name`, with other samples where asked for.
 pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
     shipped_with(name, samples, "")
 }
 
-/// The same with more tables.
 pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
     let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a shipped campaign") + tables;
@@ -46,7 +43,6 @@ pub struct Table {
 }
 
 impl Table {
-    /// The observables called `name`, sample by sample; `None` where the campaign has no such column.
     pub fn find(&self, name: &str) -> Option<&[f64]> {
         self.names.iter().position(|known| *known == name).map(|place| self.values[place].as_slice())
     }
@@ -59,7 +55,6 @@ impl Table {
         self.find(name).unwrap_or_else(|| panic!("no column {name} in {:?}", self.names))
     }
 
-    /// Names and values of all columns.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &[f64])> {
         self.names.iter().map(String::as_str).zip(self.values.iter().map(Vec::as_slice))
     }
@@ -78,8 +73,6 @@ impl<T: Send, S: Fn(&Rows, usize) -> T + Sync> Sink for Seen<S, T> {
     }
 }
 
-/// What `see` makes of each row of a campaign on so many threads (all cores where none is given), in the order of
-/// samples.
 pub fn seen<T: Send>(
     campaign: &Ensemble<'_>,
     threads: Option<usize>,
@@ -96,7 +89,6 @@ pub fn seen<T: Send>(
 /// A row as bits: status, dispersed values, observables.
 pub type RowBits = (Status, Vec<u64>);
 
-/// The bits of a row.
 pub fn row_bits(rows: &Rows, row: usize) -> RowBits {
     let shape = rows.shape();
     let parameters = (0..shape.parameters).map(|index| rows.parameter(index)[row]);
@@ -104,7 +96,6 @@ pub fn row_bits(rows: &Rows, row: usize) -> RowBits {
     (rows.statuses()[row], parameters.chain(observables).map(f64::to_bits).collect())
 }
 
-/// Runs `plan` on all cores.
 pub fn rows(plan: &Plan) -> Table {
     let campaign = Ensemble::new(plan, Isa::best());
     let names = campaign.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect::<Vec<_>>();

@@ -19,12 +19,10 @@ pub struct Run {
 pub type Bits = Vec<u64>;
 
 impl Run {
-    /// Outcome and all states, as bits.
     pub fn bits(&self) -> Bits {
         self.bits_of(self.table.fields())
     }
 
-    /// Outcome and the states of `blocks`, as bits.
     pub fn bits_of(&self, blocks: StateFields) -> Bits {
         let mut bits = self.outcome_bits();
         for block in StateField::ALL.into_iter().filter(|block| blocks.contains(*block)) {
@@ -35,19 +33,16 @@ impl Run {
         bits
     }
 
-    /// The outcome, as bits.
     pub fn outcome_bits(&self) -> Bits {
         let Outcome { status, time, points, effort, .. } = self.outcome;
         vec![status as u64, time.to_bits(), points as u64, effort.steps, effort.rejected, effort.evaluations]
     }
 
-    /// One component of a block at all points, as bits.
     pub fn column_bits(&self, block: StateField, component: usize) -> impl Iterator<Item = u64> {
         self.table.column(block, component)[..self.table.points()].iter().map(|x| x.to_bits())
     }
 }
 
-/// SHA-256 of numbers as little-endian bytes, in hexadecimal.
 pub fn hash(bits: impl IntoIterator<Item = u64>) -> String {
     let mut digest = Sha256::new();
     for word in bits {
@@ -56,13 +51,12 @@ pub fn hash(bits: impl IntoIterator<Item = u64>) -> String {
     digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A set of blocks.
 pub fn blocks(list: impl IntoIterator<Item = StateField>) -> StateFields {
     list.into_iter().fold(StateFields::NONE, StateFields::with)
 }
 
-/// All blocks that `method` can fill: only `null_space` integrates the DCM, has
-/// constraints, and computes energies from its own states.
+/// All blocks that `method` can fill: only `null_space` integrates the DCM, has constraints, and computes energies from
+/// its own states.
 pub fn everything(method: Method) -> StateFields {
     let constrained =
         |block: &StateField| matches!(block, StateField::Dcm | StateField::Residuals | StateField::KineticEnergies);
@@ -90,12 +84,10 @@ pub const METHODS: [(Method, Control); 7] = [
     (Method::NullSpace, adaptive(1e-5)),
 ];
 
-/// The setting of a method in [`METHODS`].
 pub fn control_of(method: Method) -> Control {
     METHODS.into_iter().find(|(known, _)| *known == method).expect("every method").1
 }
 
-/// The runs of `scenes` in their order.
 pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> Vec<Run> {
     let mut runs: Vec<Option<Run>> = vec![None; scenes.len()];
     plan.engine(isa).propagate(scenes, &mut |CompletedRun { index, table, outcome, .. }| {
@@ -105,18 +97,15 @@ pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> V
     runs.into_iter().map(|run| run.expect("every run is completed")).collect()
 }
 
-/// The same on the best instruction set, with everything in the table.
 pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]) -> Vec<Run> {
     let plan = PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0]);
     propagate_on(Isa::best(), &plan, scenes)
 }
 
-/// |a - b| over |b|, as vectors; over one where |b| is smaller.
 pub fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {
     relative_of(&found, &expected)
 }
 
-/// The same of a field at one point, whatever its width: all wheels together.
 pub fn relative_field(found: &StateTable, expected: &StateTable, field: StateField, point: usize) -> f64 {
     let at = |table: &StateTable| -> Vec<f64> {
         (0..table.width(field)).map(|component| table.column(field, component)[point]).collect()
@@ -136,12 +125,10 @@ fn relative_of(found: &[f64], expected: &[f64]) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// The same for quaternions, whose sign is free.
 pub fn up_to_sign(found: [f64; 4], expected: [f64; 4]) -> f64 {
     relative(found, expected).min(relative(found, expected.map(|x| -x)))
 }
 
-/// Position and velocity of p in F_e, from the states of c.
 pub fn base_point(scene: &Scene, table: &StateTable, point: usize) -> [[f64; 3]; 2] {
     let c_es = dcm_from_quaternion(table.at::<4>(StateField::Attitude, point));
     let center = scene.mass.center;
@@ -152,7 +139,6 @@ pub fn base_point(scene: &Scene, table: &StateTable, point: usize) -> [[f64; 3];
     ]
 }
 
-/// Largest distance of omega, over the largest |omega| of the run, and of the attitude, at any point of two runs.
 pub fn rotation_distance(found: &StateTable, expected: &StateTable) -> [f64; 2] {
     let points = 0..expected.points();
     let size = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);

@@ -37,7 +37,6 @@ impl Uniform {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)
     }
 
-    /// In (0, 1).
     pub fn uniform(&mut self) -> f64 {
         ((self.bits() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
     }
@@ -62,12 +61,10 @@ impl Uniform {
 /// The names of the wheels of random scenes.
 pub const WHEELS: [&str; 2] = ["w1", "w2"];
 
-/// The place of wheel `w1` (0) or `w2` (1) among the wheels of a random scene, if it has that wheel.
 pub fn place_of(input: &SceneInput, wheel: usize) -> Option<usize> {
     input.wheels.iter().position(|other| other.name.as_str() == WHEELS[wheel])
 }
 
-/// Gives the wheels `w1` and `w2` of `input`, as far as it has them, these rates at the start, rad/s.
 pub fn set_wheel_rates(input: &mut SceneInput, rates: [f64; 2]) {
     for (wheel, rate) in rates.into_iter().enumerate() {
         if let Some(place) = place_of(input, wheel) {
@@ -76,17 +73,14 @@ pub fn set_wheel_rates(input: &mut SceneInput, rates: [f64; 2]) {
     }
 }
 
-/// Takes those of the wheels `w1` and `w2` away that `present` does not name.
 pub fn keep_wheels(input: &mut SceneInput, present: [bool; 2]) {
     input.wheels.retain(|wheel| WHEELS.iter().zip(present).any(|(name, kept)| kept && wheel.name.as_str() == *name));
 }
 
-/// The scene with the most wheels, whose tables have columns for the wheels of every other.
 pub fn of_most_wheels(scenes: &[Scene]) -> &Scene {
     scenes.iter().max_by_key(|scene| scene.mass.wheels.len()).expect("there are scenes")
 }
 
-/// The scene number `seed` of a kind: rates up to 10 rad/s, wheels up to 100 rad/s; forced ones over `horizon` seconds.
 pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
     let mut u = Uniform::new(seed);
     let mut input = SceneInput::report();
@@ -160,7 +154,6 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
     input
 }
 
-/// `input` with motors that hold the speed of the wheels named by `held`, which then have no torque in the schedule.
 pub fn speed_held(mut input: SceneInput, held: [bool; 2]) -> SceneInput {
     for place in (0..2).filter(|w| held[*w]).filter_map(|w| place_of(&input, w)).collect::<Vec<_>>() {
         input.wheels[place].mode = WheelMode::SpeedHeld;
@@ -186,7 +179,6 @@ pub fn misaligned(mut input: SceneInput, seed: u64) -> SceneInput {
     input
 }
 
-/// The kind of scene number `k` of [`mixed`].
 pub fn mixed_kind(k: u64, forced: bool) -> Kind {
     Kind {
         wheels: [k % 4 != 1, k % 4 != 2],
@@ -197,8 +189,6 @@ pub fn mixed_kind(k: u64, forced: bool) -> Kind {
     }
 }
 
-/// `count` scenes of all kinds, all forced or none; with debris, as a campaign has it for all of its samples or for
-/// none.
 pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
     let input = |k: u64| random(mixed_kind(k, forced), 1000 + k, horizon);
     (0..count).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
@@ -208,8 +198,7 @@ pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
 pub const COUNTS: [usize; 6] = [0, 1, 2, 3, 4, 8];
 
 /// The random scene number `k` of spacecraft with `count` wheels at any place, about any axis, that are free,
-/// speed-held or locked, and up to sixteen thrusters at any place in any direction; forced ones command the thrusters
-/// and the free wheels.
+/// speed-held or locked, and up to sixteen thrusters at any place in any direction.
 pub fn many_wheels(count: usize, k: u64, forced: bool, horizon: f64) -> SceneInput {
     let bare = Kind { wheels: [false; 2], debris: 0, products: k % 2 == 1, offset: k % 3 == 1, forced: false };
     let mut input = random(bare, 9000 + k, horizon);

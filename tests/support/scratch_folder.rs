@@ -19,7 +19,6 @@ const IN_MEMORY: &str = "/dev/shm";
 /// Bytes that have to be free there; some containers give it no more than 64 MB.
 const ENOUGH: u64 = 2 << 30;
 
-/// Where the folders are: in memory if there is enough of it and `TMPDIR` does not say otherwise.
 fn base() -> PathBuf {
     #[cfg(unix)]
     if std::env::var_os("TMPDIR").is_none()
@@ -35,7 +34,6 @@ fn base() -> PathBuf {
 pub struct ScratchFolder(pub PathBuf);
 
 impl ScratchFolder {
-    /// An empty folder; `name` is unique among all tests.
     pub fn new(name: &str) -> Self {
         let folder = base().join(format!("spindrift-{}-{name}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
@@ -43,46 +41,38 @@ impl ScratchFolder {
         ScratchFolder(folder)
     }
 
-    /// Writes the file `name` with the content `text`.
     pub fn file(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).unwrap();
     }
 
-    /// The path of the file or folder `name`.
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
 
-    /// The content of the text file `name`.
     pub fn text(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// The program with these arguments, in the folder.
     pub fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
         command.args(arguments.split_whitespace()).current_dir(&self.0);
         command
     }
 
-    /// Runs the program in the folder and checks the exit code; returns both output streams.
     pub fn prints(&self, arguments: &str, code: i32) -> String {
         self.outputs(&mut self.command(arguments), code)
     }
 
-    /// The same where no line is broken.
     pub fn prints_wide(&self, arguments: &str, code: i32) -> String {
         self.outputs(self.command(arguments).env("COLUMNS", "1000"), code)
     }
 
-    /// The same with a command on a shipped campaign.
     pub fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
         let campaign = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns").join(campaign);
         let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
         self.outputs(program.arg(command).arg(campaign).args(arguments.split_whitespace()), code)
     }
 
-    /// Runs `program` in the folder and checks the exit code; returns both output streams.
     pub fn outputs(&self, program: &mut Command, code: i32) -> String {
         let output = program.current_dir(&self.0).output().unwrap();
         let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -90,7 +80,6 @@ impl ScratchFolder {
         said
     }
 
-    /// The files of rows of `result`, in their order.
     pub fn part_files(&self, result: &str) -> Vec<PathBuf> {
         let entries = fs::read_dir(self.path(result).join("runs")).unwrap();
         let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -110,30 +99,24 @@ impl ScratchFolder {
         RowsReader::new(folder(&self.path(result)), names("runs"), names("bands"))
     }
 
-    /// Names and contents of the files of rows of `result`.
     pub fn parts(&self, result: &str) -> Vec<(String, Vec<u8>)> {
         let content = |path: PathBuf| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap());
         self.part_files(result).into_iter().map(content).collect()
     }
 
-    /// The rows of `result`, part by part.
     pub fn rows(&self, result: &str) -> Vec<RecordBatch> {
         self.part_files(result).iter().flat_map(|file| batches(file)).collect()
     }
 
-    /// The summary of `result`.
     pub fn summary(&self, result: &str) -> serde_json::Value {
         serde_json::from_slice(&fs::read(self.path(result).join("summary.json")).unwrap()).unwrap()
     }
 
-    /// The first batch of a Parquet file in the folder.
     pub fn table(&self, file: &str) -> RecordBatch {
         batches(&self.0.join(file)).swap_remove(0)
     }
 }
 
-/// Every file below `root`, which may be absent, with its content, by its name: `runs/part-000000.parquet`,
-/// `plan.toml`.
 pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![root.to_owned()];
@@ -151,18 +134,15 @@ pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// All batches of a Parquet file: one for each row group.
 pub fn batches(path: &Path) -> Vec<RecordBatch> {
     parquet_tables::groups(path)
 }
 
-/// The numbers of the column `name`; null as NaN.
 pub fn floats(batch: &RecordBatch, name: &str) -> Vec<f64> {
     let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
     column.as_primitive::<Float64Type>().iter().map(|value| value.unwrap_or(f64::NAN)).collect()
 }
 
-/// The numbers of a column of all `rows`, one after another; null as NaN.
 pub fn column(rows: &[RecordBatch], name: &str) -> Vec<f64> {
     let of = |batch: &RecordBatch| -> Vec<f64> {
         let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
@@ -174,7 +154,6 @@ pub fn column(rows: &[RecordBatch], name: &str) -> Vec<f64> {
     rows.iter().flat_map(of).collect()
 }
 
-/// Sample and status of every row.
 pub fn ended(rows: &[RecordBatch]) -> Vec<(u64, String)> {
     let statuses = rows.iter().flat_map(|batch| {
         let statuses = batch.column_by_name("status").expect("statuses").as_string::<i32>();

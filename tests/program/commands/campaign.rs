@@ -5,7 +5,6 @@ use std::fs::{self, File};
 use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::column;
 
-/// Law: a printed command is one that a shell takes, whatever the names of the folder and of the file.
 #[test]
 fn printed_commands_are_quoted() {
     let scratch = folder("quoted");
@@ -43,7 +42,6 @@ fn a_campaign_runs_once_and_then_says_so() {
     assert_eq!(ids, (0..600).map(f64::from).collect::<Vec<f64>>());
 }
 
-/// Law: the plan in a results folder gives the same result again.
 #[test]
 fn the_kept_plan_reproduces_the_result() {
     let scratch = folder("plan");
@@ -86,7 +84,6 @@ fn what_is_not_a_result_is_left_alone() {
     assert_eq!(scratch.text("notes"), "precious");
 }
 
-/// Law: two processes never write to one folder.
 #[test]
 #[cfg(unix)]
 fn a_folder_in_use_is_refused() {
@@ -100,8 +97,6 @@ fn a_folder_in_use_is_refused() {
     scratch.prints("campaign small.toml --samples 3 --out out", 0);
 }
 
-/// Law: the choice of instruction set changes no byte, without and with a control loop, and an impossible choice is bad
-/// input.
 #[test]
 fn instruction_sets_do_not_change_a_byte() {
     let scratch = folder("isa");
@@ -126,7 +121,7 @@ fn instruction_sets_do_not_change_a_byte() {
 }
 
 /// Law: a build without object stores refuses an address, with the command that builds one that has them, and takes it
-/// for no folder; so it does with an address of another kind.
+/// for no folder.
 #[cfg(not(feature = "cloud"))]
 #[test]
 fn addresses_need_a_build_with_stores() {

@@ -1,5 +1,4 @@
-//! The screen of `spindrift compare`: its numbers are those of rows and file, in the units of people; one screen of it,
-//! and all.
+//! The screen of `spindrift compare`: its numbers are those of rows and file, in the units of people.
 
 use serde_json::Value;
 
@@ -7,7 +6,6 @@ use crate::commands::screen_numbers::{numbers, template};
 use crate::small_campaign::{RADIANS, campaign_without_debris, folder, mixed_failures};
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
 
-/// Runs of each result that are dispersed and ok, and all that are dispersed.
 fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
     sides.map(|side| {
         let ended = ended(&scratch.rows(side));
@@ -18,9 +16,6 @@ fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// Law: one screen has at most 24 lines of 80 characters: results with their runs, each verdict with the share of the
-/// rows before and after, the keys that differ, and the mean of the outcome in deg/s with the shift of the pairs; it
-/// counts the other columns, and its last line is the verdict, whichever result comes first.
 #[test]
 fn a_comparison_fits_a_screen() {
     let scratch = folder("compare-brief");
@@ -88,9 +83,6 @@ fn a_comparison_fits_a_screen() {
     }
 }
 
-/// Law: each number on the whole screen is that of the file, of the result that is named: runs that are ok of each,
-/// tests, and of each observable in the table its mean in the first result and its shift with its interval, in the unit
-/// after its name, p-value and largest shift. Every key that differs is there.
 #[test]
 fn the_screen_is_the_file() {
     let scratch = folder("compare-screen");
@@ -161,7 +153,6 @@ fn the_screen_is_the_file() {
     }
 }
 
-/// Law: a result without a run that has numbers is like no other: nothing is said to be the same.
 #[test]
 fn a_result_without_numbers_is_not_compared() {
     let scratch = folder("compare-lost");
@@ -175,8 +166,6 @@ fn a_result_without_numbers_is_not_compared() {
     }
 }
 
-/// Law: a comparison of campaigns with different names says so before all else, one of a campaign with itself does not;
-/// and both values of a key that changed are in one unit.
 #[test]
 fn different_campaigns_are_named() {
     let scratch = folder("compare-names");

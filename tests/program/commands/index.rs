@@ -7,7 +7,6 @@ use crate::support::scratch_folder::ScratchFolder;
 
 const LIMITED: &str = "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = ";
 
-/// Runs a campaign with a limit on the speed of a wheel, then waits until a later file has a later time.
 fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
     let text = crate::small_campaign::campaign().replace("name = \"small\"", &format!("name = \"{name}\""));
     scratch.file("c.toml", &format!("# Question: is <{name}> slow enough?\n{text}{LIMITED}{limit}\n"));
@@ -16,9 +15,7 @@ fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
 }
 
 /// Law: each finished result below the folder has a row, on the screen and on the page, with the verdicts and runs of
-/// its summary and a link to its page; results of one campaign stand together, the latest first, with the keys and
-/// verdicts that changed since the run before; what cannot be read is named with its reason. The page loads nothing,
-/// the results stay as they are, and the lines fit the terminal.
+/// its summary and a link to its page.
 #[test]
 fn every_result_has_a_row() {
     let scratch = folder("index");

@@ -10,7 +10,6 @@ use std::time::Duration;
 use crate::support::scratch_folder::ScratchFolder;
 use spindrift::observables::Group;
 
-/// Peak memory of a command, kB.
 fn peak(scratch: &ScratchFolder, arguments: &str) -> u64 {
     let program = env!("CARGO_BIN_EXE_spindrift");
     let said = fs::File::create(scratch.0.join("said.txt")).unwrap();
@@ -29,9 +28,6 @@ fn peak(scratch: &ScratchFolder, arguments: &str) -> u64 {
     peak
 }
 
-/// Peak memory of several commands, kB, so that `holds` of it, if it does. Peaks are read while a command runs: on a
-/// busy machine the last ones may be missed, so that a peak is at least what is found. Where the law does not hold,
-/// further tries make it more exact.
 fn peaks<const N: usize>(measure: impl Fn(usize) -> u64, holds: impl Fn(&[u64; N]) -> bool) -> [u64; N] {
     let mut peaks = [0; N];
     for _ in 0..4 {
@@ -45,7 +41,6 @@ fn peaks<const N: usize>(measure: impl Fn(usize) -> u64, holds: impl Fn(&[u64; N
     peaks
 }
 
-/// Law: any number of samples can be drawn in the same memory: 4e5 x 20 numbers alone, held once, would be 64 MB more.
 #[test]
 fn sample_holds_no_draws() {
     let scratch = ScratchFolder::new("stream");
@@ -64,9 +59,6 @@ fn sample_holds_no_draws() {
     assert!(scratch.text("s.html").contains("first "));
 }
 
-/// Law: the memory of a campaign does not grow with its samples, from where parts have their usual size: rows, bands
-/// and counts of parts are not held. Sketches, which count beyond 100,000 samples, take a constant: measured 13 MB,
-/// where 60,000 rows have 52 MB.
 #[test]
 fn a_campaign_holds_no_rows() {
     let scratch = ScratchFolder::new("flat");
@@ -94,7 +86,6 @@ fn a_campaign_holds_no_rows() {
     assert!(is_flat(&[few, many]), "kB: {few} for 6e4 samples, {many} for 1.2e5");
 }
 
-/// Writes a Parquet file of `rows` numbers, in the column `x`, and as many texts of a million letters, in `text`.
 fn table_with_texts(path: &Path, rows: usize) {
     use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
     let schema = "message m { required double x; required binary text (UTF8); }";
@@ -122,8 +113,6 @@ fn table_with_texts(path: &Path, rows: usize) {
 /// when it kept all of it.
 const LIMIT_KB: u64 = 150_000;
 
-/// Law: a file of numbers takes the memory of its columns that are used: others are not decompressed, and a row of CSV,
-/// its header too, has a limit.
 #[test]
 fn small_files_take_little_memory() {
     let scratch = ScratchFolder::new("bombs");

@@ -15,7 +15,6 @@ use crate::support::scratch_folder::ScratchFolder;
 /// The variable with the interpreter.
 const PYTHON: &str = "SPINDRIFT_PYTHON";
 
-/// The Python blocks of the section of recipes.
 fn recipes() -> Vec<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results.md");
     let text = std::fs::read_to_string(path).unwrap();
@@ -24,7 +23,6 @@ fn recipes() -> Vec<String> {
     blocks.map(|block| block.split("```").next().unwrap_or_default().to_owned()).collect()
 }
 
-/// The packages that a block imports.
 fn packages(block: &str) -> Vec<String> {
     let imports = block.lines().filter_map(|line| line.strip_prefix("import "));
     let names = imports.flat_map(|line| line.split(','));
@@ -32,14 +30,12 @@ fn packages(block: &str) -> Vec<String> {
     names.map(package).collect()
 }
 
-/// The number after `word` in what a recipe printed.
 fn after(printed: &str, word: &str) -> f64 {
     let mut words = printed.split_whitespace();
     words.find(|other| *other == word).unwrap_or_else(|| panic!("no {word} in:\n{printed}"));
     words.next().and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("no number after {word}:\n{printed}"))
 }
 
-/// Law: each recipe runs as it is printed, and gives the numbers of the rows and of the bands.
 #[test]
 fn recipes_give_the_numbers_of_the_rows() {
     let scratch = ScratchFolder::new("recipes");
@@ -79,7 +75,6 @@ fn recipes_give_the_numbers_of_the_rows() {
     }
 }
 
-/// Law: `summary.json` has every key that its section of the document lists, missions aside, which need a control loop.
 #[test]
 fn the_summary_has_the_keys_of_its_document() {
     let scratch = ScratchFolder::new("summary-keys");
@@ -97,12 +92,4 @@ fn the_summary_has_the_keys_of_its_document() {
     let absent: Vec<&&str> = keys.iter().filter(|key| **key != "missions" && !has(key)).collect();
     assert!(absent.is_empty(), "{absent:?}");
     assert!(!has("requirements.verdicts") && !has("missions"), "it can fail");
-}
-
-/// Counter-test: what the test looks for is found where it is, and only there.
-#[test]
-fn the_reading_can_fail() {
-    assert_eq!(packages("import a as b, c.d as e\nx = 1\nimport f"), ["a", "c", "f"]);
-    assert_eq!(after("x\nruns 12 median 3e-4", "median"), 3e-4);
-    assert!(std::panic::catch_unwind(|| after("runs 12", "median")).is_err());
 }

@@ -10,7 +10,6 @@ use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, f
 use crate::support::campaigns::SPIN_DISPERSION;
 use crate::support::scratch_folder::floats;
 
-/// Law: `sample` gives the samples of the campaign, in both formats, and says which of them are invalid.
 #[test]
 fn sample_draws_the_rows_of_the_campaign() {
     let scratch = folder("drawn");
@@ -45,21 +44,6 @@ fn sample_draws_the_rows_of_the_campaign() {
     let shown = Found::shown_on(&scratch.text("s.html"));
     assert!(shown.iter().any(|(title, _)| title.starts_with("Rank correlation")), "{shown:?}");
     let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
-    let [mass, a, b, c] = [
-        "mass_kg",
-        "principal_moment_smallest_kg_m2",
-        "principal_moment_middle_kg_m2",
-        "principal_moment_largest_kg_m2",
-    ]
-    .map(|column| floats(parquet, column));
-    for row in 0..600 {
-        assert_eq!(a[row].is_nan(), statuses[row] == "invalid_sample");
-        let is_physical = a[row] <= b[row] && b[row] <= c[row] && c[row] <= a[row] + b[row] && mass[row] > 0.0;
-        assert!(is_physical || a[row].is_nan(), "{row}");
-    }
-    // the nominal one is that of `check`
-    let check = scratch.prints("check thin.toml --verbose", 0);
-    assert!(check.contains(&format!("{} kg", format!("{:.2}", mass[0]).trim_end_matches('0'))), "{check}");
     // one sample, in all digits; in `simulate` as people read numbers, in the unit of the screen
     let sample = (1..600).find(|row| statuses[*row] != "invalid_sample").unwrap();
     let line = text.lines().nth(sample + 1).unwrap().split(',').nth(2).unwrap();
@@ -84,7 +68,6 @@ fn sample_draws_the_rows_of_the_campaign() {
     scratch.prints("sample thin.toml --samples 0", 2);
 }
 
-/// Law: `check` of a scene has no line about what the scene and the method do not have.
 #[test]
 fn check_has_no_line_about_what_is_not_there() {
     let scratch = folder("check-bare");
@@ -114,8 +97,7 @@ fn check_has_no_line_about_what_is_not_there() {
 }
 
 /// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude,
-/// which are those of the drawn values; below those of other parameters there are none. What looks like a mistake is
-/// noted.
+/// which are those of the drawn values.
 #[test]
 fn check_shows_magnitudes_and_implausible_numbers() {
     let scratch = folder("check-magnitudes");
@@ -172,7 +154,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
 }
 
 /// Law: of every shipped campaign `check` takes at most 48 lines of 80 characters, says every dispersed parameter once,
-/// and how to see the rest; the summary comes first.
+/// and how to see the rest.
 #[test]
 fn check_fits_a_screen() {
     let scratch = folder("check-screen");
@@ -231,7 +213,6 @@ fn bad_input_ends_with_code_2_and_says_everything() {
     assert!(scratch.prints("--help", 0).contains("Exit codes"));
 }
 
-/// Law: a reader that closes the pipe early is no error and no panic.
 #[test]
 #[cfg(unix)]
 fn a_closed_pipe_is_no_panic() {
@@ -247,8 +228,7 @@ fn a_closed_pipe_is_no_panic() {
 }
 
 /// Law: of two files with the same name, the one in the current folder is meant and not the one in `campaigns`, for
-/// every command; and a file that has exactly the name is meant before one that has it with `.toml`. Without either,
-/// the one in `campaigns` is.
+/// every command.
 #[test]
 fn a_file_of_the_current_folder_comes_first() {
     let scratch = folder("find");
@@ -274,8 +254,6 @@ fn a_file_of_the_current_folder_comes_first() {
     is_meant("x", 103);
 }
 
-/// Law: a figure of drawn samples is of the dispersed ones: where what is drawn does not depend on the nominal value,
-/// only the note that names this value, left of an axis that it is far from, does. Counter-test: another seed.
 #[test]
 fn a_figure_of_samples_is_without_the_nominal_one() {
     let scratch = folder("drawn-nominal");
@@ -313,7 +291,7 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
 }
 
 /// Law: the torque of a thruster that `check --verbose` shows is r x F about the centre of mass, by hand from the
-/// numbers of the file: p2 at (0, -0.5, 3.0) m and p3 at (0, 0.5, 3.0) m push along -s3, and the centre is on s3.
+/// numbers of the file.
 #[test]
 fn torques_of_thrusters_have_their_sign() {
     let scratch = folder("torques");

@@ -6,7 +6,6 @@ use crate::page::numbers::Found;
 use crate::small_campaign::folder;
 use crate::support::scratch_folder::floats;
 
-/// Law: `simulate --sample K` shows the run behind row K, bit for bit.
 #[test]
 fn simulate_shows_the_run_behind_the_row() {
     let scratch = folder("sample");
@@ -67,8 +66,6 @@ fn simulate_writes_the_promised_columns() {
     assert_eq!([start("v_po_e_x_m_s"), start("v_po_e_y_m_s"), start("v_po_e_z_m_s")], [10.0, 0.0, 0.0]);
 }
 
-/// Law: of a mission that ended it is said when and why, as in its row; what does not exist at a time, as a pointing
-/// error without a target, is no number.
 #[test]
 fn the_end_of_a_mission_is_said() {
     let scratch = folder("mission-end");
@@ -156,7 +153,6 @@ fn plots_and_tables_are_made() {
     assert!(said.contains("omega_x") && said.contains("q_es_w") && said.lines().count() >= 12, "{said}");
 }
 
-/// A body with eight wheels, whose names differ in their last letter.
 fn eight_wheels() -> String {
     let wheel = |k: usize| {
         format!(
@@ -174,8 +170,6 @@ fn eight_wheels() -> String {
     )
 }
 
-/// Law: no line of the table is longer than COLUMNS says, or than 100 letters where nothing says the width; each header
-/// is there once, and the wheels that are not shown are named.
 #[test]
 fn a_table_with_many_wheels_fits() {
     let scratch = folder("eight");
@@ -204,7 +198,6 @@ fn a_table_with_many_wheels_fits() {
     assert!(counts[0] >= 1 && counts[1] < counts[2] && counts[0] < counts[2] && counts[0] == counts[3], "{counts:?}");
 }
 
-/// Law: the figures name every wheel.
 #[test]
 fn a_plot_of_many_wheels_names_them() {
     let scratch = folder("eight_plot");

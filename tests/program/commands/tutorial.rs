@@ -18,7 +18,6 @@ enum Step<'d> {
     Picture { figure: &'d str, picture: &'d str },
 }
 
-/// The steps of a document, in order.
 fn steps(document: &str) -> Vec<Step<'_>> {
     let (mut steps, mut file, mut figure) = (Vec::new(), None, None);
     let mut lines = document.lines();
@@ -50,8 +49,6 @@ fn steps(document: &str) -> Vec<Step<'_>> {
     steps
 }
 
-/// The first of `expected` that is not in `printed` after those before it, each at the start of a line; without `...`
-/// between them on the next line.
 fn missing<'d>(printed: &str, expected: &[&'d str]) -> Option<&'d str> {
     let mut rest = printed.lines();
     let mut is_free = true;
@@ -70,7 +67,6 @@ fn missing<'d>(printed: &str, expected: &[&'d str]) -> Option<&'d str> {
     None
 }
 
-/// Law: a reader who does what the tutorial says gets what it shows.
 #[test]
 fn the_tutorial_does_what_it_says() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
@@ -107,21 +103,4 @@ fn the_tutorial_does_what_it_says() {
         "{} of {pictures} pictures are marked with their figure",
         counts[3]
     );
-}
-
-/// Counter-test: a file, a command, a line and a picture are found as such, and a line that is not printed is missed.
-#[test]
-fn the_steps_of_a_document_are_found() {
-    let document = "<!-- file: a.toml -->\n\n```toml\nx = 1\n```\n```sh\nspindrift check a.toml    # exit code \
-        2\n```\n```text\none\n...\ntwo\n```\n<!-- picture: f/a.svg -->\n\n![A](figures/b.svg)\n";
-    let expected = [
-        Step::Write { file: "a.toml", text: "x = 1\n\n".to_owned() },
-        Step::Run { command: "spindrift check a.toml", code: 2 },
-        Step::Prints(vec!["one", "...", "two"]),
-        Step::Picture { figure: "f/a.svg", picture: "figures/b.svg" },
-    ];
-    assert_eq!(steps(document), expected);
-    assert_eq!(missing("zero\none\nthree\ntwo\n", &["one", "...", "two"]), None);
-    assert_eq!(missing("zero\none\nthree\ntwo\n", &["one", "two"]), Some("two"));
-    assert_eq!(missing("two\none\n", &["one", "...", "two"]), Some("two"));
 }

@@ -8,7 +8,7 @@ use crate::small_campaign::folder;
 const LONGEST_WORD: usize = 60;
 
 /// Law: at every width each number that a command shows in wide lines is there, whole, and a longer line is a single
-/// word. Sentences that several rows have in common stand once.
+/// word.
 #[test]
 fn numbers_stand_whole_at_every_width() {
     let scratch = folder("widths");

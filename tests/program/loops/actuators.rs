@@ -1,5 +1,4 @@
-//! What wheels and thrusters make of the commands of a control loop: recomputed from the telemetry and the true states
-//! at the starts of the arcs, and compared with what was flown.
+//! What wheels and thrusters make of the commands of a control loop.
 
 use nalgebra::{Matrix3, Vector3};
 use spindrift::scene::{Arc, Scene, WheelModel};
@@ -26,7 +25,6 @@ pub struct Driven {
     pub is_stopped: bool,
 }
 
-/// What `model` makes of `commanded` on the wheel number `wheel` of `scene`, at the rate `rate`, over `length` seconds.
 pub fn driven(scene: &Scene, wheel: usize, commanded: f64, rate: f64, length: f64) -> Driven {
     let model: WheelModel = scene.actuators.wheels[wheel];
     // Omega' = tau (1/J + a.K^-1 a): the body takes the opposite torque
@@ -61,7 +59,6 @@ pub fn driven(scene: &Scene, wheel: usize, commanded: f64, rate: f64, length: f6
     }
 }
 
-/// What acts on each wheel over each arc of `flown`, by the commands that have reached the motors at its start.
 pub fn driven_wheels(flown: &FlownLoop) -> Vec<Vec<Driven>> {
     let spec = flown.spec();
     let commands: Vec<Vec<f64>> = spec
@@ -83,15 +80,12 @@ pub fn driven_wheels(flown: &FlownLoop) -> Vec<Vec<Driven>> {
     flown.arcs.iter().map(of_arc).collect()
 }
 
-/// The tick whose command acts at `time`: the last that is at least `control.delay_s` ago.
 pub fn acting(flown: &FlownLoop, time: f64) -> Option<usize> {
     let delay = flown.control("delay_s");
     let came = |state: &State| state.time + delay < time + SAME_TIME;
     flown.ticks.partition_point(came).checked_sub(1)
 }
 
-/// The torque of every motor over every arc of `flown` is what its wheel makes of the command; how often each effect
-/// was met: limit of the torque, of the speed, a wheel that friction stops, neither.
 fn assert_driven(flown: &FlownLoop) -> [usize; 4] {
     let mut met = [0; 4];
     for ((arc, state), wheels) in flown.arcs.iter().zip(driven_wheels(flown)) {
@@ -109,7 +103,6 @@ fn assert_driven(flown: &FlownLoop) -> [usize; 4] {
     met
 }
 
-/// `slew_closed.toml` with motors that their limits cut and bearings that stop them, for its slew alone.
 pub fn limited_slew() -> String {
     changed(
         SLEW_CLOSED,
@@ -124,7 +117,7 @@ pub fn limited_slew() -> String {
 }
 
 /// Law: a motor gives the command that is `delay_s` old, with its scale and bias, within the limits of its torque and
-/// of its wheel's speed, and friction acts; for delays of none, of a part of a period, and of more than one.
+/// of its wheel's speed, and friction acts.
 #[test]
 fn motors_give_what_their_wheels_make_of_the_commands() {
     for delay in ["0.0", "0.05", "0.25", "0.6"] {
@@ -137,8 +130,6 @@ fn motors_give_what_their_wheels_make_of_the_commands() {
     assert!(met[3] > 100, "{met:?}");
 }
 
-/// Thrusts over the arcs of `flown`: those that the commands, `delay_s` later, and the drawn thrusters make; how many
-/// pulses ended within a period.
 fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
     let spec = flown.spec();
     let (period, delay) = (spec.period, flown.control("delay_s"));
@@ -173,8 +164,6 @@ fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
     pulses
 }
 
-/// Every arc of `flown` begins at a tick, when a command begins to act, or when a thruster as drawn ends its pulse: not
-/// where flight software believes that it does. How many of the believed ends no arc begins at.
 fn assert_begun(flown: &FlownLoop, is_on_off: bool) -> usize {
     let spec = flown.spec();
     let (period, delay) = (spec.period, flown.control("delay_s"));
@@ -198,9 +187,6 @@ fn assert_begun(flown: &FlownLoop, is_on_off: bool) -> usize {
     believed_ends.into_iter().filter(|end| !is_among(&starts, *end)).count()
 }
 
-/// Law: a thruster fires `delay_s` after its command: at the thrust that was commanded, or at its own for as long as
-/// makes the mean; a valve that is slower or weaker than flight software knows fires longer or less. In every
-/// modulation.
 #[test]
 fn thrusters_give_what_their_valves_make_of_the_commands() {
     let drawn = "\n[[disperse]]\nparameter = \"thrusters.p3.min_on_time_s\"\ndistribution = \"offset\"\noffset = 0.05\n\
@@ -221,30 +207,4 @@ fn thrusters_give_what_their_valves_make_of_the_commands() {
             assert!(!is_on_off || prolonged > 3, "{modulation}, delay {delay}: {prolonged}");
         }
     }
-}
-
-/// Law: where P1 makes up for the force of P2 or P3, which turn the body, the change of velocity is that of the net
-/// force, far below the sum of the impulses over the mass.
-#[test]
-fn opposing_thrusts_change_no_velocity() {
-    let change = [
-        ("duration_s = \"10 min\"", "duration_s = 60.2"),
-        ("modulation = \"pulse_width\"", "modulation = \"pulse_width\"\nhold_force = true"),
-    ];
-    let flown = FlownLoop::new(&changed(DETUMBLE, &change), 0);
-    let columns = flown.run.request.columns();
-    let value = |name: &str| flown.run.row[columns.iter().position(|one| one.quantity.name() == name).expect(name)];
-    let momentum = value("impulse_total_n_s");
-    let mass = flown.run.scene.mass.total;
-    let opposed: f64 = flown
-        .arcs
-        .iter()
-        .map(|(arc, _)| {
-            let [first, second, third, ..] = arc.applied.thrust;
-            (first - second - third).abs() * (arc.end() - arc.start) / mass
-        })
-        .sum();
-    assert!((value("delta_v_m_s") - opposed).abs() < AGREED, "{} for {opposed}", value("delta_v_m_s"));
-    assert!(momentum > 10.0 && opposed < 0.7 * momentum / mass, "{momentum} N s, {opposed} m/s");
-    assert!(flown.arcs.iter().any(|(arc, _)| arc.applied.thrust[0] > 0.0), "P1 has fired");
 }

@@ -17,7 +17,6 @@ pub struct Case {
 }
 
 impl Case {
-    /// Sample `sample` of `text`, which ends with `failure`; `beyond` changes the file so that the same run goes on.
     fn new(text: &str, sample: u64, failure: &'static str, beyond: &[(&str, &str)]) -> Self {
         let flown = FlownLoop::new(text, sample);
         let going_on = FlownLoop::new(&changed(text, beyond), sample);
@@ -32,7 +31,6 @@ impl Case {
         Case { flown, going_on, failure }
     }
 
-    /// What is estimated as `name` at each tick, the last one too.
     pub fn told(&self, name: &str) -> Vec<f64> {
         let mut told = self.going_on.told(name);
         told.truncate(self.flown.ticks.len());
@@ -45,7 +43,6 @@ impl Case {
         told
     }
 
-    /// The place of the phase at each tick; at the tick at which the mission ends it is still that of the tick before.
     pub fn phases(&self) -> Vec<usize> {
         let mut phases: Vec<usize> = self.told("phase").into_iter().map(|place| place as usize).collect();
         let last = phases.len() - 1;
@@ -56,7 +53,6 @@ impl Case {
     }
 }
 
-/// `net_launch.toml` with plumes that hit, and a box of debris, whose momentum is not along its rate.
 fn launch(changes: &[(&str, &str)]) -> String {
     let plumes = [
         ("side_m = 0.2", "size_m = [0.2, 0.5, 0.9]"),
@@ -72,7 +68,6 @@ const NO_LAUNCH: (&str, &str) = (
     "next = \"after\"\n\n[[guidance]]\nphase = \"after\"\nlaw = \"rate_damping\"\ngain_n_m_s = 1.0\n",
 );
 
-/// [`limited_slew`], whose mission fails where a wheel is at its limit for longer than `timeout` seconds.
 fn saturated(timeout: f64) -> String {
     changed(
         &limited_slew(),
@@ -80,7 +75,6 @@ fn saturated(timeout: f64) -> String {
     )
 }
 
-/// `slew_closed.toml` without its gyro.
 fn without_gyro() -> String {
     let gyro = SLEW_CLOSED.find("[[sensors]]\nname = \"gyro\"").expect("a gyro");
     let tracker = SLEW_CLOSED.find("[[sensors]]\nname = \"tracker\"").expect("a tracker");
@@ -92,7 +86,6 @@ fn without_gyro() -> String {
     )
 }
 
-/// A body that is at rest at its target until a wheel is driven that the loop does not know.
 fn disturbed() -> String {
     let text = without_filters(SLEW_CLOSED, "perfect");
     let text = changed(
@@ -106,7 +99,6 @@ fn disturbed() -> String {
     text + "\n[[actuation]]\nstart_s = 20\nend_s = 30\ntorque_n_m = { w1 = 0.015 }\n"
 }
 
-/// The runs with their names.
 pub fn cases() -> Vec<(&'static str, Case)> {
     let none: &[(&str, &str)] = &[];
     let for_a_minute = ("duration_s = 2400.0", "duration_s = 60.2");
@@ -149,7 +141,19 @@ pub fn cases() -> Vec<(&'static str, Case)> {
             none,
         ),
         one("limits", &limited_slew(), 3, "none", none),
-        one("settled", &changed(SLEW_CLOSED, &[("duration_s = \"3 min\"", "duration_s = 120.1")]), 2, "none", none),
+        one(
+            "settled",
+            &changed(
+                SLEW_CLOSED,
+                &[
+                    ("duration_s = \"3 min\"", "duration_s = 120.1"),
+                    ("[control]\n", "[control]\nstability_from_s = 90\nstability_window_s = 20\n"),
+                ],
+            ),
+            2,
+            "none",
+            none,
+        ),
         one("perfect knowledge", &without_filters(&launch(none), "perfect"), 5, "none", &[NO_LAUNCH]),
         one(
             "thrusts of any size",

@@ -1,5 +1,5 @@
 //! Every column of a control loop, recomputed from the true states at its ticks and arcs, and from what flight software
-//! estimated. The list is that of the program: a column without a recomputation here fails the test.
+//! estimated.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,7 +34,6 @@ const FAILURES: [&str; 9] = [
     "module_fuel",
 ];
 
-/// The launch axis at `state`: along the velocity of the debris, or as the file says where that is slow.
 fn axis(flown: &FlownLoop, state: &State) -> [f64; 3] {
     let velocity = state.debris().v_gdo_e;
     if norm(velocity) >= flown.control("least_debris_speed_m_s") {
@@ -45,7 +44,6 @@ fn axis(flown: &FlownLoop, state: &State) -> [f64; 3] {
     scaled(1.0 / norm(named), named)
 }
 
-/// From the spacecraft to the station, which is `launch_distance_m` behind the debris, in F_e, m.
 fn to_station(flown: &FlownLoop, state: &State) -> [f64; 3] {
     let station = difference(state.debris().r_gdo_e, scaled(flown.control("launch_distance_m"), axis(flown, state)));
     difference(station, state.r_co_e)
@@ -59,8 +57,6 @@ fn relative_velocity(state: &State) -> [f64; 3] {
     difference(state.v_co_e, state.debris().v_gdo_e)
 }
 
-/// The rotation vector, in F_s, from the target of the phase at `place` to the true attitude; `None` where it has no
-/// target. `arrival` is when the transfer that is flown reaches the station.
 fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) -> Option<[f64; 3]> {
     let phase = &flown.spec().phases[place];
     let direction = match phase.target {
@@ -111,7 +107,6 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
 
 type Columns = BTreeMap<String, f64>;
 
-/// What the mission came to.
 fn mission(case: &Case, found: &mut Columns) {
     let (flown, phases) = (&case.flown, case.phases());
     let code = FAILURES.iter().position(|name| *name == case.failure).expect("a reason");
@@ -125,7 +120,6 @@ fn mission(case: &Case, found: &mut Columns) {
     }
 }
 
-/// Pointing, of the last phase with a target.
 fn pointing(case: &Case, found: &mut Columns) {
     let (flown, phases) = (&case.flown, case.phases());
     let (mut arrival, mut since, mut errors, mut all) = (f64::NAN, f64::NAN, Vec::new(), Vec::new());
@@ -155,7 +149,7 @@ fn pointing(case: &Case, found: &mut Columns) {
 }
 
 /// Since when the mission has settled, and the relative performance error over the window that begins then or when the
-/// file says: ECSS-E-ST-60-10C. `errors` are those of all ticks, with or without a target.
+/// file says.
 fn stability(flown: &FlownLoop, errors: &[(f64, Option<[f64; 3]>)], found: &mut Columns) {
     let band = flown.control("settling_band_rad");
     let last_outside = errors.iter().rposition(|(_, error)| error.is_none_or(|error| norm(error) > band));
@@ -185,7 +179,6 @@ fn stability(flown: &FlownLoop, errors: &[(f64, Option<[f64; 3]>)], found: &mut 
     found.insert("relative_performance_error_peak_to_peak_rad".into(), swing);
 }
 
-/// Where the debris is.
 fn approach(case: &Case, found: &mut Columns) {
     let flown = &case.flown;
     if flown.run.scene.mass.debris.is_none() {
@@ -216,13 +209,11 @@ fn approach(case: &Case, found: &mut Columns) {
     });
 }
 
-/// The vector `v` turned by the unit quaternion `q`.
 fn hamilton_turned(q: [f64; 4], v: [f64; 3]) -> [f64; 3] {
     let [_, x, y, z] = hamilton(hamilton(q, [0.0, v[0], v[1], v[2]]), conjugate(q));
     [x, y, z]
 }
 
-/// What the thrusters did.
 fn thrust(case: &Case, found: &mut Columns) {
     let flown = &case.flown;
     let (spec, scene) = (flown.spec(), &flown.run.scene);
@@ -258,7 +249,6 @@ fn thrust(case: &Case, found: &mut Columns) {
     found.insert("plume_time_s".into(), plume);
 }
 
-/// What the wheels did.
 fn wheels(case: &Case, found: &mut Columns) {
     let flown = &case.flown;
     let (spec, scene) = (flown.spec(), &flown.run.scene);
@@ -283,7 +273,6 @@ fn wheels(case: &Case, found: &mut Columns) {
     found.insert("torque_excess_max_n_m".into(), excess);
 }
 
-/// How far estimates were off.
 fn estimation(case: &Case, found: &mut Columns) {
     let ticks = &case.flown.ticks;
     let attitudes = case.told_vector::<4>("estimated_q_es_#");
@@ -332,7 +321,6 @@ fn recomputed(case: &Case) -> Columns {
 }
 
 /// Law: every column of a loop that the program lists is what the true states, the arcs flown and the estimates say.
-/// Each is known and other than zero in one of the runs at least, but for the time at which a first phase begins.
 #[test]
 fn every_column_is_what_the_run_says() {
     let mut unseen = BTreeSet::new();

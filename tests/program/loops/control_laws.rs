@@ -1,5 +1,4 @@
-//! A stored campaign under a control law of a program's own: `examples/control_campaign.rs`, with audits and retained
-//! runs.
+//! A stored campaign under a control law of a program's own.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -28,7 +27,6 @@ mod example;
 use crate::small_campaign::campaign_without_debris;
 use crate::support::scratch_folder::ScratchFolder;
 
-/// A campaign of six hundred of these: some parts, some audits.
 fn campaign<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
     example::campaign(session).samples(600).audit(0.02).store(root)
 }
@@ -37,7 +35,6 @@ fn threads(session: Session<'_>, threads: usize) -> Session<'_> {
     session.on_threads(NonZeroUsize::new(threads))
 }
 
-/// Every file of a result.
 fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
     let (mut found, mut folders) = (BTreeMap::new(), vec![root.to_owned()]);
     while let Some(folder) = folders.pop() {
@@ -76,15 +73,11 @@ impl Watch for StopAfter {
     }
 }
 
-/// `net_launch.toml`, with all its sensors and filters, for its first 20 s.
 fn net_launch<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
     let text = include_str!("../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 20.0");
     Campaign::from_text("net_launch.toml", &text, session).samples(600).audit(0.02).store(root)
 }
 
-/// Law: one and two threads, a campaign that is stopped in the midst of a part and continued, and shards give the same
-/// bytes; they are verified by computing every row again. So it is under a law of the program's own and under a loop of
-/// the file.
 #[test]
 fn a_campaign_under_a_law_is_a_function_of_its_plan() {
     is_a_function_of_its_plan("own", Some(&example::law()), campaign);
@@ -136,8 +129,6 @@ fn is_a_function_of_its_plan(
     assert!(repaired.checked.problems > 0 && files(&of("one")) == expected);
 }
 
-/// Law: a sample replayed alone is its row, bit for bit; the law has acted in it, tick by tick; audits judge the arcs
-/// flown and find small errors; balances of energy and momentum contain the work of the motors.
 #[test]
 fn rows_under_a_law_are_its_runs() {
     let scratch = ScratchFolder::new("law-rows");
@@ -177,7 +168,6 @@ fn rows_under_a_law_are_its_runs() {
     assert!(sum(&last) < 0.03 * sum(&first), "{} {}", sum(&last), sum(&first));
 }
 
-/// Law: a result under a law is opened with that law alone, and a changed parameter is another campaign.
 #[test]
 fn the_law_is_part_of_the_plan() {
     let scratch = ScratchFolder::new("law-plan");
@@ -214,8 +204,6 @@ fn the_law_is_part_of_the_plan() {
     assert!(reason.contains("control.damping_n_m_s = -6.0"), "{reason}");
 }
 
-/// Law: a law knows the nominal scene, and models of sensors the drawn one: each is what it says, in the nominal run
-/// and in a dispersed one. The schedule of the scene adds to the law.
 #[test]
 fn a_law_has_the_nominal_and_the_drawn_scene() {
     let make = |context: &LawContext<'_>| {

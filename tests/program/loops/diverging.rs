@@ -1,5 +1,4 @@
-//! Loops that are unstable end early, with their gains and the limit; loops that hold the body do not, however fast it
-//! turns.
+//! Loops that are unstable end early, with their gains and the limit.
 
 use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw};
 use spindrift::run::Status;
@@ -11,7 +10,6 @@ use crate::support::scratch_folder::ScratchFolder;
 
 const PERIOD: f64 = 0.25;
 
-/// A loop of [`PERIOD`] with the law `law`.
 fn with_law(law: &str, initial: &str) -> String {
     let target = if law.contains("rate_damping") || law.contains("brake") {
         ""
@@ -45,8 +43,7 @@ fn laws(share: f64) -> [(String, &'static str); 4] {
 }
 
 /// Law: at two and at fifty times the limit a run ends as `diverged`, at a tenth of the work of a healthy one up to a
-/// handful of them, with the gain and the limit; at 0.8 of it none does, at a slow and at a fast start and in a slew of
-/// half a turn. By two methods.
+/// handful of them, with the gain and the limit.
 #[test]
 fn unstable_loops_end_early_and_others_do_not() {
     for method in ["auto", "dop853"] {
@@ -87,7 +84,6 @@ impl PhaseLaw for Brake {
 
 static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: |_| AttitudeLaw::own(Brake) };
 
-/// Law: a law of a program that diverges ends its run too; the row has the status and the reason.
 #[test]
 fn a_law_of_a_program_can_diverge() {
     let (scratch, quiet) = (ScratchFolder::new("diverging"), Quiet::default());

@@ -1,5 +1,4 @@
-//! Filters in their steady state, against the Riccati equation solved in another form: by informations, in matrices of
-//! two rows.
+//! Filters in their steady state, against the Riccati equation solved in another form.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use spindrift::control::estimators::attitude_filter::AttitudeObservation;
@@ -92,8 +91,6 @@ fn a_body_at_rest_converges_to_the_riccati_solution() {
     }
 }
 
-/// Law: without noise, the covariance of a spinning asymmetric body is carried by the derivative of its motion: columns
-/// of the transition are differences of motions that start apart, to second order in the step.
 #[test]
 fn a_spinning_body_carries_its_covariance() {
     let inertia = [[300.0, 10.0, -20.0], [10.0, 420.0, 15.0], [-20.0, 15.0, 180.0]];

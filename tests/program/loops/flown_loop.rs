@@ -1,5 +1,4 @@
-//! A run of a control loop with its true states at every control tick and at the start of every arc: what tests
-//! recompute from.
+//! A run of a control loop with its true states at every control tick and at the start of every arc.
 
 use spindrift::campaign::Plan;
 use spindrift::control::spec::LoopSpec;
@@ -37,22 +36,18 @@ pub struct Debris {
 }
 
 impl State {
-    /// s3 in F_e.
     pub fn s3_e(&self) -> [f64; 3] {
         self.to_e([0.0, 0.0, 1.0])
     }
 
-    /// The vector `v` of F_s in F_e.
     pub fn to_e(&self, v: [f64; 3]) -> [f64; 3] {
         dcm_from_quaternion(self.q_es).map(|row| dot(row, v))
     }
 
-    /// The vector `v` of F_e in F_s.
     pub fn to_s(&self, v: [f64; 3]) -> [f64; 3] {
         dcm_from_quaternion(conjugate(self.q_es)).map(|row| dot(row, v))
     }
 
-    /// The debris.
     pub fn debris(&self) -> Debris {
         self.debris.expect("a scene with debris")
     }
@@ -71,7 +66,6 @@ pub struct FlownLoop {
 }
 
 impl FlownLoop {
-    /// Sample `sample` of the campaign file `text`.
     pub fn new(text: &str, sample: u64) -> Self {
         let plan = plan(&unjudged(text));
         let first = run(&plan, sample);
@@ -95,35 +89,29 @@ impl FlownLoop {
         FlownLoop { ticks: ticks.into_iter().map(state).collect(), arcs, end, plan, run }
     }
 
-    /// What the loop consists of.
     pub fn spec(&self) -> &LoopSpec {
         self.plan.law.as_ref().and_then(|law| law.spec()).expect("a loop")
     }
 
-    /// The number `key` of `[control]`, as the file has it; zero where the loop has no such key.
     pub fn control(&self, key: &str) -> f64 {
         self.plan.nominal.control.named(key).map_or(0.0, |numbers| numbers[0])
     }
 
-    /// The numbers `key` of the phase at `place`, as the file has them.
     pub fn guidance(&self, place: usize, key: &str) -> Option<&[f64]> {
         self.plan.nominal.control.guidance[place].named(key)
     }
 
-    /// The place of the column `name` of the telemetry.
     fn place(&self, name: &str) -> usize {
         let quantities = &self.run.telemetry.quantities;
         quantities.iter().position(|one| one.name() == name).unwrap_or_else(|| panic!("no {name} in the telemetry"))
     }
 
-    /// What is recorded as `name` at each control tick at which the loop went on.
     pub fn told(&self, name: &str) -> Vec<f64> {
         let place = self.place(name);
         let rows = self.run.telemetry.rows.iter().zip(&self.run.telemetry.times);
         rows.filter(|(_, time)| **time < self.plan.grid.duration() - SAME_TIME).map(|(row, _)| row[place]).collect()
     }
 
-    /// The same of a vector or a quaternion, `name` with a place for the component: `estimated_q_es_#`.
     pub fn told_vector<const N: usize>(&self, name: &str) -> Vec<[f64; N]> {
         let letters = if N == 4 { ["w", "x", "y", "z"] } else { ["x", "y", "z", ""] };
         let columns: [Vec<f64>; N] = std::array::from_fn(|i| self.told(&name.replace('#', letters[i])));
@@ -131,7 +119,6 @@ impl FlownLoop {
     }
 }
 
-/// The state of `run` at `time`, one of the times of its grid.
 fn state_at(run: &SingleRun, time: f64) -> State {
     let times = run.grid.times();
     let point = times.partition_point(|other| *other < time - SAME_TIME);
@@ -155,7 +142,6 @@ fn state_at(run: &SingleRun, time: f64) -> State {
     }
 }
 
-/// `text` without requirements: a loop that has been changed need not have their columns.
 fn unjudged(text: &str) -> String {
     let (mut kept, mut is_kept) = (String::new(), true);
     for line in text.lines() {
@@ -166,7 +152,6 @@ fn unjudged(text: &str) -> String {
     kept
 }
 
-/// `text` with each of `changes`, which must be there.
 pub fn changed(text: &str, changes: &[(&str, &str)]) -> String {
     changes.iter().fold(text.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
@@ -174,7 +159,6 @@ pub fn changed(text: &str, changes: &[(&str, &str)]) -> String {
     })
 }
 
-/// `text`, whose loop has filters, with another estimator: `raw` or `perfect`.
 pub fn without_filters(text: &str, estimator: &str) -> String {
     let text = changed(text, &[("estimator = \"mekf\"", &format!("estimator = \"{estimator}\""))]);
     let of_filters = ["initial_", "debris_position_sigma", "debris_velocity_sigma"];
@@ -182,7 +166,6 @@ pub fn without_filters(text: &str, estimator: &str) -> String {
     text.lines().filter(is_kept).collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// The angle between two vectors, rad.
 pub fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let [a, b] = [a, b].map(|v| v.map(|x| x / size(v)));
@@ -191,7 +174,6 @@ pub fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
     2.0 * apart.atan2(together)
 }
 
-/// The rotation vector of the quaternion `q`, rad, by the shorter way.
 pub fn rotation_vector(q: [f64; 4]) -> [f64; 3] {
     let [w, x, y, z] = if q[0] < 0.0 { q.map(|x| -x) } else { q };
     let sine = (x * x + y * y + z * z).sqrt();

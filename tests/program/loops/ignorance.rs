@@ -34,8 +34,6 @@ fn offset(parameter: &str, offset: f64) -> String {
     format!("\n[[disperse]]\nparameter = \"{parameter}\"\ndistribution = \"offset\"\noffset = {offset:?}\n")
 }
 
-/// The commands of the first tick of a dispersed run of `text`, with whether the drawn scene differs from the nominal
-/// one.
 fn first_commands(text: &str) -> (Vec<f64>, bool) {
     let flown = FlownLoop::new(text, 1);
     let names = [
@@ -53,8 +51,7 @@ fn first_commands(text: &str) -> (Vec<f64>, bool) {
 }
 
 /// Law: where the state is known, the first command does not depend on any number that the spacecraft, its wheels, its
-/// thrusters or the debris have drawn, over the list of what can be dispersed: mass, inertia, centre of mass,
-/// alignment, thrust and torque. What is commanded of the state is commanded of it.
+/// thrusters or the debris have drawn, over the list of what can be dispersed.
 #[test]
 fn commands_do_not_depend_on_what_is_drawn() {
     // at rest, so that the velocity of the centre of mass is that of p, wherever it is
@@ -105,8 +102,6 @@ fn commands_do_not_depend_on_what_is_drawn() {
     assert!(drawn > 60, "{drawn} numbers change the scene");
 }
 
-/// The commands of a quantity at each tick as they act in the interval after it, on average: the last comes `delay`
-/// later.
 fn mean_of_interval(commands: &[f64], delay: f64, period: f64) -> Vec<f64> {
     let whole = (delay / period).floor();
     let late = delay / period - whole;
@@ -115,10 +110,6 @@ fn mean_of_interval(commands: &[f64], delay: f64, period: f64) -> Vec<f64> {
     (0..commands.len()).map(|tick| (1.0 - late) * at(tick, back) + late * at(tick, back + 1)).collect()
 }
 
-/// Law: from tick to tick the filters predict with the commands, the nominal mass, the nominal directions and inertias:
-/// of a spacecraft that is a fifth heavier, with a weaker and tilted thruster and motor. r + v T + a T^2/2 and v + a T
-/// of the centre of mass relative to the debris, and the axial momentum of wheels; for delays of none, of a part of a
-/// period, and of more than one.
 #[test]
 fn filters_predict_with_commands_and_nominal_numbers() {
     // an ulp of 40 m, or of 40 rad/s, is 7e-15: some tens of them

@@ -1,5 +1,4 @@
-//! Every law of attitude, in a loop, by its formula in docs/control-formulas.md and in its docstring: from the
-//! estimates recorded at a tick the torque commanded there.
+//! Every law of attitude, in a loop, by its formula in docs/control-formulas.md and in its docstring.
 
 use std::fmt::Write as _;
 
@@ -34,7 +33,6 @@ fn number(key: &str) -> f64 {
     NUMBERS.iter().find(|(name, _)| *name == key).expect(key).1
 }
 
-/// A body with three wheels along its axes, whose state is drawn, and whose law has two phases.
 fn file(law: &str, keys: &str, target: &str) -> String {
     let mut text = format!(
         "[campaign]\nname = \"law\"\nsamples = 16\nseed = 3\nduration_s = 6.1\n[observe]\npoints = 3\n[body]\nmass_kg \
@@ -73,8 +71,6 @@ struct Seen {
     rotating: [[f64; 3]; 3],
 }
 
-/// The terms whose sum is the torque of the law called `name`; `integral` is the sum of K s over the ticks after the
-/// first of the phase, within its limit.
 fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Vec<[f64; 3]> {
     let [w, x, y, z] = seen.q_ts;
     let relative = difference(seen.omega, seen.omega_te_s);
@@ -107,7 +103,7 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
 }
 
 /// Law: every law in the program's list commands the torque of its formula, from the estimates of the tick, for targets
-/// at rest and for one that turns; with the limit of its integral, which starts anew with a phase.
+/// at rest and for one that turns.
 #[test]
 fn every_law_is_its_formula() {
     let rotating: [[f64; 3]; 3] =

@@ -7,7 +7,7 @@ use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
 /// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters, whose commands act after `delay` seconds,
-/// for `duration` seconds; it moves with the velocity `velocity` beside debris at rest, and flies `phases`.
+/// for `duration` seconds.
 fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> FlownLoop {
     let head = &NET_LAUNCH[..NET_LAUNCH.find("[[guidance]]").expect("phases")];
     let text = changed(
@@ -24,8 +24,6 @@ fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> Flow
     FlownLoop::new(&(text + phases), 0)
 }
 
-/// Law: an impulse that is on its way is not commanded again, however many commands wait: the velocity along s3 falls
-/// to zero and never turns round.
 #[test]
 fn an_impulse_on_its_way_is_not_commanded_again() {
     const STOP: &str = "[[guidance]]\nphase = \"brake\"\nlaw = \"quaternion_feedback\"\nbandwidth_rad_s = 0.06\n\
@@ -45,8 +43,6 @@ fn an_impulse_on_its_way_is_not_commanded_again() {
     }
 }
 
-/// Law: a transfer arrives its time after the beginning of its burn, at the station; a second one, which begins on the
-/// way of the first, after its own.
 #[test]
 fn each_transfer_arrives_after_its_own_time() {
     const AIM: &str = "law = \"eigenaxis\"\nbandwidth_rad_s = 0.06\ndamping = 0.9\nmax_rate_rad_s = \"1 \

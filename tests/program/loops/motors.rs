@@ -1,5 +1,4 @@
-//! Motors of a loop that fail, and that a schedule drives too: compared with a simulation of one axis by hand, K omega'
-//! = -motor with the torque held over arcs.
+//! Motors of a loop that fail, and that a schedule drives too.
 
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
@@ -56,7 +55,6 @@ impl Case {
         )
     }
 
-    /// The starts of the arcs: ticks, switches of the schedule, and the failure; and the end of the run.
     fn instants(&self) -> Vec<f64> {
         let mut all: Vec<f64> = (0..=20).map(|tick| f64::from(tick) * PERIOD).collect();
         all.extend(self.scheduled.iter().flat_map(|[start, end, _]| [*start, *end]));
@@ -66,8 +64,6 @@ impl Case {
         all
     }
 
-    /// Rate of the body at the start of each arc, torque on the wheel over it, and whether the limit cuts the motor.
-    /// The wheel turns forwards throughout, so that friction is against that.
     fn simulated(&self) -> Vec<(f64, f64, bool)> {
         let (mut rate, mut commanded, mut list) = (self.rate, 0.0, Vec::new());
         for arc in self.instants().windows(2) {
@@ -87,10 +83,6 @@ impl Case {
     }
 }
 
-/// Law: the factor of a failed motor is on what the motor gives within its limit; the torque of a schedule goes through
-/// the motor with the command of the loop, with one bias and one limit, and friction is that of the wheel; the quantity
-/// over time, the time at the limit and the largest torque are those of the motor. At ticks and between them, alone and
-/// together.
 #[test]
 fn motors_give_what_schedules_and_failures_leave() {
     let biased = Case { rate: 0.001, bias: 1e-4, ..PLAIN };

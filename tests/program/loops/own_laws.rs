@@ -3,10 +3,9 @@
 
 use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
 use spindrift::control::vector::{cross, difference, product, scaled, sum};
-use spindrift::sampling::SampleId;
 use spindrift::scene::LawParameter;
 use spindrift::scene::schema::Limit;
-use spindrift::workflow::{Campaign, Quiet, Results, Session, Verification, WorkflowError, verify};
+use spindrift::workflow::{Campaign, Quiet, Results, Session, WorkflowError};
 
 use crate::support::scratch_folder::ScratchFolder;
 
@@ -55,7 +54,6 @@ static OWN: LawKind = LawKind {
 
 const SLEW: &str = include_str!("../../../campaigns/slew_closed.toml");
 
-/// `slew_closed.toml` with the law of this program in place of the built-in one of the same formula.
 fn with_own_law() -> String {
     let mut found = String::new();
     let mut is_own = false;
@@ -73,8 +71,7 @@ fn with_own_law() -> String {
 }
 
 /// Law: a law of a program that computes what a built-in one computes gives the same rows, bit for bit, with the
-/// sensors, the filter, the phases and the wheels of the file; a result under it is replayed and recomputed under it,
-/// and refused without it; and its parameters are keys like all others.
+/// sensors, the filter, the phases and the wheels of the file.
 #[test]
 fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     let scratch = ScratchFolder::new("own-laws");
@@ -100,14 +97,6 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     assert_ne!(run(&creeping, own, "creeping"), found);
 
     let root = scratch.path("own");
-    let results = Results::open(&root, own).unwrap();
-    let row = results.column("pointing_error_final_rad").unwrap()[7];
-    let replayed = results.replay(SampleId(7)).unwrap();
-    let place =
-        replayed.request.columns().iter().position(|column| column.quantity.name() == "pointing_error_final_rad");
-    assert_eq!(replayed.row[place.unwrap()].to_bits(), row.to_bits());
-    let verified = verify(&own, &root, Verification { fraction: 1.0, repair: false }).unwrap().unwrap();
-    assert_eq!(verified.checked.problems, 0);
     let Err(WorkflowError::Files(reason)) = Results::open(&root, session) else { panic!("refused") };
     assert!(reason.contains("own_feedback") && reason.contains("quaternion_feedback"), "{reason}");
     let negative = Campaign::from_text("slew_closed.toml", &text.replacen("own_damping = ", "own_damping = -", 1), own);

@@ -8,15 +8,12 @@ use crate::loops::flown_loop::{FlownLoop, SAME_TIME, changed, without_filters};
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 
-/// The times at which the phase of `flown` changed, with the place of the phase that began.
 fn changes(flown: &FlownLoop) -> Vec<(f64, usize)> {
     let phases = flown.told("phase");
     let began = |tick: &usize| *tick == 0 || phases[*tick] != phases[tick - 1];
     (0..phases.len()).filter(began).map(|tick| (flown.ticks[tick].time, phases[tick] as usize)).collect()
 }
 
-/// Law: a condition is held from the first tick of its own phase at which it is met: what an earlier phase, with the
-/// same condition, has held counts for nothing, and a gap starts the count anew.
 #[test]
 fn a_hold_starts_with_its_phase() {
     let (holds, period) = ([4.0, 6.0], 0.25);
@@ -52,7 +49,7 @@ fn a_hold_starts_with_its_phase() {
 }
 
 /// Law: a mission whose debris is not seen fails at the first tick at which the last measurement was *taken* longer ago
-/// than the limit: the latency of the camera counts, as time since a measurement does in conditions.
+/// than the limit.
 #[test]
 fn the_age_of_the_camera_contains_its_latency() {
     // seen at the start, and never after: the range is passed

@@ -1,5 +1,5 @@
 //! Every sensor in a loop: what it delivers at a tick is what it measured of the true state `latency_s` before, with
-//! its fixed errors; what is random has the deviation of the file.
+//! its fixed errors.
 
 use spindrift::control::sensors::KINDS;
 use spindrift::dynamics::magnetic_field::MagneticField;
@@ -44,7 +44,6 @@ const SUN_NOISE: f64 = 1e-3;
 const TRACKER_RATE: f64 = 0.015;
 const CAMERA_RANGE: f64 = 38.0;
 
-/// The Sun sensor of the file.
 fn sun_sensor() -> String {
     format!(
         "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nperiod_s = {:?}\nlatency_s = {:?}\nnoise_rad = \
@@ -54,7 +53,6 @@ fn sun_sensor() -> String {
     )
 }
 
-/// `net_launch.toml` for some minutes, with these sensors and boxes of debris.
 fn file() -> String {
     let (start, end) =
         (NET_LAUNCH.find("[[sensors]]").expect("sensors"), NET_LAUNCH.find("[[guidance]]").expect("phases"));
@@ -107,7 +105,6 @@ const FIELD_SCALE: [f64; 3] = [1.02, 0.98, 1.01];
 const HORIZON: [f64; 2] = [1.0, 1.5];
 const HALF_VIEW: f64 = 0.9;
 
-/// A small satellite that tumbles on an orbit, with the sensors that need one.
 fn file_on_orbit() -> String {
     format!(
         "[campaign]\nname = \"orbit\"\nsamples = 4\nseed = 1\nduration_s = 300.2\n\
@@ -132,28 +129,21 @@ fn file_on_orbit() -> String {
     )
 }
 
-/// The components along axes that are turned by [`MISALIGNMENT`] of the vector `v` of F_s.
 fn misaligned(v: [f64; 3]) -> [f64; 3] {
     let size = norm(MISALIGNMENT);
     let half = scaled((0.5 * size).sin() / size, MISALIGNMENT);
     transposed_product(dcm_from_quaternion([(0.5 * size).cos(), half[0], half[1], half[2]]), v)
 }
 
-/// The angles of the direction `u_s` about a boresight along s2: s3 turned to it the shortest way, about s1, so that t1
-/// is s1 and t2 is -s3.
 fn angles(u_s: [f64; 3]) -> Vec<f64> {
     [u_s[0], -u_s[2]].map(|x| x.atan2(u_s[1]) + SUN_BIAS).to_vec()
 }
 
-/// The state that a sensor of these `[period, latency]` delivers at tick number `tick`; `None` where it delivers
-/// nothing.
 fn delivered(flown: &FlownLoop, tick: usize, [period, latency]: [f64; 2]) -> Option<&State> {
     let taken = tick.checked_sub((latency / PERIOD).round() as usize)?;
     taken.is_multiple_of((period / PERIOD).round() as usize).then(|| &flown.ticks[taken])
 }
 
-/// What the sensor called `kind` delivers at tick number `tick` without noise, number by number in the order of
-/// [`names`].
 fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
     match kind {
         "rate_gyro" => {
@@ -203,7 +193,6 @@ fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
     }
 }
 
-/// The columns of the telemetry of the sensor called `kind`.
 fn names(kind: &str) -> Vec<String> {
     let of = |name: &str, letters: &str, unit: &str| {
         letters.chars().map(|letter| format!("{name}_{letter}{unit}")).collect::<Vec<_>>()
@@ -223,7 +212,6 @@ fn names(kind: &str) -> Vec<String> {
     }
 }
 
-/// The errors of what `kind` has measured over their deviations: about the axes of the body where it is an attitude.
 fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
     let q = |all: &[f64]| [all[0], all[1], all[2], all[3]];
     let over = |deviation: f64| move |(a, b): (&f64, &f64)| (a - b) / deviation;
@@ -253,8 +241,7 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
 }
 
 /// Law: every kind of sensor delivers, at the ticks at which it is due and at no other, what it measured `latency_s`
-/// before. The nominal run has its fixed errors alone; in others each error has mean zero and the deviation of the file
-/// within five standard errors.
+/// before.
 #[test]
 fn every_sensor_measures_the_true_state() {
     let (nominal, noisy) = (FlownLoop::new(&file(), 0), FlownLoop::new(&file(), 1));
@@ -359,9 +346,7 @@ fn raw_estimates_are_the_last_measurements() {
 }
 
 /// Law: over a revolution of an orbit with an epoch, a Sun sensor that looks along s3 of a body that points s3 at the
-/// Sun measures angles near zero at all ticks in the light, and nothing at those in the Earth's shadow: behind the
-/// Earth, within its radius of the line through its centre. With 10 s between ticks one tick at either edge may be
-/// either.
+/// Sun measures angles near zero at all ticks in the light, and nothing at those in the Earth's shadow.
 #[test]
 fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     let text = file_on_orbit();

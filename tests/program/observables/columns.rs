@@ -1,5 +1,4 @@
-//! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others; every column
-//! of every kind of scene has a value; a failed run has what is known of it.
+//! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others.
 
 use crate::observables::observed_tables::{
     Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
@@ -62,7 +61,6 @@ fn fraction_and_net_are_relative_to_the_right_points() {
     }
 }
 
-/// Law: every column of every kind of scene has a value, whether its group is observed alone or with all others.
 #[test]
 fn every_column_of_every_kind_of_scene_has_a_value() {
     let (_, mut scene) = table1();

@@ -8,8 +8,6 @@ fn table(text: &str) -> Table {
     rows(&Plan::from_text("judged.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}")))
 }
 
-/// A body with three wheels about s3 on that axis; a motor of `w1` in one direction, of `w2` by the torque `second`,
-/// none of `w3`.
 fn coaxial(second: f64) -> Table {
     let wheel = |name: &str, position: f64| {
         format!(
@@ -28,9 +26,6 @@ fn coaxial(second: f64) -> Table {
     ))
 }
 
-/// Law: the energies of two bodies have a correlation where both change, and zero where either is constant: a wheel
-/// that turns about the only axis of the motion and has no torque keeps its absolute rate, and so its energy; a body
-/// keeps its own between opposite motors.
 #[test]
 fn a_constant_energy_has_no_correlation() {
     let correlation = |table: &Table, wheel: &str| table.column(&format!("exchange_{wheel}_correlation"))[0];
@@ -43,9 +38,7 @@ fn a_constant_energy_has_no_correlation() {
     assert_eq!(["w1", "w2", "w3"].map(|wheel| correlation(&opposite, wheel)), [0.0; 3]);
 }
 
-/// Law: a run is marked as ill conditioned exactly where the rounding of its input, 2^-52, amplified, is above 1e-3;
-/// both sides of the limit are among the runs, near it. A spin about the intermediate axis, with offsets over four
-/// decades.
+/// Law: a run is marked as ill conditioned exactly where the rounding of its input, 2^-52, amplified, is above 1e-3.
 #[test]
 fn the_limit_of_conditioning_has_two_sides() {
     let table = table(

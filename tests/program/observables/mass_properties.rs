@@ -31,7 +31,7 @@ fn plan() -> Plan {
 }
 
 /// Law: the columns are the mass properties of the scene of the sample, with principal moments in ascending order that
-/// keep trace and determinant of the inertia; a sample that is not physical has none.
+/// keep trace and determinant of the inertia.
 #[test]
 fn columns_are_those_of_the_scene() {
     let plan = plan();
@@ -73,7 +73,6 @@ fn columns_are_those_of_the_scene() {
     assert_eq!(masses.len(), valid, "every sample has a mass of its own");
 }
 
-/// The nominal mass properties of a spacecraft of these tables.
 fn nominal(tables: &str) -> MassProperties {
     let head = "[campaign]\nname = \"mass\"\nsamples = 1\nseed = 1\nduration_s = 1.0\n\
         [initial]\nangular_velocity_rad_s = [0.1, 0.2, 0.3]\n";
@@ -82,7 +81,6 @@ fn nominal(tables: &str) -> MassProperties {
     draw(&plan, SampleId(0)).unwrap().mass
 }
 
-/// That two bodies have mass, centre and inertia in common, to some roundings.
 fn assert_same(found: &MassProperties, mass: f64, center: [f64; 3], inertia: [[f64; 3]; 3], what: &str) {
     let largest = inertia[0][0] + inertia[1][1] + inertia[2][2];
     assert!((found.total / mass - 1.0).abs() < 1e-14, "{what}: {} kg for {mass}", found.total);
@@ -111,13 +109,10 @@ const ERRORS: [([f64; 3], [f64; 3]); 8] = [
     ([0.2, -0.1, 0.3], [0.25, -0.5, 0.125]),
 ];
 
-/// Where matter at `r` from the centre of mass is with errors, by docs/campaign-files.md: stretched along each axis;
-/// matter at x moves by xy x along s2 and by xz x along s3, matter at y by yz y along s3.
 fn moved(([sx, sy, sz], [xy, xz, yz]): ([f64; 3], [f64; 3]), [x, y, z]: [f64; 3]) -> [f64; 3] {
     [sx.exp() * x, sy.exp() * y + xy * x, sz.exp() * z + xz * x + yz * y]
 }
 
-/// Law: errors of the body move each point mass of it as they are written, about the centre of mass.
 #[test]
 fn mass_errors_move_point_masses() {
     // pairs, so that the centre of mass stays

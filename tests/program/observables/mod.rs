@@ -1,7 +1,6 @@
 //! Columns of rows, against motions in closed form and golden truth.
 
 pub mod columns;
-pub mod golden;
 pub mod judged_columns;
 pub mod mass_properties;
 pub mod motion;

@@ -1,22 +1,17 @@
-//! The group `motion`: motions in closed form give their angles, rates, speeds and momenta; the nominal run is the
-//! reference of the attitude in a campaign. Counter-tests: another nominal run, and none.
+//! The group `motion`: motions in closed form give their angles, rates, speeds and momenta.
 
 use std::collections::HashMap;
 
-use spindrift::campaign::Plan;
-use spindrift::ensemble::single::SingleRun;
 use spindrift::math::Isa;
-use spindrift::math::vector::{conjugate, hamilton};
+use spindrift::math::vector::hamilton;
 use spindrift::observables::nominal_attitude::NominalAttitude;
 use spindrift::observables::{Group, Groups};
 use spindrift::run::{Grid, Outcome, StateField, StateTable};
-use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
 use crate::observables::observed_tables::{done, motion_table, request, rotation};
 use crate::support::golden::Golden;
 use crate::support::observed::observed;
-use crate::support::plans::shipped;
 
 /// Some roundings of numbers of size one; angles near zero and half a turn are as exact.
 const ROUNDING: f64 = 4e-15;
@@ -110,8 +105,6 @@ fn rates_nutation_and_wheels() {
     assert!(angles[0] > angles[20] + 1e-3);
 }
 
-/// Law: an attitude that is turned by an angle from the nominal one, about any axis of the body, is at this angle from
-/// it.
 #[test]
 fn attitudes_are_compared_with_the_nominal_run() {
     let scene = scene();
@@ -138,7 +131,6 @@ fn attitudes_are_compared_with_the_nominal_run() {
     assert!(row(&scene, Some(&short), &nominal_motion)["attitude_from_nominal_final_rad"].is_nan());
 }
 
-/// Law: the line to the debris makes the angle with s3 that its construction says, at any distance.
 #[test]
 fn the_debris_is_seen_at_its_angle() {
     let scene = scene();
@@ -158,32 +150,4 @@ fn the_debris_is_seen_at_its_angle() {
     }
     let together = |_: f64| -> State { ([1.0, 0.0, 0.0, 0.0], [0.0; 3], [0.0; 2], [1.0; 3], [1.0; 3]) };
     assert_eq!(row(&scene, None, &together)["spin_axis_debris_angle_max_rad"], 0.0);
-}
-
-/// Law: in a campaign the reference is the nominal run of the plan: its own angle is zero to rounding, and that of any
-/// sample is the angle between the states of the two runs.
-#[test]
-fn a_campaign_compares_with_its_nominal_run() {
-    let plan = shipped("spin_sweep", None);
-    assert!(!plan.groups.contains(&Group::Motion), "only where a file names it");
-    let plan = Plan { groups: vec![Group::Motion], ..plan };
-    let run = |sample| SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("physical");
-    let (nominal, other) = (run(0), run(3));
-    let column = |run: &SingleRun, name: &str| {
-        let columns = run.request.columns();
-        run.row[columns.iter().position(|column| column.quantity.name() == name).expect("a column")]
-    };
-    near(column(&nominal, "attitude_from_nominal_max_rad"), 0.0);
-    let angle = |point: usize| {
-        let [q, of_nominal] = [&other, &nominal].map(|run| run.table.at::<4>(StateField::Attitude, point));
-        let [s, x, y, z] = hamilton(conjugate(of_nominal), q);
-        2.0 * libm::atan2(libm::sqrt(x * x + y * y + z * z), s.abs())
-    };
-    let largest = (0..plan.grid.points()).map(angle).fold(0.0, f64::max);
-    // measured: 3.1 rad
-    assert!(largest > 0.1, "{largest}");
-    near(column(&other, "attitude_from_nominal_max_rad"), largest);
-    near(column(&other, "attitude_from_nominal_final_rad"), angle(plan.grid.points() - 1));
-    // 10 pi about s3 and pi about s2 at the start; measured: 31.57
-    assert!(column(&nominal, "angular_rate_max_rad_s") > 31.0);
 }

@@ -7,7 +7,7 @@ use crate::support::observed;
 use spindrift::math::Isa;
 use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
 use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::{Group, Groups, Observer, Request};
+use spindrift::observables::{Groups, Observer, Request};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::scene::Scene;
 
@@ -18,26 +18,16 @@ pub const ROUNDING: f64 = 3e-15;
 /// A state that is written to a table: (time; q_es, omega, wheel rates, v_c).
 pub type Motion<'a> = &'a dyn Fn(f64) -> ([f64; 4], [f64; 3], [f64; 2], [f64; 3]);
 
-/// Golden truth of Table I and its scene.
 pub fn table1() -> (Golden, Scene) {
     let golden = Golden::load("table1");
     let scene = Scene::resolve(&golden.scene).expect("Berdoz's scene");
     (golden, scene)
 }
 
-/// What is observed of an unconstrained scene.
 pub fn request(groups: Groups, debris: bool, actuated: bool) -> Request {
     observed::request(groups, 2, debris, actuated, false)
 }
 
-/// The balances of a scene whose velocities are integrated: those of the null-space method, which has errors of linear
-/// momentum.
-pub fn request_of_balances(debris: bool) -> Request {
-    let groups = [Group::EnergyConservation, Group::MomentumConservation].into_iter().collect();
-    Request { constrained: true, ..request(groups, debris, false) }
-}
-
-/// A run that ended as planned.
 pub fn done(points: usize, time: f64) -> Outcome {
     let effort = StepStatistics { steps: 12, rejected: 3, evaluations: 91 };
     Outcome {
@@ -50,7 +40,6 @@ pub fn done(points: usize, time: f64) -> Outcome {
     }
 }
 
-/// Every field except those of constraints, so that one table serves every request.
 pub fn everything() -> StateFields {
     StateField::ALL
         .into_iter()
@@ -58,7 +47,6 @@ pub fn everything() -> StateFields {
         .fold(StateFields::NONE, StateFields::with)
 }
 
-/// The golden states as a table at their times.
 pub fn golden_table(golden: &Golden, scene: &Scene) -> (Grid, StateTable) {
     let grid = Grid::at(golden.times());
     let mut table = StateTable::new(everything(), 2, grid.points());
@@ -76,7 +64,6 @@ pub fn golden_table(golden: &Golden, scene: &Scene) -> (Grid, StateTable) {
     (grid, table)
 }
 
-/// A table of a motion in closed form; the debris rests.
 pub fn motion_table(grid: &Grid, motion: Motion<'_>) -> StateTable {
     let mut table = StateTable::new(everything(), 2, grid.points());
     for (point, time) in grid.times().iter().enumerate() {
@@ -91,12 +78,10 @@ pub fn motion_table(grid: &Grid, motion: Motion<'_>) -> StateTable {
     table
 }
 
-/// The row of a table, by column name.
 pub fn row(isa: Isa, request: Request, grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<String, f64> {
     observation(isa, request, grid, scene, table).0
 }
 
-/// The same, and the observer, which has the series.
 pub fn observation(
     isa: Isa,
     request: Request,
@@ -109,18 +94,15 @@ pub fn observation(
     observed::observed(isa, request, grid, scene, (table, &outcome), nominal)
 }
 
-/// The row of a scene without debris and actuation.
 pub fn free_row(grid: &Grid, scene: &Scene, table: &StateTable) -> HashMap<String, f64> {
     row(Isa::best(), request(Groups::ALL, false, false), grid, scene, table)
 }
 
-/// Asserts that two numbers are equal to the relative `tolerance`.
 #[track_caller]
 pub fn close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance * expected.abs(), "{found} != {expected}");
 }
 
-/// A rotation by `angle` about the unit vector `axis`, as a quaternion.
 pub fn rotation(axis: [f64; 3], angle: f64) -> [f64; 4] {
     let s = libm::sin(0.5 * angle);
     [libm::cos(0.5 * angle), s * axis[0], s * axis[1], s * axis[2]]

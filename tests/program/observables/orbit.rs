@@ -13,7 +13,6 @@ use spindrift::sampling::SampleId;
 const MU: f64 = 3.986004418e14;
 const AXIS: f64 = 7e6;
 
-/// The nominal row, by column name, of a body at rest with s3 along -e1 on an orbit that starts at its perigee on e1.
 fn row(more: &str, duration: f64, points: usize, of_body: &str) -> HashMap<String, f64> {
     let text = format!(
         "[campaign]\nname = \"orbit\"\nsamples = 1\nseed = 1\nduration_s = {duration:?}\n\
@@ -34,8 +33,6 @@ fn row(more: &str, duration: f64, points: usize, of_body: &str) -> HashMap<Strin
 /// s3 along -e1: a turn of -90 degrees about e2.
 const DOWN: &str = "attitude = [0.7071067811865476, 0.0, -0.7071067811865476, 0.0]";
 
-/// Law: s3 that is fixed in F_e leaves nadir by the angle that a circular orbit has passed; an ellipse has the
-/// distances a (1 - e) and a (1 + e).
 #[test]
 fn a_body_at_rest_is_left_by_nadir() {
     let inertia = "principal_moments_kg_m2 = [90.0, 100.0, 40.0]";
@@ -83,7 +80,7 @@ fn the_torque_is_that_of_the_textbook() {
 }
 
 /// Law: the field is that of the package (`magnetic_field::tests`, here over the pole) and the torque of a dipole
-/// across it the product of both; along it, none.
+/// across it the product of both.
 #[test]
 fn a_dipole_is_turned_by_the_field() {
     // `pyIGRF14` at the first instant of 2025 on the e1 axis, in F_e: see tests/accuracy/magnetic_torque.rs
@@ -105,7 +102,6 @@ fn a_dipole_is_turned_by_the_field() {
     assert!((across["magnetic_torque_max_n_m"] / expected - 1.0).abs() < 1e-6, "{across:?} {expected}");
 }
 
-/// Law: only where a file names it, and only on an orbit.
 #[test]
 fn the_group_is_of_scenes_on_an_orbit() {
     assert!(!Group::DEFAULT.contains(&Group::Orbit));

@@ -12,7 +12,6 @@ use arrow_schema::DataType;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::batches;
 
-/// All Parquet files below `folder`.
 fn tables(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let of = |path: PathBuf| if path.is_dir() { tables(&path) } else { vec![path] };
@@ -20,8 +19,6 @@ fn tables(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(of).filter(is_table).collect()
 }
 
-/// The columns of a table whose maximum or mean, as a query engine computes them, is no finite number; and how many
-/// columns there are.
 fn without_maximum(path: &Path) -> (Vec<String>, usize) {
     let (mut wrong, mut columns) = (Vec::new(), 0);
     for batch in batches(path) {
@@ -43,7 +40,7 @@ fn without_maximum(path: &Path) -> (Vec<String>, usize) {
 }
 
 /// Law: in every table of a campaign with failed, audited, retained and unphysical runs, maximum and mean of every
-/// column are finite; a value that an `ok` run does not have is null, and in CSV an empty cell.
+/// column are finite.
 #[test]
 fn every_column_has_a_maximum_and_a_mean() {
     let scratch = folder("absent");

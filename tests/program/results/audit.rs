@@ -15,10 +15,9 @@ use spindrift::ode::Tolerance;
 use spindrift::propagation::Method;
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
-use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
+use spindrift::scene::{DebrisInput, Scene, SceneInput};
 use spindrift::statistics::quantile::quantile;
 
-/// The shipped campaign of that name, with this number of samples, a fraction of them audited.
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
     Plan { audit_fraction: fraction, ..shipped(name, Some(samples)) }
 }
@@ -34,7 +33,6 @@ fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
     seen(&Ensemble::new(plan, Isa::best()), Some(threads), see).into_iter().collect()
 }
 
-/// Bits of an audit, because NaN is not equal to itself.
 fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
     audit.as_ref().map(|audit| {
         let audit = audit.as_ref()?;
@@ -42,8 +40,6 @@ fn bits(audit: &Option<Option<Audit>>) -> Option<Option<Vec<u64>>> {
     })
 }
 
-/// Law: fraction 0 audits nothing, 1 everything, and no column of a row changes by a bit; audits do not depend on
-/// threads.
 #[test]
 fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
     for name in ["spin_sweep", "burn"] {
@@ -93,8 +89,6 @@ fn the_selection_is_a_share_and_grows_with_it() {
     assert!(common < 40, "{common} of {}", small.len());
 }
 
-/// The audits of a plan. Law of all of them: an error is zero or above, of a state as of a column, where there is one;
-/// some are above.
 fn audits(plan: &Plan) -> Vec<Audit> {
     let audits: Vec<Audit> = rows(plan, 2).into_values().filter_map(|(.., audit)| audit.flatten()).collect();
     for audit in &audits {
@@ -108,52 +102,6 @@ fn audits(plan: &Plan) -> Vec<Audit> {
     audits
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
-/// Law: audited errors follow the tolerance, down to rounding; a tolerance that is too large is noticed.
-#[test]
-fn a_loose_tolerance_is_caught() {
-    let at = |tolerance: f64| {
-        let mut plan = plan("spin_sweep", 20, 1.0);
-        plan.tolerance = Tolerance { relative: tolerance, absolute: tolerance };
-        let audits = audits(&plan);
-        assert_eq!(audits.len(), 20);
-        let covered = audits.iter().filter(|audit| audit.value(AuditValue::Estimate) >= audit.state()).count();
-        assert!(covered >= 19, "{covered} of 20 at {tolerance:e}");
-        median(audits.iter().map(Audit::state))
-    };
-    let (loose, tight, smallest) = (at(1e-6), at(1e-10), at(1e-16));
-    // measured: 2.1e-5, 2.3e-11 and 8.3e-15
-    assert!(loose > 1e3 * tight && tight > smallest, "{loose:e} {tight:e} {smallest:e}");
-    assert!(smallest < 5e-14 && loose > 1e-7, "{smallest:e} {loose:e}");
-}
-
-/// Law: a kernel with an error of 1e-9 in one moment of inertia is detected: its errors exceed every estimate.
-#[test]
-fn a_wrong_kernel_is_caught() {
-    let mut plan = plan("spin_sweep", 1, 1.0);
-    plan.tolerance = Tolerance { relative: 1e-13, absolute: 1e-13 };
-    let scene = Scene::resolve(&plan.nominal).expect("physical");
-    let mut wrong = scene.clone();
-    wrong.mass.inertia_free[0][0] *= 1.0 + 1e-9;
-    wrong.mass.inertia[0][0] *= 1.0 + 1e-9;
-    let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
-    let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
-    // measured: 9.5e-14, and 1.8e-8, which is 3700 times the estimate
-    assert!(right.value(AuditValue::Estimate) >= right.state() && right.state() < 9e-13, "{:e}", right.state());
-    assert!(
-        caught.state() > 10.0 * caught.value(AuditValue::Estimate) && caught.state() > 1e-9,
-        "{:e}",
-        caught.state()
-    );
-}
-
-/// Law: the rotation of the debris is compared too: a moment of inertia that is wrong by 1e-4 shows in its error and in
-/// no other, and the error of a right run near the intermediate axis is what the instability makes of roundings.
 #[test]
 fn a_wrong_debris_is_caught() {
     let mut plan = plan("spin_sweep", 1, 1.0);
@@ -192,8 +140,6 @@ fn a_wrong_debris_is_caught() {
     );
 }
 
-/// Law: a run too long for double-double is compared with plain Taylor integration at the smallest tolerance, and says
-/// so.
 #[test]
 fn a_long_run_is_audited_in_plain_doubles() {
     let mut plan = plan("spin_sweep", 1, 1.0);
@@ -213,8 +159,6 @@ fn a_long_run_is_audited_in_plain_doubles() {
     );
 }
 
-/// Law: runs in air and sunlight are audited too, in double-double at the tolerance that their torques allow; where one
-/// is too long for that there is no audit, and it says so.
 #[test]
 fn air_and_sunlight_are_audited() {
     let plan = plan("drag_tumble", 3, 1.0);
@@ -233,7 +177,7 @@ fn air_and_sunlight_are_audited() {
 }
 
 /// Law: the program writes the audit's columns, null for rows without audit, summarises them with every statistic, and
-/// reports the cost; all of this does not depend on the number of threads.
+/// reports the cost.
 #[test]
 fn the_program_audits() {
     let scratch = ScratchFolder::new("campaign");
@@ -286,21 +230,10 @@ fn the_program_audits() {
     assert_eq!(audit["estimate"]["covered"].as_u64(), Some(covered as u64));
     let largest = state.iter().copied().fold(0.0, f64::max);
     assert_eq!(audit["state_error"]["max"].as_f64(), Some(largest));
-    let line = |name: &str| {
-        let lines = summary["observables"].as_array().unwrap();
-        lines.iter().find(|line| line["name"] == name).unwrap_or_else(|| panic!("no {name}"))["numerical_error"].clone()
-    };
     for line in summary["observables"].as_array().unwrap().iter().filter(|line| !line["numerical_error"].is_null()) {
         let numbers = line["numerical_error"].as_object().unwrap().values().filter_map(Value::as_f64);
         numbers.for_each(|number| assert!(number >= 0.0, "{line}"));
     }
-    // the energy transfer varies by tens of joules, for physical reasons; an energy error is purely numerical
-    let share = |name: &str| line(name)["share_of_spread"].as_f64().unwrap();
-    // measured: 7.4e-11 and 3.6
-    assert!(share("exchange_w1_peak_to_peak_j") < 6e-10);
-    assert!(share("energy_error_max") > 0.1);
-    assert!(line("steps").is_null(), "steps have no truth");
-
     // nothing is audited where the command says so, whatever the file says
     scratch.file("audited.toml", &plan("spin_sweep", 120, 0.5).text());
     let said = scratch.prints("campaign audited.toml --audit 0 --out none", 0);
@@ -327,7 +260,7 @@ fraction = 0.9375
 "#;
 
 /// Law: each quantile of an audit's errors in the summary is that of type 7 of the column in the files, without the
-/// nominal sample; every selected sample is counted once, as audited or as failed.
+/// nominal sample.
 #[test]
 fn the_summary_of_the_audits_is_that_of_the_files() {
     let scratch = ScratchFolder::new("quantiles");
@@ -364,46 +297,8 @@ fn the_summary_of_the_audits_is_that_of_the_files() {
     assert_eq!(audited + failed, selected);
 }
 
-/// Law: the error of an audit is the maximum over the grid. A motor torque that speeds the body up, brings it back, and
-/// undoes the turn moves a run away from its reference solution and returns it: the error is that of the middle, not of
-/// the end.
-#[test]
-fn the_error_of_an_audit_is_its_maximum_over_the_grid() {
-    let mut plan = plan("no_debris", 1, 1.0);
-    // more than a radian in each of the durations below, so that errors are relative to it
-    plan.nominal.initial.angular_velocity_rad_s = [0.0, 0.0, 5.0];
-    plan.nominal.wheels.iter_mut().for_each(|wheel| wheel.rate_rad_s = 0.0);
-    let nominal = plan.nominal.clone();
-    let with_torque = |size: f64| {
-        let mut input = nominal.clone();
-        let pulse = |(k, sign): (usize, f64)| {
-            let start = 0.25 * k as f64;
-            let mut arc = ActuationInput::idle(start, start + 0.25);
-            arc.torque_n_m[1] = sign * size;
-            arc
-        };
-        input.actuation = [1.0, -1.0, -1.0, 1.0].into_iter().enumerate().map(pulse).collect();
-        input
-    };
-    plan.nominal = with_torque(10.0);
-    let (pushed, free) = (Scene::resolve(&with_torque(10.0)).unwrap(), Scene::resolve(&with_torque(0.0)).unwrap());
-    let errors = |times: &[f64]| {
-        let audit = Auditor::new(&plan, Isa::best(), &Grid::at(times.to_vec())).compare(&pushed, &free).unwrap();
-        [audit.value(AuditValue::Omega), audit.value(AuditValue::Attitude)]
-    };
-    let (whole, end) = (errors(&[0.0, 0.25, 0.5, 0.75, 1.0]), errors(&[0.0, 1.0]));
-    let (quarter, half) = (errors(&[0.0, 0.25]), errors(&[0.0, 0.5]));
-    // back to rounding; measured: 1.1e-16
-    assert!(end.iter().all(|error| *error < 1e-15), "{end:?}");
-    // measured: 3.0e-4 and 3.7e-4, the same numbers
-    for (whole, middle) in whole.iter().zip([quarter[0], half[1]]) {
-        assert!((whole / middle - 1.0).abs() < 1e-12 && *whole > 1e-4, "{whole:e} {middle:e}");
-    }
-}
-
 /// Law: q and -q are the same attitude: an audit of the null-space method is small where its quaternions, which are
-/// made of DCMs, each as near to the one before as can be, have the other sign: with points that are more than half a
-/// turn apart.
+/// made of DCMs, each as near to the one before as can be, have the other sign.
 #[test]
 fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
     let mut plan = plan("no_debris", 1, 1.0);
@@ -418,7 +313,6 @@ fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
     assert!(audit.state() > 0.0 && audit.state() < 2e-7, "{:e}", audit.state());
 }
 
-/// Law: one run is audited on request, `check` says what audits cost, and a fraction is one.
 #[test]
 fn one_run_is_audited_and_costs_are_estimated() {
     let scratch = ScratchFolder::new("simulate");

@@ -14,15 +14,12 @@ use spindrift::storage::rows_file::AUDIT_REASON;
 
 use crate::small_campaign::{campaign, folder};
 
-/// The campaign with debris of this rate, rad/s.
 fn with_debris_rate(rate: f64) -> String {
     let text = campaign().replace("samples = 600", "samples = 6");
     let text = text.replace("= [100, 0, 0]", &format!("= [{rate:?}, 0, 0]"));
     format!("{text}[audit]\nfraction = 1.0\n")
 }
 
-/// Law: a run whose audit is beyond the limit has none, and its row says why; the run itself is `ok`. Slower debris is
-/// audited.
 #[test]
 fn an_audit_has_a_limit() {
     let scratch = folder("audit-limit");
@@ -63,7 +60,6 @@ impl Sink for Nowhere {
     }
 }
 
-/// What a campaign of one part tells of its progress.
 fn told(text: &str) -> Vec<u64> {
     let plan = Plan::from_text("long", text, Overrides::default()).unwrap();
     let told = Mutex::new(Vec::new());
@@ -73,8 +69,7 @@ fn told(text: &str) -> Vec<u64> {
     told.into_inner().unwrap()
 }
 
-/// Law: of long runs, and of audited ones, progress is told within a batch; of short ones once for a batch. Each sample
-/// is told once.
+/// Law: of long runs, and of audited ones, progress is told within a batch; of short ones once for a batch.
 #[test]
 fn progress_is_told_within_a_batch() {
     let short = campaign().replace("samples = 600", "samples = 64").replace("duration_s = 1.0", "duration_s = 0.001");

@@ -1,5 +1,4 @@
-//! Requirements over time, at each time and at all times: their counts are those of the time series, and their verdicts
-//! those of exact binomial tests.
+//! Requirements over time, at each time and at all times.
 
 use serde_json::Value;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
@@ -12,8 +11,6 @@ const RUNS: usize = 599;
 /// A quantity with bands in the default groups.
 const SERIES: &str = "energy_body_j";
 
-/// The time series of every dispersed run at the points of the bands, which are all of the grid: times, and values run
-/// by run.
 fn series(scratch: &ScratchFolder) -> (Vec<f64>, Vec<Vec<f64>>) {
     scratch.file("all.toml", &format!("{}\n[retain]\ntrajectories = \"all\"\n", campaign()));
     scratch.prints("campaign all.toml --out all --no-report", 0);
@@ -22,12 +19,10 @@ fn series(scratch: &ScratchFolder) -> (Vec<f64>, Vec<Vec<f64>>) {
     (floats(&table(1), "time_s"), values)
 }
 
-/// The requirement in the summary of a result.
 fn entry(scratch: &ScratchFolder, result: &str) -> Value {
     scratch.summary(result)["requirements"]["list"][0].clone()
 }
 
-/// Runs the campaign with one requirement; its entry in the summary.
 fn verdict(scratch: &ScratchFolder, requirement: &str, code: i32) -> Value {
     scratch.file("gate.toml", &format!("{}\n[[require]]\nband = \"{SERIES}\"\n{requirement}\n", campaign()));
     scratch.prints("campaign gate.toml --out gate --no-report", code);
@@ -35,8 +30,7 @@ fn verdict(scratch: &ScratchFolder, requirement: &str, code: i32) -> Value {
 }
 
 /// Law: the worst point of time is that with the fewest runs within the limit, their number is within what the bands
-/// resolve, and the verdict is that of the exact test at every point; an interval of time leaves out what is outside.
-/// The bounds of the share contain those of the exact count.
+/// resolve, and the verdict is that of the exact test at every point.
 #[test]
 fn counts_are_those_of_the_time_series() {
     let scratch = folder("band-requirements");
@@ -118,9 +112,6 @@ fn counts_are_those_of_the_time_series() {
     }
 }
 
-/// Law: a requirement at all times is about the extreme of each run at the observation points of the interval, exactly;
-/// where other runs are beyond the limit at other times, each time passes and all times fail. The rest of a row has the
-/// bits that it has without the requirement.
 #[test]
 fn all_times_are_those_of_each_run() {
     let scratch = folder("all-times");

@@ -6,7 +6,7 @@ use crate::support::scratch_folder::column;
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 
 /// Law: where a thruster is dead in a few runs and these miss a limit, screen, card and chart name it first, with the
-/// counts of the rows. A rate that costs propellant in either direction is not monotonic.
+/// counts of the rows.
 #[test]
 fn a_dead_thruster_is_named() {
     const SCALE: &str = "parameter = \"thrusters.p2.thrust_scale\"\ndistribution = \"normal\"\nstd = 0.03";

@@ -1,6 +1,6 @@
-//! Results of runs that events end: extended, verified, repaired and audited. Shards and threads are in `run_ends`.
+//! Results of runs that events end: extended, verified, repaired and audited.
 
-use crate::support::scratch_folder::{ScratchFolder, column};
+use crate::support::scratch_folder::ScratchFolder;
 
 /// A free body that tips over, most of the runs before their minute is over.
 const TIPPING: &str = r#"[campaign]
@@ -27,33 +27,6 @@ value = 0.7
 ends_run = true
 "#;
 
-/// Law: files of rows are the same bytes where the campaign is run at once and where it is extended, and every one of
-/// them is made again bit for bit; damage of one is repaired to the same bytes.
-#[test]
-fn results_of_ended_runs_are_those_of_one_campaign() {
-    let scratch = ScratchFolder::new("ended-runs");
-    scratch.file("c.toml", TIPPING);
-    scratch.prints("campaign c.toml --out whole --no-report", 0);
-    let whole = scratch.parts("whole");
-    assert!(whole.len() > 1, "{} parts", whole.len());
-    let ended = column(&scratch.rows("whole"), "ended_by").iter().filter(|by| **by == 1.0).count();
-    assert!(ended > 300 && ended < 600, "{ended} of 600 end early");
-    scratch.prints("campaign c.toml --samples 100 --out grown --no-report", 0);
-    scratch.prints("campaign c.toml --out grown --no-report", 0);
-    assert!(scratch.parts("grown") == whole, "extended");
-    scratch.prints("verify grown --fraction 1", 0);
-    let damaged = scratch.part_files("grown").swap_remove(0);
-    let mut bytes = std::fs::read(&damaged).expect("a part");
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 0x10;
-    std::fs::write(&damaged, bytes).expect("a part");
-    scratch.prints("verify grown", 4);
-    scratch.prints("verify grown --repair", 0);
-    assert!(scratch.parts("grown") == whole, "repaired");
-}
-
-/// Law: the reference solution of an audit is that of the run as it ended: true errors are rounding, and estimates
-/// cover them in at least 95% of the runs.
 #[test]
 fn audits_know_where_a_run_has_ended() {
     let scratch = ScratchFolder::new("ended-audits");

@@ -1,5 +1,4 @@
-//! `campaign --only-failed-of`: the samples that failed, under another plan. `campaign --fail-fast`: the first of them
-//! is the end.
+//! `campaign --only-failed-of`: the samples that failed, under another plan.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,7 +8,6 @@ use arrow_array::RecordBatch;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
 use crate::support::scratch_folder::{ScratchFolder, column, contents, ended};
 
-/// The campaign with a method whose steps depend on the sample; so few are allowed that some 7% of the runs do not end.
 fn limited(max_steps: u64) -> String {
     let from = "method = \"auto\"\ntolerance = 1e-10";
     let to = format!("method = \"dop853\"\ntolerance = 1e-9\nmax_steps = {max_steps}");
@@ -18,14 +16,12 @@ fn limited(max_steps: u64) -> String {
     text.replace(from, &to)
 }
 
-/// The row of each sample.
 fn rows(scratch: &ScratchFolder, result: &str) -> BTreeMap<u64, (String, RecordBatch)> {
     let batches = scratch.rows(result);
     let rows = batches.iter().flat_map(|batch| (0..batch.num_rows()).map(|row| batch.slice(row, 1)));
     ended(&batches).into_iter().zip(rows).map(|((sample, status), row)| (sample, (status, row))).collect()
 }
 
-/// A folder with results of 1500 samples: `tight`, with some that fail, and `all` under the plan with enough steps.
 fn results(name: &str) -> ScratchFolder {
     let scratch = folder(name);
     scratch.file("tight.toml", &limited(40));
@@ -35,9 +31,6 @@ fn results(name: &str) -> ScratchFolder {
     scratch
 }
 
-/// Law: exactly the samples that failed run, and each row has the bits that it has in the whole campaign under the same
-/// plan; the result is the same bytes from shards, and after an interruption; statistics say that the samples are
-/// chosen.
 #[test]
 fn failed_samples_run_under_another_plan() {
     let scratch = results("failed-again");
@@ -77,7 +70,6 @@ fn failed_samples_run_under_another_plan() {
     assert!(said.contains("campaign.only"), "{said}");
 }
 
-/// Law: a pure row fails the same way again, whichever of the samples run.
 #[test]
 fn the_same_plan_fails_the_same_way() {
     let scratch = results("failed-same");
@@ -127,7 +119,6 @@ fn the_first_failure_ends_the_campaign() {
     assert!(contents(&scratch.path("whole")) == contents(&scratch.path("all")));
 }
 
-/// Law: whatever a run failed with, it is run again, and no run that is ok is.
 #[test]
 fn every_failure_is_run_again() {
     let scratch = folder("failed-all");
@@ -147,7 +138,7 @@ fn every_failure_is_run_again() {
 }
 
 /// Law: of several parts that are made at the same time `--fail-fast` names the first run that failed, and the same
-/// command names it again. The first part takes longest, and its failure comes after those of the others.
+/// command names it again.
 #[test]
 fn the_first_failure_is_that_of_the_first_sample() {
     let scratch = folder("fail-fast-threads");

@@ -7,7 +7,6 @@ use crate::commands::screen_numbers::junit_counts;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, mixed_failures};
 use crate::support::scratch_folder::{column, ended, floats};
 
-/// Status and reason of every row.
 fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
     let statuses = batch.column_by_name("status").expect("a status").as_string::<i32>();
     let reasons = batch.column_by_name("reason").expect("a reason").as_string::<i32>();
@@ -15,7 +14,6 @@ fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
     (0..batch.num_rows()).map(|row| (statuses.value(row).to_owned(), text(row))).collect()
 }
 
-/// The lines of `said` that name `status` and a reason: the number of runs, and the line.
 fn reasons<'s>(said: &'s str, status: &str) -> Vec<(usize, &'s str)> {
     let lines = said.lines().filter(|line| line.starts_with("    ") && line.contains(&format!(" {status}: ")));
     lines
@@ -23,9 +21,6 @@ fn reasons<'s>(said: &'s str, status: &str) -> Vec<(usize, &'s str)> {
         .collect()
 }
 
-/// Law: where every run fails `check` says so and why right below the line that names the campaign, and ends with code
-/// 1; the campaign says the same of its rows, on the screen and in `summary.json`, also where it is finished from
-/// files. Counter-test: where some runs fail, code 0 and the reasons at the end.
 #[test]
 fn reasons_are_said_and_counted() {
     let scratch = folder("grouped-reasons");
@@ -68,8 +63,6 @@ fn reasons_are_said_and_counted() {
     assert!(failed > 100, "{failed}");
 }
 
-/// Law: with a fixed step that is far too long every run is `inaccurate`: its numbers are kept, its reason names the
-/// columns beyond their limits and no other, it counts as failed, and it is in no statistics.
 #[test]
 fn garbage_is_inaccurate() {
     let scratch = folder("inaccurate");
@@ -102,9 +95,6 @@ fn garbage_is_inaccurate() {
     }
 }
 
-/// Law: a run that failed violates a requirement, however small the value that it has; of a run that is ok the value
-/// decides; what is not physical is outside of the population. Summary, JUnit file and exit code follow from that count
-/// of the rows.
 #[test]
 fn failed_runs_violate_what_their_values_keep() {
     let scratch = folder("failed-violate");
@@ -151,8 +141,6 @@ fn failed_runs_violate_what_their_values_keep() {
     assert_eq!(junit_counts(&xml)[1], failures + 1, "one more for the failed runs: {xml}");
 }
 
-/// Law: a failed run is a row with its status, a reason and nulls for missing values, and so is one that met the limit
-/// of steps; `simulate` and `sample` say the same reason.
 #[test]
 fn failed_rows_have_reasons() {
     let scratch = folder("reasons");
@@ -190,8 +178,6 @@ fn failed_rows_have_reasons() {
     scratch.prints("simulate short.toml", 1);
 }
 
-/// Law: a run whose debris needs more steps than it may make is no more `ok` than one whose spacecraft does: it ends
-/// where the first of them does. Counter-test: with enough steps both reach the end.
 #[test]
 fn a_run_ends_with_its_debris() {
     let scratch = folder("debris-steps");

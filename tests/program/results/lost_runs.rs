@@ -1,5 +1,4 @@
-//! Campaigns that lose runs, or whose audits fail: what is said first, what drives the loss, and which numbers are
-//! left.
+//! Campaigns that lose runs, or whose audits fail.
 
 use serde_json::Value;
 
@@ -10,15 +9,10 @@ use spindrift::statistics::binomial::interval;
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const RUNS: usize = 120;
 
-/// The number in `path` of the summary of `r`.
 fn number(summary: &Value, path: &str) -> f64 {
     summary.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path}"))
 }
 
-/// Law: of a campaign that loses most of its runs screen, page and summary begin with the loss and with what drives it;
-/// shares of missions are between those where none of the missing runs ended in this way and where all did, and so are
-/// their intervals; statistics have no intervals; a quantile that is among the missing runs has no number beside its
-/// FAIL. The counter-test: the same campaign without the limit of steps says nothing of it.
 #[test]
 fn a_loss_is_said_first_and_is_not_random() {
     let scratch = ScratchFolder::new("lost-runs");
@@ -151,9 +145,6 @@ at_most = 1.5
 columns = ["rate"]
 "#;
 
-/// Law: from the first lost run on, an interval holds whatever the values of the lost runs are: here they are known,
-/// from the same campaign without the limit of steps, and its intervals lie within. A mean has no interval without a
-/// range, and one around the known mean with it. A loss that makes a verdict worse is not put down to chance.
 #[test]
 fn intervals_hold_whatever_lost_runs_are() {
     let scratch = ScratchFolder::new("few-lost");
@@ -230,9 +221,6 @@ distribution = "normal"
 std = 1e-4
 "#;
 
-/// Law: an audit that covers fewer runs than promised is no success: exit code 1 with the word, first on screen, page
-/// and summary, a failure in JUnit, also where the result is there already. Counts are those of the rows. The
-/// counter-test: seen at 301 points the estimate keeps its promise.
 #[test]
 fn an_audit_that_fails_is_no_success() {
     let scratch = ScratchFolder::new("audit-fails");

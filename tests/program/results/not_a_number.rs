@@ -43,9 +43,7 @@ fn required(observable: &str, more: &str) -> String {
 }
 
 /// Law: what is not a number passes nothing: each requirement on it is UNDECIDED and says why, whether it counts,
-/// waits, is a largest value or a condition, and whatever `never` says; one of a few such values that the others decide
-/// is decided. The exit code is 5, and `check` names each expression, the sample and the time. The counter-test: an
-/// event that never happens passes.
+/// waits, is a largest value or a condition, and whatever `never` says.
 #[test]
 fn what_is_not_a_number_passes_nothing() {
     let scratch = ScratchFolder::new("not-a-number");

@@ -32,7 +32,6 @@ max_steps = 40
 points = 11
 "#;
 
-/// The text of the campaign.
 fn campaign() -> String {
     [HEAD, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
 }
@@ -42,8 +41,6 @@ fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String
     folder.prints(&format!("campaign own.toml {arguments}"), code)
 }
 
-/// Law: the summary has the numbers of the table of statistics (`statistics.rs` says whose those are); the worst runs
-/// and the first failed ones are those of the files.
 #[test]
 fn the_summary_is_that_of_the_files() {
     let folder = ScratchFolder::new("statistics");
@@ -86,8 +83,6 @@ fn the_summary_is_that_of_the_files() {
     assert_eq!(listed, worst[..3]);
 }
 
-/// Law: every column of a file has the unit and the meaning of the table of columns; a part says which samples it has;
-/// the codec is the plan's.
 #[test]
 fn files_say_what_they_contain() {
     let zstd = Compression::ZSTD(ZstdLevel::default());

@@ -3,24 +3,19 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::num::NonZeroUsize;
-use std::path::Path;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::analysis::accumulator::of_files;
-use spindrift::analysis::trajectories::{Retained, file_name, save};
+use spindrift::analysis::trajectories::{Retained, file_name};
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::math::Isa;
 use spindrift::sampling::SampleId;
-use spindrift::storage::disk;
 use spindrift::storage::rows_reader::{RowsError, RowsReader};
-use spindrift::storage::store::StoreError;
 
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
 use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
-/// A third of the samples is not physical, and one in some runs needs more steps than it may make.
 fn file(retain: &str) -> String {
     let few_steps = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 17");
     format!("{few_steps}{NEGATIVE_WALLS}\n[retain]\ntrajectories = \"{retain}\"\n")
@@ -34,14 +29,11 @@ fn rows(scratch: &ScratchFolder) -> RowsReader {
     scratch.reader("r")
 }
 
-/// The samples whose runs are retained.
 fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Vec<SampleId>, RowsError> {
     let retained = Retained::new(plan);
     Ok(retained.chosen(of_files(&retained, rows, threads)?))
 }
 
-/// Law: each rule chooses the runs that it says, whatever the threads: none, all that were run, the failed, the worst
-/// by magnitude, as many as asked for, without the nominal one.
 #[test]
 fn rules_choose_what_they_say() {
     let scratch = folder("retained");
@@ -88,45 +80,6 @@ fn rules_choose_what_they_say() {
     assert_eq!(chosen("sample:599").len(), physical.len() - 1);
 }
 
-/// Puts files into the folder `root`.
-fn taken(root: &Path) -> impl Fn(&str, &[u8]) -> Result<(), StoreError> + Sync {
-    let store = disk::folder(root);
-    move |name, bytes| store.put(name, bytes).map_err(store.at(name))
-}
-
-/// Law: the file of a retained run is that of `simulate --sample K --out`, byte for byte, also of a run that failed,
-/// for any number of threads. Counter-test: that of another sample differs.
-#[test]
-fn files_are_those_of_simulate() {
-    let scratch = folder("trajectories");
-    let retain = "failed";
-    scratch.file("small.toml", &file(retain));
-    scratch.prints("campaign small.toml --out r", 1);
-    let (plan, isa) = (plan(retain), Isa::best());
-    let failed = retained(&plan, &rows(&scratch), None).unwrap();
-    let samples: Vec<SampleId> = [0, 2].into_iter().map(SampleId).chain(failed.into_iter().take(2)).collect();
-    let [one, two] = ["one", "two"].map(|name| scratch.path(name).join("trajectories"));
-    for (path, threads) in [(&one, 1), (&two, 2)] {
-        save(&plan, &samples, (isa, NonZeroUsize::new(threads)), &taken(path.parent().unwrap())).unwrap();
-    }
-    let mut seen = BTreeSet::new();
-    for sample in &samples {
-        let name = file_name(*sample);
-        let bytes = fs::read(one.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let code = i32::from(sample.0 > 2);
-        scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), code);
-        assert!(bytes == fs::read(scratch.path("s.parquet")).unwrap(), "{name}");
-        assert!(bytes == fs::read(two.join(&name)).unwrap(), "{name}, two threads");
-        assert!(seen.insert(bytes), "{name} is like another");
-    }
-    assert_eq!(fs::read_dir(&one).unwrap().count(), samples.len());
-    scratch.file("a_file", "");
-    let refused = save(&plan, &samples, (isa, None), &taken(&scratch.path("a_file"))).unwrap_err().to_string();
-    assert!(refused.contains("a_file") && refused.contains("sample-00000"), "{refused}");
-}
-
-/// Law: a campaign ends with the trajectories that its file asks for; where only that is changed, no sample is run
-/// again and the others are removed.
 #[test]
 fn a_campaign_keeps_what_its_file_asks_for() {
     let scratch = folder("retain");
@@ -155,8 +108,6 @@ fn a_campaign_keeps_what_its_file_asks_for() {
     assert!(kept("none", 1).is_empty());
 }
 
-/// Law: a campaign ends with bands of the runs that are ok, the same bytes for any number of threads; without points
-/// there are none.
 #[test]
 fn a_campaign_ends_with_bands() {
     let scratch = folder("bands");
@@ -191,7 +142,6 @@ fn a_campaign_ends_with_bands() {
     );
 }
 
-/// Law: a part without a run that is ok changes no band, whether it is the first, in the middle or the last.
 #[test]
 fn failed_parts_change_no_band() {
     let scratch = folder("bands-failed-parts");

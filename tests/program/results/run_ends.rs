@@ -1,5 +1,4 @@
-//! A campaign whose runs end at events, from outside: files, statistics, requirements, page, replay and single runs
-//! agree on where they end.
+//! A campaign whose runs end at events, from outside.
 
 use crate::page::numbers::Found;
 use crate::support::scratch_folder::{ScratchFolder, floats};
@@ -52,8 +51,6 @@ fn campaign(name: &str, arguments: &str) -> ScratchFolder {
     scratch
 }
 
-/// Law: `simulate --sample K` and the replay end where row K does; the verdicts are those of the rows; the strip of
-/// runs in flight counts those that have not ended.
 #[test]
 fn everything_ends_where_the_row_does() {
     let found = Found::read(campaign("everything", ""), String::new());
@@ -98,26 +95,5 @@ fn everything_ends_where_the_row_does() {
     for (time, count) in times.into_iter().zip(counts) {
         let left = (1..600).filter(|row| reached[*row] >= time).count() as f64;
         assert_eq!(count, left, "{time} s");
-    }
-}
-
-/// Law: shards, threads and a campaign that is made again have the same bytes.
-#[test]
-fn ends_do_not_depend_on_how_a_campaign_is_run() {
-    let whole = campaign("alike", "--threads 1");
-    let parts = whole.parts("r");
-    whole.command("campaign c.toml --out two --threads 2").output().expect("the program starts");
-    assert!(whole.parts("two") == parts);
-    for number in 1..=3 {
-        whole
-            .command(&format!("campaign c.toml --out shards --shard {number}/3"))
-            .output()
-            .expect("the program starts");
-    }
-    whole.command("finish shards").output().expect("the program starts");
-    assert!(whole.parts("shards") == parts);
-    for file in ["bands.parquet", "statistics.parquet"] {
-        let bytes = |result: &str| std::fs::read(whole.path(&format!("{result}/{file}"))).expect(file);
-        assert!(bytes("shards") == bytes("r"), "{file}");
     }
 }

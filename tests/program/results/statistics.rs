@@ -1,8 +1,6 @@
 //! `statistics.parquet` and `sensitivity.parquet` are those of the files of rows, and the same bytes for any number of
 //! threads.
 
-use std::fs;
-
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
@@ -29,29 +27,23 @@ expression = "sqrt(initial.angular_velocity_rad_s.x)"
 columns = ["spin", "steps", "energy_body_max_j"]
 "#;
 
-/// The values of a column that statistics are about: of dispersed samples that are ok, with a value.
 fn values(rows: &[RecordBatch], name: &str) -> Vec<f64> {
     let values = column(rows, name).into_iter().zip(ended(rows));
     let counted = values.filter(|(value, (sample, status))| *sample > 0 && status == "ok" && !value.is_nan());
     counted.map(|(value, _)| value).collect()
 }
 
-/// The ends of the interval of the `p`-quantile of values in ascending order, at 95%.
 fn interval(ascending: &[f64], p: f64) -> [Option<f64>; 2] {
     let Ranks { lower, upper } = interval_ranks(ascending.len() as u64, p, 0.95);
     [lower, upper].map(|rank| rank.map(|rank| ascending[rank as usize - 1]))
 }
 
-/// The number of a row of a table; `None` where it is null.
 fn number(table: &RecordBatch, name: &str, row: usize) -> Option<f64> {
     let column = table.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
     let column = column.as_primitive::<Float64Type>();
     (!column.is_null(row)).then(|| column.value(row))
 }
 
-/// Law: counts and extremes are exact, moments are those of the rows to 1e-12 of their size, quantiles are of type 7;
-/// failed runs are counted and left out, and so are runs without a value, column by column; intervals are of as many
-/// runs as have one; a quantile that the runs cannot bound says what it takes.
 #[test]
 fn statistics_are_those_of_the_files() {
     let scratch = folder("statistics-table");
@@ -119,9 +111,7 @@ fn statistics_are_those_of_the_files() {
     assert_eq!(checked, table.num_rows());
 }
 
-/// Law: under designs whose samples are not independent there is no interval, and the table says why; estimates are
-/// there. A design that binds its inputs to each other has no indices. Over the same list: screen, its long form, page
-/// and summary say that no driver was tested where that is so, with the reason, and never that none was found.
+/// Law: under designs whose samples are not independent there is no interval, and the table says why.
 #[test]
 fn designs_without_independent_samples_have_no_intervals() {
     let scratch = folder("statistics-designs");
@@ -177,9 +167,6 @@ fn designs_without_independent_samples_have_no_intervals() {
     }
 }
 
-/// Law: a magnitude of two numbers with mean zero is driven by both: the table, the screen and the card say so, in the
-/// same words. Its first-order index is 0.487 for each, its rank correlations are zero. 599 runs: the lower ends are
-/// above zero for any seed (0.3 on average, 0.36 wide).
 #[test]
 fn a_magnitude_is_driven_by_what_it_is_made_of() {
     const SPIN: &str = r#"
@@ -224,45 +211,6 @@ quantile = 0.9
     assert!(page.contains(&drivers[1..]) && drivers.contains(&said(&names[1])), "{drivers}");
 }
 
-/// Law: beyond 100,000 rows quantiles of an observable with an offset of 2e5 standard deviations are within a hundredth
-/// of one of those of the rows, a median of zeros is zero, and shards that are counted from their files give the bytes
-/// of one process that counts while it runs.
-#[test]
-#[ignore = "half a minute: cargo test --release --test program -- --ignored many_rows"]
-fn many_rows_have_quantiles_of_their_spread() {
-    let scratch = folder("statistics-many");
-    let text = campaign().replace("samples = 600", "samples = 100200").replace("duration_s = 1.0", "duration_s = 0.1");
-    let offset = r#"
-[[observable]]
-name = "offset"
-expression = "1 + 1e-5 * initial.angular_velocity_rad_s.x"
-[[observable]]
-name = "mostly_zero"
-expression = "max(initial.angular_velocity_rad_s.x, 0) * if(initial.angular_velocity_rad_s.y > 4, 1, 0)"
-"#;
-    scratch.file("many.toml", &(text + offset));
-    scratch.prints("campaign many.toml --out whole --no-report", 0);
-    for shard in [2, 1] {
-        scratch.prints(&format!("campaign many.toml --out parts --shard {shard}/2"), 0);
-    }
-    scratch.prints("finish parts --no-report", 0);
-    let read = |result: &str| fs::read(scratch.path(&format!("{result}/statistics.parquet"))).expect("a file");
-    assert!(read("whole") == read("parts"));
-    let table = scratch.table("whole/statistics.parquet");
-    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
-    let row = |name: &str| names.iter().position(|known| known == Some(name)).expect("a row");
-    let mut rate = values(&scratch.rows("whole"), "initial_angular_velocity_x_rad_s");
-    rate.sort_by(f64::total_cmp);
-    for (column, p) in [("p5", 0.05), ("p50", 0.5), ("p95", 0.95), ("p99_9", 0.999)] {
-        let exact = rate[(p * (rate.len() - 1) as f64) as usize];
-        let found = (number(&table, column, row("offset")).expect("a quantile") - 1.0) * 1e5;
-        assert!((found - exact).abs() < 0.01 * 0.5, "{column}: {found} for {exact}");
-    }
-    assert_eq!(number(&table, "p50", row("mostly_zero")), Some(0.0));
-}
-
-/// Law: the interval of a mean with 95% confidence has ends that each miss with 2.5%: for a replicated design they are
-/// the bounds at 97.5% of the mean of its replicates (whose coverage is that of `coverage_of_means.rs`).
 #[test]
 fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     const REPLICATES: usize = 8;
@@ -308,8 +256,6 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     assert!(checked > 20, "{checked}");
 }
 
-/// Law: the input that another one is most correlated with is that of the largest magnitude: with -0.9 as with 0.9,
-/// although the third has a correlation that is notable too, and positive.
 #[test]
 fn a_negative_correlation_is_one_too() {
     let scratch = folder("statistics-partners");

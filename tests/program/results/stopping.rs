@@ -19,13 +19,11 @@ fn stopping(half_width: &str) -> String {
     campaign().replace("samples = 600", "samples = 300") + &stop
 }
 
-/// The half width of the interval of the summary's `stop`.
 fn half_width(summary: &Value) -> f64 {
     let end = |index: usize| summary["stop"]["interval"][index].as_f64().unwrap();
     0.5 * (end(1) - end(0))
 }
 
-/// The median of the dispersed runs that are ok; their number is odd.
 fn median(scratch: &ScratchFolder, result: &str) -> f64 {
     let rows = scratch.rows(result);
     let values = column(&rows, "exchange_w1_peak_to_peak_j").into_iter().zip(ended(&rows));
@@ -37,7 +35,7 @@ fn median(scratch: &ScratchFolder, result: &str) -> f64 {
 }
 
 /// Law: a campaign stops at the first look whose interval is narrow enough, its rows are those of a campaign of so many
-/// samples, and the interval has the confidence of one of four looks. The nominal run is no part of the estimate.
+/// samples, and the interval has the confidence of one of four looks.
 #[test]
 fn a_campaign_stops_when_it_is_precise_enough() {
     let scratch = folder("stop");
@@ -110,8 +108,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
 }
 
 /// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors
-/// of all looks, decides; the verdict is that of the look, and a limit that is the median itself stays undecided: exit
-/// code 5.
+/// of all looks, decides.
 #[test]
 fn a_campaign_stops_when_its_requirements_are_decided() {
     const NAME: &str = "exchange_w1_peak_to_peak_j";
