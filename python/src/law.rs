@@ -11,7 +11,7 @@ use generator::{Generator, Gn, is_generator};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use spindrift::campaign::Plan;
-use spindrift::control::laws::asked::{Answered, Answers, Question, is_law_of};
+use spindrift::control::laws::callback::{Call, Callback, Installation, is_law_of};
 use spindrift::ensemble::crew::Crew;
 use spindrift::workflow::WorkflowError;
 
@@ -20,11 +20,11 @@ const SIDE_BY_SIDE: usize = 64;
 /// Bytes of the stack of each: what the kernels take, several times.
 const STACK: usize = 2 << 20;
 
-/// Writes what the function is told of a run, in the order of `_law.py`.
-fn tell(question: &Question<'_>, numbers: &mut Vec<f64>) {
-    let (input, estimate) = (question.input, question.estimate);
+/// Writes the numbers of a call, in the order of `_law.py`.
+fn write(call: &Call<'_>, numbers: &mut Vec<f64>) {
+    let (input, estimate) = (call.input, call.estimate);
     let parts: [&[f64]; 10] = [
-        &[question.sample.0 as f64, input.time, question.period],
+        &[call.sample.0 as f64, input.time, call.period],
         &input.q_ts,
         &input.omega_se_s,
         &input.omega_te_s,
@@ -59,25 +59,25 @@ fn rest() {
     generator::yield_with(());
 }
 
-/// What is asked: the numbers of one run after those of another.
+/// Calls of several runs: the numbers of one after those of another.
 #[derive(Default)]
-struct Questions {
+struct Calls {
     numbers: Vec<f64>,
     count: usize,
 }
 
-impl Questions {
-    fn push(&mut self, question: &Question<'_>) {
-        tell(question, &mut self.numbers);
+impl Calls {
+    fn push(&mut self, call: &Call<'_>) {
+        write(call, &mut self.numbers);
         self.count += 1;
     }
 }
 
-/// Runs of this thread that wait: what they ask, and what they are answered, in the order in which they asked.
+/// Runs of this thread that wait: their calls, and the torques of these in the same order.
 #[derive(Default)]
 struct Waiting {
-    questions: Questions,
-    answers: Vec<[f64; 3]>,
+    calls: Calls,
+    torques: Vec<[f64; 3]>,
 }
 
 thread_local! {
@@ -86,9 +86,9 @@ thread_local! {
 
 /// A function of Python, and what it has raised.
 pub struct Law {
-    /// `_law.answered(function)`: from sensors and bytes of questions to bytes of torques.
+    /// `_law.answered(function)`: from sensors and bytes of calls to bytes of torques.
     ask: Py<PyAny>,
-    /// The sensors of the loop: names, and how many numbers each measures. Known from the first question on.
+    /// The sensors of the loop: names, and how many numbers each measures. Known from the first call on.
     sensors: OnceLock<Vec<(String, usize)>>,
     raised: Mutex<Option<PyErr>>,
 }
@@ -113,17 +113,17 @@ impl Law {
         self.raised.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    /// What `work` returns, in which laws are answered by `law`.
+    /// The result of `work`, in which `law` is the callback.
     ///
     /// # Errors
     /// Where another law of Python is flown in this process.
     pub fn during<T>(law: &Arc<Self>, work: impl FnOnce() -> Result<T, WorkflowError>) -> Result<T, WorkflowError> {
         let another = || WorkflowError::Input("another run with control= is under way in this process".to_owned());
-        let _answered = Answered::by(law.clone()).ok_or_else(another)?;
+        let _installed = Installation::new(law.clone()).ok_or_else(another)?;
         work()
     }
 
-    /// What `work` returns without Python's lock, in which laws are answered by `control`, where there is one.
+    /// The result of `work` without Python's lock, in which `control`, if there is one, is the callback.
     ///
     /// # Errors
     /// That of `work`, or what `control` has raised.
@@ -138,14 +138,14 @@ impl Law {
         law.raised().map_or_else(|| done.map_err(crate::raised), Err)
     }
 
-    /// Answers `questions`; with what is not a number where the function has raised an exception, now or before.
-    fn answers(&self, questions: &Questions) -> Vec<[f64; 3]> {
-        let nothing = vec![[f64::NAN; 3]; questions.count];
+    /// The torques of `calls`; NaN once the function has raised an exception.
+    fn torques(&self, calls: &Calls) -> Vec<[f64; 3]> {
+        let nothing = vec![[f64::NAN; 3]; calls.count];
         if self.has_raised() {
             return nothing;
         }
-        let bytes: Vec<u8> = questions.numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
-        let answered = Python::attach(|py| -> PyResult<Vec<[f64; 3]>> {
+        let bytes: Vec<u8> = calls.numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
+        let found = Python::attach(|py| -> PyResult<Vec<[f64; 3]>> {
             let sensors = self.sensors.get().map_or(&[][..], Vec::as_slice);
             let answer = self.ask.bind(py).call1((sensors, PyBytes::new(py, &bytes)))?;
             let answer = answer.cast::<PyBytes>().map_err(PyErr::from)?;
@@ -153,8 +153,8 @@ impl Law {
             let numbers: Vec<f64> = numbers.collect();
             Ok(numbers.as_chunks::<3>().0.to_vec())
         });
-        match answered {
-            Ok(torques) if torques.len() == questions.count => torques,
+        match found {
+            Ok(torques) if torques.len() == calls.count => torques,
             Ok(_) => nothing,
             Err(error) => {
                 // Python's lock is free again: who has it may ask for this one
@@ -165,29 +165,29 @@ impl Law {
     }
 }
 
-impl Answers for Law {
-    fn torque(&self, question: &Question<'_>) -> [f64; 3] {
+impl Callback for Law {
+    fn torque(&self, call: &Call<'_>) -> [f64; 3] {
         self.sensors.get_or_init(|| {
-            let sensors = question.input.readings.iter();
+            let sensors = call.input.readings.iter();
             sensors.map(|(sensor, _)| (sensor.name.to_string(), sensor.width())).collect()
         });
         if !is_generator() {
-            let mut alone = Questions::default();
-            alone.push(question);
-            return self.answers(&alone)[0];
+            let mut alone = Calls::default();
+            alone.push(call);
+            return self.torques(&alone)[0];
         }
         let place = WAITING.with_borrow_mut(|waiting| {
-            waiting.questions.push(question);
-            waiting.questions.count - 1
+            waiting.calls.push(call);
+            waiting.calls.count - 1
         });
         rest();
-        WAITING.with_borrow(|waiting| waiting.answers[place])
+        WAITING.with_borrow(|waiting| waiting.torques[place])
     }
 }
 
 impl Crew for Law {
     fn work(&self, work: &(dyn Fn() + Sync)) {
-        // the thread is known to Python from its first question to its last, not anew at each
+        // the thread is known to Python from its first call to its last, not anew at each
         Python::attach(|py| py.detach(|| self.fly(work)));
     }
 }
@@ -202,10 +202,10 @@ impl Law {
                 run.resume();
                 !run.is_done()
             });
-            let questions = WAITING.with_borrow_mut(|waiting| std::mem::take(&mut waiting.questions));
-            if questions.count > 0 {
-                let answers = self.answers(&questions);
-                WAITING.with_borrow_mut(|waiting| waiting.answers = answers);
+            let calls = WAITING.with_borrow_mut(|waiting| std::mem::take(&mut waiting.calls));
+            if calls.count > 0 {
+                let torques = self.torques(&calls);
+                WAITING.with_borrow_mut(|waiting| waiting.torques = torques);
             }
         }
     }

@@ -79,8 +79,8 @@ impl Assessment {
         (assumes && self.reason.is_none()).then_some((limit - bound).abs())
     }
 
-    /// The one-sided bound of the estimate that decided, and the limit, if the two-sided interval contains the limit and
-    /// so suggests no decision. `true`: a lower bound.
+    /// The one-sided bound of the estimate that decided, and the limit, if the two-sided interval contains the limit
+    /// and so suggests no decision. `true`: a lower bound.
     pub fn hidden_bound(&self) -> Option<([f64; 2], bool)> {
         let [low, high] = self.interval;
         let (limit, is_least) = match (self.requirement.statement, self.requirement.limit) {

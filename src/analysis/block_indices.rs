@@ -76,8 +76,8 @@ mod tests {
     use super::*;
     use crate::analysis::small_plan::small_plan;
 
-    /// Law: only whole blocks count, with one index for each distribution. Known: y = x_1 + x_2 at A, A with x_1 of B, A
-    /// with x_2 of B, and B.
+    /// Law: only whole blocks count, with one index for each distribution. Known: y = x_1 + x_2 at A, A with x_1 of B,
+    /// A with x_2 of B, and B.
     #[test]
     fn indices_are_of_whole_blocks() {
         let plan = small_plan(13, "design = { kind = \"saltelli\" }");

@@ -7,9 +7,10 @@
 //! The p-value of independent samples is twice the smaller one of a test of means and one of distributions
 //! (Bonferroni). Pairs have a test of both marginal distributions ([`marginals`]): a mean of differences is normal only
 //! without rare large ones, which a wrapped quantity has. Tests of the differences of pairs ([`signed_ranks`],
-//! [`spread_of_pairs`]) show whether runs moved one way, or apart; [`fisher`], for pairs [`mcnemar`], tests the share of
-//! runs without a value. P-values are adjusted for the number of observables (Holm): if nothing differs, any observable
-//! is called shifted, moved, or changed in its share without a value with probability [`Comparison::level`] each.
+//! [`spread_of_pairs`]) show whether runs moved one way, or apart; [`fisher`], for pairs [`mcnemar`], tests the share
+//! of runs without a value. P-values are adjusted for the number of observables (Holm): if nothing differs, any
+//! observable is called shifted, moved, or changed in its share without a value with probability [`Comparison::level`]
+//! each.
 
 use std::num::NonZeroUsize;
 
@@ -120,8 +121,8 @@ impl ColumnComparison {
         self.largest().map_or(0.0, |shift| shift.relative)
     }
 
-    /// Whether a statistic, or the share of runs without a value, is shifted by more than `tolerance`; NaN in one result
-    /// only is.
+    /// Whether a statistic, or the share of runs without a value, is shifted by more than `tolerance`; NaN in one
+    /// result only is.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         let [first, second] = self.absence.shares();
         (second - first).abs() > tolerance || !self.shifts.iter().all(|shift| shift.relative <= tolerance)
@@ -158,7 +159,8 @@ impl Comparison {
         second - first
     }
 
-    /// Whether a statistic, or the fraction of `ok` runs, is shifted by more than `tolerance`; NaN in one result only is.
+    /// Whether a statistic, or the fraction of `ok` runs, is shifted by more than `tolerance`; NaN in one result only
+    /// is.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         self.shift_of_ok().abs() > tolerance || self.columns.iter().any(|column| column.is_beyond(tolerance))
     }

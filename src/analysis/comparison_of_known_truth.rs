@@ -73,9 +73,9 @@ pub fn rows(runs: u64, [scene, other]: [u64; 2], noise: f64, lacking: f64) -> Ve
         .collect()
 }
 
-/// H0: nothing differs but noise or the seed. Any of three observables is called shifted, moved, or changed in its share
-/// without a value in at most 0.05 of the campaigns each: of 300, seeds 1 to 300, at most 26 (alpha = 2e-3 for each of
-/// 12).
+/// H0: nothing differs but noise or the seed. Any of three observables is called shifted, moved, or changed in its
+/// share without a value in at most 0.05 of the campaigns each: of 300, seeds 1 to 300, at most 26 (alpha = 2e-3 for
+/// each of 12).
 #[test]
 fn what_does_not_differ_is_seldom_said_to() {
     for (noise, are_pairs) in [(0.1, true), (1.0, true), (0.0, false)] {

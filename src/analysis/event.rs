@@ -20,8 +20,8 @@ const TAIL: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Occurs {
-    /// A requirement is missed, by the runs of its verdict: its index in the plan, and whether all others on the outcome
-    /// are missed by the same runs.
+    /// A requirement is missed, by the runs of its verdict: its index in the plan, and whether all others on the
+    /// outcome are missed by the same runs.
     Missed { requirement: usize, is_only: bool },
     /// An outcome of few values differs from the most frequent one, given here.
     OtherThan(f64),

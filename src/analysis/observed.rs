@@ -27,8 +27,8 @@ enum Absence {
     Never,
     /// The event never happened; if its count is missing too, its quantity is not a number.
     Event { count: String },
-    /// An extreme from `delay_s` after `after` on (the columns of an event's time and count) is not a number, unless the
-    /// event never happened or the run ended before.
+    /// An extreme from `delay_s` after `after` on (the columns of an event's time and count) is not a number, unless
+    /// the event never happened or the run ended before.
     Extreme { after: Option<[String; 2]>, delay_s: f64, end: End },
 }
 

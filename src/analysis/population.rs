@@ -7,8 +7,8 @@ use crate::sampling::{Design, SampleId};
 /// Stands for a design if `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";
 
-/// Runs of a population without numbers: not computed to their end, or not accurately. Samples that are not physical are
-/// outside of the population.
+/// Runs of a population without numbers: not computed to their end, or not accurately. Samples that are not physical
+/// are outside of the population.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Loss {
     pub missing: u64,
@@ -18,8 +18,8 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// Least share of missing runs of a big loss: the runs left do not bound the 95%-quantile, which all missing ones may
-    /// exceed. Below, an interval takes the loss for random.
+    /// Least share of missing runs of a big loss: the runs left do not bound the 95%-quantile, which all missing ones
+    /// may exceed. Below, an interval takes the loss for random.
     pub const BIG: f64 = 0.05;
 
     /// From the numbers of runs by status, in the order of [`Status::ALL`].

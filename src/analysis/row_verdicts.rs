@@ -359,8 +359,8 @@ mod tests {
         assert!((crate::statistics::binomial::at_least(490, 499, found.gate.bounds[0]) - 0.01).abs() < 1e-9);
     }
 
-    /// Law: bounds of the values decide a mean whatever its tail and without a spread; a value outside fails it. Without
-    /// bounds the decision names the room for rare events: from its bound to the limit.
+    /// Law: bounds of the values decide a mean whatever its tail and without a spread; a value outside fails it.
+    /// Without bounds the decision names the room for rare events: from its bound to the limit.
     #[test]
     fn bounded_means_assume_no_tail() {
         let mean = |bounded, limit| Requirement { bounded, ..requirement(Statement::Mean, GateLimit::AtMost(limit)) };

@@ -27,8 +27,8 @@ const WEIGHT_OF_RANKS: f64 = 0.25;
 /// Standard deviations of chance correlations: of 10,000 pairs one exceeds this in a thousand campaigns.
 const CHANCE: f64 = 5.5;
 
-/// The sensitivities of the observables that the file of `plan` requires or names, else of the main ones, from its first
-/// rows. After a big `loss` the `ok` rows are no sample of all, and have no intervals.
+/// The sensitivities of the observables that the file of `plan` requires or names, else of the main ones, from its
+/// first rows. After a big `loss` the `ok` rows are no sample of all, and have no intervals.
 pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     let observed = FirstRows::new(plan).observed;
     let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();

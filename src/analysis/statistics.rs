@@ -124,9 +124,9 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan` with the statuses `ended`, from `counted`, the counts of the first of the [`batches`] of its
-/// observables, and from the files of its rows, on `threads` threads (`None`: one per core). Those
-/// called `shown` have their sketches.
+/// The statistics of `plan` with the statuses `ended`, from `counted`, the counts of the first of the [`batches`] of
+/// its observables, and from the files of its rows, on `threads` threads (`None`: one per core). Those called `shown`
+/// have their sketches.
 ///
 /// # Errors
 /// Where a file cannot be read.

@@ -7,9 +7,8 @@ use crate::control::flight_code;
 use crate::control::guidance::condition::Condition;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
 use crate::control::guidance::target::{TARGETS, Target};
-use crate::control::laws::asked;
 use crate::control::laws::rod_law::{ROD_USES, RodUse};
-use crate::control::laws::{self, LawKind};
+use crate::control::laws::{self, LawKind, callback};
 use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
 use crate::scene::schema::control::kept;
@@ -85,7 +84,7 @@ pub(super) fn read_phase(
         section.rename("guidance", own.as_str());
     }
     let has_debris = scene.debris.is_some();
-    let brought = [&asked::KIND].into_iter().chain(section.document.attitude_law).chain(module.kind());
+    let brought = [&callback::KIND].into_iter().chain(section.document.attitude_law).chain(module.kind());
     let kinds: Vec<&'static LawKind> = laws::KINDS.iter().chain(brought).collect();
     let law = law(section, &kinds, module);
     let gyroscopic = section.flag("gyroscopic").unwrap_or(false);

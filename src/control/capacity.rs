@@ -13,7 +13,7 @@ use crate::scene::Scene;
 /// rounding, 1e-16, and below the square of any alignment that is used, 1e-12.
 const NOTHING: f64 = 1e-13;
 
-/// What a loop can do about torque, and about the angular momentum of the nominal scene about its centre of mass. Axes
+/// The torque of a loop, and the angular momentum of the nominal scene about its centre of mass that it can take. Axes
 /// are unit vectors in F_s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
@@ -36,7 +36,7 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// Of the loop `spec` in the nominal scene `scene`, as flight software believes it.
+    /// The capacity of the loop `spec` in the nominal scene `scene`, as flight software believes it.
     pub fn of(spec: &LoopSpec, scene: &Scene) -> Self {
         let (mass, initial) = (&scene.mass, &scene.initial);
         let mut momentum = product(mass.inertia, initial.omega_se_s);
@@ -103,7 +103,7 @@ impl Capacity {
         lines
     }
 
-    /// What a person should know of it; nothing where all of it fits and can be unloaded.
+    /// Warnings; none if the momentum fits and can be unloaded.
     pub fn notes(&self, spec: &LoopSpec) -> Vec<String> {
         let mut notes = Vec::new();
         if self.within_reach > self.wheels {

@@ -1,10 +1,10 @@
-//! [`LawContext`]: what the law of a run is made from at its start.
+//! [`LawContext`]: the settings of the law of a run.
 
 use super::loop_record::SharedRecord;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::{ControlInput, Scene};
 
-/// What the law of one run is made from.
+/// The settings of the law of one run.
 ///
 /// A law is to know what flight software knows: the nominal scene, its own parameters, and what its sensors measure.
 /// The drawn scene is the truth, for models of sensors and actuators only.
@@ -16,7 +16,7 @@ pub struct LawContext<'a> {
     pub drawn: &'a Scene,
     /// The parameters that the law declares, as drawn for this run.
     pub parameters: &'a ControlInput,
-    /// The same without dispersions.
+    /// The parameters without dispersions.
     pub nominal_parameters: &'a ControlInput,
     /// The sample; 0 is the nominal run.
     pub sample: SampleId,
@@ -27,9 +27,9 @@ pub struct LawContext<'a> {
     /// When this run ends, s: after that, or at an event that ends it. The law must not decide by it: where an event
     /// ends a run is found in one that goes on.
     pub end: f64,
-    /// Where a control loop writes its quantities over time; `None` where nobody reads them.
+    /// The record of quantities over time of a control loop; `None` if they are not read.
     pub record: Option<&'a SharedRecord>,
-    /// Whether the law is to record what it does ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).
+    /// True if the law is to record telemetry ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).
     pub records: bool,
 }
 
@@ -37,7 +37,7 @@ impl LawContext<'_> {
     /// The number of the parameter called `key`.
     ///
     /// # Panics
-    /// Where the law does not declare it as a number.
+    /// If the law does not declare it as a number.
     pub fn number(&self, key: &str) -> f64 {
         match self.parameters.named(key) {
             Some([number]) => *number,
@@ -48,7 +48,7 @@ impl LawContext<'_> {
     /// The three numbers of the parameter called `key`.
     ///
     /// # Panics
-    /// Where the law does not declare it as three numbers.
+    /// If the law does not declare it as three numbers.
     pub fn vector(&self, key: &str) -> [f64; 3] {
         match self.parameters.named(key) {
             Some(&[x, y, z]) => [x, y, z],

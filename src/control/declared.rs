@@ -1,9 +1,9 @@
-//! [`declared!`]: numbers of a table of a loop, said once: the rows of their keys, and the struct that reads them.
+//! [`declared!`]: the numbers of a table of a loop, as rows of their keys and as the struct that reads them.
 
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// What the numbers of a key are in a program.
+/// The type of the numbers of a key.
 pub trait DeclaredValue: Sized {
     /// The numbers of the key of `row` in `table`: its default where the table does not declare it, NaN without one.
     fn read(table: &DeclaredTable, row: &LawParameter) -> Self;
@@ -37,7 +37,7 @@ macro_rules! declared {
         pub static $rows: [$crate::scene::LawParameter; [$(stringify!($field)),+].len()] = [$($row),+];
 
         impl $name {
-            /// Those of `table`; a default where it does not declare a key, NaN without one.
+            /// Reads them from `table`: the default of a key that it does not declare, NaN without one.
             pub fn of(table: &$crate::scene::DeclaredTable) -> Self {
                 $name { $($field: $crate::control::declared::DeclaredValue::read(table, &$row)),+ }
             }
@@ -59,30 +59,4 @@ pub const fn number(
 /// A limit of which zero is none.
 pub fn limit(number: f64) -> f64 {
     if number == 0.0 { f64::INFINITY } else { number }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::scene::schema::Limit;
-    use crate::scene::{DeclaredTable, LawParameter, Name};
-
-    declared! {
-        /// Of this test.
-        Numbers = ROWS {
-            gain: f64 = LawParameter::number("gain", "1", "Gain", Limit::Positive);
-            bias: [f64; 3] = LawParameter::number("bias", "1", "Bias", Limit::Finite).with_components(&["x", "y",
-                "z"]).or(&[1.0, 2.0, 3.0]);
-        }
-    }
-
-    /// Law: a field has the numbers of its own key; where the table does not have the key, the default, or NaN without
-    /// one.
-    #[test]
-    fn fields_have_the_numbers_of_their_keys() {
-        let mut table = DeclaredTable::of(Name::NONE, &ROWS);
-        table.values.copy_from_slice(&[5.0, 6.0, 7.0, 8.0]);
-        assert_eq!(Numbers::of(&table), Numbers { gain: 5.0, bias: [6.0, 7.0, 8.0] });
-        let other = Numbers::of(&DeclaredTable::NONE);
-        assert!(other.gain.is_nan() && other.bias == [1.0, 2.0, 3.0]);
-    }
 }

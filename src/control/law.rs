@@ -24,7 +24,7 @@ pub struct ControlLaw {
     parameters: &'static [LawParameter],
     columns: LawColumns,
     make: Arc<LawMaker>,
-    /// What the law consists of, where it is the loop of a campaign file.
+    /// The structure of the loop of a campaign file.
     spec: Option<Arc<LoopSpec>>,
 }
 
@@ -73,12 +73,12 @@ impl ControlLaw {
         ControlLaw { columns: reported, spec: Some(spec), ..law }
     }
 
-    /// What the law consists of, where it is the loop of a campaign file; `None` of a law that a program brings.
+    /// The structure of the loop of a campaign file; `None` of a law that a program brings.
     pub fn spec(&self) -> Option<&LoopSpec> {
         self.spec.as_deref()
     }
 
-    /// The same law, which reports `columns` at the end of a run ([`ActuationLaw::report`]): columns of the rows.
+    /// Adds columns of the rows, which the law reports at the end of a run ([`ActuationLaw::report`]).
     #[must_use]
     pub fn reporting(self, columns: &'static [LawColumn]) -> Self {
         ControlLaw { columns: LawColumns { list: columns, ..self.columns }, ..self }
@@ -89,7 +89,7 @@ impl ControlLaw {
         self.name
     }
 
-    /// What it commands at some time of a run: which columns of work and impulse a row has.
+    /// The actuators that it commands: rows have their columns of work and impulse.
     pub fn commands(&self) -> Actuated {
         self.commands
     }

@@ -1,6 +1,4 @@
-//! [`Measurement`]: what a sensor delivers at a tick.
-//!
-//! A measurement is numbers whose meaning its kind owns ([`super::sensors::SensorKind::quantities`]).
+//! [`Measurement`]: numbers whose meaning the kind of the sensor owns ([`super::sensors::SensorKind::quantities`]).
 
 /// Most numbers of a measurement.
 pub const MAX_VALUES: usize = 12;
@@ -11,7 +9,7 @@ pub type Values = [f64; MAX_VALUES];
 /// `parts`, one after another.
 ///
 /// # Panics
-/// Where they are more than [`MAX_VALUES`].
+/// If they are more than [`MAX_VALUES`].
 pub fn values(parts: &[&[f64]]) -> Values {
     let mut all = [f64::NAN; MAX_VALUES];
     let mut at = 0;
@@ -25,19 +23,19 @@ pub fn values(parts: &[&[f64]]) -> Values {
 /// The N numbers of `values` from `first` on.
 ///
 /// # Panics
-/// Where there are not so many.
+/// If there are not so many.
 pub fn part<const N: usize>(values: &Values, first: usize) -> [f64; N] {
     std::array::from_fn(|i| values[first + i])
 }
 
-/// What a sensor delivers at a tick.
+/// A measurement as delivered at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     /// The sensor, by its place in the loop.
     pub sensor: usize,
     /// Its numbers.
     pub values: Values,
-    /// How long ago it was measured, s.
+    /// Time since it was measured, s.
     pub age: f64,
 }
 
@@ -51,7 +49,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Nothing was delivered yet.
+    /// Before the first.
     pub const NONE: Reading = Reading { values: [f64::NAN; MAX_VALUES], time: f64::NAN };
 }
 
@@ -65,7 +63,7 @@ pub struct PointMotion {
 }
 
 impl PointMotion {
-    /// That of the six numbers of `values` from `first` on; `None` where they are not known.
+    /// The six numbers of `values` from `first` on; `None` if they are not known.
     pub fn of(values: &Values, first: usize) -> Option<Self> {
         let motion = PointMotion { r_e: part(values, first), v_e: part(values, first + 3) };
         (!motion.r_e[0].is_nan()).then_some(motion)

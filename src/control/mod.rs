@@ -1,25 +1,20 @@
 //! Layer 4: control in the loop.
 //!
-//! - [`law`]: [`ControlLaw`], a law that a plan can fly: its name, its parameters, and how it is made for a run from a
-//!   [`LawContext`] (in [`context`]).
-//! - [`runs`]: the laws of the runs that an engine propagates together.
-//! - [`spec`]: what a loop of a campaign file consists of; [`parameters`]: its numbers (`declared`: how a part says its
-//!   own). [`control_loop`]: it in a run, where the truth ([`plant`]) and what flies it ([`flight_software`]) meet,
-//!   through [`bus`]. [`outcome`]: what comes of a run; [`failure`]: why a mission has failed; [`recorder`]: its
-//!   telemetry; [`loop_record`]: quantities over time at the observation points.
-//! - [`tick_times`]: the times of ticks. [`truth`]: the true state at a tick. [`sensors`]: what is measured of it
-//!   ([`measurement`], [`sensor_spec`]), and what that says of the state ([`observes`]).
-//! - [`estimators`]: from measurements to an [`estimate`].
-//! - [`guidance`]: which phase a run is in, and the attitude and the maneuver that it wants.
-//! - [`laws`]: from an estimate to a wanted torque. [`flight_code`]: WebAssembly modules as such a law.
-//! - [`net_launch`]: what guidance and outcome have of the launch of a net at debris, and nothing else.
-//! - [`allocation`]: from a wanted torque and force to wheels and thrusters. [`actuators`]: what these make of it.
-//! - [`capacity`]: whether the momentum of a scene fits into the wheels of its loop.
-//! - [`review`]: what in a loop looks like a mistake; [`stability`]: whether a sampled law is stable for small errors.
-//! - [`vector`], [`rotation`], [`small_matrix`]: what all of them compute with.
+//! - [`law`]: [`ControlLaw`], a law that a plan can fly; [`context`]: its settings for a run; [`runs`]: the laws of the
+//!   runs that an engine propagates together.
+//! - [`spec`]: the structure of a loop in a campaign file; [`parameters`] and `declared`: its numbers.
+//! - [`control_loop`]: the loop of a run, where plant and flight software exchange the data of [`bus`].
+//! - [`plant`]: the truth ([`truth`]), which [`sensors`] measure ([`measurement`], [`sensor_spec`], [`observes`]) and
+//!   [`actuators`] move.
+//! - [`flight_software`]: [`estimators`] from measurements to an [`estimate`], [`guidance`] to a phase and its target,
+//!   [`laws`] to a torque ([`flight_code`]: those of WebAssembly modules), [`allocation`] to commands.
+//! - [`outcome`], [`failure`]: the end of a run; [`recorder`], [`loop_record`]: its telemetry and quantities over time.
+//! - [`net_launch`]: the launch of a net at debris.
+//! - [`capacity`], [`review`], [`stability`]: checks of a loop before it flies.
+//! - [`vector`], [`rotation`], [`small_matrix`], [`tick_times`]: numbers and times.
 //!
-//! Not here: the interface by which an engine asks a law ([`crate::dynamics::actuation`]), and which campaign flies
-//! which law (`campaign`).
+//! Not here: the interface between engines and laws ([`crate::dynamics::actuation`]), and reading of campaign files
+//! (`campaign`).
 
 pub mod actuators;
 pub mod allocation;

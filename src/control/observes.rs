@@ -1,5 +1,4 @@
-//! [`Observes`]: what sensors say of the state. Estimators do not ask for kinds of sensors: they take what a kind
-//! observes, of which there are as many forms as an estimator has ways to use one.
+//! [`Observes`]: the part of the state that a sensor observes, which estimators use instead of kinds of sensors.
 
 use std::sync::Arc;
 
@@ -15,7 +14,7 @@ pub struct GyroNoise {
     pub bias_random_walk: f64,
 }
 
-/// What the sensors of a kind say of the state, with how the nominal parameters of one say how exactly.
+/// An observed part of the state, with the function from nominal parameters to the noise or the filter's model.
 #[derive(Clone, Copy, Debug)]
 pub enum Observes {
     /// The rotation vector of F_s since the sample before, in F_s, rad: the same before and after it.
@@ -37,7 +36,7 @@ pub enum Observes {
 }
 
 impl Observes {
-    /// What it is, in messages.
+    /// Its name in messages.
     pub fn text(&self) -> &'static str {
         match self {
             Observes::Rotation(_) => "the rotation of the body",
@@ -50,17 +49,17 @@ impl Observes {
         }
     }
 
-    /// Whether it is about the debris alone.
+    /// True if it is about the debris alone.
     pub fn needs_debris(&self) -> bool {
         matches!(self, Observes::DebrisAttitude(_))
     }
 
-    /// Whether measurements may be delivered later, with their age: filters take the others when they come.
+    /// True if measurements may be delivered later, with their age; filters take the others when they arrive.
     pub fn has_latency(&self) -> bool {
         !matches!(self, Observes::Rotation(_) | Observes::WheelRates)
     }
 
-    /// Whether a loop has one of it at most: estimators, and laws of torque rods, use a single one.
+    /// True if a loop has at most one: estimators, and laws of torque rods, use a single one.
     pub fn at_most_one(&self) -> bool {
         matches!(self, Observes::Rotation(_) | Observes::WheelRates | Observes::Field(_))
     }

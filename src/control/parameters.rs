@@ -8,7 +8,7 @@ use crate::scene::LawParameter;
 use crate::scene::schema::{Facts, Limit, Needs, Presence, Shape};
 
 declared! {
-    /// Of every loop.
+    /// Numbers of every loop.
     LoopNumbers = LOOP {
         delay: f64 = number("delay_s", "s", "Time from a tick to the effect of its commands", &[0.0]);
         settling_band: f64 = number(
@@ -35,28 +35,28 @@ declared! {
 }
 
 declared! {
-    /// Of a loop with thrusters.
+    /// Numbers of a loop with thrusters.
     ThrusterNumbers = THRUSTERS {
         isp: f64 = number("isp_s", "s", "Specific impulse, from which the propellant follows; 0: not known", &[0.0]);
     }
 }
 
 declared! {
-    /// Of every phase.
+    /// Numbers of every phase.
     PhaseNumbers = PHASE {
         timeout: f64 = number("timeout_s", "s", "Time in the phase after which the mission fails; 0: never", &[0.0]);
     }
 }
 
 declared! {
-    /// Of a phase with a condition.
+    /// Numbers of a phase with a condition.
     ConditionNumbers = CONDITION {
         hold: f64 = number("hold_s", "s", "How long the condition of the phase must be met", &[0.0]);
     }
 }
 
 declared! {
-    /// Of a phase in a loop with thrusters.
+    /// Numbers of a phase in a loop with thrusters.
     UnloadingNumbers = UNLOADING {
         time: f64 = number(
             "unloading_time_s",
@@ -85,7 +85,7 @@ const WANTED_ATTITUDE: LawParameter = LawParameter {
 };
 
 declared! {
-    /// Of a phase with an attitude.
+    /// Numbers of a phase with an attitude.
     AttitudeNumbers = ATTITUDE {
         attitude: [f64; 4] = WANTED_ATTITUDE;
     }

@@ -16,18 +16,18 @@ use super::vector::{scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, OpenLoop, WheelState};
 use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
 
-/// What the actuators make of commands over an arc.
+/// The answer of the actuators to commands over an arc.
 #[derive(Clone, Copy, Debug)]
 pub struct Applied {
-    /// Whether a thruster fires, or is stuck on.
+    /// True if a thruster fires, or is stuck on.
     pub fires: bool,
     /// The length of the arc, s: to its end or that of the run.
     pub length: f64,
-    /// Whether a motor was limited by its torque, and by the speed of its wheel.
+    /// True if a motor was limited by its torque, and by the speed of its wheel.
     pub saturated: [bool; 2],
     /// Largest commanded torque beyond a limit, N m.
     pub torque_excess: f64,
-    /// Whether a limit of a rod cut what was wanted.
+    /// True if a limit of a rod cut the wanted dipole.
     pub is_rod_saturated: bool,
     /// The thrusts of the schedule over the arc, those of thrusters that are stuck on among them, N.
     pub scheduled_thrust: [f64; MAX_THRUSTERS],
@@ -40,13 +40,13 @@ pub struct Plant {
     debris: Option<DebrisMotion>,
     sensors: Vec<SampledSensor>,
     wheel_drives: Vec<WheelDrive>,
-    /// Whether thrusters are on or off.
     is_on_off: bool,
     /// The duration of the campaign and the end of the run, s.
     duration: f64,
     end: f64,
     delivered: Vec<Measurement>,
-    perfect: Option<Estimate>,
+    /// The measurement of the ideal sensor of a loop with perfect knowledge.
+    state: Option<Estimate>,
 }
 
 impl Plant {
@@ -68,7 +68,7 @@ impl Plant {
             wheel_drives,
             duration,
             end,
-            perfect: None,
+            state: None,
         }
     }
 
@@ -77,7 +77,7 @@ impl Plant {
         &self.drawn
     }
 
-    /// Whether thrusters are on or off.
+    /// True if thrusters are on or off.
     pub fn is_on_off(&self) -> bool {
         self.is_on_off
     }
@@ -87,21 +87,21 @@ impl Plant {
         Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut())
     }
 
-    /// What is delivered at tick number `tick`, in order.
+    /// The measurements delivered at tick number `tick`. Ticks are called in order.
     pub fn measure(&mut self, tick: u64, truth: &Truth) -> Measurements<'_> {
         self.delivered.clear();
         for (place, sensor) in self.sensors.iter_mut().enumerate() {
             self.delivered.extend(sensor.deliver(place, tick, truth));
         }
         if self.spec.knows_the_truth() {
-            self.perfect.get_or_insert_with(|| Estimate::perfect(truth)).know(truth);
+            self.state = Some(truth.state());
         }
         self.measurements(truth.time)
     }
 
-    /// What was delivered last, at `time`, s.
+    /// The last measurements, delivered at `time`, s.
     pub fn measurements(&self, time: f64) -> Measurements<'_> {
-        Measurements { time, delivered: &self.delivered, perfect: self.perfect.as_ref() }
+        Measurements { time, delivered: &self.delivered, state: self.state.as_ref() }
     }
 
     /// The true bias of the gyro, in F_s, rad/s; `None` without one.
@@ -109,7 +109,7 @@ impl Plant {
         self.sensors.iter().find_map(|sensor| sensor.sensor().bias_s())
     }
 
-    /// How `device` has failed by `time`, s.
+    /// The failure of `device` by `time`, s.
     fn failure(&self, device: Device, time: f64) -> Option<&FailureInput> {
         self.drawn.failures.iter().find(|failure| failure.device == device && failure.at_s <= time)
     }
@@ -130,8 +130,8 @@ impl Plant {
         thrust
     }
 
-    /// What the actuators make of `commands` from `time` on: their torques and thrusts, and the end of the arc, are
-    /// written to `actuation`, in which nothing acts. The torques that the schedule of the scene commands add to those
+    /// Applies `commands` from `time` on: writes the torques and thrusts of the actuators, and the end of the arc, to
+    /// `actuation`, in which nothing acts. The torques that the schedule of the scene commands add to those
     /// of the motors; its thrusts are returned.
     pub fn apply(
         &self,

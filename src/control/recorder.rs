@@ -1,16 +1,14 @@
 //! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands, measurements and what a module reports,
 //! at the control ticks.
 
-use super::estimate::Estimate;
-use super::estimators::kalman::NormalizedSquare;
+use super::estimate::{DebrisState, Estimate};
 use super::measurement::Measurement;
 use super::sensors::{Components, KINDS as SENSORS};
 use super::spec::LoopSpec;
-use super::truth::DebrisState;
 use super::vector::difference;
 use crate::control::bus::Commanded;
-use crate::control::estimators::estimator::{Consistency, ExpectedErrors};
 use crate::control::flight_code::module::FlightCode;
+use crate::control::outcome::estimation::Consistency;
 use crate::control::tick_times::SAME_TIME;
 use crate::run::{Quantity, Telemetry};
 use crate::scene::MAX_WHEELS;
@@ -41,29 +39,24 @@ impl std::fmt::Debug for Group {
     }
 }
 
-/// What is recorded at a tick.
+/// The record of a tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Tick<'a> {
     /// Time, s.
     pub time: f64,
-    /// Place of the phase.
     pub phase: usize,
     /// Angle of the estimated attitude to the target, rad.
     pub pointing_error: f64,
-    /// The estimate.
     pub estimate: &'a Estimate,
-    /// How well the filters agree with their covariance.
     pub consistency: &'a Consistency,
-    /// What is commanded.
     pub commanded: Commanded,
-    /// What was delivered at the tick.
     pub measurements: &'a [Measurement],
-    /// What the module has reported; empty where it was not asked.
+    /// Telemetry of the module; empty if it did not step.
     pub telemetry: &'a [f64],
 }
 
 impl Recorder {
-    /// Of a run under `spec`.
+    /// Records a run under `spec`.
     pub fn new(spec: &LoopSpec) -> Self {
         let groups = groups(spec);
         let quantities = groups.iter().flat_map(|group| group.quantities.clone()).collect();
@@ -71,7 +64,6 @@ impl Recorder {
         Recorder { telemetry: Telemetry { quantities, times: Vec::new(), rows: Vec::new(), same }, groups }
     }
 
-    /// What was recorded.
     pub fn telemetry(&self) -> &Telemetry {
         &self.telemetry
     }
@@ -142,31 +134,28 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
     if spec.has_filter() {
         let meaning = "Normalised square of an estimation error, or of the innovation of this tick, divided by its \
             degrees of freedom; null if there is none.";
-        type Squares = fn(&Consistency) -> [Option<NormalizedSquare>; 2];
-        let squares: [(&str, bool, Squares); 4] = [
-            ("attitude", true, |of| [of.attitude, of.attitude_innovation]),
-            ("motion", true, |of| [of.motion, of.motion_innovation]),
-            ("debris_motion", spec.has_debris, |of| [of.debris_motion, of.debris_motion_innovation]),
-            ("debris", spec.has_camera(), |of| [of.debris, of.debris_innovation]),
-        ];
-        for (name, _, of) in squares.into_iter().filter(|(_, is_there, _)| *is_there) {
-            let values: Values = Box::new(move |tick, row| {
-                row.extend(of(tick.consistency).map(|square| square.map_or(f64::NAN, per_degree)));
-            });
+        let filters =
+            [("attitude", true), ("motion", true), ("debris_motion", spec.has_debris), ("debris", spec.has_camera())];
+        for (place, (name, _)) in filters.into_iter().enumerate().filter(|(_, (_, is_there))| *is_there) {
+            let values: Values = Box::new(move |tick, row| row.extend(&tick.consistency.squares[place][..2]));
             add(name, &["nees", "innovation_square"], [""; 2], meaning, values);
         }
         let meaning = "Root mean square of the magnitude of this estimation error by the filter's covariance: the root \
             of the sum of three variances.";
-        type Error = fn(&ExpectedErrors) -> Option<f64>;
-        let errors: [(&str, bool, [&str; 2], Error); 4] = [
-            ("attitude", true, ["rad"; 2], |of| of.attitude),
-            ("rate", true, rate, |of| of.rate),
-            ("relative_position", spec.has_debris, ["m"; 2], |of| of.relative_position),
-            ("relative_velocity", spec.has_debris, ["m/s", "m_s"], |of| of.relative_velocity),
+        let errors = [
+            ("attitude", true, ["rad"; 2]),
+            ("rate", true, rate),
+            ("relative_position", spec.has_debris, ["m"; 2]),
+            ("relative_velocity", spec.has_debris, ["m/s", "m_s"]),
         ];
-        for (name, _, unit, of) in errors.into_iter().filter(|(_, is_there, ..)| *is_there) {
-            let value: Values = Box::new(move |tick, row| row.push(of(&tick.consistency.expected).unwrap_or(f64::NAN)));
-            add(&format!("{name}_expected_error"), &[""], unit, meaning, value);
+        for (place, (name, _, unit)) in errors.into_iter().enumerate().filter(|(_, (_, is_there, _))| *is_there) {
+            add(
+                &format!("{name}_expected_error"),
+                &[""],
+                unit,
+                meaning,
+                Box::new(move |tick, row| row.push(tick.consistency.expected[place])),
+            );
         }
     }
     for (place, sensor) in spec.sensors.iter().enumerate() {
@@ -213,9 +202,4 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         add(&declared.column(""), &[""], [declared.unit_of_column(), ""], &meaning, value);
     }
     list
-}
-
-/// A normalised square over its degrees of freedom: 1 on average where a filter is right.
-fn per_degree(square: NormalizedSquare) -> f64 {
-    square.value / square.degrees as f64
 }

@@ -1,10 +1,9 @@
-//! [`notes`]: what is allowed in a control loop and looks like a mistake, its numbers apart (`ensemble::plausibility`).
+//! [`notes`]: likely mistakes in a control loop, but for its numbers (`ensemble::plausibility`).
 
 use super::guidance::phase::Next;
 use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::beyond_limit;
-use crate::control::laws::asked;
 use crate::control::laws::interface::LawSettings;
 use crate::control::observes::Observes;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
@@ -13,7 +12,7 @@ use crate::scene::{ControlInput, DeclaredTable, Scene};
 
 /// Times that differ by less, relative to the duration, are one: a sum of two of them has an error of 1e-16.
 const SAME: f64 = 1e-12;
-/// What about the loop `spec` looks like a mistake, a sentence each: with its nominal numbers `numbers`, in the nominal
+/// Likely mistakes in the loop `spec`, a sentence each: with its nominal numbers `numbers`, in the nominal
 /// scene `scene`, over `duration` seconds.
 pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
     let phases: Vec<(&PhaseSpec, &DeclaredTable)> = spec.phases.iter().zip(&numbers.guidance).collect();
@@ -43,7 +42,7 @@ fn directions_alone(spec: &LoopSpec) -> Option<String> {
     })
 }
 
-/// What acts on the spacecraft and is not known to the filters and laws.
+/// Effects on the spacecraft that the filters and laws do not model.
 fn unknown_effects(scene: &Scene) -> Option<String> {
     let is_unknown = |effect: &Effect| match effect {
         // filters are told what torque rods do
@@ -193,11 +192,8 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
 fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usize) -> Option<String> {
     let (phase, table) = (&spec.phases[place], &numbers.guidance[place]);
     let law = phase.law?;
-    // a slew under a torque limit brakes on a curve that has no gain at its end; a law of measurements is not tried
-    // without them
-    let has_no_estimate =
-        law == &asked::KIND || spec.code().is_some_and(|code| law == code.kind() && !code.sensors().is_empty());
-    if number(table, "max_torque_n_m") > 0.0 || has_no_estimate {
+    // a slew under a torque limit brakes on a curve that has no gain at its end
+    if number(table, "max_torque_n_m") > 0.0 {
         return None;
     }
     let settings = LawSettings {
@@ -206,7 +202,6 @@ fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usiz
         period: spec.period,
         delay: LoopNumbers::of(&numbers.law).delay,
         sample: SampleId(0),
-        code: spec.law_module(),
     };
     let beyond = beyond_limit((spec, place), (&spec.believed(scene), scene), &(law.make)(&settings), settings.delay)?;
     Some(format!("guidance.{}: {beyond}", phase.name))

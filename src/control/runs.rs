@@ -14,13 +14,12 @@ pub type LawMaker = dyn Fn(&LawContext<'_>) -> Box<dyn ActuationLaw + Send> + Se
 /// The laws of the runs of a worker, by the index of the run; what an earlier run has left in a place is replaced.
 pub struct LawRuns {
     make: Shared<LawMaker>,
-    /// Whether the laws apply the schedule themselves.
+    /// True if the laws apply the schedule themselves.
     take_schedule: bool,
     laws: Vec<SharedLaw>,
 }
 
-/// The law of a run. The engine holds the laws of the runs that it propagates; who is told that a run has ended can
-/// tell its law, too.
+/// The law of a run, shared by the engine that propagates it and by whoever ends it.
 #[derive(Clone)]
 pub struct SharedLaw(Shared<Mutex<BesideSchedule>>);
 
@@ -74,7 +73,7 @@ impl LawRuns {
         self.laws[run].lock().law.report(values);
     }
 
-    /// What the law of run `run` has recorded.
+    /// The telemetry of run `run`.
     pub fn telemetry(&self, run: usize) -> Option<Telemetry> {
         self.laws[run].lock().law.telemetry().cloned()
     }

@@ -19,12 +19,12 @@ pub struct SensorSpec {
 }
 
 impl SensorSpec {
-    /// What it says of the state.
+    /// The part of the state that it observes.
     pub fn observes(&self) -> Observes {
         sensors::KINDS[self.kind].observes
     }
 
-    /// How many numbers it measures.
+    /// The number of numbers of a measurement.
     pub fn width(&self) -> usize {
         sensors::KINDS[self.kind].quantities.iter().map(|quantity| quantity.components.width()).sum()
     }
@@ -43,12 +43,12 @@ impl SensorSpec {
     }
 }
 
-/// What the sensors of a loop have delivered last.
+/// The last measurements of the sensors of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readings<'a> {
     /// The sensors, in the order of the loop.
     pub sensors: &'a [SensorSpec],
-    /// Of each; empty where nobody asks.
+    /// By sensor; empty if no law reads them.
     pub last: &'a [Reading],
 }
 

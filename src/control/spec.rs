@@ -1,11 +1,10 @@
-//! [`LoopSpec`]: what a control loop consists of, as a campaign file says it; its numbers, which can be dispersed, are
+//! [`LoopSpec`]: the structure of a control loop in a campaign file. Its numbers, which can be dispersed, are
 //! parameters of the scene.
 
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
 use super::laws::LawKind;
-use super::laws::interface::LawModule;
 use super::laws::rod_law::RodUse;
 use super::observes::Observes;
 use super::sensor_spec::SensorSpec;
@@ -27,9 +26,9 @@ pub struct LoopSpec {
     pub thrusters: Vec<usize>,
     /// The torque rods that it drives, by their places.
     pub rods: Vec<usize>,
-    /// How thrusters are fired, by its place in the list.
+    /// The modulation of thrusters, by its place in the list.
     pub modulation: usize,
-    /// Whether thrusters keep a force of zero where no maneuver wants one, instead of any.
+    /// True if thrusters keep the force at zero outside of maneuvers.
     pub holds_force: bool,
     /// The sensors.
     pub sensors: Vec<SensorSpec>,
@@ -37,9 +36,9 @@ pub struct LoopSpec {
     pub module: Option<ModuleSpec>,
     /// The phases; there is at least one.
     pub phases: Vec<PhaseSpec>,
-    /// What flight software believes instead of the nominal scene.
+    /// Numbers that flight software believes instead of the nominal ones.
     pub model: ModelSpec,
-    /// Whether the scene has debris.
+    /// True if the scene has debris.
     pub has_debris: bool,
     /// The names of the wheels that turn.
     pub wheel_names: Vec<Name>,
@@ -54,7 +53,7 @@ pub struct LoopSpec {
 pub struct ModuleSpec {
     /// The path of its file, as written.
     pub file: String,
-    /// What it is.
+    /// The module.
     pub code: &'static FlightCode,
 }
 
@@ -89,23 +88,23 @@ pub struct PhaseSpec {
     pub name: Name,
     /// Its control law; `None` for no torque.
     pub law: Option<&'static LawKind>,
-    /// Whether its law `mrp_feedback` has the term omega x H.
+    /// True if its law `mrp_feedback` has the term omega x H.
     pub gyroscopic: bool,
     /// The attitude that it wants; the quaternion of an attitude is a parameter.
     pub target: Target,
-    /// What thrust is for.
+    /// The use of thrust.
     pub thrust: Maneuver,
-    /// What torque rods are for.
+    /// The use of torque rods.
     pub rods: RodUse,
     /// The condition that ends it.
     pub until: Option<Condition>,
-    /// What follows.
+    /// The next phase.
     pub next: Next,
-    /// What follows at once where the condition is not met.
+    /// The phase that follows at once if the condition is not met.
     pub otherwise: Option<usize>,
 }
 
-/// What flight software believes of the spacecraft where that is not the nominal scene.
+/// Mass properties that flight software believes instead of the nominal ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ModelSpec {
     /// Mass, kg.
@@ -125,11 +124,6 @@ impl LoopSpec {
     /// The module that phases name as their law.
     pub fn code(&self) -> Option<&'static FlightCode> {
         self.module.as_ref().map(|module| module.code)
-    }
-
-    /// The same, as laws are made from it.
-    pub fn law_module(&self) -> Option<&'static dyn LawModule> {
-        self.code().map(|code| code as &dyn LawModule)
     }
 
     /// The quantities over time that the loop records.
@@ -153,12 +147,12 @@ impl LoopSpec {
         self.wheels.iter().fold(series, |series, wheel| series.with(Series::MotorTorque.of_wheel(*wheel)))
     }
 
-    /// Whether a phase leads to the launch of a net.
+    /// True if a phase leads to the launch of a net.
     pub fn launches(&self) -> bool {
         self.phases.iter().any(|phase| phase.next == Next::Launch)
     }
 
-    /// Whether a phase wants an attitude.
+    /// True if a phase has a target.
     pub fn points(&self) -> bool {
         self.phases.iter().any(|phase| phase.target != Target::None)
     }
@@ -168,22 +162,22 @@ impl LoopSpec {
         &super::estimators::KINDS[self.estimator]
     }
 
-    /// Whether the estimator has filters.
+    /// True if the estimator has filters.
     pub fn has_filter(&self) -> bool {
         self.estimator_kind().has_filter
     }
 
-    /// Whether the state is known without sensors.
+    /// True if an ideal sensor delivers the state.
     pub fn knows_the_truth(&self) -> bool {
         self.estimator_kind().knows_the_truth
     }
 
-    /// Whether a camera sees the debris.
+    /// True if a camera sees the debris.
     pub fn has_camera(&self) -> bool {
         self.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::DebrisAttitude(_)))
     }
 
-    /// Whether the launch axis plays a part.
+    /// True if the launch axis is needed.
     pub fn needs_axis(&self) -> bool {
         let needs = |phase: &PhaseSpec| {
             matches!(phase.target, Target::LaunchAxis | Target::Transfer) || phase.thrust == Maneuver::Transfer
@@ -191,7 +185,7 @@ impl LoopSpec {
         self.launches() || self.phases.iter().any(needs)
     }
 
-    /// Whether the launch state plays a part.
+    /// True if a phase points or moves relative to the debris.
     pub fn approaches(&self) -> bool {
         self.has_debris && self.phases.iter().any(|phase| phase.target.needs_debris() || phase.thrust != Maneuver::None)
     }

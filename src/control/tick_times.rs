@@ -25,7 +25,7 @@ pub struct TickTimes {
 }
 
 impl TickTimes {
-    /// Of a loop with the period `period`, s, and `ticks` ticks in it.
+    /// The times of a loop with `ticks` ticks in its period `period`, s.
     pub fn new(period: f64, ticks: u64) -> Self {
         // the nearest decimal number is the period, bit for bit
         let decimal = SCALES.map(|scale| ((period * scale).round(), scale));

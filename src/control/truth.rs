@@ -1,5 +1,6 @@
 //! [`Truth`]: the true state of a run at a tick, for models of sensors and actuators only.
 
+use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::measurement::PointMotion;
 use crate::control::rotation::quaternion_of;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, hamilton, product, scaled, sum};
@@ -24,19 +25,6 @@ pub struct Truth {
     pub debris: Option<DebrisState>,
 }
 
-/// The motion of the debris.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DebrisState {
-    /// Position of its centre of mass in F_e, m.
-    pub r_gdo_e: [f64; 3],
-    /// Velocity of its centre of mass relative to F_e, in F_e, m/s.
-    pub v_gdo_e: [f64; 3],
-    /// Attitude quaternion, F_d -> F_e, scalar first.
-    pub q_ed: [f64; 4],
-    /// Angular velocity of F_d relative to F_e, in F_d, rad/s.
-    pub omega_de_d: [f64; 3],
-}
-
 /// The motion of the debris of a run over time: a free rigid body in uniform translation or beside an orbit, read at
 /// ascending times.
 #[derive(Clone, Debug)]
@@ -47,7 +35,7 @@ pub struct DebrisMotion {
     start: DebrisState,
     /// Its motion beside an orbit, where there is one.
     orbit: Option<Box<RelativeOrbit>>,
-    /// Where the integration of a body that is not isotropic is.
+    /// Time and state of the integration.
     time: f64,
     now: DebrisState,
 }
@@ -60,7 +48,7 @@ const LARGEST_TURN: f64 = 0.25;
 const MOST_STEPS: f64 = 4e5;
 
 impl DebrisMotion {
-    /// That of `scene`; `None` where it has no debris.
+    /// The motion of the debris of `scene`; `None` without debris.
     pub fn of(scene: &Scene) -> Option<Self> {
         let body = scene.mass.debris.as_ref()?;
         let initial = &scene.initial;
@@ -151,6 +139,19 @@ impl Truth {
             r_cp_s: scene.mass.center,
             wheel_rates: wheels.rates,
             debris: debris.map(|motion| motion.at(time)),
+        }
+    }
+
+    /// The state as an ideal sensor delivers it.
+    pub fn state(&self) -> Estimate {
+        Estimate {
+            q_es: self.body.q_es,
+            omega_se_s: self.body.omega_se_s,
+            gyro_bias_s: [0.0; 3],
+            r_co_e: self.body.r_co_e,
+            v_co_e: self.body.v_co_e,
+            wheel_rates: self.wheel_rates,
+            debris: self.debris,
         }
     }
 

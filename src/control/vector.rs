@@ -1,8 +1,8 @@
 //! Three-vectors, 3x3 matrices and quaternions of plain numbers, without fused operations.
 //!
-//! Those of [`crate::math::vector`] are for lanes, in functions that are compiled for an instruction set; elsewhere
-//! each of their fused operations is a call of the library: a seventh of the instructions of a loop. Quaternions are
-//! Hamilton's, scalar first. IEEE 754 operations: the same bits everywhere.
+//! [`crate::math::vector`] is for lanes, in functions compiled for an instruction set: elsewhere each fused operation
+//! is a call of the library, a seventh of the instructions of a loop. Quaternions are Hamilton's, scalar first. IEEE
+//! 754 operations: the same bits everywhere.
 
 /// q*.
 pub fn conjugate(q: [f64; 4]) -> [f64; 4] {

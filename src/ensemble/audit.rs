@@ -5,8 +5,8 @@
 //! plain doubles instead, noted in the row ([`AuditValue::Tolerance`]); drag and sunlight have no Taylor series.
 //! The audited run is repeated with the states of the comparison; an audit does not change the row of the campaign.
 //!
-//! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]). The limit counts
-//! units of time of the motion, not seconds of a clock.
+//! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]). The limit
+//! counts units of time of the motion, not seconds of a clock.
 //!
 //! Audited samples are drawn from the stream `audit`, independently of threads, parts and other draws.
 

@@ -1,8 +1,8 @@
 //! [`Bands`]: quantiles over the runs of a campaign of quantities over time; [`PartBands`]: the contribution of a part.
 //!
 //! At some observation points the deviations from the nominal run are counted in buckets
-//! ([`crate::statistics::deviation`]); the relative error of a large energy would hide its spread. Counts of parts add up
-//! in any order, and memory does not grow with the number of runs. Only dispersed `ok` runs count.
+//! ([`crate::statistics::deviation`]); the relative error of a large energy would hide its spread. Counts of parts add
+//! up in any order, and memory does not grow with the number of runs. Only dispersed `ok` runs count.
 //!
 //! Extremes and numbers of values are of all runs. Quantiles of a large campaign are those of its first runs
 //! ([`crate::campaign::Plan::last_counted`]).
@@ -19,8 +19,8 @@ use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, ZERO, ends, ranks};
 use crate::statistics::gate::GateLimit;
 
-/// Runs whose codes are kept before they are counted: the counts of a column, out of the second-level cache by then, are
-/// fetched seldom.
+/// Runs whose codes are kept before they are counted: the counts of a column, out of the second-level cache by then,
+/// are fetched seldom.
 const PENDING: usize = 2048;
 
 /// Runs whose codes are kept run by run before they are moved to their columns: a cache line for each column, and all
@@ -64,7 +64,8 @@ impl BandLayout {
     }
 }
 
-/// The bands of a part under way, reused from part to part; adding a run allocates only for a deviation in a new octave.
+/// The bands of a part under way, reused from part to part; adding a run allocates only for a deviation in a new
+/// octave.
 #[derive(Clone, Debug)]
 pub struct PartBands {
     layout: Arc<BandLayout>,

@@ -51,8 +51,8 @@ impl Wanted {
     }
 }
 
-/// The crossing of a quantity that is held from one of `times` to the next, with these `values`; `is_next` tells whether
-/// no time lies between two times.
+/// The crossing of a quantity that is held from one of `times` to the next, with these `values`; `is_next` tells
+/// whether no time lies between two times.
 pub(super) fn of_steps(times: &[f64], values: &[f64], wanted: Wanted, is_next: impl Fn(f64, f64) -> bool) -> Located {
     match wanted.place(values) {
         Some(place) if !is_next(times[place], times[place + 1]) => Located::Between(times[place], times[place + 1]),

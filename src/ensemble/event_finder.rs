@@ -104,8 +104,8 @@ impl<'p> EventFinder<'p> {
         self.extremes.restart(runs);
     }
 
-    /// Looks at `run`, observed last by `observer` with `status`. Returns whether an event ends it: then nothing else is
-    /// searched, and [`EventFinder::end`] gives the end after [`EventFinder::locate`]. A run may fail after its end.
+    /// Looks at `run`, observed last by `observer` with `status`. Returns whether an event ends it: then nothing else
+    /// is searched, and [`EventFinder::end`] gives the end after [`EventFinder::locate`]. A run may fail after its end.
     pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer, status: Status) -> bool {
         let events = &self.plan.events;
         let values = self.lookup.read(observer, run.table);

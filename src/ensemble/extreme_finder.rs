@@ -1,8 +1,8 @@
 //! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, also between observation points.
 //!
 //! A largest value lies near a point that exceeds its neighbours, or at the ends of the interval of time. The sample is
-//! flown again with more points there (`peak`); a quantity of a control loop is looked up at every tick. An extreme is a
-//! value of the quantity itself. It is null if the quantity is not a number at a point of its interval.
+//! flown again with more points there (`peak`); a quantity of a control loop is looked up at every tick. An extreme is
+//! a value of the quantity itself. It is null if the quantity is not a number at a point of its interval.
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
@@ -103,8 +103,8 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Locates the extremes of the runs looked at, of `scenes` with the draws of their laws; `time_of` is the time of an
-    /// event of a run.
+    /// Locates the extremes of the runs looked at, of `scenes` with the draws of their laws; `time_of` is the time of
+    /// an event of a run.
     pub fn locate(&mut self, runs: Runs<'_>, time_of: &dyn Fn(usize, usize) -> f64) {
         let mut pending = Vec::new();
         for run in 0..self.ends.len() {

@@ -269,8 +269,8 @@ pub fn end_of(run: &CompletedRun<'_>) -> f64 {
     of_law.map_or(run.outcome.time, |end| end.min(run.outcome.time))
 }
 
-/// The scene with the actuation that a run of `scene` under a law has flown, constant effects included, as its schedule:
-/// its open loop is that run, bit for bit. Effects that change within an arc act on it as on the run.
+/// The scene with the actuation that a run of `scene` under a law has flown, constant effects included, as its
+/// schedule: its open loop is that run, bit for bit. Effects that change within an arc act on it as on the run.
 pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
     Scene {
         schedule: arcs.to_vec(),

@@ -55,8 +55,8 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
 
 /// The dispersed parameters of `plan`, or their dispersed components, that leave every requested column unchanged, bit
 /// for bit, when they take the values of some samples in the nominal scene, and the nominal values in these samples.
-/// Inputs of derived parameters and of `[[observable]]` count as effective; parameters without variation are not judged.
-/// `None` if the runs would take too long, or the nominal scene cannot be run.
+/// Inputs of derived parameters and of `[[observable]]` count as effective; parameters without variation are not
+/// judged. `None` if the runs would take too long, or the nominal scene cannot be run.
 pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<String>> {
     let mut parameters: Vec<Parameter> = plan.dispersions.columns().iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
@@ -92,8 +92,8 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     Some(unseen)
 }
 
-/// Whether a row differs if `parameter` has its value among `applied`, those of a sample, instead of the nominal one: in
-/// the nominal scene, whose row is `nominal`, or in that sample. Making a scene unphysical is an effect.
+/// Whether a row differs if `parameter` has its value among `applied`, those of a sample, instead of the nominal one:
+/// in the nominal scene, whose row is `nominal`, or in that sample. Making a scene unphysical is an effect.
 fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal: &[u64]) -> bool {
     let row_with = |is_applied: &dyn Fn(Parameter) -> bool| row_with(plan, isa, applied, is_applied);
     row_with(&|other| other == parameter).is_none_or(|row| row != nominal)

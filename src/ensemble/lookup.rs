@@ -1,8 +1,8 @@
 //! [`Lookup`]: quantities of runs at their observation points, and at any other times.
 //!
-//! For other times the sample is flown again with observation points there: observation does not change the integration,
-//! so this works for every engine, effect and control loop. Each run has its own times, so that a few runs at a time are
-//! flown again, in lanes.
+//! For other times the sample is flown again with observation points there: observation does not change the
+//! integration, so this works for every engine, effect and control loop. Each run has its own times, so that a few runs
+//! at a time are flown again, in lanes.
 
 use crate::campaign::Plan;
 use crate::ensemble::flights::{LawDraw, Runs, nominal_attitude};

@@ -7,8 +7,8 @@
 //! - [`drawn`]: drawn parameters without runs; [`percentiles`]: their quantiles; [`magnitude`]: lengths and angles.
 //! - [`influence`]: parameters without effect. [`plausibility`]: numbers that look like a mistake. [`undefined`]:
 //!   quantities that are not a number somewhere.
-//! - [`flights`]: runs under the control law of the plan; `observed_runs`: with their rows; [`single`]: one run with its
-//!   states; `surface`: contact with the central body.
+//! - [`flights`]: runs under the control law of the plan; `observed_runs`: with their rows; [`single`]: one run with
+//!   its states; `surface`: contact with the central body.
 //! - [`event_finder`]: crossings, seen in `sightings` and located in `crossing` from values at other times (`lookup`);
 //!   `extreme_finder`: extremes, located in `peak`; [`run_end`]: the event that ends a run, found in `end_finder`.
 //! - [`bands`]: quantiles over time, counted in `deviation_window`.

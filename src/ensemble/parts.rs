@@ -1,9 +1,9 @@
 //! [`Parts`]: the division of a campaign into parts of consecutive samples.
 //!
-//! A part is the work of a thread, the content of a file, and the unit of resuming and sharding. Its boundaries depend on
-//! the rows alone: not on threads, machine, shards, or the number of samples, so that a longer campaign has the same
-//! parts and more. Parts grow with their number, so that all threads share a small campaign and files of a large one are
-//! few.
+//! A part is the work of a thread, the content of a file, and the unit of resuming and sharding. Its boundaries depend
+//! on the rows alone: not on threads, machine, shards, or the number of samples, so that a longer campaign has the same
+//! parts and more. Parts grow with their number, so that all threads share a small campaign and files of a large one
+//! are few.
 
 use crate::sampling::SampleId;
 

@@ -14,8 +14,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Peak {
     Value(f64),
-    /// The largest one so far, and the times between which to look again, s: one time at the peak of a polynomial, which
-    /// may exceed all values of the quantity.
+    /// The largest one so far, and the times between which to look again, s: one time at the peak of a polynomial,
+    /// which may exceed all values of the quantity.
     Between(f64, [f64; 2]),
 }
 

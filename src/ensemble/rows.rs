@@ -24,7 +24,8 @@ pub struct Rows {
     part: Part,
     shape: Shape,
     capacity: usize,
-    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map a row to few cache sets.
+    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map a row to few cache
+    /// sets.
     stride: usize,
     samples: Vec<SampleId>,
     statuses: Vec<Status>,

@@ -4,7 +4,7 @@
 //! work on a slow core. A clock would give different parts on another machine, or an hour later.
 
 use crate::campaign::Plan;
-use crate::control::laws::asked::is_law_of;
+use crate::control::laws::callback::is_law_of;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
 use crate::ensemble::settings::{Engines, propagator};
@@ -34,25 +34,25 @@ const POINT_S: f64 = 5e-7;
 /// Work of an audit over that of its run: a reference solution in double-double at a tolerance of 1e-28.
 const AUDIT: f64 = 300.0;
 
-/// Samples of a part under a law that answers for many runs at once: parts are flown side by side, and more parts make
-/// larger queries.
-const ASKED: u64 = 64;
+/// Samples of a part under a callback that serves many runs at once: parts are flown side by side, and more parts make
+/// larger calls.
+const SERVED: u64 = 64;
 
-/// Whether the law of `plan` answers for many runs at once. Its work is unknown without an answer.
-fn is_asked(plan: &Plan) -> bool {
+/// Whether the law of `plan` is a callback, which serves many runs at once and whose work is unknown.
+fn has_callback(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
 
 pub fn parts(plan: &Plan, isa: Isa) -> Parts {
-    if is_asked(plan) {
-        return Parts::up_to(plan.rows(), ASKED);
+    if has_callback(plan) {
+        return Parts::up_to(plan.rows(), SERVED);
     }
     parts_of_runs(plan, run_seconds(plan, isa))
 }
 
 /// The parts of a campaign of `plan` with runs of `seconds` s ([`run_seconds`]).
 pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
-    Parts::up_to(plan.rows(), if is_asked(plan) { ASKED } else { (LOST_S / seconds) as u64 })
+    Parts::up_to(plan.rows(), if has_callback(plan) { SERVED } else { (LOST_S / seconds) as u64 })
 }
 
 /// The longest time of a run of `plan` on one core, s: a function of the plan, not of the machine.

@@ -1,7 +1,7 @@
 //! [`RunEnd`]: the event that ends a run.
 //!
-//! The end is found in a run to the end of the campaign, and the run is then flown again up to there: its row is that of
-//! a campaign of this duration, observed at the same points and at its end.
+//! The end is found in a run to the end of the campaign, and the run is then flown again up to there: its row is that
+//! of a campaign of this duration, observed at the same points and at its end.
 
 use crate::run::Grid;
 

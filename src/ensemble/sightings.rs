@@ -25,8 +25,9 @@ pub(super) struct Seen {
 
 impl Seen {
     /// Crossings in `direction`, each a change of the side of zero. Zero is on neither side: a quantity that starts
-    /// there, or touches it, does not cross. A quantity that starts or ends within `rounding` of zero, which may move the
-    /// value at a point, starts or ends at zero. NaN is unknown and no crossing; the quantity starts again after it.
+    /// there, or touches it, does not cross. A quantity that starts or ends within `rounding` of zero, which may move
+    /// the value at a point, starts or ends at zero. NaN is unknown and no crossing; the quantity starts again after
+    /// it.
     pub fn of(values: impl Iterator<Item = f64>, direction: Direction, rounding: impl Fn(usize) -> f64) -> Self {
         let mut seen = Seen { count: 0, first: None, last: None, stays: None, has_gap: false };
         let mut before: Option<bool> = None;

@@ -3,8 +3,8 @@
 //!
 //! The osculating orbit at a point bounds the distance until the next point: by its periapsis, less the effects of the
 //! flattening ([`Orbit::lowest`]) and of thrusters. Air only lowers the periapsis, which the later point shows. If the
-//! bound is below the surface, the sample is flown again with points between; else a run costs a few operations a point,
-//! and nothing if it cannot leave its orbit.
+//! bound is below the surface, the sample is flown again with points between; else a run costs a few operations a
+//! point, and nothing if it cannot leave its orbit.
 
 use std::f64::consts::PI;
 
@@ -142,8 +142,8 @@ impl Search<'_> {
     }
 }
 
-/// The time, s, at which `run` of `scene`, observed at `times`, reaches the surface before its end at `end`. `positions`
-/// gives more points.
+/// The time, s, at which `run` of `scene`, observed at `times`, reaches the surface before its end at `end`.
+/// `positions` gives more points.
 pub(super) fn contact(
     scene: &Scene,
     run: &CompletedRun<'_>,

@@ -1,4 +1,5 @@
-//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`read`] reads from it how a campaign ended.
+//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`read`] reads from it how a campaign
+//! ended.
 
 use serde_json::{Map, Value, json};
 

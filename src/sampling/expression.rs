@@ -12,9 +12,9 @@
 //! | truth | every number other than 0 |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
 //!
-//! Unknown numbers (NaN) propagate through arithmetic and comparisons. Conditions follow Kleene's three-valued logic: `0
-//! and unknown` is 0, `1 or unknown` is 1. `if` with an unknown condition is unknown; with a known one it is the chosen
-//! part, whatever the other part is.
+//! Unknown numbers (NaN) propagate through arithmetic and comparisons. Conditions follow Kleene's three-valued logic:
+//! `0 and unknown` is 0, `1 or unknown` is 1. `if` with an unknown condition is unknown; with a known one it is the
+//! chosen part, whatever the other part is.
 
 mod bounds;
 

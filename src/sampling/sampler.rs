@@ -60,8 +60,8 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Writes the dispersed numbers of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and the
-    /// applied values into `applied`, one a column. Sample 0 is nominal.
+    /// Writes the dispersed numbers of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and
+    /// the applied values into `applied`, one a column. Sample 0 is nominal.
     ///
     /// # Panics
     /// If `applied` is not as long as [`Dispersions::columns`].

@@ -10,8 +10,9 @@
 //! | 24..32 | the ASCII text `sampling` |
 //!
 //! and sample k takes the k-th little-endian 64-bit word of the key stream: a draw depends on (seed, sample, name)
-//! alone, any sample is reached at once, eight neighbours share a block, and any implementation of ChaCha gives the same
-//! numbers. Counters of sample *and* parameter under one key were rejected: a new parameter would renumber the others.
+//! alone, any sample is reached at once, eight neighbours share a block, and any implementation of ChaCha gives the
+//! same numbers. Counters of sample *and* parameter under one key were rejected: a new parameter would renumber the
+//! others.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};

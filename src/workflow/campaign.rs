@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::campaign::{FilesRead, Overrides, Plan};
-use crate::control::laws::asked;
+use crate::control::laws::callback;
 use crate::ensemble::Ensemble;
 use crate::storage::claim::{Claim, Shard};
 use crate::storage::store::Store;
@@ -245,7 +245,7 @@ impl PreparedCampaign<'_> {
     /// # Errors
     /// Where the folder has something that must not be replaced, or files cannot be read or written.
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
-        asked::refuse_unanswered(self.plan.loop_spec()).map_err(WorkflowError::Input)?;
+        callback::refuse_missing(self.plan.loop_spec()).map_err(WorkflowError::Input)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
         let (ensemble, root) = (self.ensemble(), &*self.root);
         let ready = match claimed(session, &self.store, &ensemble, (*overwrite, *shard))? {

@@ -3,7 +3,7 @@
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
 use crate::campaign::Plan;
-use crate::control::laws::asked;
+use crate::control::laws::callback;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::run_cost::parts;
@@ -21,7 +21,7 @@ use crate::workflow::workload::Workload;
 /// Where its nominal scene is not physical, or its control law is not here.
 pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>, WorkflowError> {
     let (plan, isa) = (ensemble.plan(), ensemble.isa());
-    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| WorkflowError::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let runs = RunProbe::new(ensemble);

@@ -6,7 +6,7 @@ use crate::analysis::fold::Gathered;
 use crate::analysis::noise_share::noise_shares;
 use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
-use crate::control::laws::asked;
+use crate::control::laws::callback;
 use crate::ensemble::Ensemble;
 use crate::findings::end::SummaryEnd;
 use crate::findings::number::counted;
@@ -60,7 +60,7 @@ pub fn remade(
         )));
     };
     let (plan, records) = sound(session, (&*store, &there), Some(REPORT))?;
-    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(
             "campaign {} has no control loop, and without one a run has no noise: leave out --noise",

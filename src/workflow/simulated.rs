@@ -1,7 +1,7 @@
 //! [`simulated`]: one sample of a plan again, as a table over time.
 
 use crate::campaign::Plan;
-use crate::control::laws::asked;
+use crate::control::laws::callback;
 use crate::ensemble::SingleRun;
 use crate::math::Isa;
 use crate::run::Grid;
@@ -26,7 +26,7 @@ pub struct Simulated {
 /// # Errors
 /// Where there is no such sample, its scene is not physical, or a time is no time.
 pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> Result<Simulated, WorkflowError> {
-    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);
         return Err(WorkflowError::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));

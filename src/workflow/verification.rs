@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use crate::control::laws::asked;
+use crate::control::laws::callback;
 use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
 use crate::findings::number::counted;
 use crate::findings::verified::Checked;
@@ -57,7 +57,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let (plan, read) = plan_in(session, store, &found)?;
     let plan = at_rows_of(plan, &found);
     // also without rows to compute again: the page has runs over time
-    asked::refuse_unanswered(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     let ensemble = Ensemble::new(&plan, session.isa);
     let head = head_of(&ensemble, &found);
     refuse_other_rows(store, &found, &head.identity)?;

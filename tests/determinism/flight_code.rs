@@ -140,7 +140,7 @@ fn first_torque(
     times: [f64; 3],
 ) -> impl Fn(&KnownBody, &LawInput<'_>) -> [f64; 3] + use<> {
     let [period, delay, elapsed] = times;
-    let settings = LawSettings { table, gyroscopic: false, period, delay, sample: SampleId(0), code: Some(code) };
+    let settings = LawSettings { table, gyroscopic: false, period, delay, sample: SampleId(0) };
     let law = (code.kind().make)(&settings);
     move |body, input| law.clone().torque(body, input, elapsed)
 }

@@ -47,33 +47,3 @@ impl<C: Copy> DelayQueue<C> {
         (&self.acting, self.waiting.front().map_or(f64::INFINITY, |(from, _)| *from))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: at any time that command acts which is the latest whose time has come, for any ratio of delay and period;
-    /// and the room suffices.
-    #[test]
-    fn the_latest_command_whose_time_has_come_acts() {
-        for (delay, period) in [(0.0, 0.1), (0.1, 0.1), (0.25, 0.1), (0.03, 0.1), (1.7, 0.3)] {
-            let mut queue = DelayQueue::new(-1, delay, period);
-            let room = queue.waiting.capacity();
-            let from = |tick: i32| f64::from(tick) * period + delay;
-            for tick in 0..50 {
-                queue.push(from(tick), tick);
-                let end = f64::from(tick + 1) * period;
-                let mut time = f64::from(tick) * period;
-                while time < end {
-                    let (acting, next) = queue.at(time);
-                    let expected = (0..=tick).rev().find(|earlier| from(*earlier) <= time).unwrap_or(-1);
-                    assert_eq!(*acting, expected, "at {time}");
-                    let later = (0..=tick).map(from).find(|from| *from > time);
-                    assert_eq!(next, later.unwrap_or(f64::INFINITY));
-                    time = next.min(end);
-                }
-            }
-            assert_eq!(queue.waiting.capacity(), room, "nothing was allocated");
-        }
-    }
-}

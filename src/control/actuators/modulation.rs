@@ -1,4 +1,4 @@
-//! How thrusters of a loop are driven: the list of `control.modulation`.
+//! The list of `control.modulation`: modes of thrusters.
 
 use super::thruster_drive::ThrustMode;
 use crate::control::declared::{declared, number};
@@ -8,19 +8,19 @@ use crate::scene::{DeclaredTable, LawParameter};
 pub const NAMES: [&str; 3] = ["throttled", "pulse_width", "hysteresis"];
 
 declared! {
-    /// Of hysteresis.
+    /// Numbers of hysteresis.
     Levels = LEVELS {
         on: f64 = number("level_on", "1", "Fraction of the shortest firing at which a thruster turns on", &[0.75]);
         off: f64 = number("level_off", "1", "Fraction of the shortest firing at which it turns off", &[0.25]);
     }
 }
 
-/// What the modulation of place `place` declares.
+/// The keys of the modulation at `place`.
 pub fn parameters(place: usize) -> &'static [LawParameter] {
     if NAMES[place] == "hysteresis" { &LEVELS } else { &[] }
 }
 
-/// The modulation of place `place` with the numbers of `table`.
+/// The modulation at `place` with the numbers of `table`.
 pub fn mode(place: usize, table: &DeclaredTable) -> ThrustMode {
     match NAMES[place] {
         "throttled" => ThrustMode::Throttled,
@@ -32,7 +32,7 @@ pub fn mode(place: usize, table: &DeclaredTable) -> ThrustMode {
     }
 }
 
-/// Whether thrusters are on or off, so that each needs a largest thrust.
+/// True if thrusters are on or off, so that each needs a largest thrust.
 pub fn is_on_off(place: usize) -> bool {
     NAMES[place] != "throttled"
 }

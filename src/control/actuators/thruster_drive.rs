@@ -1,6 +1,6 @@
 //! [`ThrusterDrive`]: what a thruster makes of a wanted mean thrust over a control period.
 
-/// How a thruster is driven.
+/// The mode of a thruster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThrustMode {
     /// To any thrust up to its largest.
@@ -22,7 +22,6 @@ pub enum ThrustMode {
 /// A thruster's valve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThrusterDrive {
-    /// How it is driven.
     pub mode: ThrustMode,
     /// Largest thrust, N; that while it is on, where it is on or off. Infinite only of one that is throttled without a
     /// limit.
@@ -32,12 +31,12 @@ pub struct ThrusterDrive {
     pub least_on: f64,
 }
 
-/// What a thruster remembers from one period to the next.
+/// The memory of a thruster between periods.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PulseState {
     /// The length of pulse that was too short to be made, s.
     pub remainder: f64,
-    /// Whether it was on in the last period.
+    /// True if it was on in the last period.
     pub was_on: bool,
 }
 
@@ -46,7 +45,7 @@ pub struct PulseState {
 pub struct Pulse {
     /// Thrust from the start of the period on, N.
     pub thrust: f64,
-    /// How long, s: the period itself where it does not end before.
+    /// Its length, s: at most the period.
     pub on_time: f64,
     /// The wanted mean thrust beyond the largest, N.
     pub excess: f64,
@@ -140,38 +139,5 @@ mod tests {
         let on = |fifth: f64| [0.55, 0.4, 0.3, 0.2, fifth, 0.0, 0.0, 0.0];
         let wanted = [fifth(-0.349), fifth(-0.351), fifth(-0.351), fifth(-0.5), fifth(-0.351)];
         assert_pulses(drive, wanted, [on(0.2), on(0.2), on(0.2), on(0.0), on(0.0)]);
-    }
-
-    /// Law: with remainder, the impulse is the wanted one within one minimum bit at the end of every period, whatever
-    /// is wanted within reach; with hysteresis it is not, which is what the remainder is for.
-    #[test]
-    fn no_impulse_is_lost() {
-        let error = |drive: ThrusterDrive| {
-            let (mut state, mut wanted, mut given, mut worst) = (PulseState::default(), 0.0, 0.0, 0.0_f64);
-            for tick in 0..5000 {
-                let mean = 0.02 + 0.018 * libm::sin(0.37 * f64::from(tick));
-                wanted += mean * PERIOD;
-                let pulse = drive.over(mean, PERIOD, &mut state);
-                given += pulse.thrust * pulse.on_time;
-                worst = worst.max((wanted - given).abs());
-            }
-            worst
-        };
-        let bit = 0.5 * 0.2;
-        assert!(error(THRUSTER) <= bit * (1.0 + 1e-9));
-        let hysteresis = ThrusterDrive { mode: ThrustMode::Hysteresis { on: 0.75, off: 0.25 }, ..THRUSTER };
-        assert!(error(hysteresis) > 10.0 * bit);
-    }
-
-    /// Law: a throttled thruster gives what is wanted up to its largest thrust, and says what is beyond.
-    #[test]
-    fn a_throttled_thruster_follows() {
-        let drive = ThrusterDrive { mode: ThrustMode::Throttled, ..THRUSTER };
-        let mut state = PulseState::default();
-        for (wanted, thrust, on_time, excess) in [(0.2, 0.2, 0.5, 0.0), (0.75, 0.5, 0.5, 0.25), (-1.0, 0.0, 0.0, 0.0)] {
-            assert_eq!(drive.over(wanted, PERIOD, &mut state), Pulse { thrust, on_time, excess });
-        }
-        let free = ThrusterDrive { most: f64::INFINITY, ..drive };
-        assert_eq!(free.over(1e3, PERIOD, &mut state), Pulse { thrust: 1e3, on_time: 0.5, excess: 0.0 });
     }
 }

@@ -10,7 +10,7 @@ use crate::scene::FailureInput;
 /// A wheel's motor and bearing. Torques are about the wheel's axis and act on the wheel; the body takes the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelDrive {
-    /// What resists a change of the wheel's rate relative to the body, kg m^2: [`relative_inertia`].
+    /// The inertia by which a torque changes the rate relative to the body, kg m^2: [`relative_inertia`].
     pub inertia: f64,
     /// Largest torque of the motor, N m; infinite without a limit.
     pub torque_limit: f64,
@@ -22,28 +22,27 @@ pub struct WheelDrive {
     pub viscous: f64,
     /// Factor of the commanded torque.
     pub torque_scale: f64,
-    /// What the motor gives beyond it while a torque other than zero is commanded, N m.
+    /// Torque that the motor adds to any command other than zero, N m.
     pub torque_bias: f64,
 }
 
-/// What acts on a wheel over an arc.
+/// The torques on a wheel over an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Driven {
     /// Torque on the wheel, of motor and friction, N m.
     pub torque: f64,
-    /// That of the motor, N m.
+    /// Torque of the motor, N m.
     pub motor: f64,
-    /// What the motor would give beyond that without limits, in magnitude, N m.
+    /// Magnitude of the torque that limits take away, N m.
     pub excess: f64,
-    /// Whether the limit of the torque cuts it.
+    /// True if the torque limit cuts it.
     pub is_torque_limited: bool,
-    /// Whether the limit of the rate does.
+    /// True if the speed limit does.
     pub is_speed_limited: bool,
 }
 
-/// What resists a change of the rate relative to the body of a wheel with the axial inertia `axial` (kg m^2) about
-/// `axis` (in F_s): its motor turns the body too, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a).
-/// `inverse` is K^-1, 1/(kg m^2), F_s.
+/// J/(1 + J a.K^-1 a) of a wheel with the axial inertia J = `axial` (kg m^2) about a = `axis` in F_s: its motor turns
+/// the body too, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a). `inverse` is K^-1, 1/(kg m^2), F_s.
 pub fn relative_inertia(axial: f64, axis: [f64; 3], inverse: [[f64; 3]; 3]) -> f64 {
     axial / (1.0 + axial * dot(axis, product(inverse, axis)))
 }
@@ -62,7 +61,7 @@ impl WheelDrive {
         }
     }
 
-    /// The same after `failure`, whose factor is on what the motor would give: on its limit too.
+    /// The drive after `failure`, whose factor acts on the torque and on its limit.
     #[must_use]
     pub fn failed(self, failure: &FailureInput) -> Self {
         let scale = failure.torque_scale.unwrap_or(1.0);
@@ -159,22 +158,6 @@ mod tests {
         assert!((through.torque + 1.98).abs() < 1e-15);
     }
 
-    /// Law: under viscous friction the rate decays exponentially, with an error of first order in the arc's length;
-    /// over an arc far longer than the time constant it stops, and does not turn back.
-    #[test]
-    fn viscous_friction_decays() {
-        let wheel = WheelDrive { viscous: 0.05, ..WHEEL };
-        let expected = 4.0 * libm::exp(-0.1 * 12.0);
-        let [coarse, fine] = [0.2, 0.1].map(|length| {
-            let arcs = (12.0_f64 / length).round() as usize;
-            rates(&wheel, 4.0, length, arcs, |_| 0.0)[arcs - 1] - expected
-        });
-        assert!(((coarse / fine).log2() - 1.0).abs() < 0.02, "{coarse} and {fine}");
-        // and does not help a motor that turns the wheel round
-        assert_eq!(wheel.over(-2.0, 0.4, 0.7).torque, -2.0);
-        assert!(rates(&wheel, 4.0, 1000.0, 1, |_| 0.0)[0].abs() < 1e-15);
-    }
-
     /// Law: whatever is commanded, the motor stays within its limit and the rate within its own; the excess is what is
     /// missing; and what is within both limits is given as it is.
     #[test]
@@ -202,61 +185,5 @@ mod tests {
         assert!(at_limit.torque.abs() < 1e-16 && (at_limit.motor - 0.018).abs() < 1e-16, "{at_limit:?}");
         assert_eq!(wheel.over(0.3, 3.0, 0.1).motor, 0.0);
         assert_eq!(wheel.over(-0.3, 3.0, 0.1).motor, -0.3);
-    }
-
-    /// Basilisk babdff7,
-    /// src/simulation/dynamics/reactionWheels/_UnitTest/test_reactionWheelStateEffector_ConfigureRWRequests.py: cases
-    /// saturation and speedSaturation, u_current exactly.
-    #[test]
-    fn limits_are_those_of_basilisk() {
-        for (limit, commanded, expected) in [(1.0, -1.2, -1.0), (2.0, 1.5, 1.5), (2.0, 2.5, 2.0)] {
-            let wheel = WheelDrive { torque_limit: limit, ..WHEEL };
-            assert_eq!(wheel.over(commanded, 0.0, 0.1).torque, expected);
-        }
-        for (rate, expected) in [(49.0, 1.5), (51.0, 0.0), (-52.0, 1.5)] {
-            let wheel = WheelDrive { speed_limit: 50.0, ..WHEEL };
-            assert_eq!(wheel.over(1.5, rate, 0.1).torque, expected);
-        }
-    }
-
-    /// Law: scale and bias act as on the commands of a schedule: the bias only while a torque is commanded.
-    #[test]
-    fn scale_and_bias_act() {
-        let wheel = WheelDrive { torque_scale: 0.9, torque_bias: 0.01, ..WHEEL };
-        assert_eq!([1.0, 0.0].map(|commanded| wheel.over(commanded, 0.0, 0.1).torque), [0.91, 0.0]);
-        assert_eq!(WheelDrive { torque_scale: 0.0, torque_bias: 0.0, ..wheel }.over(1.0, 0.0, 0.1).torque, 0.0);
-    }
-
-    /// Law: a failed motor gives its factor of what it would give within its limit, of either sign, with or without a
-    /// limit and a bias; a dead one nothing.
-    #[test]
-    fn a_failed_motor_gives_its_share() {
-        for torque_limit in [0.3, f64::INFINITY] {
-            let wheel = WheelDrive { torque_limit, torque_scale: 0.9, torque_bias: 0.01, ..WHEEL };
-            for scale in [0.5, 0.0, -0.25, 1.5] {
-                let failed = wheel.failed(&FailureInput { torque_scale: Some(scale), ..FailureInput::DEFAULT });
-                for commanded in [0.0, 0.1, -0.2, 0.33, 4.0, -4.0] {
-                    let [whole, share] = [wheel, failed].map(|wheel| wheel.over(commanded, 0.0, 0.1));
-                    // an ulp of 4 N m is 9e-16
-                    assert!((share.motor - scale * whole.motor).abs() < 1e-15, "{scale} {commanded}: {share:?}");
-                    let is_cut = scale != 0.0 && whole.is_torque_limited;
-                    assert_eq!(share.is_torque_limited, is_cut, "{scale} {commanded}");
-                }
-            }
-        }
-    }
-
-    /// Law: the torque that stops a wheel on a body stops it: its rate relative to the body, which takes the opposite
-    /// torque.
-    #[test]
-    fn the_body_is_part_of_the_inertia() {
-        let (axial, axis, moments) = (0.8, [0.6, 0.0, 0.8], [3.0, 2.0, 5.0]);
-        let inverse = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 / moments[i] } else { 0.0 }));
-        let wheel = WheelDrive { coulomb: 10.0, ..WheelDrive::ideal(relative_inertia(axial, axis, inverse)) };
-        let (rate, length) = (1.5, 0.25);
-        let torque = wheel.over(0.0, rate, length).torque;
-        // h' = tau and omega' = -K^-1 a tau, from rest
-        let of_body: f64 = (0..3).map(|i| -axis[i] * axis[i] / moments[i] * torque * length).sum();
-        assert!((rate + torque * length / axial - of_body).abs() < 1e-15);
     }
 }

@@ -5,29 +5,29 @@ use crate::control::vector::{scaled, sum};
 use crate::math::list::List;
 use crate::scene::{MAX_TORQUE_RODS, Scene};
 
-/// What the torque rods are commanded.
+/// A command of the torque rods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodCommand {
     /// Dipoles along the axes of the rods, within their limits, A m^2.
     pub dipoles: [f64; MAX_TORQUE_RODS],
-    /// Whether a limit cut what the law wanted.
+    /// True if a limit cut the wanted dipole.
     pub is_limited: bool,
 }
 
 /// No torque rod has a current.
 pub const NO_DIPOLES: RodCommand = RodCommand { dipoles: [0.0; MAX_TORQUE_RODS], is_limited: false };
 
-/// What is known of the torque rods of a loop.
+/// The torque rods of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodAllocation {
-    /// Of unit dipoles: a rod is a wheel whose torque on the body is minus its dipole.
+    /// Allocation of unit dipoles: a rod is a wheel whose torque on the body is minus its dipole.
     least_norm: WheelTorque,
-    /// Of each rod that the loop drives: its place among all, its axis in F_s, and its limit, A m^2.
+    /// Place among all rods, axis in F_s, and limit, A m^2.
     rods: List<(usize, [f64; 3], f64), MAX_TORQUE_RODS>,
 }
 
 impl RodAllocation {
-    /// That of the rods at the places `used` of those of `scene`.
+    /// The rods at the places `used` of `scene`.
     pub fn of_loop(scene: &Scene, used: &[usize]) -> Self {
         let mut rods = List::empty((0, [0.0; 3], 0.0));
         for place in used {

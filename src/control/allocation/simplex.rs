@@ -26,7 +26,7 @@ pub(super) struct Column {
     pub entries: [f64; ROWS],
     pub most: f64,
     pub costs: [f64; LEVELS],
-    /// Whether it starts at its largest value.
+    /// True if it starts at its largest value.
     pub starts_at_most: bool,
 }
 
@@ -113,7 +113,7 @@ impl<'a> Tableau<'a> {
         (direction * cost < 0.0).then_some(direction)
     }
 
-    /// One step: whether the cost can be lower.
+    /// One step; false if the cost is least.
     fn step(&mut self) -> bool {
         let entering = (0..self.columns.len()).find_map(|j| self.direction(j).map(|direction| (j, direction)));
         let Some((entering, direction)) = entering else { return false };

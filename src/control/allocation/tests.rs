@@ -1,7 +1,7 @@
-//! What thrusts are allocated, against linear programs solved by other means.
+//! Allocated thrusts against linear programs solved by other means.
 
 use super::{ThrustAllocation, WheelTorque};
-use crate::control::vector::{cross, difference, dot, norm, scaled};
+use crate::control::vector::{cross, difference, norm, scaled};
 use crate::scene::thruster::{REPORT_DIRECTIONS, report_offset};
 use crate::scene::{MAX_THRUSTERS, Thruster};
 
@@ -78,70 +78,6 @@ fn optima_are_those_of_linprog() {
     assert!(cut > 100, "{cut} sets beyond their limits");
 }
 
-/// Every corner of thrusts within `most` that give `torque` about c: with n thrusters and three equations all but three
-/// are at zero or at their limit.
-fn corners(thrusters: &[Thruster], most: f64, torque: [f64; 3], found: &mut Vec<f64>) {
-    let columns: Vec<[f64; 3]> = thrusters.iter().map(|one| cross(one.position, one.direction)).collect();
-    let n = columns.len();
-    for basis in (0..1_usize << n).filter(|set| set.count_ones() == 3) {
-        let is_basic = |i: usize| basis >> i & 1 == 1;
-        let [a, b, c] = [0, 1, 2].map(|k| columns[(0..n).filter(|i| is_basic(*i)).nth(k).expect("three")]);
-        let volume = dot(a, cross(b, c));
-        for at_most in (0..1_usize << n).filter(|set| set & basis == 0) {
-            let others = (0..n).filter(|i| at_most >> i & 1 == 1);
-            let left = others.fold(torque, |left, i| difference(left, columns[i].map(|x| most * x)));
-            // Cramer's rule
-            let basic = [(b, c), (c, a), (a, b)].map(|(u, v)| dot(left, cross(u, v)) / volume);
-            if basic.iter().all(|one| (-1e-9..=most + 1e-9).contains(one)) {
-                found.push(basic.iter().sum::<f64>() + most * f64::from(at_most.count_ones()));
-            }
-        }
-    }
-}
-
-/// Law: four canted thrusters and five, whose torques span all directions, give every torque of every direction within
-/// their limits, with the least total of all corners; a torque that is beyond them keeps its direction. No set of three
-/// can.
-#[test]
-fn canted_thrusters_give_every_torque() {
-    let places = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
-    // thrust along +s3, turned about the arm to either side in turn
-    let canted = |(place, side): ([f64; 2], f64)| {
-        let [x, y] = place;
-        let (sine, cosine) = (0.3 * side, 0.91_f64.sqrt());
-        Thruster { position: [x, y, -0.5], direction: [-sine * y, sine * x, cosine] }
-    };
-    let four: Vec<Thruster> = places.into_iter().zip([1.0, -1.0, 1.0, -1.0]).map(canted).collect();
-    let mut five = four.clone();
-    five.push(Thruster { position: [0.1, 0.0, -0.5], direction: [0.0, 0.0, 1.0] });
-    let mut numbers = Numbers(11);
-    for thrusters in [&four, &five] {
-        let most = vec![2.0; thrusters.len()];
-        let allocation = ThrustAllocation::new(thrusters, [0.0; 3], &most, NONE);
-        let axes: f64 = (0..3).map(|i| allocation.two_sided_torques(false)[i][i]).sum();
-        assert!((axes - 3.0).abs() < 1e-12);
-        assert!((0..3).map(|i| allocation.two_sided_torques(true)[i][i]).sum::<f64>() < 2.5, "with the force held");
-        for _ in 0..50 {
-            let torque = numbers.three().map(|x| 0.2 * x);
-            let thrust = allocation.allocate(None, torque);
-            assert!(size(difference(allocation.given(&thrust)[1], torque)) < 1e-14, "{torque:?}");
-            let mut totals = Vec::new();
-            corners(thrusters, 2.0, torque, &mut totals);
-            let least = totals.iter().copied().fold(f64::INFINITY, f64::min);
-            assert!((size(thrust) - least).abs() < 1e-12, "{} for {least}", size(thrust));
-            let far = allocation.given(&allocation.allocate(None, torque.map(|x| 100.0 * x)))[1];
-            let mut totals = Vec::new();
-            corners(thrusters, 2.0, far, &mut totals);
-            assert!(size(cross(far, torque)) < 1e-12 && dot(far, torque) > 0.0 && !totals.is_empty());
-            let mut beyond = Vec::new();
-            corners(thrusters, 2.0, far.map(|x| 1.001 * x), &mut beyond);
-            assert!(beyond.is_empty(), "more would be within reach");
-        }
-    }
-    let three = ThrustAllocation::new(&four[..3], [0.0; 3], &[2.0; 3], NONE);
-    assert!((0..3).map(|i| three.two_sided_torques(false)[i][i]).sum::<f64>() < 2.5);
-}
-
 pub fn report(center: [f64; 3], most: f64, by_wheels: [[f64; 3]; 3]) -> ThrustAllocation {
     let positions = [[0.0; 3], [0.0, -0.8, 3.0], [0.0, 0.8, 3.0]];
     let thrusters: Vec<Thruster> = std::iter::zip(positions, REPORT_DIRECTIONS)
@@ -183,47 +119,6 @@ fn the_closed_form_is_the_optimum() {
     }
     assert!(cases.iter().all(|count| *count > 50), "{cases:?}");
     assert!(report([0.1, 0.0, 1.5], 1.0, NONE).lever.is_none(), "with c off s3 they turn about s2 too");
-}
-
-/// Law: a torque that no wheel can give comes before the force, the force before a torque that wheels make good.
-/// Without a wanted force, one thruster turns.
-#[test]
-fn torque_comes_first() {
-    let pair = report([0.0, 0.0, 1.5], 1.0, NONE);
-    let close = |found: [f64; MAX_THRUSTERS], expected: [f64; 3]| {
-        found[..3].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15)
-    };
-    // 1.6 N m are beyond P2, which gives 0.8; P1 adds to the force, or balances
-    for (force, expected) in [(None, [0.0, 1.0, 0.0]), (Some(0.5), [1.0, 1.0, 0.0]), (Some(-0.25), [0.75, 1.0, 0.0])] {
-        let found = pair.allocate(force.map(|force| [0.0, 0.0, force]), [1.6, 0.0, 0.0]);
-        assert!(close(found, expected), "{force:?}: {found:?}");
-    }
-    let found = pair.allocate(None, [-0.4, 0.7, 0.0]);
-    assert!(close(found, [0.0, 0.0, 0.5]), "{found:?}");
-    // where a wheel takes the torque, the force comes first; of the torque what is left is given
-    let within = report([0.0, 0.0, 1.5], 1.0, ALL);
-    assert!(close(within.allocate(Some([0.0, 0.0, 1.0]), [0.8, 0.0, 0.0]), [1.0, 0.0, 0.0]));
-    assert!(close(within.allocate(Some([0.0, 0.0, 0.5]), [0.8, 0.0, 0.0]), [1.0, 0.5, 0.0]));
-    assert!(close(pair.allocate(Some([0.0, 0.0, 1.0]), [0.8, 0.0, 0.0]), [1.0, 1.0, 0.0]));
-    for unknown in [pair.allocate(Some([0.0, 0.0, f64::NAN]), [0.0; 3]), pair.allocate(None, [f64::NAN; 3])] {
-        assert_eq!(unknown, [0.0; MAX_THRUSTERS]);
-    }
-}
-
-/// Law: beside two wheels whose axes are oblique, what thrusters give across the plane of these axes is what is wanted.
-#[test]
-fn oblique_wheels_have_a_plane() {
-    let normal = [0.48, -0.6, 0.64];
-    let plane = std::array::from_fn(|i| std::array::from_fn(|j| ALL[i][j] - normal[i] * normal[j]));
-    let mut numbers = Numbers(3);
-    let thrusters: Vec<Thruster> =
-        (0..6).map(|_| Thruster { position: numbers.three(), direction: numbers.three() }).collect();
-    let allocation = ThrustAllocation::new(&thrusters, [0.0; 3], &[FREE; 6], plane);
-    for sign in [1.0, -1.0] {
-        let [force, torque] = [numbers.three(), normal.map(|x| sign * x)];
-        let [_, given] = allocation.given(&allocation.allocate(Some(force), torque));
-        assert!((dot(given, normal) - sign).abs() < 1e-13, "{given:?}");
-    }
 }
 
 /// Law: rounding fires no thruster. Thrusters whose lines meet c turn nothing, whatever their directions; what wheels
@@ -275,17 +170,4 @@ pub fn eight(center: [f64; 3], by_wheels: [[f64; 3]; 3]) -> ThrustAllocation {
     };
     let thrusters: Vec<Thruster> = at(1.7907).chain(at(-1.7907)).collect();
     ThrustAllocation::new(&thrusters, center, &[0.95; 8], by_wheels)
-}
-
-/// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrForceMapping/_UnitTest/test_thrForceMapping.py, set of
-/// eight thrusters, torque (1, -0.5, 0.7) N m about all axes: the total of its thrusts, from its module (bsk 2.12.1).
-/// Law: the same torque with no greater total.
-#[test]
-fn totals_are_no_greater_than_of_basilisk() {
-    for (center, of_basilisk) in [([0.0; 3], 1.9648525930985303), ([0.03, 0.001, 0.02], 1.9830476967174024)] {
-        let (allocation, torque) = (eight(center, NONE), [1.0, -0.5, 0.7]);
-        let found = allocation.allocate(None, torque);
-        assert!(size(difference(allocation.given(&found)[1], torque)) < 1e-14, "{found:?}");
-        assert!(size(found) <= of_basilisk * (1.0 + 1e-12), "{} of {of_basilisk}", size(found));
-    }
 }

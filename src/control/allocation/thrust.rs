@@ -2,7 +2,7 @@
 //! least total thrust.
 //!
 //! **Attitude first.** min sum(f) with the torque as wanted and 0 <= f <= max. The force is free, unless a maneuver or
-//! `hold_force` asks for one. What cannot be had is missed by the least amount, in this order: the torque that no wheel
+//! `hold_force` asks for one. Deviations are least in this order: the torque that no wheel
 //! can give; the force, where one is wanted; the torque that wheels make good (`super::WheelTorque::reachable`); then
 //! the total is made least. An amount is the sum of the magnitudes of the components: of the force in F_s, of the
 //! torque along axes of which each is within the span of the wheels' axes or across it (those of F_s where wheels reach
@@ -36,7 +36,7 @@ const TOTAL: usize = 3;
 /// A force and a torque about c in F_s, N and N m.
 pub type Wrench = [[f64; 3]; 2];
 
-/// One component of force or torque.
+/// A component of force or torque.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     /// Along this unit vector, F_s.
@@ -53,7 +53,7 @@ impl Row {
     }
 }
 
-/// What is known of the thrusters, made once per run.
+/// The thrusters, prepared once per run.
 #[derive(Clone, Copy, Debug)]
 pub struct ThrustAllocation {
     /// Force and torque about c of each thruster at 1 N.
@@ -67,9 +67,9 @@ pub struct ThrustAllocation {
 }
 
 impl ThrustAllocation {
-    /// That of `thrusters` on a spacecraft with its centre of mass c at `center` (from p in F_s, m). `most` has the
-    /// largest thrusts, N, infinite without a limit, zero of a thruster that is not used; `by_wheels` is the projection
-    /// onto the torques that wheels can give, F_s.
+    /// Allocation to `thrusters` on a spacecraft with its centre of mass c at `center` (from p in F_s, m). `most` has
+    /// the largest thrusts, N, infinite without a limit, zero of a thruster that is not used; `by_wheels` is the
+    /// projection onto the torques that wheels can give, F_s.
     ///
     /// # Panics
     /// With more than [`MAX_THRUSTERS`] thrusters, or not as many limits.
@@ -102,7 +102,7 @@ impl ThrustAllocation {
         ThrustAllocation { wrenches, most, rows, lever }
     }
 
-    /// That of the thrusters at the places `used` of `scene` in a control loop, beside wheels that can give the torques
+    /// Allocation to the thrusters of a control loop, at the places `used` of `scene`, besides wheels with the torques
     /// of the projection `by_wheels`.
     pub fn of_loop(scene: &Scene, used: &[usize], by_wheels: [[f64; 3]; 3]) -> Self {
         let models = &scene.actuators.thrusters;
@@ -234,7 +234,7 @@ impl ThrustAllocation {
 pub(super) struct Rows<'a>(&'a [Row]);
 
 impl Rows<'_> {
-    /// Those of `wrench`, in units of their scales and of `size`; what is rounding is zero.
+    /// The components of `wrench`, in units of their scales and of `size`; rounding becomes zero.
     fn of(&self, wrench: &Wrench, size: f64) -> [f64; ROWS] {
         let [force, torque] = wrench.map(|part| ROUNDING * norm(part));
         let mut found = [0.0; ROWS];
@@ -251,12 +251,12 @@ impl Rows<'_> {
         self.of(wrench, 1.0).iter().map(|entry| entry.abs()).sum()
     }
 
-    /// Whether all of `wrench` is below `least`, relative to what the thrusters give.
+    /// True if all of `wrench` is below `least`, relative to what the thrusters give.
     pub(super) fn is_negligible(&self, wrench: &Wrench, least: f64) -> bool {
         self.of(wrench, 1.0).iter().all(|entry| entry.abs() <= least)
     }
 
-    /// What is missing and what is too much of each, as variables up to `most`.
+    /// Adds the deficit and the excess of each component as variables up to `most`.
     fn push_units(&self, columns: &mut List<Column, COLUMNS>, most: impl Fn(&Row) -> f64) {
         let largest = |level: usize| {
             let of_level = self.0.iter().filter(|row| row.level == level);

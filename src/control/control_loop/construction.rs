@@ -13,7 +13,7 @@ use crate::control::estimators::{EstimatorContext, KINDS as ESTIMATORS, KnownSen
 use crate::control::flight_software::{FlightSoftware, Parts};
 use crate::control::guidance::phase::Phase;
 use crate::control::guidance::target::Target;
-use crate::control::laws::interface::LawSettings;
+use crate::control::laws::interface::{LawSettings, NoTorque};
 use crate::control::laws::rod_law::RodLaw;
 use crate::control::laws::{AttitudeLaw, MomentumUnloading};
 use crate::control::net_launch::geometry::LaunchState;
@@ -116,15 +116,9 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
     };
     let delay = LoopNumbers::of(numbers).delay;
     let law = |(phase, table): (&PhaseSpec, &DeclaredTable)| {
-        let settings = LawSettings {
-            table,
-            gyroscopic: phase.gyroscopic,
-            period: spec.period,
-            delay,
-            sample: context.sample,
-            code: spec.law_module(),
-        };
-        phase.law.map_or(AttitudeLaw::None, |law| (law.make)(&settings))
+        let settings =
+            LawSettings { table, gyroscopic: phase.gyroscopic, period: spec.period, delay, sample: context.sample };
+        phase.law.map_or_else(|| AttitudeLaw::new(NoTorque), |law| (law.make)(&settings))
     };
     let laws = spec.phases.iter().zip(&context.parameters.guidance).map(law);
     let parts = Parts {
@@ -145,7 +139,7 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
     FlightSoftware::new(spec, parts)
 }
 
-/// What the run of `context` is judged by.
+/// The judge of the run of `context`.
 fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
     let numbers = &context.parameters.law;
     let (of_loop, near_debris) = (LoopNumbers::of(numbers), DebrisNumbers::of(numbers));

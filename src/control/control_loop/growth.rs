@@ -1,4 +1,4 @@
-//! [`Growth`]: whether the commands of a loop have grown beyond any that hold a body.
+//! [`Growth`]: bounds of commands that hold a body.
 //!
 //! A loop under which small errors die away asks in a period T for a change of the rate of at most 4 pi/T + 2 |omega|,
 //! since k T^2 < 4 and c T < 2 ([`crate::control::stability`]), and its rate comes from that at the start and from its
@@ -29,16 +29,15 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Those of a run of `scene` under a loop of `period` seconds.
+    /// Bounds of a run of `scene` under a loop of `period` seconds.
     pub fn new(scene: &Scene, period: f64) -> Self {
         let start = norm(scene.initial.omega_se_s);
         let most = (TURN / period).max(RISE * start);
         Growth { inverse: inverse(scene.mass.inertia_rotating()), most, period }
     }
 
-    /// The change of the rate in a control period, rad/s, that `plant` makes of commands over an arc, where that is
-    /// beyond the bounds; the field is measured as
-    /// `field_s`, T.
+    /// The change of the rate in a control period, rad/s, by commands over an arc of `plant`, if that is beyond the
+    /// bounds; the field is measured as `field_s`, T.
     pub fn beyond(
         &self,
         plant: &Plant,

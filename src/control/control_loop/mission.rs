@@ -1,9 +1,8 @@
-//! [`Mission`]: a run judged by the truth: what it comes to, what ends it, and its quantities over time. Nothing of it
+//! [`Mission`]: the judge of a run, which knows the truth: outcome, failures and quantities over time. Nothing of it
 //! goes back to flight software.
 
 use std::sync::Arc;
 
-use crate::control::estimate::EstimateErrors;
 use crate::control::failure::Failure;
 use crate::control::flight_software::{FlightSoftware, Guided};
 use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
@@ -13,6 +12,7 @@ use crate::control::net_launch::launch::centers_of;
 use crate::control::outcome::MissionOutcome;
 use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::criteria::MissionCriteria;
+use crate::control::outcome::estimation::{Consistency, EstimateErrors};
 use crate::control::plant::{Applied, Plant};
 use crate::control::recorder::{Recorder, Tick};
 use crate::control::spec::LoopSpec;
@@ -22,18 +22,18 @@ use crate::control::vector::{difference, norm};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
 use crate::observables::Series;
 use crate::run::Telemetry;
-use crate::scene::{MAX_WHEELS, Scene, WheelMode};
+use crate::scene::{MAX_WHEELS, WheelMode};
 
-/// What a run comes to.
+/// The judge of a run.
 pub struct Mission {
     spec: Arc<LoopSpec>,
-    criteria: MissionCriteria,
-    outcome: MissionOutcome,
+    pub(super) criteria: MissionCriteria,
+    pub(super) outcome: MissionOutcome,
     recorder: Option<Recorder>,
-    /// What is known of the quantities over time, and where it is recorded.
+    /// Quantities over time, and their record.
     over_time: KnownOverTime,
     record: Option<SharedRecord>,
-    /// Where the torque of each motor is among them.
+    /// Places of the torques of motors among them.
     motor_places: [usize; MAX_WHEELS],
     /// Time at the limit of speed after which a run fails, s; infinite where there is none.
     saturation_timeout: f64,
@@ -41,8 +41,7 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// That of a run under `spec`, judged by `criteria`; it fails after `saturation_timeout` seconds at the limit of
-    /// speed.
+    /// Judges a run under `spec` by `criteria`; it fails after `saturation_timeout` seconds at the limit of speed.
     pub fn new(
         spec: &Arc<LoopSpec>,
         criteria: MissionCriteria,
@@ -62,14 +61,14 @@ impl Mission {
         }
     }
 
-    /// Whether the debris is too near.
+    /// The failure of a run that is too near to the debris.
     pub fn keep_out(&self, truth: &Truth) -> Option<Failure> {
         let debris = truth.debris.as_ref()?;
         let distance = norm(difference(debris.r_gdo_e, truth.body.r_co_e));
         (distance < self.criteria.keep_out).then_some(Failure::KeepOut)
     }
 
-    /// Whether a wheel has been at its limit of speed for too long.
+    /// The failure of a run with a wheel at its limit of speed for too long.
     pub fn saturation(&self, time: f64) -> Option<Failure> {
         let longest = self.saturation_timeout + SAME_TIME * self.criteria.period;
         (time - self.saturated_since > longest).then_some(Failure::WheelSaturated)
@@ -96,7 +95,7 @@ impl Mission {
             let orbit = plant.scene().orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, truth.time, r_e, v_e));
             target.error(truth.body.q_es, &TargetInput { geometry: geometry.as_ref(), to_go: &to_go, orbit })
         });
-        let errors = if knows { EstimateErrors::NONE } else { software.estimate().errors(truth) };
+        let errors = if knows { EstimateErrors::NONE } else { EstimateErrors::of(software.estimate(), truth) };
         self.over_time.error = error;
         for (series, value) in [
             (Series::AttitudeEstimateError, errors.attitude),
@@ -118,21 +117,6 @@ impl Mission {
         }
     }
 
-    /// Takes what the law has reported at a tick that is judged.
-    pub fn take_telemetry(&mut self, telemetry: &[f64]) {
-        self.outcome.take_telemetry(telemetry);
-    }
-
-    /// The mission has launched, or failed.
-    pub fn ends(&mut self, scene: &Scene, truth: &Truth, failure: Failure) {
-        self.outcome.ends(scene, truth, failure, &self.criteria.launch);
-    }
-
-    /// Flight software gives no command at `time`, s.
-    pub fn cannot_go_on(&mut self, time: f64, failure: Failure) {
-        self.outcome.cannot_go_on(time, failure);
-    }
-
     /// Records the tick, where this run is to be recorded.
     pub fn record(&mut self, (plant, truth): (&Plant, &Truth), software: &FlightSoftware, guided: &Guided) {
         if let Some(recorder) = &mut self.recorder {
@@ -141,18 +125,13 @@ impl Mission {
                 phase: software.guidance().phase,
                 pointing_error: guided.error.angle(),
                 estimate: software.estimate(),
-                consistency: &software.consistency(truth, plant.gyro_bias_s()),
+                consistency: &consistency(plant, truth, software),
                 commanded: software.latest_commands(),
                 // no law is asked where the mission ends
                 telemetry: if guided.progress == Progress::Flies { software.telemetry() } else { &[] },
                 measurements: plant.measurements(truth.time).delivered,
             });
         }
-    }
-
-    /// Takes how the errors of the filters compare with their covariances.
-    pub fn compare_filters(&mut self, (plant, truth): (&Plant, &Truth), software: &FlightSoftware) {
-        self.outcome.consistency = software.consistency(truth, plant.gyro_bias_s());
     }
 
     /// Takes what the actuators make of the commands over an arc from `time` on, at whose start the motion is this one.
@@ -196,8 +175,12 @@ impl Mission {
         columns.report(&self.outcome, guidance, &self.criteria, values);
     }
 
-    /// What was recorded.
     pub fn telemetry(&self) -> Option<&Telemetry> {
         self.recorder.as_ref().map(Recorder::telemetry)
     }
+}
+
+/// The consistency of the filters of `software`.
+pub(super) fn consistency(plant: &Plant, truth: &Truth, software: &FlightSoftware) -> Consistency {
+    Consistency::of(&software.filters(), software.estimate(), truth, plant.gyro_bias_s())
 }

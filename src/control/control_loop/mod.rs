@@ -17,7 +17,7 @@ mod mission;
 use std::sync::Arc;
 
 use self::growth::Growth;
-use self::mission::Mission;
+use self::mission::{Mission, consistency};
 use super::flight_software::FlightSoftware;
 use super::outcome::columns::OutcomeColumns;
 use super::plant::Plant;
@@ -26,7 +26,6 @@ use super::tick_times::SAME_TIME;
 use super::truth::Truth;
 use crate::control::failure::Failure;
 use crate::control::guidance::Progress;
-use crate::control::laws::AttitudeLaw;
 use crate::control::laws::interface::digits;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
 use crate::run::Telemetry;
@@ -48,7 +47,6 @@ struct Clock {
 }
 
 impl Clock {
-    /// Whether the tick is one of control.
     fn is_control(&self) -> bool {
         self.tick.is_multiple_of(self.ticks_per_period)
     }
@@ -58,7 +56,7 @@ impl Clock {
         self.next = self.tick as f64 * self.tick_period;
     }
 
-    /// Whether the control tick at `time` is the last one that a row hears of.
+    /// True if the control tick at `time` is the last one in a row.
     fn is_final(&self, time: f64) -> bool {
         time + (1.0 + SAME_TIME) * self.period >= self.end
     }
@@ -78,7 +76,7 @@ pub struct ControlLoop {
 }
 
 impl ControlLoop {
-    /// Whether a tick is due at `time`, s.
+    /// True if a tick is due at `time`, s.
     fn is_due(&self, time: f64) -> bool {
         !self.has_ended && time >= self.clock.next - SAME_TIME * self.clock.tick_period
     }
@@ -92,7 +90,6 @@ impl ControlLoop {
         self.clock.advance();
     }
 
-    /// A control tick.
     fn control(&mut self, truth: &Truth, is_last: bool) {
         let failure = match self.flight_software.failure(truth.time) {
             Some(Failure::Diverged) => Some(Failure::Diverged),
@@ -105,29 +102,29 @@ impl ControlLoop {
         let ends = match guided.progress {
             Progress::Flies => {
                 let failure = self.flight_software.command(truth.time, &guided).err();
-                failure.inspect(|failure| self.mission.cannot_go_on(truth.time, *failure))
+                failure.inspect(|failure| self.mission.outcome.cannot_go_on(truth.time, *failure))
             }
-            Progress::Launches => {
-                self.mission.ends(self.plant.scene(), truth, Failure::None);
-                Some(Failure::None)
-            }
-            Progress::Fails(failure) => {
-                self.mission.ends(self.plant.scene(), truth, failure);
-                Some(failure)
-            }
+            Progress::Launches => Some(Failure::None),
+            Progress::Fails(failure) => Some(failure),
         };
         self.has_ended = ends.is_some();
+        if guided.progress != Progress::Flies
+            && let Some(failure) = ends
+        {
+            let Mission { outcome, criteria, .. } = &mut self.mission;
+            outcome.ends(self.plant.scene(), truth, failure, &criteria.launch);
+        }
         if is_judged && guided.progress == Progress::Flies {
-            self.mission.take_telemetry(self.flight_software.telemetry());
+            self.mission.outcome.take_telemetry(self.flight_software.telemetry());
         }
         self.mission.record((&self.plant, truth), &self.flight_software, &guided);
         // rows have it of the last tick alone
         if is_judged && (self.has_ended || self.clock.is_final(truth.time)) {
-            self.mission.compare_filters((&self.plant, truth), &self.flight_software);
+            self.mission.outcome.consistency = consistency(&self.plant, truth, &self.flight_software);
         }
     }
 
-    /// What acts from `time` on.
+    /// The actuation from `time` on.
     fn arc_from(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         let mut commands = self.flight_software.acting(time);
         commands.until = commands.until.min(self.clock.next);
@@ -148,19 +145,14 @@ impl ControlLoop {
         actuation
     }
 
-    /// That the commands of `time`, which change the rate by `change` rad/s in a control period, are those of a loop
-    /// that diverges.
+    /// The reason of a divergence: the commands of `time` change the rate by `change` rad/s in a control period.
     fn diverged(&self, time: f64, change: f64) -> String {
         let FlightSoftware { spec, believed, guidance, laws, delay, .. } = &self.flight_software;
         let place = guidance.phase;
-        let known = match &laws[place] {
-            // one of a program answers in a run alone
-            AttitudeLaw::Own(_) => None,
-            law => beyond_limit((spec, place), (believed, self.plant.scene()), law, *delay),
-        };
+        let known = beyond_limit((spec, place), (believed, self.plant.scene()), &laws[place], *delay);
         let why = known.unwrap_or_else(|| {
             "no limit of its gains is known to be exceeded: check their signs, and the noise and the lag of what \
-             the law is told"
+             its input"
                 .to_owned()
         });
         let (name, change) = (spec.phases[place].name, digits(change));

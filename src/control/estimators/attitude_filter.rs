@@ -12,11 +12,11 @@ use std::sync::Arc;
 
 use super::attitude_innovation::{AttitudeInnovation, WholeAttitude};
 use super::delayed::Filter;
-use super::kalman::{NormalizedSquare, blocks, corners, halves, normalized_square, symmetric};
+use super::kalman::{NormalizedSquare, blocks, corners, halves, symmetric};
 use crate::control::estimators::attitude_innovation::AttitudeSensor;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::GyroNoise;
-use crate::control::rotation::{quaternion_of, vector_of};
+use crate::control::rotation::quaternion_of;
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
 
@@ -80,23 +80,6 @@ impl AttitudeFilter {
     /// Angular velocity of F_s relative to F_e, in F_s, rad/s.
     pub fn omega_se_s(&self) -> [f64; 3] {
         difference(self.rate_s, self.bias_s)
-    }
-
-    /// Covariance of the attitude, in F_s, rad^2.
-    pub fn attitude_covariance(&self) -> [[f64; 3]; 3] {
-        corners(&self.covariance)[0]
-    }
-
-    /// The normalised square of the error (NEES) of attitude and, where the true bias is known, bias.
-    pub fn error_square(&self, q_es: [f64; 4], bias_s: Option<[f64; 3]>) -> Option<NormalizedSquare> {
-        let [x, y, z] = vector_of(hamilton(conjugate(self.q_es), q_es));
-        match bias_s {
-            Some(bias) => {
-                let [u, v, w] = difference(bias, self.bias_s);
-                normalized_square(&self.covariance, [x, y, z, u, v, w])
-            }
-            None => normalized_square(&self.attitude_covariance(), [x, y, z]),
-        }
     }
 }
 
@@ -210,20 +193,6 @@ mod tests {
                     assert_eq!((before[i][j], before[i + 3][j]), (0.0, 0.0));
                 }
             }
-        }
-    }
-
-    /// Law: exp(v + e) = exp(v) exp(J e) to second order in e, on both sides of the change from series to closed form.
-    #[test]
-    fn the_jacobian_adds_rotation_vectors() {
-        for size in [0.0, 1e-3, 0.0999, 0.1001, 1.0, 2.5] {
-            let v = scaled(size / 3.0, [1.0, -2.0, 2.0]);
-            let e = [3e-7, 2e-7, -4e-7];
-            let by_jacobian = crate::control::vector::product(right_jacobian(v), e);
-            let [back, ahead] = [-1.0, 1.0].map(|sign| quaternion_of(sum(v, scaled(sign, e))));
-            let difference_of = vector_of(hamilton(conjugate(back), ahead));
-            // central difference: 1e-18 of truncation, 1e-16 of rounding (measured: 7.3e-17)
-            assert!(norm(difference(scaled(0.5, difference_of), by_jacobian)) < 5e-16, "{size}");
         }
     }
 

@@ -1,5 +1,5 @@
-//! [`AttitudeInnovation`]: what one measurement of the attitude, or of a part of it, says to a filter of attitude and
-//! three more numbers.
+//! [`AttitudeInnovation`]: the innovation of a measurement of the attitude, or of a part of it, in a filter of attitude
+//! and three more numbers.
 
 use std::fmt::Debug;
 
@@ -23,8 +23,6 @@ pub struct Innovation<const M: usize> {
 /// An innovation by its number of components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AttitudeInnovation {
-    /// An angle.
-    One(Innovation<1>),
     /// A direction.
     Two(Innovation<2>),
     /// An attitude, or a direction with its length.
@@ -44,14 +42,13 @@ impl AttitudeInnovation {
     /// state, becomes the one after it. `None`, and nothing changes, where the filter is already certain.
     pub fn update(&self, covariance: &mut [[f64; 6]; 6]) -> Option<([f64; 6], NormalizedSquare)> {
         match self {
-            AttitudeInnovation::One(innovation) => innovation.update(covariance),
             AttitudeInnovation::Two(innovation) => innovation.update(covariance),
             AttitudeInnovation::Three(innovation) => innovation.update(covariance),
         }
     }
 }
 
-/// How a filter takes a measurement of the attitude: as flight software believes the sensor, by its nominal parameters.
+/// A sensor of the attitude as filters believe it, by its nominal parameters.
 pub trait AttitudeSensor: Debug + Send + Sync {
     /// The innovation of `values`, measured at `time` (s), where the attitude then is estimated as `q_es` (F_s -> F_e,
     /// scalar first).

@@ -1,13 +1,13 @@
-//! What a camera's image says of the debris is as uncertain, and about the same axes, as the attitude through which it
-//! was seen.
+//! An image of the debris is as uncertain, and about the same axes, as the attitude through which it was seen.
 
-use super::tests::{at_once, observes, update};
+use super::tests::{at_once, known, update};
 use super::*;
+use crate::control::estimate::DebrisState;
 use crate::control::measurement::values;
+use crate::control::outcome::estimation::Consistency;
 use crate::control::rotation::quaternion_of;
 use crate::control::sensors;
 use crate::control::sensors::bench::{table, truth};
-use crate::control::truth::DebrisState;
 use crate::control::vector::{dcm_from_quaternion, hamilton, scaled, transposed_product};
 use crate::scene::Scene;
 use crate::scene::{DebrisInput, SceneInput};
@@ -34,9 +34,7 @@ fn an_image_is_as_uncertain_as_the_attitude() {
     let declared = |kind: &str| sensors::kind(kind).expect("a kind").parameters;
     let tracker = &table("tracker", declared("star_tracker"), &[("noise_rad", &TRACKER)]);
     let camera = &table("camera", declared("relative_camera"), &[("attitude_noise_rad", &[CAMERA])]);
-    let known =
-        |kind: &str, parameters| KnownSensor { observes: observes(kind), period: 0.1, latency: 0.0, parameters };
-    let list = [known("star_tracker", tracker), known("relative_camera", camera)];
+    let list = [known("star_tracker", 0.1, tracker), known("relative_camera", 0.1, camera)];
     for turn in [[0.0; 3], [1.2, 0.0, 0.0], [0.4, -0.9, 1.7]] {
         let context = EstimatorContext { nominal, parameters, sensors: &list, tick: 0.1 };
         let (mut estimator, mut estimate) = ((mekf.make)(&context), context.start());
@@ -58,7 +56,7 @@ fn an_image_is_as_uncertain_as_the_attitude() {
                 omega_de_d: found.omega_de_d,
                 ..debris(hamilton(found.q_ed, quaternion_of(scaled(error, unit_d))))
             });
-            let square = estimator.consistency(&at, None).debris.expect("a square").value;
+            let square = 6.0 * Consistency::of(&estimator.filters(), &estimate, &at, None).squares[3][0];
             let attitude = 1.0 / (1.0 / (START * START) + 1.0 / (TRACKER[axis] * TRACKER[axis]));
             let variance = 1.0 / (1.0 / (DEBRIS * DEBRIS) + 1.0 / (attitude + CAMERA * CAMERA));
             let expected = error * error / variance;

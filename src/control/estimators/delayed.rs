@@ -11,9 +11,9 @@ use super::kalman::NormalizedSquare;
 
 /// A filter that steps from tick to tick.
 pub trait Filter: Clone {
-    /// What it is propagated by over a tick.
+    /// The input of a propagation over a tick.
     type Step: Clone + Debug;
-    /// What it is updated by.
+    /// A measurement.
     type Observation: Clone + Debug;
 
     /// Moves on by a tick.
@@ -27,7 +27,7 @@ pub trait Filter: Clone {
 /// The state at one tick.
 #[derive(Clone, Debug)]
 struct Past<F: Filter> {
-    /// What led to it; `None` at the start.
+    /// The step that led to it; `None` at the start.
     step: Option<F::Step>,
     observations: Vec<F::Observation>,
     state: F,

@@ -1,19 +1,18 @@
 //! [`Estimator`]: from measurements to an estimate; [`EstimatorKind`]: a kind of it.
 
 use super::kalman::NormalizedSquare;
-use crate::control::estimate::Estimate;
+use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::observes::Observes;
-use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{cross, dcm_from_quaternion, product, sum};
 use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene};
 
-/// What an estimator is told at a tick.
+/// The input of an estimator at a tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Update<'a> {
     /// Time since the tick before, s; 0 at the first.
     pub interval: f64,
-    /// What was delivered.
+    /// The measurements delivered at this tick.
     pub measurements: &'a [Measurement],
     /// Mean acceleration by the thrust that was commanded since the tick before, in F_s, m/s^2.
     pub acceleration_s: [f64; 3],
@@ -22,49 +21,54 @@ pub struct Update<'a> {
     pub torque_s: [f64; 3],
     /// Torques of the motors on the wheels that were commanded since the tick before, N m.
     pub motor_torques: [f64; MAX_WHEELS],
-    /// The true state, where the loop has perfect knowledge.
-    pub perfect: Option<&'a Estimate>,
+    /// The measurement of an ideal sensor of the whole state; `None` without one.
+    pub state: Option<&'a Estimate>,
 }
 
-/// How well the errors of a filter agree with its covariance: normalised squares of errors (NEES) and of the
-/// innovations of this tick; `None` where the filter does not have it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Consistency {
-    /// NEES of the attitude and, where it is estimated and known, the gyro's bias or the rate.
-    pub attitude: Option<NormalizedSquare>,
-    /// Innovation of the attitude.
-    pub attitude_innovation: Option<NormalizedSquare>,
-    /// NEES of position and velocity of the spacecraft's centre of mass.
-    pub motion: Option<NormalizedSquare>,
-    /// Innovation of them.
-    pub motion_innovation: Option<NormalizedSquare>,
-    /// NEES of position and velocity of the debris.
-    pub debris_motion: Option<NormalizedSquare>,
-    /// Innovation of them.
-    pub debris_motion_innovation: Option<NormalizedSquare>,
-    /// NEES of attitude and rate of the debris.
-    pub debris: Option<NormalizedSquare>,
-    /// Innovation of them.
-    pub debris_innovation: Option<NormalizedSquare>,
-    /// Means since the start of the normalised squares of the innovations, each over its degrees of freedom, in the
-    /// order above; `None` where nothing was measured.
-    pub mean_innovations: [Option<f64>; 4],
-    /// What the covariance says of the errors.
-    pub expected: ExpectedErrors,
+/// The filters of an estimator, by their places in [`Filters`]: those of the debris come last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilterPlace {
+    /// The attitude of the spacecraft.
+    Attitude,
+    /// Position and velocity of its centre of mass.
+    Motion,
+    /// Position and velocity of the debris.
+    DebrisMotion,
+    /// The attitude of the debris.
+    DebrisAttitude,
 }
 
-/// Root mean squares that the covariance of a filter gives to the magnitudes of its errors: the root of the sum of the
-/// variances of three components; `None` where the filter does not have it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ExpectedErrors {
-    /// Of the attitude, rad.
-    pub attitude: Option<f64>,
-    /// Of the angular velocity, rad/s.
-    pub rate: Option<f64>,
-    /// Of the position relative to the debris, m.
-    pub relative_position: Option<f64>,
-    /// Of the velocity relative to the debris, m/s.
-    pub relative_velocity: Option<f64>,
+/// The number of filters.
+pub const FILTERS: usize = 4;
+
+/// The confidence of each filter; `None` of one that there is not.
+pub type Filters = [Option<Confidence>; FILTERS];
+
+/// The belief of a filter in its own errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Confidence {
+    /// The covariance of its errors.
+    pub covariance: Covariance,
+    /// The normalised square of the innovations of this tick; `None` where nothing was measured.
+    pub innovation: Option<NormalizedSquare>,
+    /// The mean since the start of those squares, each over its degrees of freedom.
+    pub mean_innovation: Option<f64>,
+}
+
+/// The covariance of the errors of a filter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Covariance {
+    /// Attitude, rad, and gyro bias, rad/s.
+    AttitudeAndBias {
+        /// Covariance of both.
+        covariance: [[f64; 6]; 6],
+        /// The variance of the measured rate about its bias, rad^2/s^2.
+        rate_variance: f64,
+    },
+    /// Attitude, rad, and rate, rad/s.
+    AttitudeAndRate([[f64; 6]; 6]),
+    /// Position, m, and velocity, m/s, along each axis.
+    Motion([[f64; 2]; 2]),
 }
 
 /// An estimator in one run.
@@ -72,17 +76,16 @@ pub trait Estimator: Send {
     /// Moves `estimate`, that of the tick before, to this tick. Called once for each tick, in order.
     fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate);
 
-    /// How well its errors agree with its covariance, after the update of the same tick; `gyro_bias_s` is the true
-    /// bias, where there is a gyro, rad/s.
-    fn consistency(&self, _truth: &Truth, _gyro_bias_s: Option<[f64; 3]>) -> Consistency {
-        Consistency::default()
+    /// The confidence of its filters after the update of this tick.
+    fn filters(&self) -> Filters {
+        [None; FILTERS]
     }
 }
 
-/// What an estimator knows of a sensor.
+/// A sensor as an estimator knows it.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownSensor<'a> {
-    /// What it says of the state.
+    /// The part of the state that it observes.
     pub observes: Observes,
     /// Time from sample to sample, s.
     pub period: f64,
@@ -92,7 +95,7 @@ pub struct KnownSensor<'a> {
     pub parameters: &'a DeclaredTable,
 }
 
-/// What the estimator of one run is made from.
+/// The settings of an estimator in one run.
 #[derive(Clone, Copy, Debug)]
 pub struct EstimatorContext<'a> {
     /// The scene without dispersions.
@@ -142,11 +145,11 @@ pub(super) fn center_of(base: PointMotion, center: [f64; 3], q_es: [f64; 4], ome
 pub struct EstimatorKind {
     /// As in `estimator` of `[control]`.
     pub name: &'static str,
-    /// Whether it is told the true state, and reads no sensor.
+    /// True if an ideal sensor delivers the state to it.
     pub knows_the_truth: bool,
-    /// Whether it has filters, whose covariances can be compared with their errors.
+    /// True if it has filters, whose covariances can be compared with their errors.
     pub has_filter: bool,
-    /// Whether it uses what a sensor observes.
+    /// True if it uses such observations.
     pub uses: fn(&Observes) -> bool,
     /// Its keys.
     pub parameters: &'static [LawParameter],

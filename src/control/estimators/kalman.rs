@@ -12,6 +12,18 @@ pub struct NormalizedSquare {
     pub degrees: usize,
 }
 
+impl NormalizedSquare {
+    /// The sum of squares that are independent; `None` where one is.
+    pub fn sum(mut squares: impl Iterator<Item = Option<Self>>) -> Option<Self> {
+        squares.try_fold(NormalizedSquare { value: 0.0, degrees: 0 }, |sum, square| {
+            square.map(|NormalizedSquare { value, degrees }| NormalizedSquare {
+                value: sum.value + value,
+                degrees: sum.degrees + degrees,
+            })
+        })
+    }
+}
+
 /// e^T S^-1 e for the factor `l` of S.
 fn square_of<const N: usize>(l: &[[f64; N]; N], e: [f64; N]) -> NormalizedSquare {
     NormalizedSquare { value: e.iter().zip(solved(l, e)).map(|(a, b)| a * b).sum(), degrees: N }
@@ -31,7 +43,7 @@ pub struct Gain<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> Gain<N, M> {
-    /// That of a measurement with the sensitivity `h` and the covariance `r`; `p` becomes the covariance after it.
+    /// The gain of a measurement with the sensitivity `h` and the covariance `r`; `p` becomes the covariance after it.
     /// `None`, and nothing changes, where the covariance of the innovation is not positive definite: the filter is as
     /// certain of the measurement as can be.
     ///

@@ -17,17 +17,17 @@ use super::kalman::{NormalizedSquare, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use crate::control::declared::declared;
-use crate::control::estimate::Estimate;
+use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::estimators::attitude_innovation::AttitudeSensor;
 use crate::control::estimators::estimator::{
-    Consistency, Estimator, EstimatorContext, EstimatorKind, ExpectedErrors, KnownSensor, Update, center_of,
+    Confidence, Covariance, Estimator, EstimatorContext, EstimatorKind, FILTERS, FilterPlace, Filters, KnownSensor,
+    Update, center_of,
 };
 use crate::control::laws::interface::wheel_momenta;
 use crate::control::measurement::{Measurement, PointMotion, part};
 use crate::control::observes::{GyroNoise, Observes};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
-use crate::control::truth::{DebrisState, Truth};
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
 use crate::dynamics::gravity::Gravity;
 use crate::scene::schema::Limit;
@@ -47,7 +47,7 @@ const fn belief(key: &'static str, unit: &'static str, meaning: &'static str, de
 }
 
 declared! {
-    /// What the filters believe at the start, and of what they do not know.
+    /// Initial deviations and process noise of the filters.
     Beliefs = PARAMETERS {
         attitude_sigma: f64 = belief("initial_attitude_sigma_rad", "rad",
             "Initial standard deviation of the attitude, about each axis", &[0.1]);
@@ -132,7 +132,7 @@ enum Attitude {
     WithoutGyro(Delayed<RigidBodyFilter>),
 }
 
-/// What the gyro has told.
+/// The measurements of the gyro so far.
 struct GyroPropagation {
     /// The rotation since its last measurement, as predicted.
     predicted: [f64; 4],
@@ -145,20 +145,11 @@ struct GyroPropagation {
 /// The innovations of one filter.
 #[derive(Clone, Copy, Debug, Default)]
 struct InnovationSum {
-    /// Of all measurements of this tick together: squares and degrees of freedom add.
+    /// Sum over the measurements of this tick.
     of_tick: Option<NormalizedSquare>,
     /// Sum and number of the normalised squares since the start, each over its degrees of freedom.
     sum: f64,
     count: f64,
-}
-
-/// The innovations of all filters.
-#[derive(Clone, Copy, Debug, Default)]
-struct Innovations {
-    attitude: InnovationSum,
-    motion: InnovationSum,
-    debris_motion: InnovationSum,
-    debris: InnovationSum,
 }
 
 struct Mekf {
@@ -172,7 +163,7 @@ struct Mekf {
     debris_motion: Option<Delayed<TranslationFilter>>,
     debris: Option<Delayed<RigidBodyFilter>>,
     wheel_rates: [f64; MAX_WHEELS],
-    innovations: Innovations,
+    innovations: [InnovationSum; FILTERS],
 }
 
 impl Mekf {
@@ -227,7 +218,7 @@ impl Mekf {
             debris_motion,
             debris,
             wheel_rates: start.wheel_rates,
-            innovations: Innovations::default(),
+            innovations: [InnovationSum::default(); FILTERS],
         }
     }
 
@@ -253,22 +244,8 @@ impl Mekf {
         }
     }
 
-    /// What the covariances say of the errors at this tick. Spacecraft and debris are estimated by filters of their
-    /// own, whose variances add; axes of a motion are alike.
-    fn expected(&self) -> ExpectedErrors {
-        let root = |covariance: [[f64; 3]; 3]| (0..3).map(|axis| covariance[axis][axis]).sum::<f64>().sqrt();
-        let [attitude, rate] = self.covariances_at(0).map(root);
-        let relative = self.debris_motion.as_ref().map(|debris| {
-            let [own, other] = [self.motion.now().covariance, debris.now().covariance];
-            [0, 1].map(|part| (3.0 * (own[part][part] + other[part][part])).sqrt())
-        });
-        let [position, velocity] = relative.map_or([None; 2], |both| both.map(Some));
-        ExpectedErrors {
-            attitude: Some(attitude),
-            rate: Some(rate),
-            relative_position: position,
-            relative_velocity: velocity,
-        }
+    fn take_innovation(&mut self, place: FilterPlace, square: Option<NormalizedSquare>) {
+        self.innovations[place as usize].take(square);
     }
 
     /// Moves on by a tick.
@@ -318,10 +295,11 @@ impl Mekf {
                     let (q_es, omega) = self.attitude_at(age);
                     let motion = center_of(base, self.mass.center, q_es, omega);
                     let square = self.motion.update(MotionObservation { motion, sigmas }, age);
-                    self.innovations.motion.take(square);
+                    self.take_innovation(FilterPlace::Motion, square);
                 }
                 if let (Some(motion), Some(filter)) = (PointMotion::of(values, 6), &mut self.debris_motion) {
-                    self.innovations.debris_motion.take(filter.update(MotionObservation { motion, sigmas }, age));
+                    let square = filter.update(MotionObservation { motion, sigmas }, age);
+                    self.take_innovation(FilterPlace::DebrisMotion, square);
                 }
             }
             SensorModel::DebrisAttitude(sigmas) => {
@@ -339,7 +317,8 @@ impl Mekf {
                     rate_covariance: added(&in_debris(rate_covariance), &noise(of_rate)),
                 };
                 if let Some(filter) = &mut self.debris {
-                    self.innovations.debris.take(filter.update(BodyObservation::AttitudeAndRate(seen), age));
+                    let square = filter.update(BodyObservation::AttitudeAndRate(seen), age);
+                    self.take_innovation(FilterPlace::DebrisAttitude, square);
                 }
             }
             SensorModel::WheelRates => self.wheel_rates = part(values, 0),
@@ -387,18 +366,6 @@ impl InnovationSum {
     }
 }
 
-impl Innovations {
-    fn begin_tick(&mut self) {
-        for all in [&mut self.attitude, &mut self.motion, &mut self.debris_motion, &mut self.debris] {
-            all.of_tick = None;
-        }
-    }
-
-    fn means(&self) -> [Option<f64>; 4] {
-        [&self.attitude, &self.motion, &self.debris_motion, &self.debris].map(InnovationSum::mean)
-    }
-}
-
 /// The nearest number of ticks to a time.
 fn ticks(time: f64, tick: f64) -> usize {
     (time / tick).round() as usize
@@ -410,16 +377,17 @@ impl Estimator for Mekf {
             self.propagate(update);
         }
         self.time += update.interval;
-        self.innovations.begin_tick();
+        self.innovations.iter_mut().for_each(|innovations| innovations.of_tick = None);
         for measurement in update.measurements {
             if let SensorModel::Attitude(sensor) = &self.sensors[measurement.sensor] {
                 let time = self.time - measurement.age;
                 let observation = AttitudeObservation { values: measurement.values, sensor: sensor.clone(), time };
                 let age = ticks(measurement.age, self.tick);
-                self.innovations.attitude.take(match &mut self.attitude {
+                let square = match &mut self.attitude {
                     Attitude::WithGyro(filter, _) => filter.update(observation, age),
                     Attitude::WithoutGyro(filter) => filter.update(BodyObservation::Attitude(observation), age),
-                });
+                };
+                self.take_innovation(FilterPlace::Attitude, square);
             }
         }
         for measurement in update.measurements {
@@ -441,30 +409,24 @@ impl Estimator for Mekf {
         *estimate = Estimate { q_es, omega_se_s, gyro_bias_s, r_co_e, v_co_e, wheel_rates: self.wheel_rates, debris };
     }
 
-    fn consistency(&self, truth: &Truth, gyro_bias_s: Option<[f64; 3]>) -> Consistency {
-        let body = &truth.body;
-        let square = |filter: &Delayed<TranslationFilter>, r_e, v_e| -> Option<NormalizedSquare> {
-            filter.now().error_square(&PointMotion { r_e, v_e })
+    fn filters(&self) -> Filters {
+        let attitude = match &self.attitude {
+            Attitude::WithGyro(filter, turned) => {
+                Covariance::AttitudeAndBias { covariance: filter.now().covariance, rate_variance: turned.variance }
+            }
+            Attitude::WithoutGyro(filter) => Covariance::AttitudeAndRate(filter.now().covariance),
         };
-        let debris = truth.debris.as_ref();
-        Consistency {
-            attitude: match &self.attitude {
-                Attitude::WithGyro(filter, _) => filter.now().error_square(body.q_es, gyro_bias_s),
-                Attitude::WithoutGyro(filter) => filter.now().error_square(body.q_es, body.omega_se_s),
-            },
-            motion: square(&self.motion, body.r_co_e, body.v_co_e),
-            debris_motion: debris
-                .zip(self.debris_motion.as_ref())
-                .and_then(|(debris, filter)| square(filter, debris.r_gdo_e, debris.v_gdo_e)),
-            debris: debris
-                .zip(self.debris.as_ref())
-                .and_then(|(debris, filter)| filter.now().error_square(debris.q_ed, debris.omega_de_d)),
-            attitude_innovation: self.innovations.attitude.of_tick,
-            motion_innovation: self.innovations.motion.of_tick,
-            debris_motion_innovation: self.innovations.debris_motion.of_tick,
-            debris_innovation: self.innovations.debris.of_tick,
-            mean_innovations: self.innovations.means(),
-            expected: self.expected(),
-        }
+        let motion = |filter: &Delayed<TranslationFilter>| Covariance::Motion(filter.now().covariance);
+        let covariances = [
+            Some(attitude),
+            Some(motion(&self.motion)),
+            self.debris_motion.as_ref().map(motion),
+            self.debris.as_ref().map(|filter| Covariance::AttitudeAndRate(filter.now().covariance)),
+        ];
+        std::array::from_fn(|place| {
+            let InnovationSum { of_tick: innovation, .. } = self.innovations[place];
+            let mean_innovation = self.innovations[place].mean();
+            covariances[place].map(|covariance| Confidence { covariance, innovation, mean_innovation })
+        })
     }
 }

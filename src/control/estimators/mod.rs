@@ -18,7 +18,7 @@ mod raw;
 pub mod rigid_body_filter;
 pub mod translation_filter;
 
-pub use estimator::{Consistency, Estimator, EstimatorContext, EstimatorKind, ExpectedErrors, KnownSensor, Update};
+pub use estimator::{Estimator, EstimatorContext, EstimatorKind, KnownSensor, Update};
 
 /// All kinds.
 pub static KINDS: [EstimatorKind; 3] = [perfect::KIND, raw::KIND, mekf::KIND];

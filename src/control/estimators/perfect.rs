@@ -16,7 +16,7 @@ struct Perfect;
 
 impl Estimator for Perfect {
     fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate) {
-        if let Some(state) = update.perfect {
+        if let Some(state) = update.state {
             *estimate = *state;
         }
     }

@@ -25,7 +25,7 @@ pub(super) const KIND: EstimatorKind = EstimatorKind {
 struct Raw {
     /// Centre of mass from p in F_s, nominal, m.
     center: [f64; 3],
-    /// What each sensor observes, and its period, s.
+    /// Observations of each sensor, and its period, s.
     sensors: Vec<(Observes, f64)>,
     has_gyro: bool,
     time: f64,

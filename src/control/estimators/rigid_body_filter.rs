@@ -7,7 +7,7 @@
 
 use super::attitude_filter::{AttitudeObservation, normalized};
 use super::delayed::Filter;
-use super::kalman::{Gain, NormalizedSquare, blocks, halves, normalized_square, symmetric, transported};
+use super::kalman::{Gain, NormalizedSquare, blocks, halves, symmetric, transported};
 use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::small_matrix::{added, diagonal, inverse, multiplied};
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
@@ -23,7 +23,7 @@ pub struct BodyStep {
     pub interval: f64,
 }
 
-/// What is measured of a body: the attitude, and where it is seen the rate.
+/// A measurement of a body.
 #[derive(Clone, Debug)]
 pub enum BodyObservation {
     /// The attitude of the body relative to F_e, or a part of it.
@@ -72,12 +72,6 @@ impl RigidBodyFilter {
         let [a, b] = sigmas.map(|sigma| sigma * sigma);
         let covariance = diagonal([a, a, a, b, b, b]);
         RigidBodyFilter { q, omega, covariance, inertia, inverse: inverse(inertia), rate_random_walk }
-    }
-
-    /// The normalised square of the error (NEES).
-    pub fn error_square(&self, q: [f64; 4], omega: [f64; 3]) -> Option<NormalizedSquare> {
-        let ([x, y, z], [u, v, w]) = (vector_of(hamilton(conjugate(self.q), q)), difference(omega, self.omega));
-        normalized_square(&self.covariance, [x, y, z, u, v, w])
     }
 
     /// omega' at the rate `omega`.

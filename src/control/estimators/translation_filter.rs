@@ -10,7 +10,7 @@
 //! two measurements it changes it by (n t)^2, 1e-6.
 
 use super::delayed::Filter;
-use super::kalman::{Gain, NormalizedSquare, normalized_square, symmetric, transported};
+use super::kalman::{Gain, NormalizedSquare, symmetric, transported};
 use crate::control::measurement::PointMotion;
 use crate::control::small_matrix::{added, diagonal};
 use crate::control::vector::{difference, norm, scaled, sum};
@@ -72,25 +72,11 @@ impl TranslationFilter {
         let covariance = diagonal(sigmas.map(|sigma| sigma * sigma));
         TranslationFilter { motion, covariance, velocity_random_walk, gravity }
     }
-
-    /// The normalised square of the error (NEES).
-    pub fn error_square(&self, motion: &PointMotion) -> Option<NormalizedSquare> {
-        let [r, v] = errors(motion, &self.motion);
-        summed((0..3).map(|axis| normalized_square(&self.covariance, [r[axis], v[axis]])))
-    }
 }
 
 /// `a` minus `b`.
 fn errors(a: &PointMotion, b: &PointMotion) -> [[f64; 3]; 2] {
     [difference(a.r_e, b.r_e), difference(a.v_e, b.v_e)]
-}
-
-/// The sum of squares that are independent.
-fn summed(mut squares: impl Iterator<Item = Option<NormalizedSquare>>) -> Option<NormalizedSquare> {
-    squares.try_fold(NormalizedSquare { value: 0.0, degrees: 0 }, |sum, square| {
-        let square = square?;
-        Some(NormalizedSquare { value: sum.value + square.value, degrees: sum.degrees + square.degrees })
-    })
 }
 
 impl Filter for TranslationFilter {
@@ -118,7 +104,7 @@ impl Filter for TranslationFilter {
         let corrections: [[f64; 2]; 3] = std::array::from_fn(|axis| gain.correction([r[axis], v[axis]]));
         self.motion.r_e = sum(self.motion.r_e, corrections.map(|[of_position, _]| of_position));
         self.motion.v_e = sum(self.motion.v_e, corrections.map(|[_, of_velocity]| of_velocity));
-        summed((0..3).map(|axis| Some(gain.square([r[axis], v[axis]]))))
+        NormalizedSquare::sum((0..3).map(|axis| Some(gain.square([r[axis], v[axis]]))))
     }
 }
 

@@ -31,7 +31,7 @@ const MOST_VALUES: u64 = 3_000_000;
 /// Checks the code of a module that is valid.
 ///
 /// # Errors
-/// Which limit it exceeds.
+/// The limit that it exceeds.
 pub fn check(bytes: &[u8]) -> Result<()> {
     let (mut targets, mut values, mut squares, mut segments, mut passed) = (0, 0, 0, 0, 0);
     let mut types = Vec::new();
@@ -83,7 +83,7 @@ pub fn check(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// How many parameters and results a function of the type `of` has; of another type one.
+/// The number of parameters and results of a function of the type `of`; 1 for another type.
 fn passed_by(of: &SubType) -> u64 {
     match &of.composite_type.inner {
         CompositeInnerType::Func(function) => (function.params().len() + function.results().len()) as u64,

@@ -1,4 +1,4 @@
-//! What a module declares, as texts in its memory: a line each, whose parts `|` divides.
+//! Declarations of a module: texts in its memory with a line each, in parts separated by `|`.
 //!
 //! - parameters, `key | unit | default | meaning`: the default is empty where a campaign file must give the number;
 //! - sensors whose measurements it is given, `name | kind`;
@@ -57,7 +57,7 @@ fn check_key(key: &str) -> Result<(), String> {
 /// The parameters that `text` declares.
 ///
 /// # Errors
-/// What is wrong with a line; so of the functions below.
+/// The reason why a line is refused; so do the functions below.
 pub fn parameters(text: String) -> Result<&'static [LawParameter], String> {
     let mut list = Vec::new();
     for [key, unit, default, meaning] in lines(text, ["key", "unit", "default", "meaning"], MOST_PARAMETERS)? {
@@ -94,7 +94,7 @@ pub fn telemetry(text: String) -> Result<&'static [DeclaredTelemetry], String> {
     Ok(Vec::leak(list))
 }
 
-/// How keys in `unit` end: `_kg_m2` of `kg m^2`, nothing of `1`.
+/// The ending of keys in `unit`: `_kg_m2` for `kg m^2`, nothing for `1`.
 fn ending(unit: &str) -> String {
     if unit == "1" {
         return String::new();

@@ -5,9 +5,9 @@ use crate::control::laws::interface::{KnownBody, LawInput};
 use crate::control::measurement::MAX_VALUES;
 use crate::scene::MAX_WHEELS;
 
-/// How many numbers it is given.
+/// Numbers of the input.
 pub const NUMBERS: usize = 50;
-/// How many numbers it is given of a sensor: `struct spindrift_measurement`.
+/// Numbers of each sensor: `struct spindrift_measurement`.
 pub const MEASURED: usize = 1 + MAX_VALUES;
 /// The age of the measurement of a sensor that has delivered none.
 const NONE_YET: f64 = -1.0;

@@ -24,13 +24,11 @@ pub use module::{
     STEP_FUEL, WantedSensor,
 };
 
-use super::laws::interface::{LawModule, LawSettings, OwnLaw};
-
 /// The module with these bytes, whose SHA-256 is `sha256`. A process compiles each once, and keeps it for good: it has
 /// as many as its campaign files name.
 ///
 /// # Errors
-/// What is wrong with it; in a build without the feature `wasm`, how to get one with it.
+/// The reason why it is refused; in a build without the feature `wasm`, how to get one with it.
 #[cfg_attr(not(feature = "wasm"), expect(unused_variables, reason = "nothing can be done with them"))]
 pub fn kept(bytes: &[u8], sha256: &str) -> Result<&'static FlightCode, Refusal> {
     #[cfg(feature = "wasm")]
@@ -40,14 +38,4 @@ pub fn kept(bytes: &[u8], sha256: &str) -> Result<&'static FlightCode, Refusal> 
         "left out: this build of spindrift has no WebAssembly".to_owned(),
         "build one that has it: cargo build --release --features wasm".to_owned(),
     ))
-}
-
-impl LawModule for FlightCode {
-    #[cfg_attr(not(feature = "wasm"), expect(unused_variables, reason = "there is no module"))]
-    fn law(&'static self, settings: &LawSettings<'_>) -> OwnLaw {
-        #[cfg(feature = "wasm")]
-        return runtime::law(self, settings);
-        #[cfg(not(feature = "wasm"))]
-        match self.compiled {}
-    }
 }

@@ -7,7 +7,7 @@ use crate::control::laws::LawKind;
 /// The numbers of the interfaces, of which `spindrift_interface` of a module returns one. 2 has measurements and
 /// telemetry beside what 1 has.
 pub const INTERFACES: [i32; 2] = [1, 2];
-/// What phases call the law that a module is.
+/// The name of modules as laws of phases.
 pub const NAME: &str = "module";
 /// Largest file of a module, bytes.
 pub const MOST_BYTES: u64 = 4 << 20;
@@ -20,7 +20,7 @@ pub const START_FUEL: u64 = 100_000_000;
 /// Most stack of the processor that the calls of a module take, bytes: a small part of what a thread has.
 pub const MOST_STACK: usize = 256 << 10;
 
-/// What is wrong with a module, as the campaign file is told: what is allowed, and the remedy.
+/// The error of a module in messages about campaign files: the allowed values, and the remedy.
 pub type Refusal = (String, String);
 
 /// A sensor whose last measurement a module is given at each step.
@@ -37,11 +37,11 @@ pub struct WantedSensor {
 pub struct DeclaredTelemetry {
     /// Its key, which ends in its unit.
     pub key: &'static str,
-    /// The same without its unit.
+    /// The key without its unit.
     pub stem: &'static str,
     /// Its unit; `1` of a pure number.
     pub unit: &'static str,
-    /// What it is.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 
@@ -57,21 +57,12 @@ impl DeclaredTelemetry {
     }
 }
 
-/// A module that is ready to be instantiated.
-#[cfg(feature = "wasm")]
-pub(super) struct Compiled(pub(super) wasmtime::InstancePre<wasmtime::StoreLimits>);
-
-/// There is none in a build without WebAssembly.
-#[cfg(not(feature = "wasm"))]
-pub(super) type Compiled = std::convert::Infallible;
-
 /// A module that has been checked and compiled.
 pub struct FlightCode {
     pub(super) sha256: String,
     pub(super) kind: LawKind,
     pub(super) sensors: &'static [WantedSensor],
     pub(super) telemetry: &'static [DeclaredTelemetry],
-    pub(super) compiled: Compiled,
 }
 
 impl FlightCode {

@@ -1,6 +1,6 @@
 //! Modules as compiled, and their instances.
 //!
-//! What a module does is a function of what it is given: NaN have one form, nothing is imported, and fuel is counted in
+//! The output of a module is a function of its input: NaN have one form, nothing is imported, and fuel is counted in
 //! instructions. Only the depth of calls at which it traps depends on the processor ([`MOST_STACK`]). Bounds are
 //! checked by instructions, not by signals: those are the process's own.
 
@@ -8,19 +8,19 @@ use std::fmt;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use wasmtime::{
-    Config, Engine, Error, Instance, Linker, Memory, Module, Result, Store, StoreLimits, StoreLimitsBuilder, Trap,
-    TypedFunc, WasmResults, bail, format_err,
+    Config, Engine, Error, Instance, InstancePre, Linker, Memory, Module, Result, Store, StoreLimits,
+    StoreLimitsBuilder, Trap, TypedFunc, WasmResults, bail, format_err,
 };
 
 use super::input::{self, MEASURED, NUMBERS};
 use super::module::{
-    Compiled, DeclaredTelemetry, FlightCode, INTERFACES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL,
+    DeclaredTelemetry, FlightCode, INTERFACES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL,
     WantedSensor,
 };
 use super::{complexity, declared};
 use crate::control::failure::Failure;
-use crate::control::laws::interface::{KnownBody, LawInput, LawSettings, OwnLaw, PhaseLaw};
-use crate::control::laws::{AttitudeLaw, LawKind};
+use crate::control::laws::LawKind;
+use crate::control::laws::interface::{AttitudeLaw, KnownBody, LawInput, LawSettings, PhaseLaw};
 use crate::scene::LawParameter;
 
 /// Most tables of a module, and elements of each.
@@ -64,32 +64,20 @@ pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCo
         (allowed, "build it as docs/flight-code.md shows".to_owned())
     })?;
     let Declared { parameters, sensors, telemetry } = declared;
+    let make: &'static _ = Box::leak(Box::new(move |settings: &LawSettings<'_>| {
+        AttitudeLaw::new(ModuleLaw::new(compiled.clone(), &declared, settings))
+    }));
     let kind = LawKind { name: NAME, parameters, make };
-    let code = Box::leak(Box::new(FlightCode { sha256: sha256.to_owned(), kind, sensors, telemetry, compiled }));
+    let code = Box::leak(Box::new(FlightCode { sha256: sha256.to_owned(), kind, sensors, telemetry }));
     kept.push(code);
     Ok(code)
 }
 
-/// Makes the law of a phase.
-fn make(settings: &LawSettings<'_>) -> AttitudeLaw {
-    settings.code.map_or(AttitudeLaw::None, |code| AttitudeLaw::Own(code.law(settings)))
-}
+/// A module that is ready to be instantiated.
+type Compiled = InstancePre<StoreLimits>;
 
-/// The law that the module `code` is, as [`super::FlightCode`] gives it to phases.
-pub fn law(code: &'static FlightCode, settings: &LawSettings<'_>) -> OwnLaw {
-    let number =
-        |parameter: &LawParameter| settings.table.named(parameter.facts.key).map_or(f64::NAN, |found| found[0]);
-    OwnLaw::new(ModuleLaw {
-        code,
-        parameters: code.kind.parameters.iter().map(number).collect(),
-        times: [settings.period, settings.delay],
-        telemetry: Vec::new(),
-        running: None,
-        failure: None,
-    })
-}
-
-/// What a module declares.
+/// The declarations of a module.
+#[derive(Clone, Copy)]
 struct Declared {
     parameters: &'static [LawParameter],
     sensors: &'static [WantedSensor],
@@ -109,7 +97,7 @@ fn compiled(bytes: &[u8]) -> Result<(Compiled, Declared)> {
     if let Some(import) = module.imports().next() {
         bail!("it imports {} of {}: a run has nothing to give to it", import.name(), import.module());
     }
-    let compiled = Compiled(Linker::new(module.engine()).instantiate_pre(&module)?);
+    let compiled = Linker::new(module.engine()).instantiate_pre(&module)?;
     let mut running = Running::start(&compiled)?;
     let interface: i32 = running.required("spindrift_interface")?.call(&mut running.store, ())?;
     if !INTERFACES.contains(&interface) {
@@ -135,7 +123,7 @@ struct Running {
     instance: Instance,
     memory: Memory,
     step: TypedFunc<(), ()>,
-    /// Where in its memory its input and its output are, and its parameters, measurements and telemetry if it has any.
+    /// Places in its memory.
     input: usize,
     output: usize,
     parameters: Option<usize>,
@@ -148,10 +136,10 @@ impl Running {
     fn start(compiled: &Compiled) -> Result<Self> {
         let limits = StoreLimitsBuilder::new().memory_size(MOST_MEMORY).tables(MOST_TABLES);
         let limits = limits.table_elements(MOST_ELEMENTS).build();
-        let mut store = Store::new(compiled.0.module().engine(), limits);
+        let mut store = Store::new(compiled.module().engine(), limits);
         store.limiter(|limits| limits);
         store.set_fuel(START_FUEL)?;
-        let instance = compiled.0.instantiate(&mut store)?;
+        let instance = compiled.instantiate(&mut store)?;
         let memory = instance.get_memory(&mut store, "memory");
         let memory = memory.ok_or_else(|| format_err!("it does not export its memory as \"memory\""))?;
         if let Some(constructors) = function::<()>(&instance, &mut store, "_initialize")? {
@@ -269,7 +257,7 @@ impl Running {
     }
 }
 
-/// What a module is given at a step.
+/// The input of a step.
 struct Known {
     input: [u8; 8 * NUMBERS],
     measured: Vec<u8>,
@@ -297,27 +285,42 @@ fn missing(name: &str) -> Error {
 
 /// The law of a phase in a run. Its instance is made at the first tick of the phase.
 struct ModuleLaw {
-    code: &'static FlightCode,
+    compiled: Compiled,
+    declared: Declared,
     parameters: Vec<f64>,
     /// Control period and delay, s.
     times: [f64; 2],
-    /// What it has reported at its last step; empty before the first, and where that has failed.
+    /// Telemetry of its last step; empty before the first, and after one that failed.
     telemetry: Vec<f64>,
     running: Option<Running>,
     failure: Option<Failure>,
 }
 
 impl ModuleLaw {
+    fn new(compiled: Compiled, declared: &Declared, settings: &LawSettings<'_>) -> Self {
+        let number =
+            |parameter: &LawParameter| settings.table.named(parameter.facts.key).map_or(f64::NAN, |found| found[0]);
+        ModuleLaw {
+            compiled,
+            declared: *declared,
+            parameters: declared.parameters.iter().map(number).collect(),
+            times: [settings.period, settings.delay],
+            telemetry: Vec::new(),
+            running: None,
+            failure: None,
+        }
+    }
+
     fn step(&mut self, known: &Known) -> Result<[f64; OUTPUT]> {
         let running = match &mut self.running {
             Some(running) => running,
             none => {
-                let mut running = Running::start(&self.code.compiled)?;
+                let mut running = Running::start(&self.compiled)?;
                 running.prepare(&self.parameters, known)?;
                 none.insert(running)
             }
         };
-        self.telemetry.resize(self.code.telemetry.len(), f64::NAN);
+        self.telemetry.resize(self.declared.telemetry.len(), f64::NAN);
         running.step(known, &mut self.telemetry)
     }
 }
@@ -326,7 +329,7 @@ impl PhaseLaw for ModuleLaw {
     fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, elapsed: f64) -> [f64; 3] {
         let known = Known {
             input: input::bytes(body, input, elapsed, self.times),
-            measured: input::measured(self.code.sensors, input),
+            measured: input::measured(self.declared.sensors, input),
         };
         let stopped = match self.step(&known) {
             Ok(torque) => return torque,
@@ -351,10 +354,11 @@ impl PhaseLaw for ModuleLaw {
     }
 }
 
-/// The same law as it begins.
+/// The law as it begins.
 impl Clone for ModuleLaw {
     fn clone(&self) -> Self {
-        ModuleLaw { parameters: self.parameters.clone(), telemetry: Vec::new(), running: None, failure: None, ..*self }
+        let (compiled, parameters) = (self.compiled.clone(), self.parameters.clone());
+        ModuleLaw { compiled, parameters, telemetry: Vec::new(), running: None, failure: None, ..*self }
     }
 }
 

@@ -16,7 +16,7 @@ impl FlightSoftware {
     /// Commands what the law and the maneuver want.
     ///
     /// # Errors
-    /// Where the law cannot go on, or a command is no finite number: none is given.
+    /// If the law cannot go on, or a command is no finite number: none is given.
     pub fn command(&mut self, time: f64, guided: &Guided) -> Result<(), Failure> {
         let (estimate, error) = (&self.estimate, &guided.error);
         let mass = &self.believed.mass;

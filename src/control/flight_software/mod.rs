@@ -24,13 +24,12 @@ use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, OrbitMotion};
 use super::guidance::{Guidance, Progress};
-use super::laws::asked::is_law_of;
+use super::laws::callback::is_law_of;
 use super::laws::rod_law::MeasuredField;
 use super::net_launch::geometry::{Centers, LaunchGeometry, LaunchState};
 use super::spec::LoopSpec;
 use super::tick_times::TickTimes;
-use super::truth::Truth;
-use crate::control::estimators::estimator::{Consistency, Estimator, Update};
+use crate::control::estimators::estimator::{Estimator, Filters, Update};
 use crate::control::laws::AttitudeLaw;
 use crate::control::laws::interface::KnownBody;
 use crate::control::measurement::{Measurement, PointMotion, Reading, part};
@@ -54,12 +53,11 @@ fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeomet
     Some(launch.geometry(&centers))
 }
 
-/// What guidance has decided at a control tick.
+/// The decision of guidance at a control tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Guided {
-    /// How the mission goes on.
     pub progress: Progress,
-    /// Whether a phase begins with this tick.
+    /// True if a phase begins with this tick.
     pub begins: bool,
     /// The estimated attitude relative to the target.
     pub error: AttitudeError,
@@ -67,14 +65,14 @@ pub struct Guided {
     pub velocity_to_go: [f64; 3],
 }
 
-/// What was commanded since the last tick.
+/// Impulses commanded since the last tick.
 #[derive(Clone, Copy, Debug)]
 struct CommandedImpulse {
-    /// Of force, in F_s, N s.
+    /// N s, in F_s.
     force_s: [f64; 3],
-    /// Of torque on the body, in F_s, N m s.
+    /// On the body, in F_s, N m s.
     torque_s: [f64; 3],
-    /// Of the motors, N m s.
+    /// N m s, by wheel.
     motors: [f64; MAX_WHEELS],
 }
 
@@ -99,7 +97,7 @@ pub struct FlightSoftware {
     rods: Option<RodAllocation>,
     /// The magnetic field as measured.
     field: MeasuredField,
-    /// What each sensor has delivered last; empty where no law asks for it.
+    /// The last measurement of each sensor; empty if no law reads them.
     readings: Vec<Reading>,
     /// The projection onto the torques that the thrusters give in both directions.
     two_sided: [[f64; 3]; 3],
@@ -112,12 +110,11 @@ pub struct FlightSoftware {
     geometry: Option<LaunchGeometry>,
     /// Time without the target after which it is lost, s; infinite where there is no limit.
     lost_target_timeout: f64,
-    /// Whether somebody asks what was commanded.
     is_recorded: bool,
     /// From a command to its action, s.
     pub(in crate::control) delay: f64,
     pub(in crate::control) under_way: CommandsUnderWay,
-    /// What was commanded at the last control tick.
+    /// The commands of the last control tick, of a run that is recorded.
     latest: Commanded,
     commanded: CommandedImpulse,
     /// When the debris was last measured, s.
@@ -133,11 +130,10 @@ pub struct Parts {
     pub believed: Scene,
     /// The estimator.
     pub estimator: Box<dyn Estimator>,
-    /// Phases and their laws.
     pub phases: Vec<(Phase, AttitudeLaw)>,
     /// The launch state.
     pub launch: LaunchState,
-    /// How each thruster is driven.
+    /// By thruster.
     pub thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
     /// Time without the target after which it is lost, s.
     pub lost_target_timeout: f64,
@@ -145,12 +141,12 @@ pub struct Parts {
     pub delay: f64,
     /// The nominal state at the start.
     pub start: Estimate,
-    /// Whether the run is recorded ([`FlightSoftware::latest_commands`]).
+    /// True if the run is recorded ([`FlightSoftware::latest_commands`]).
     pub is_recorded: bool,
 }
 
 impl FlightSoftware {
-    /// That of the loop `spec`.
+    /// Flight software of the loop `spec`.
     pub fn new(spec: &Arc<LoopSpec>, parts: Parts) -> Self {
         let Parts { believed, estimator, phases, launch, start, .. } = parts;
         let (phases, laws): (Vec<Phase>, Vec<AttitudeLaw>) = phases.into_iter().unzip();
@@ -215,11 +211,11 @@ impl FlightSoftware {
             acceleration_s: scaled(1.0 / self.believed.mass.total, mean(self.commanded.force_s)),
             torque_s: mean(self.commanded.torque_s),
             motor_torques,
-            perfect: measurements.perfect,
+            state: measurements.state,
         };
         self.estimator.update(&update, &mut self.estimate);
         self.last_update = measurements.time;
-        if measurements.perfect.is_none() {
+        if measurements.state.is_none() {
             self.commanded = NO_IMPULSE;
         }
     }
@@ -235,7 +231,7 @@ impl FlightSoftware {
 
     /// Notes when the debris was seen: where there is a camera, it has to see it; elsewhere the radar.
     fn note_debris(&mut self, measurements: &Measurements<'_>) {
-        if measurements.perfect.is_some() {
+        if measurements.state.is_some() {
             self.debris_seen = measurements.time;
         }
         for measurement in measurements.delivered {
@@ -275,7 +271,7 @@ impl FlightSoftware {
         Guided { progress, begins, error, velocity_to_go }
     }
 
-    /// What flight software sees at a control tick that ends the mission; before [`FlightSoftware::guide`].
+    /// The failure that flight software detects at a control tick; before [`FlightSoftware::guide`].
     pub fn failure(&mut self, time: f64) -> Option<Failure> {
         if self.spec.has_debris {
             self.geometry = geometry_of(&self.launch, &self.estimate);
@@ -290,8 +286,7 @@ impl FlightSoftware {
         (self.spec.has_debris && is_lost).then_some(Failure::LostTarget)
     }
 
-    /// What the conditions of phases can ask for, where the attitude relative to the target and the velocity to go are
-    /// these.
+    /// The quantities of conditions, with this attitude relative to the target and this velocity to go.
     fn guidance_input(&self, time: f64, error: AttitudeError, velocity_to_go: [f64; 3]) -> GuidanceInput {
         let (estimate, ticks) = (&self.estimate, &self.ticks);
         let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
@@ -327,7 +322,7 @@ impl FlightSoftware {
         &self.estimate
     }
 
-    /// Which phase the run is in.
+    /// The state of guidance.
     pub fn guidance(&self) -> &Guidance {
         &self.guidance
     }
@@ -342,19 +337,18 @@ impl FlightSoftware {
         self.field.field_s
     }
 
-    /// What was commanded at the last control tick, of a run that is recorded.
+    /// The commands of the last control tick, of a run that is recorded.
     pub fn latest_commands(&self) -> Commanded {
         self.latest
     }
 
-    /// What the law of the phase has reported when it was last asked.
+    /// Telemetry of the law of the phase at its last tick.
     pub fn telemetry(&self) -> &[f64] {
         self.law.telemetry()
     }
 
-    /// How the errors of the filters compare with their covariances, by the truth: flight software is judged by it, and
-    /// does not keep it.
-    pub fn consistency(&self, truth: &Truth, gyro_bias_s: Option<[f64; 3]>) -> Consistency {
-        self.estimator.consistency(truth, gyro_bias_s)
+    /// The confidence of the filters.
+    pub fn filters(&self) -> Filters {
+        self.estimator.filters()
     }
 }

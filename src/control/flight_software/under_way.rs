@@ -9,9 +9,9 @@ use crate::scene::MAX_WHEELS;
 #[derive(Clone, Debug)]
 pub struct CommandsUnderWay {
     pub(super) motors: DelayQueue<MotorCommand>,
-    /// Nothing is pushed in a loop without thrusters.
+    /// Stays empty in a loop without thrusters.
     pub(in crate::control) thrust: DelayQueue<Pulses>,
-    /// Nothing is pushed in a loop without torque rods.
+    /// Stays empty in a loop without torque rods.
     pub(super) rods: DelayQueue<RodCommand>,
 }
 

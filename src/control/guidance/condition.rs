@@ -1,11 +1,11 @@
-//! [`GuidanceInput`]: what guidance knows at a tick, and the quantities by which its conditions ask for it.
+//! [`GuidanceInput`]: the input of guidance at a tick, and the quantities of conditions.
 
 use super::target::AttitudeError;
 use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::vector::norm;
 use crate::sampling::expression::Expression;
 
-/// What guidance knows at a tick: of the estimate, never of the truth.
+/// The input of guidance at a tick, from the estimate.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceInput {
     /// Time since the start of the run, s.
@@ -51,11 +51,11 @@ pub enum QuantityRange {
 pub struct GuidanceQuantity {
     /// Its name, unit last.
     pub name: &'static str,
-    /// What it is.
+    /// Its meaning.
     pub meaning: &'static str,
-    /// Whether the scene must have debris.
+    /// True if the scene must have debris.
     pub needs_debris: bool,
-    /// Which numbers it can have.
+    /// Its range.
     pub range: QuantityRange,
     value: fn(&GuidanceInput) -> f64,
 }
@@ -133,7 +133,7 @@ impl Condition {
     /// Reads `text`, of a scene with debris or without.
     ///
     /// # Errors
-    /// What it must be, to follow "must be".
+    /// The allowed text, to follow "must be".
     pub fn parse(text: &str, has_debris: bool) -> Result<Self, String> {
         let expression = Expression::parse(text)?;
         let is_there = |quantity: &GuidanceQuantity| has_debris || !quantity.needs_debris;
@@ -151,7 +151,7 @@ impl Condition {
         Ok(Condition { text: text.to_owned(), expression, quantities })
     }
 
-    /// Whether it has the quantity called `name`.
+    /// True if it has the quantity called `name`.
     pub fn asks_for(&self, name: &str) -> bool {
         self.quantities.iter().any(|quantity| QUANTITIES[*quantity].name == name)
     }
@@ -167,7 +167,7 @@ impl Condition {
         })
     }
 
-    /// Whether it is met. A value that is not known (NaN) meets no condition.
+    /// True if it is met. An unknown value (NaN) meets no condition.
     pub fn is_met(&self, input: &GuidanceInput) -> bool {
         let value = self.expression.value(|variable| (QUANTITIES[self.quantities[variable]].value)(input));
         value != 0.0 && !value.is_nan()

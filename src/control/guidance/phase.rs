@@ -5,10 +5,10 @@ use super::target::Target;
 use crate::control::laws::MomentumUnloading;
 use crate::control::laws::rod_law::RodLaw;
 
-/// What thrust along s3 is for.
+/// The use of thrust along s3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Maneuver {
-    /// Nothing.
+    /// None.
     None,
     /// The first impulse of a transfer to the station.
     Transfer,
@@ -20,10 +20,10 @@ pub enum Maneuver {
 pub const MANEUVERS: [(&str, Maneuver); 3] =
     [("none", Maneuver::None), ("transfer", Maneuver::Transfer), ("stop", Maneuver::Stop)];
 
-/// What follows a phase.
+/// The phase that follows another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// Nothing: it lasts until the run ends.
+    /// None: the phase lasts until the run ends.
     Stay,
     /// Another phase, by its place in the list.
     Phase(usize),
@@ -31,28 +31,28 @@ pub enum Next {
     Launch,
 }
 
-/// One phase.
+/// A phase.
 #[derive(Clone, Debug)]
 pub struct Phase {
     /// The condition that ends it.
     pub until: Option<Condition>,
-    /// What follows then.
+    /// The phase that follows then.
     pub next: Next,
-    /// What follows at once where the condition is not met.
+    /// The phase that follows at once if the condition is not met.
     pub otherwise: Option<usize>,
-    /// How long the condition must be met, s.
+    /// Time for which the condition must be met, s.
     pub hold: f64,
     /// After which the mission fails, s; infinite without.
     pub timeout: f64,
     /// The attitude.
     pub target: Target,
-    /// What thrust is for.
+    /// The use of thrust.
     pub thrust: Maneuver,
     /// Time of a transfer that begins in this phase, s.
     pub transfer_time: f64,
-    /// How thrusters unload the wheels; `None` where they do not.
+    /// Unloading of the wheels by thrusters, if any.
     pub unloading: Option<MomentumUnloading>,
-    /// What torque rods do.
+    /// The law of torque rods.
     pub rods: RodLaw,
 }
 

@@ -19,7 +19,7 @@ pub const LIMIT: LawParameter = LawParameter::number(
     Limit::NotNegative,
 )
 .or(&[0.0]);
-/// The same, where the error is a rate.
+/// The key of its limit, where the error is a rate.
 pub const RATE_LIMIT: LawParameter = LawParameter::number(
     "integral_limit_rad_s",
     "rad/s",

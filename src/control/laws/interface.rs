@@ -1,29 +1,35 @@
-//! Between a loop and its laws: what a law is made from ([`LawSettings`]), what it knows ([`KnownBody`]) and is told at
-//! a tick ([`LawInput`]), and what the law of a program is ([`PhaseLaw`]).
+//! Between a loop and its laws: a kind of law ([`LawKind`]), a law ([`PhaseLaw`], [`AttitudeLaw`]), its settings
+//! ([`LawSettings`]), the spacecraft that it knows ([`KnownBody`]) and its input at a tick ([`LawInput`]).
 
 use std::fmt;
+use std::ops::{Deref, DerefMut};
 
 use crate::control::estimate::Estimate;
 use crate::control::failure::Failure;
 use crate::control::sensor_spec::Readings;
 use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::sampling::SampleId;
-use crate::scene::{DeclaredTable, MassProperties, WheelMode};
+use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
 
-/// A law of attitude that a program brings, in a run. It is made for each phase that names it, and begins anew with the
-/// phase.
+/// A law of attitude in a run. Each phase that names it has one, which begins anew with the phase.
 pub trait PhaseLaw {
     /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the
     /// phase).
     fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3];
 
-    /// Why it cannot go on, where its torque is no finite number; `None`: that itself is the reason.
+    /// The law with `share` of its gains, and these as a campaign file has them; `None` of a law that keeps its gains
+    /// to itself.
+    fn weaker(&self, _share: f64) -> Option<(AttitudeLaw, String)> {
+        None
+    }
+
+    /// Why it cannot go on, if its torque is no finite number; `None`: that itself is the reason.
     fn failure(&self) -> Option<Failure> {
         None
     }
 
-    /// What it has reported at its last tick, by the columns of the loop
-    /// ([`crate::control::flight_code::FlightCode::telemetry`]); NaN where a value is no finite number.
+    /// The numbers of its last tick for the columns of the loop
+    /// ([`crate::control::flight_code::FlightCode::telemetry`]); NaN for a value that is no finite number.
     fn telemetry(&self) -> &[f64] {
         &[]
     }
@@ -32,53 +38,127 @@ pub trait PhaseLaw {
 /// A [`PhaseLaw`] that can be copied without knowing its type.
 trait ClonedLaw: PhaseLaw + fmt::Debug + Send {
     fn cloned(&self) -> Box<dyn ClonedLaw>;
+    fn as_law(&self) -> &(dyn PhaseLaw + 'static);
+    fn as_law_mut(&mut self) -> &mut (dyn PhaseLaw + 'static);
 }
 
 impl<L: PhaseLaw + Clone + fmt::Debug + Send + 'static> ClonedLaw for L {
     fn cloned(&self) -> Box<dyn ClonedLaw> {
         Box::new(self.clone())
     }
+
+    fn as_law(&self) -> &(dyn PhaseLaw + 'static) {
+        self
+    }
+
+    fn as_law_mut(&mut self) -> &mut (dyn PhaseLaw + 'static) {
+        self
+    }
 }
 
-/// The law of a program in a run.
+/// Any law of attitude in a run, with its memory.
 #[derive(Debug)]
-pub struct OwnLaw(Box<dyn ClonedLaw>);
+pub struct AttitudeLaw(Box<dyn ClonedLaw>);
 
-impl OwnLaw {
+impl AttitudeLaw {
     /// The law `law`.
     pub fn new(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
-        OwnLaw(Box::new(law))
-    }
-
-    /// The law itself.
-    pub(super) fn law(&self) -> &dyn PhaseLaw {
-        &*self.0
-    }
-
-    /// The same, to ask it.
-    pub(super) fn law_mut(&mut self) -> &mut dyn PhaseLaw {
-        &mut *self.0
+        AttitudeLaw(Box::new(law))
     }
 }
 
-impl Clone for OwnLaw {
+impl Clone for AttitudeLaw {
     fn clone(&self) -> Self {
-        OwnLaw(self.0.cloned())
+        AttitudeLaw(self.0.cloned())
     }
 }
 
-/// A module that is the law of the phases that name it.
-pub trait LawModule: fmt::Debug + Sync {
-    /// The law of a phase.
-    fn law(&'static self, settings: &LawSettings<'_>) -> OwnLaw;
+impl Deref for AttitudeLaw {
+    type Target = dyn PhaseLaw;
+
+    fn deref(&self) -> &(dyn PhaseLaw + 'static) {
+        self.0.as_law()
+    }
 }
 
-/// What the law of a phase is made from.
+impl DerefMut for AttitudeLaw {
+    fn deref_mut(&mut self) -> &mut (dyn PhaseLaw + 'static) {
+        self.0.as_law_mut()
+    }
+}
+
+/// A law of attitude that a campaign can name: built in, a WebAssembly module, a function of Python
+/// ([`super::callback`]), or a static of your program, which its session brings
+/// ([`crate::workflow::session::Session::with_attitude_law`]). Phases of `[[guidance]]` name all of them alike.
+///
+/// ```
+/// use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
+/// use spindrift::scene::LawParameter;
+/// use spindrift::scene::schema::Limit;
+///
+/// /// u = -c omega.
+/// #[derive(Clone, Debug)]
+/// struct Brake {
+///     gain: f64,
+/// }
+///
+/// impl PhaseLaw for Brake {
+///     fn torque(&mut self, _body: &KnownBody, input: &LawInput<'_>, _period: f64) -> [f64; 3] {
+///         input.omega_se_s.map(|rate| -self.gain * rate)
+///     }
+/// }
+///
+/// static PARAMETERS: [LawParameter; 1] =
+///     [LawParameter::number("brake_n_m_s", "N m s", "Torque over rate", Limit::Positive)];
+/// static BRAKE: LawKind = LawKind {
+///     name: "brake",
+///     parameters: &PARAMETERS,
+///     make: &|settings: &LawSettings<'_>| {
+///         let gain = settings.table.named("brake_n_m_s").map_or(0.0, |numbers| numbers[0]);
+///         AttitudeLaw::new(Brake { gain })
+///     },
+/// };
+/// assert_eq!(BRAKE.name, "brake");
+/// ```
+#[derive(Clone, Copy)]
+pub struct LawKind {
+    /// Its name, as in `kind` of a campaign file.
+    pub name: &'static str,
+    /// The keys of its table.
+    pub parameters: &'static [LawParameter],
+    /// Makes the law of a run.
+    pub make: &'static (dyn Fn(&LawSettings<'_>) -> AttitudeLaw + Send + Sync),
+}
+
+impl fmt::Debug for LawKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("LawKind").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+/// Laws of one name are one law.
+impl PartialEq for LawKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// No torque: the law of a phase that names none.
+#[derive(Clone, Copy, Debug)]
+pub struct NoTorque;
+
+impl PhaseLaw for NoTorque {
+    fn torque(&mut self, _body: &KnownBody, _input: &LawInput<'_>, _period: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+}
+
+/// The settings of the law of a phase.
 #[derive(Clone, Copy, Debug)]
 pub struct LawSettings<'a> {
     /// Its numbers.
     pub table: &'a DeclaredTable,
-    /// Whether `mrp_feedback` has omega x H.
+    /// True if `mrp_feedback` has omega x H.
     pub gyroscopic: bool,
     /// The control period, s.
     pub period: f64,
@@ -86,8 +166,6 @@ pub struct LawSettings<'a> {
     pub delay: f64,
     /// The run.
     pub sample: SampleId,
-    /// The module of the loop, if it has one.
-    pub code: Option<&'static dyn LawModule>,
 }
 
 /// A number with four significant digits.
@@ -95,7 +173,7 @@ pub(in crate::control) fn digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// What a law of attitude knows at a tick. F_t is the target's frame: the attitude that F_s is to have.
+/// The input of a law of attitude at a tick. F_t is the frame of the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawInput<'a> {
     /// Attitude quaternion F_s -> F_t, scalar first, of either sign.
@@ -110,9 +188,9 @@ pub struct LawInput<'a> {
     pub momentum_s: [f64; 3],
     /// Time since the start of the run, s.
     pub time: f64,
-    /// All that is estimated; `None` where a law is tried without a loop.
+    /// All that is estimated; `None` without a loop.
     pub estimate: Option<&'a Estimate>,
-    /// What the sensors have delivered last; none where no law of the loop asks for it ([`super::asked`],
+    /// The last measurement of each sensor, in a loop whose law reads them ([`super::callback`],
     /// [`crate::control::flight_code`]).
     pub readings: Readings<'a>,
 }
@@ -156,7 +234,6 @@ pub struct KnownBody {
 }
 
 impl KnownBody {
-    /// Those of `mass`.
     pub fn of(mass: &MassProperties) -> Self {
         KnownBody { inertia: mass.inertia_rotating() }
     }
@@ -168,9 +245,9 @@ impl KnownBody {
     }
 }
 
-/// What the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the body and the
-/// rates `rates` of the wheels, rad/s: h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i of one whose
-/// speed is held, because K has the rest of it.
+/// The momenta that the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the
+/// body and the rates `rates` of the wheels, rad/s: h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i
+/// of one whose speed is held, because K has the rest of it.
 pub fn wheel_momenta<'a>(
     mass: &'a MassProperties,
     omega: [f64; 3],

@@ -4,7 +4,7 @@
 //! H x omega + u, with K = J* where free wheels are driven by motors, H the angular momentum with the wheels, and u the
 //! torque on the body, F_s.
 
-pub mod asked;
+pub mod callback;
 mod eigenaxis;
 mod integral;
 pub mod interface;
@@ -22,169 +22,10 @@ pub use mrp_feedback::MrpFeedback;
 pub use quaternion_feedback::QuaternionFeedback;
 pub use rate_damping::RateDamping;
 
-pub use interface::{KnownBody, LawInput, LawModule, LawSettings, OwnLaw, PhaseLaw, wheel_momenta};
-
-use std::fmt;
-
-use crate::control::failure::Failure;
-use crate::scene::LawParameter;
+pub use interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, wheel_momenta};
 
 /// The laws of attitude that a campaign can name.
-pub static KINDS: &[LawKind] = &[
-    LawKind {
-        name: rate_damping::NAME,
-        parameters: &rate_damping::PARAMETERS,
-        make: |settings| AttitudeLaw::RateDamping(RateDamping::of(settings)),
-    },
-    LawKind {
-        name: quaternion_feedback::NAME,
-        parameters: &quaternion_feedback::PARAMETERS,
-        make: |settings| AttitudeLaw::QuaternionFeedback(QuaternionFeedback::of(settings)),
-    },
-    LawKind {
-        name: mrp_feedback::NAME,
-        parameters: &mrp_feedback::PARAMETERS,
-        make: |settings| AttitudeLaw::MrpFeedback(MrpFeedback::of(settings)),
-    },
-    LawKind {
-        name: eigenaxis::NAME,
-        parameters: &eigenaxis::PARAMETERS,
-        make: |settings| AttitudeLaw::Eigenaxis(Eigenaxis::of(settings)),
-    },
-];
-
-/// A law of attitude that a campaign can name. Your own one is a static of your program, which its session brings
-/// ([`crate::workflow::session::Session::with_attitude_law`]): phases of `[[guidance]]` then name it as they do the
-/// others.
-///
-/// ```
-/// use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
-/// use spindrift::scene::LawParameter;
-/// use spindrift::scene::schema::Limit;
-///
-/// /// u = -c omega.
-/// #[derive(Clone, Debug)]
-/// struct Brake {
-///     gain: f64,
-/// }
-///
-/// impl PhaseLaw for Brake {
-///     fn torque(&mut self, _body: &KnownBody, input: &LawInput<'_>, _period: f64) -> [f64; 3] {
-///         input.omega_se_s.map(|rate| -self.gain * rate)
-///     }
-/// }
-///
-/// static PARAMETERS: [LawParameter; 1] =
-///     [LawParameter::number("brake_n_m_s", "N m s", "Torque over rate", Limit::Positive)];
-/// static BRAKE: LawKind = LawKind {
-///     name: "brake",
-///     parameters: &PARAMETERS,
-///     make: |settings: &LawSettings<'_>| {
-///         let gain = settings.table.named("brake_n_m_s").map_or(0.0, |numbers| numbers[0]);
-///         AttitudeLaw::own(Brake { gain })
-///     },
-/// };
-/// assert_eq!(BRAKE.name, "brake");
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct LawKind {
-    /// Its name, as in `kind` of a campaign file.
-    pub name: &'static str,
-    /// The keys of its table.
-    pub parameters: &'static [LawParameter],
-    /// Makes the law of a run.
-    pub make: fn(&LawSettings<'_>) -> AttitudeLaw,
-}
-
-/// Laws of one name are one law.
-impl PartialEq for LawKind {
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
-    }
-}
-
-/// A law of attitude in a run, with what it remembers.
-#[expect(clippy::large_enum_variant, reason = "a run has one for each phase, and a box would be allocated")]
-#[derive(Clone, Debug)]
-pub enum AttitudeLaw {
-    /// No torque.
-    None,
-    /// Against the rate.
-    RateDamping(RateDamping),
-    /// From quaternion and rate.
-    QuaternionFeedback(QuaternionFeedback),
-    /// From MRP, rate and an integral.
-    MrpFeedback(MrpFeedback),
-    /// A slew about one axis.
-    Eigenaxis(Eigenaxis),
-    /// One that the program brings.
-    Own(OwnLaw),
-}
-
-impl AttitudeLaw {
-    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first).
-    pub fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {
-        match self {
-            AttitudeLaw::None => [0.0; 3],
-            AttitudeLaw::RateDamping(law) => law.torque(input, period),
-            AttitudeLaw::QuaternionFeedback(law) => law.torque(body, input, period),
-            AttitudeLaw::MrpFeedback(law) => law.torque(body, input, period),
-            AttitudeLaw::Eigenaxis(law) => law.torque(body, input, period),
-            AttitudeLaw::Own(law) => law.law_mut().torque(body, input, period),
-        }
-    }
-
-    /// The law with `share` of its gains, and these as a campaign file has them; `None` of one whose gains are its own
-    /// matter, or that has none at its target: under a limit of the torque a slew brakes on a curve.
-    pub fn weaker(&self, share: f64) -> Option<(Self, String)> {
-        let mut law = self.clone();
-        let gains = match &mut law {
-            AttitudeLaw::RateDamping(law) => {
-                law.gain *= share;
-                format!("gain_n_m_s = {}", interface::digits(law.gain))
-            }
-            AttitudeLaw::MrpFeedback(law) => {
-                (law.stiffness, law.damping) = (share * law.stiffness, share * law.damping);
-                format!(
-                    "stiffness_n_m = {}, damping_n_m_s = {}",
-                    interface::digits(law.stiffness),
-                    interface::digits(law.damping)
-                )
-            }
-            AttitudeLaw::QuaternionFeedback(law) => {
-                law.bandwidth *= share;
-                format!("bandwidth_rad_s = {}", interface::digits(law.bandwidth))
-            }
-            AttitudeLaw::Eigenaxis(law) if law.largest_torque == f64::INFINITY => {
-                (law.stiffness, law.damping) = (share * share * law.stiffness, share * law.damping);
-                format!("bandwidth_rad_s = {}", interface::digits((0.5 * law.stiffness).sqrt()))
-            }
-            AttitudeLaw::None | AttitudeLaw::Eigenaxis(_) | AttitudeLaw::Own(_) => return None,
-        };
-        Some((law, gains))
-    }
-
-    /// Why the law cannot go on, where its torque is no finite number and that is not the reason itself.
-    pub fn failure(&self) -> Option<Failure> {
-        match self {
-            AttitudeLaw::Own(law) => law.law().failure(),
-            _ => None,
-        }
-    }
-
-    /// What the law has reported at its last tick; nothing, but for modules.
-    pub fn telemetry(&self) -> &[f64] {
-        match self {
-            AttitudeLaw::Own(law) => law.law().telemetry(),
-            _ => &[],
-        }
-    }
-
-    /// The law `law` of a program.
-    pub fn own(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
-        AttitudeLaw::Own(OwnLaw::new(law))
-    }
-}
+pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
 
 #[cfg(test)]
 pub(super) mod plant {
@@ -253,28 +94,31 @@ mod tests {
     use crate::scene::DeclaredTable;
     use crate::scene::{Name, Scene, SceneInput};
 
-    /// Law: every law of the list is made from its table, has units and names of its own, and takes energy out of a
-    /// body that turns at its target.
+    /// The law of `kind` with the numbers `number` gives to its keys, or their defaults.
+    fn law_of(kind: &LawKind, period: f64, number: impl Fn(&str) -> Option<f64>) -> AttitudeLaw {
+        let mut table = DeclaredTable::of(Name::NONE, kind.parameters);
+        for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
+            let default = parameter.default.map(|default| default[0]);
+            *value = number(parameter.facts.key).or(default).expect(parameter.facts.key);
+        }
+        (kind.make)(&LawSettings { table: &table, gyroscopic: false, period, delay: 0.0, sample: SampleId(0) })
+    }
+
+    /// Law: every law has a name of its own, and its torque is that of the attitude, whichever sign its quaternion has:
+    /// the target is reached by the shorter way.
     #[test]
-    fn every_law_is_made_and_damps() {
-        let body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.02, -0.01, 0.03] };
-        let craft = KnownBody { inertia: body.matrix() };
+    fn the_shorter_way_is_taken() {
+        let craft = KnownBody { inertia: [[2.0, 0.1, 0.0], [0.1, 3.0, 0.0], [0.0, 0.0, 4.0]] };
         for (index, kind) in KINDS.iter().enumerate() {
             assert!(KINDS[..index].iter().all(|other| other.name != kind.name));
-            let mut table = DeclaredTable::of(Name::NONE, kind.parameters);
-            for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
-                *value = parameter.default.map_or(0.5, |default| default[0]);
-            }
-            let mut law = (kind.make)(&LawSettings {
-                table: &table,
-                gyroscopic: false,
-                period: 0.1,
-                delay: 0.0,
-                sample: SampleId(0),
-                code: None,
+            let mut law = law_of(kind, 0.1, |key| {
+                ["bandwidth", "damping", "stiffness", "gain"].iter().any(|start| key.starts_with(start)).then_some(0.5)
             });
-            let torque = law.torque(&craft, &body.input(), 0.1);
-            assert!(crate::control::vector::dot(torque, body.omega) < -1e-6, "{}: {torque:?}", kind.name);
+            let mut at_rest = |q_ts: [f64; 4]| law.torque(&craft, &LawInput { q_ts, ..LawInput::AT_TARGET }, 0.0);
+            let q = quaternion_of([0.2, -0.4, 0.1]);
+            assert_eq!(at_rest(q), at_rest(q.map(|x| -x)), "{}", kind.name);
+            let four_radians = at_rest(quaternion_of([0.0, 0.0, 4.0]))[2];
+            assert!(kind.name == "rate_damping" || four_radians > 0.0, "four radians back are two forth");
         }
     }
 
@@ -283,9 +127,9 @@ mod tests {
     #[test]
     fn a_target_that_turns_is_followed() {
         let laws = [
-            AttitudeLaw::QuaternionFeedback(QuaternionFeedback::new(0.4, 0.9)),
-            AttitudeLaw::Eigenaxis(Eigenaxis::new(0.3, 0.7)),
-            AttitudeLaw::MrpFeedback(MrpFeedback::new(20.0, 25.0)),
+            AttitudeLaw::new(QuaternionFeedback::new(0.4, 0.9)),
+            AttitudeLaw::new(Eigenaxis::new(0.3, 0.7)),
+            AttitudeLaw::new(MrpFeedback::new(20.0, 25.0)),
         ];
         let follow = |mut law: AttitudeLaw, period: f64, is_told: bool| {
             let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
@@ -321,24 +165,13 @@ mod tests {
     fn the_integral_of_every_law_removes_the_offset() {
         for kind in KINDS {
             let left = |gain: f64, limit: f64| {
-                let mut table = DeclaredTable::of(Name::NONE, kind.parameters);
-                for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
-                    *value = match (parameter.facts.key, parameter.default) {
-                        (key, _) if key.starts_with("integral_limit") => limit,
-                        (key, _) if key.starts_with("integral_1") => gain,
-                        ("bandwidth_rad_s", _) => 0.2,
-                        ("damping", _) => 0.9,
-                        (_, Some(default)) => default[0],
-                        (_, None) => 5.0,
-                    };
-                }
-                let mut law = (kind.make)(&LawSettings {
-                    table: &table,
-                    gyroscopic: false,
-                    period: 0.2,
-                    delay: 0.0,
-                    sample: SampleId(0),
-                    code: None,
+                let mut law = law_of(kind, 0.2, |key| match key {
+                    _ if key.starts_with("integral_limit") => Some(limit),
+                    _ if key.starts_with("integral_1") => Some(gain),
+                    "bandwidth_rad_s" => Some(0.2),
+                    "damping" => Some(0.9),
+                    "gain_n_m_s" | "stiffness_n_m" | "damping_n_m_s" => Some(5.0),
+                    _ => None,
                 });
                 let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
                 let craft = KnownBody { inertia: body.matrix() };

@@ -7,7 +7,7 @@ use crate::control::vector::{cross, difference, dot, scaled};
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// What torque rods are for in a phase.
+/// The use of torque rods in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodUse {
     /// Nothing.
@@ -23,7 +23,7 @@ pub const ROD_USES: [(&str, RodUse); 3] =
     [("none", RodUse::None), ("b_dot", RodUse::BDot), ("unloading", RodUse::Unloading)];
 
 declared! {
-    /// Of a phase with B-dot.
+    /// Numbers of a phase with B-dot.
     BDotNumbers = B_DOT {
         gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T",
             "Dipole opposing a change in the field of 1 T/s", Limit::Positive);
@@ -31,7 +31,7 @@ declared! {
 }
 
 declared! {
-    /// Of a phase in which rods unload wheels.
+    /// Numbers of a phase in which rods unload wheels.
     RodUnloadingNumbers = ROD_UNLOADING {
         time: f64 = LawParameter::number(
             "rod_unloading_time_s",
@@ -53,7 +53,7 @@ impl RodUse {
     }
 }
 
-/// What torque rods do in a phase of a run.
+/// The law of torque rods in a phase of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RodLaw {
     /// Nothing.
@@ -74,7 +74,7 @@ pub enum RodLaw {
 }
 
 impl RodLaw {
-    /// That of `of` with the numbers of `table`.
+    /// The law of `of` with the numbers of `table`.
     pub fn new(of: RodUse, table: &DeclaredTable) -> Self {
         match of {
             RodUse::None => RodLaw::None,
@@ -83,7 +83,7 @@ impl RodLaw {
         }
     }
 
-    /// Whether wheels take up its torque: that on the body is to be what its law wants.
+    /// True if wheels make up for its torque, so that the body gets the torque of its attitude law.
     pub fn unloads(&self) -> bool {
         matches!(self, RodLaw::Unloading { .. })
     }
@@ -118,7 +118,7 @@ pub struct MeasuredField {
 }
 
 impl MeasuredField {
-    /// Nothing was measured.
+    /// Before the first measurement.
     pub const NONE: MeasuredField = MeasuredField { field_s: [0.0; 3], time: f64::NAN, change: ([0.0; 3], 0.0) };
 
     /// Takes the field `field_s` measured at `time`, s, after the others.
@@ -133,76 +133,5 @@ impl MeasuredField {
     pub fn rate_s(&self) -> [f64; 3] {
         let (change, interval) = self.change;
         if interval > 0.0 { scaled(1.0 / interval, change) } else { [0.0; 3] }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::control::vector::{norm, sum};
-
-    /// Law: B-dot takes energy out of a turning body, omega . (m x B) = -k |B x omega|^2 to first order in the
-    /// interval; a single measurement is no rate.
-    #[test]
-    fn b_dot_brakes() {
-        let (omega, field) = ([0.02, -0.03, 0.01], [2e-5, -1e-5, 3e-5]);
-        let law = RodLaw::BDot { gain: 4e4 };
-        let mut measured = MeasuredField::NONE;
-        measured.take(1.0, field);
-        assert_eq!(law.dipole(&measured, [1.0; 3]), [0.0; 3]);
-        // dB/dt = B x omega in the body
-        measured.take(1.5, sum(field, scaled(0.5, cross(field, omega))));
-        let torque = cross(law.dipole(&measured, [1.0; 3]), field);
-        let across = cross(field, omega);
-        let (power, expected) = (dot(omega, torque), -4e4 * dot(across, across));
-        assert!((power / expected - 1.0).abs() < 1e-9, "{power} {expected}");
-    }
-
-    /// Law: the mean power of B-dot is that of its lag, -4 k |B|^2/(T_m T_h) sin(omega T_m/2) sin(omega T_h/2)
-    /// cos(omega L): below zero at omega L < pi/2, above it up to 3 pi/2. The field is across the axis; a turn is a
-    /// whole number of dipoles.
-    #[test]
-    fn a_late_dipole_speeds_the_body_up() {
-        let (gain, size, period) = (4e4, 3e-5, 5.0);
-        let field = |angle: f64| [size * angle.cos(), -size * angle.sin(), 0.0];
-        // several measurements within a dipole, or the other way round; and a delay
-        for (measured, held, late) in [(5.0, 5.0, 0.0), (1.0, 5.0, 0.0), (5.0, 5.0, 2.0), (10.0, 10.0, 0.0)] {
-            let mut signs = [0, 0];
-            for turns in 1..30 {
-                let omega = std::f64::consts::TAU * f64::from(turns) / (60.0 * period);
-                let lag = 0.5 * (measured + held) + late;
-                let (mut power, mut count) = (0.0, 0.0);
-                for dipole in 0..60 {
-                    let begin = f64::from(dipole) * held;
-                    let mut known = MeasuredField::NONE;
-                    [begin - measured, begin].into_iter().for_each(|time| known.take(time, field(omega * time)));
-                    let dipole = RodLaw::BDot { gain }.dipole(&known, [0.0; 3]);
-                    for step in 0..50 {
-                        let time = begin + late + (f64::from(step) + 0.5) / 50.0 * held;
-                        power += omega * cross(dipole, field(omega * time))[2];
-                        count += 1.0;
-                    }
-                }
-                let sines = (0.5 * omega * measured).sin() * (0.5 * omega * held).sin();
-                let expected = -4.0 * gain * size * size / (measured * held) * sines * (omega * lag).cos();
-                assert!((power / count - expected).abs() < 1e-2 * gain * size * size * omega * omega, "{omega} {lag}");
-                signs[usize::from(power > 0.0)] += 1;
-            }
-            assert!(signs[0] > 3 && signs[1] > 3, "{signs:?}");
-        }
-    }
-
-    /// Law: the torque of unloading is -h/T for a momentum across the field, and nothing for one along it.
-    #[test]
-    fn unloading_is_against_the_momentum_across_the_field() {
-        let (field, law) = ([2e-5, -1e-5, 3e-5], RodLaw::Unloading { time_constant: 500.0 });
-        let mut measured = MeasuredField::NONE;
-        measured.take(0.0, field);
-        let across = cross(field, [1.0, 0.0, 0.0]);
-        let stored = sum(scaled(0.3 / norm(across), across), scaled(0.2 / norm(field), field));
-        let torque = cross(law.dipole(&measured, stored), field);
-        let expected = scaled(-0.3 / (500.0 * norm(across)), across);
-        assert!(norm(difference(torque, expected)) < 1e-15 * norm(expected) * 10.0, "{torque:?} {expected:?}");
-        assert_eq!(law.dipole(&MeasuredField::NONE, stored), [0.0; 3]);
     }
 }

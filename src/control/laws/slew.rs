@@ -1,4 +1,4 @@
-//! [`Slew`]: how [`super::Eigenaxis`] removes a large error under a limit of the torque: bang-bang or bang-coast-bang.
+//! [`Slew`]: bang-bang or bang-coast-bang removal of a large error under a limit of the torque.
 //!
 //! With the angle theta of the rotation to the target, its axis e and a = torque limit/|K e|, the rate along e follows
 //! min(max_rate, sqrt(2 b theta)), from which the body stops at the target under the deceleration b (B. Wie, *Space
@@ -41,7 +41,7 @@ pub struct Slew {
     stage: Stage,
     /// Ticks near the target.
     near: u8,
-    /// Whether the body closed at the last tick, and whether it has ceased to in this slew.
+    /// True if the body closed at the last tick, and if it has ceased to in this slew.
     was_closing: bool,
     has_stopped: bool,
     /// The accelerations commanded at the last ticks, the latest first, rad/s^2, F_s.

@@ -1,11 +1,11 @@
-//! What is true at the launch of a net, and whether plumes hit the debris before it.
+//! The true state at the launch of a net, and plumes that hit the debris before it.
 
 use super::geometry::{Centers, LaunchState};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled};
 use crate::scene::{MAX_THRUSTERS, Scene};
 
-/// What is true at the launch.
+/// The true state at the launch.
 #[derive(Clone, Copy, Debug)]
 pub struct AtLaunch {
     /// Angle between s3 and the line to the debris, rad.
@@ -24,7 +24,7 @@ pub struct AtLaunch {
     pub speed_margin: f64,
 }
 
-/// Where the plume of a thruster counts as hitting the debris.
+/// The cone in which the plume of a thruster counts as hitting the debris.
 #[derive(Clone, Copy, Debug)]
 pub struct PlumeCone {
     /// Largest distance to the debris, m.
@@ -34,13 +34,13 @@ pub struct PlumeCone {
 }
 
 impl PlumeCone {
-    /// Whether the plume of a thruster of `scene` that fires at `thrust` (N) in the state `truth` hits the debris.
+    /// True if the plume of a thruster of `scene` that fires at `thrust` (N) in the state `truth` hits the debris.
     pub fn hits(&self, scene: &Scene, truth: &Truth, thrust: &[f64; MAX_THRUSTERS]) -> bool {
         let mut firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
         firing.any(|(thruster, _)| self.hits_from(truth, thruster.direction))
     }
 
-    /// Whether the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
+    /// True if the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
     fn hits_from(&self, truth: &Truth, direction: [f64; 3]) -> bool {
         let Some(debris) = &truth.debris else { return false };
         let to_debris = difference(debris.r_gdo_e, truth.body.r_co_e);
@@ -62,7 +62,7 @@ pub fn centers_of(truth: &Truth) -> Option<Centers> {
 }
 
 impl AtLaunch {
-    /// That of the state `truth` of a run of `scene`, judged by the launch state `launch`; `None` without debris.
+    /// The state `truth` of a run of `scene` relative to the launch state `launch`; `None` without debris.
     pub fn of(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
         let geometry = launch.geometry(&centers_of(truth)?);
         let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);

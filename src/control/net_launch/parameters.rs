@@ -7,7 +7,7 @@ use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter, Orbit};
 
 declared! {
-    /// Of a loop near debris.
+    /// Numbers of a loop near debris.
     DebrisNumbers = DEBRIS {
         launch_distance: f64 = LawParameter::number(
             "launch_distance_m",
@@ -48,7 +48,7 @@ declared! {
 }
 
 declared! {
-    /// Of a phase with a transfer.
+    /// Numbers of a phase with a transfer.
     TransferNumbers = TRANSFER {
         time: f64 = LawParameter::number("transfer_time_s", "s", "Time of the transfer to the station",
             Limit::Positive);
@@ -56,7 +56,7 @@ declared! {
 }
 
 impl LaunchState {
-    /// That of the numbers of `[control]`, on the orbit `orbit`.
+    /// The launch state of the numbers of `[control]`, on the orbit `orbit`.
     pub fn of(table: &DeclaredTable, orbit: Option<&Orbit>) -> Self {
         let DebrisNumbers { launch_distance, least_debris_speed, approach_axis, .. } = DebrisNumbers::of(table);
         let length = norm(approach_axis);

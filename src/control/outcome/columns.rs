@@ -1,7 +1,6 @@
-//! [`OutcomeColumns`]: the columns of rows that say what a run under a loop has come to, as one table: name, unit,
-//! meaning and value in one row.
+//! [`OutcomeColumns`]: the columns of the outcome of a run under a loop, as one table: name, unit, meaning and value in
+//! one row.
 
-use crate::control::estimators::kalman::NormalizedSquare;
 use crate::control::failure::Failure;
 use crate::control::flight_code::module::FlightCode;
 use crate::control::guidance::Guidance;
@@ -12,7 +11,7 @@ use crate::control::spec::LoopSpec;
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;
 
-/// What a loop has to have for a column.
+/// Needs of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Needs {
     Nothing,
@@ -50,7 +49,7 @@ impl Needs {
         }
     }
 
-    /// Whether `spec` has it.
+    /// True if `spec` meets them.
     fn are_met(self, spec: &LoopSpec) -> bool {
         let (approaches, has_thrusters) = (spec.approaches(), !spec.thrusters.is_empty());
         match self {
@@ -71,7 +70,7 @@ impl Needs {
     }
 }
 
-/// What a run has come to, and what its columns are made of.
+/// A run that has ended.
 struct Run<'a> {
     outcome: &'a MissionOutcome,
     guidance: &'a Guidance,
@@ -79,7 +78,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// What the launch says; NaN without one.
+    /// A number of the launch; NaN without one.
     fn launch(&self, value: fn(&AtLaunch) -> f64) -> f64 {
         self.outcome.at_launch.as_ref().map_or(f64::NAN, value)
     }
@@ -106,11 +105,6 @@ fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }
 
-/// A normalised square over its degrees of freedom.
-fn per_degree(square: Option<NormalizedSquare>) -> f64 {
-    square.map_or(f64::NAN, |square| square.value / square.degrees as f64)
-}
-
 const fn row(
     name: &'static str,
     unit: &'static str,
@@ -119,6 +113,42 @@ const fn row(
     meaning: &'static str,
 ) -> Row {
     Row { name, unit, needs, value, meaning }
+}
+
+/// The row of the last normalised square of the error of a filter: its place, name, needs, and estimated quantities.
+macro_rules! nees {
+    ($place:literal, $name:literal, $needs:expr, $of:literal) => {
+        row(
+            concat!($name, "_nees_final"),
+            "",
+            $needs,
+            |run, _| run.outcome.consistency.squares[$place][0],
+            concat!(
+                "Normalised square of the estimation error of ",
+                $of,
+                " at the last tick, divided by its degrees \
+                of freedom: 1 on average if the filter is consistent; null if it is not known."
+            ),
+        )
+    };
+}
+
+/// The row of its mean innovation.
+macro_rules! innovation {
+    ($place:literal, $name:literal, $needs:expr, $of:literal) => {
+        row(
+            concat!($name, "_innovation_mean"),
+            "",
+            $needs,
+            |run, _| run.outcome.consistency.squares[$place][2],
+            concat!(
+                "Mean normalised square of the innovations of ",
+                $of,
+                ", divided by its degrees of freedom: 1 on \
+                average if the filter is consistent; null if it is not known."
+            ),
+        )
+    };
 }
 
 /// All columns, in their order.
@@ -209,35 +239,14 @@ static TABLE: [Row; 43] = [
         "Distance between estimated and true position relative to the debris at the last tick."),
     row("relative_velocity_estimate_error_final_m_s", "m/s", Needs::Approach, |run, _| run.outcome.relative_error[1],
         "Magnitude of the error in the estimated velocity relative to the debris at the last tick."),
-    row("attitude_nees_final", "", Needs::Filter, |run, _| per_degree(run.outcome.consistency.attitude),
-        "Normalised square of the estimation error of attitude and gyro bias (or rate) at the last tick, divided by \
-        its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("attitude_innovation_mean", "", Needs::Filter,
-        |run, _| run.outcome.consistency.mean_innovations[0].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of attitude and gyro bias (or rate), divided by its degrees of \
-        freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("motion_nees_final", "", Needs::FilterOfMotion, |run, _| per_degree(run.outcome.consistency.motion),
-        "Normalised square of the estimation error of position and velocity at the last tick, divided by its degrees \
-        of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("motion_innovation_mean", "", Needs::FilterOfMotion,
-        |run, _| run.outcome.consistency.mean_innovations[1].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of position and velocity, divided by its degrees of freedom: 1 on \
-        average if the filter is consistent; null if it is not known."),
-    row("debris_motion_nees_final", "", Needs::FilterOfMotion,
-        |run, _| per_degree(run.outcome.consistency.debris_motion),
-        "Normalised square of the estimation error of position and velocity of the debris at the last tick, divided by \
-        its degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("debris_motion_innovation_mean", "", Needs::FilterOfMotion,
-        |run, _| run.outcome.consistency.mean_innovations[2].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of position and velocity of the debris, divided by its degrees of \
-        freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("debris_attitude_nees_final", "", Needs::FilterOfMotion, |run, _| per_degree(run.outcome.consistency.debris),
-        "Normalised square of the estimation error of attitude and rate of the debris at the last tick, divided by its \
-        degrees of freedom: 1 on average if the filter is consistent; null if it is not known."),
-    row("debris_attitude_innovation_mean", "", Needs::FilterOfMotion,
-        |run, _| run.outcome.consistency.mean_innovations[3].unwrap_or(f64::NAN),
-        "Mean normalised square of the innovations of attitude and rate of the debris, divided by its degrees of \
-        freedom: 1 on average if the filter is consistent; null if it is not known."),
+    nees!(0, "attitude", Needs::Filter, "attitude and gyro bias (or rate)"),
+    innovation!(0, "attitude", Needs::Filter, "attitude and gyro bias (or rate)"),
+    nees!(1, "motion", Needs::FilterOfMotion, "position and velocity"),
+    innovation!(1, "motion", Needs::FilterOfMotion, "position and velocity"),
+    nees!(2, "debris_motion", Needs::FilterOfMotion, "position and velocity of the debris"),
+    innovation!(2, "debris_motion", Needs::FilterOfMotion, "position and velocity of the debris"),
+    nees!(3, "debris_attitude", Needs::FilterOfMotion, "attitude and rate of the debris"),
+    innovation!(3, "debris_attitude", Needs::FilterOfMotion, "attitude and rate of the debris"),
 ];
 
 /// The columns of each number of telemetry that a module declares; its own unit and meaning come on top.
@@ -288,7 +297,7 @@ impl Row {
     }
 }
 
-/// The columns of the runs of a loop: what a row has of each, and with which place.
+/// The columns of the runs of a loop, with their rows of the table and their places.
 pub struct OutcomeColumns(Vec<(Quantity, &'static Row, usize)>);
 
 impl std::fmt::Debug for OutcomeColumns {
@@ -298,7 +307,7 @@ impl std::fmt::Debug for OutcomeColumns {
 }
 
 impl OutcomeColumns {
-    /// Those of runs of `spec`.
+    /// Columns of runs of `spec`.
     pub fn of(spec: &LoopSpec) -> Self {
         let names = |places: &[usize], names: &[crate::scene::Name]| {
             places.iter().map(|place| (*place, names[*place].to_string())).collect()
@@ -325,7 +334,7 @@ impl OutcomeColumns {
         OutcomeColumns(TABLE.iter().filter(|row| is_there(row.needs)).flat_map(of).collect())
     }
 
-    /// Those that any loop has, each with what it needs; `<phase>`, `<wheel>` and `<thruster>` stand for names.
+    /// Columns that any loop has, each with its needs; `<phase>`, `<wheel>` and `<thruster>` stand for names.
     pub fn of_all_loops() -> Vec<(Quantity, &'static str)> {
         let names = ["<phase>", "<thruster>", "<wheel>"].map(|mark| (mark, vec![(0, mark.to_owned())]));
         let of_loop = Self::named(&names, |_| true).0.into_iter().map(|(column, row, _)| (column, row));

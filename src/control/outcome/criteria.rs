@@ -1,16 +1,16 @@
-//! [`MissionCriteria`]: by which numbers the outcome of a run is judged.
+//! [`MissionCriteria`]: the numbers by which the outcome of a run is judged.
 
 use crate::control::net_launch::geometry::LaunchState;
 use crate::control::net_launch::launch::PlumeCone;
 
-/// The numbers of a run with which its outcome is judged.
+/// The numbers by which the outcome of a run is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct MissionCriteria {
     /// The launch state.
     pub launch: LaunchState,
     /// Distance from the debris below which the mission fails, m.
     pub keep_out: f64,
-    /// Where plumes hit the debris.
+    /// The cone in which plumes hit the debris.
     pub plume: PlumeCone,
     /// Pointing error of an attitude that has settled, rad.
     pub settling_band: f64,

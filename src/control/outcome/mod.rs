@@ -1,19 +1,19 @@
-//! [`MissionOutcome`]: what a run under a loop has come to, from the true state at every tick. [`columns`]: the columns
-//! that say it.
+//! [`MissionOutcome`]: the outcome of a run under a loop, from the true state at every tick. [`columns`]: its columns;
+//! [`estimation`]: estimates against the truth.
 
 pub mod columns;
 pub mod criteria;
+pub mod estimation;
 mod stability;
 
 use self::criteria::MissionCriteria;
+use self::estimation::{Consistency, EstimateErrors};
 use self::stability::Stability;
-use super::estimate::EstimateErrors;
 use super::guidance::target::AttitudeError;
 use super::net_launch::geometry::LaunchState;
 use super::net_launch::launch::AtLaunch;
 use super::plant::Applied;
 use super::truth::Truth;
-use crate::control::estimators::estimator::Consistency;
 use crate::control::failure::Failure;
 use crate::control::rotation::vector_of;
 use crate::control::vector::{dot, norm, scaled};
@@ -23,7 +23,7 @@ use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 /// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// What a run has come to.
+/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct MissionOutcome {
     failure: Failure,
@@ -53,10 +53,9 @@ pub struct MissionOutcome {
     rod_saturated: f64,
     attitude_error: [f64; 2],
     relative_error: [f64; 2],
-    /// What the module has reported at its last tick, and the largest magnitude so far: NaN once one was no finite
-    /// number.
+    /// Telemetry of the module: the last numbers and the largest magnitudes so far, NaN once one was no finite number.
     telemetry: Vec<[f64; 2]>,
-    /// How the errors of the filters compare with their covariances, at the last tick.
+    /// The consistency of the filters at the last tick.
     pub consistency: Consistency,
 }
 
@@ -86,7 +85,7 @@ impl MissionOutcome {
             attitude_error: [0.0; 2],
             relative_error: [f64::NAN; 2],
             telemetry: Vec::new(),
-            consistency: Consistency::default(),
+            consistency: Consistency::NONE,
         }
     }
 
@@ -169,7 +168,7 @@ impl MissionOutcome {
         self.plume_time += if hits { length } else { 0.0 };
     }
 
-    /// Whether the net was launched.
+    /// True if the net was launched.
     fn has_launched(&self) -> bool {
         self.failure == Failure::None && self.end.is_finite()
     }

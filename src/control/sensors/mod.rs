@@ -4,9 +4,7 @@
 //! Noise is addressed by the sensor's own count, so that it depends neither on other sensors nor on measurements that
 //! were lost. The nominal run has no noise; biases, scales and misalignments stay.
 //!
-//! One that fails during the run is a [`failing`] sensor around that of its kind.
-//!
-//! Not here: what is made of a measurement ([`super::estimators`]).
+//! A [`failing`] sensor wraps one that fails during the run. Not here: the use of measurements ([`super::estimators`]).
 
 pub mod failing;
 mod ground_radar;
@@ -45,7 +43,7 @@ pub fn kind(name: &str) -> Option<&'static SensorKind> {
 
 #[cfg(test)]
 pub(super) mod bench {
-    //! What tests of sensors and of estimators have in common.
+    //! Scenes, sensors and statistics for tests of sensors and estimators.
 
     use super::*;
     use crate::control::truth::Truth;
@@ -70,7 +68,7 @@ pub(super) mod bench {
         sensor_in(&on_orbit(), kind, values, period, sample)
     }
 
-    /// The same in the scene `drawn`.
+    /// A sensor in the scene `drawn`.
     pub fn sensor_in(
         drawn: &Scene,
         kind: &str,
@@ -88,7 +86,7 @@ pub(super) mod bench {
         Scene::resolve(&input_on_orbit()).expect("a valid scene")
     }
 
-    /// The same as a file has it.
+    /// The input of that scene.
     pub fn input_on_orbit() -> SceneInput {
         let epoch = Epoch::parse("2026-11-24T00:00:00Z");
         let orbit =
@@ -131,22 +129,28 @@ pub(super) mod bench {
 
 #[cfg(test)]
 mod tests {
-    use super::bench::{sensor, truth};
+    use super::bench::{on_orbit, sensor, table, truth};
     use super::*;
+    use crate::control::estimators::attitude_innovation::AttitudeInnovation;
     use crate::control::measurement::part;
+    use crate::control::observes::Observes;
+    use crate::control::rotation::quaternion_of;
+    use crate::control::vector::{hamilton, norm};
+    use crate::dynamics::orbit_path::OrbitPath;
 
-    /// Law: every kind has a name of its own; every key has a default, and its components a number each.
+    /// Law: every kind of sensor and of estimator has a name of its own, and a default for each component of each key.
     #[test]
     fn kinds_have_names_and_defaults() {
-        for (index, one) in KINDS.iter().enumerate() {
-            assert!(KINDS[..index].iter().all(|other| other.name != one.name));
-            for parameter in one.parameters {
+        let sensors = KINDS.iter().map(|kind| (kind.name, kind.parameters));
+        let estimators = crate::control::estimators::KINDS.iter().map(|kind| (kind.name, kind.parameters));
+        let all: Vec<_> = sensors.chain(estimators).collect();
+        for (index, (name, parameters)) in all.iter().enumerate() {
+            assert!(all[..index].iter().all(|(other, _)| other != name));
+            for parameter in *parameters {
                 let default = parameter.default.map(<[f64]>::len);
-                assert_eq!(default, Some(parameter.facts.components.len()), "{} {}", one.name, parameter.facts.key);
+                assert_eq!(default, Some(parameter.facts.components.len()), "{name} {}", parameter.facts.key);
             }
-            assert!(kind(one.name).is_some());
         }
-        assert!(kind("sextant").is_none());
     }
 
     /// Law: the noise of a sample depends on its count alone, not on samples that were lost before it or read after it;
@@ -155,18 +159,56 @@ mod tests {
     fn noise_is_addressed_by_count() {
         let noise: [(&str, &[f64]); 1] = [("noise_rad", &[1e-3, 2e-3, 3e-3])];
         let at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
-        let mut tracker = sensor("star_tracker", &noise, 0.5, 3);
-        let seen = |tracker: &mut Box<dyn Sensor>, count| -> [f64; 4] {
-            part(&tracker.measure(count, &at).expect("an attitude"), 0)
+        let seen = |run, count| -> [f64; 4] {
+            part(&sensor("star_tracker", &noise, 0.5, run).measure(count, &at).expect("an attitude"), 0)
         };
-        let all: Vec<_> = (0..20).map(|count| seen(&mut tracker, count)).collect();
         let mut late = sensor("star_tracker", &noise, 0.5, 3);
         for count in [7, 19, 2, 2] {
-            assert_eq!(seen(&mut late, count), all[count as usize]);
+            assert_eq!(part(&late.measure(count, &at).expect("an attitude"), 0), seen(3, count));
         }
-        let mut other = sensor("star_tracker", &noise, 0.5, 4);
-        assert!((0..20).all(|count| seen(&mut other, count) != all[count as usize]));
-        let mut nominal = sensor("star_tracker", &noise, 0.5, 0);
-        assert_eq!(seen(&mut nominal, 7), at.body.q_es);
+        assert!((0..20).all(|count| seen(4, count) != seen(3, count)));
+        assert_eq!(seen(0, 7), at.body.q_es);
+    }
+
+    /// Law: the innovation of every kind of sensor of the attitude, where the estimate is wrong by a small rotation d,
+    /// is H d to second order, on the nominal orbit at the time of the measurement.
+    #[test]
+    fn sensitivities_are_derivatives() {
+        let (nominal, size) = (on_orbit(), 1e-6);
+        let orbit = OrbitPath::new(nominal.orbit.as_ref().expect("an orbit"));
+        let turns =
+            [[0.2, -0.3, 0.1], [1.4, 0.3, 0.0], [-1.2, 0.2, 0.5], [0.3, 1.5, 0.2], [0.1, -1.3, 0.4], [2.6, 0.2, 0.1]];
+        for kind in &KINDS {
+            let numbers = table("unit", kind.parameters, &[]);
+            let model = match kind.observes {
+                Observes::Attitude(model) => model(&numbers),
+                Observes::Direction(model) | Observes::Field(model) => model(&numbers, &nominal),
+                _ => continue,
+            };
+            let mut compared = 0;
+            for (turn, time) in turns.iter().flat_map(|turn| [0.0, 2_000.0, 4_000.0].map(|time| (*turn, time))) {
+                let q = quaternion_of(turn);
+                for axis in 0..3 {
+                    let mut d = [0.0; 3];
+                    d[axis] = size;
+                    let mut at = truth(time, hamilton(q, quaternion_of(d)), [0.0; 3]);
+                    at.body.r_co_e = orbit.state(time).position;
+                    let Some(seen) = sensor(kind.name, &[], 1.0, 0).measure(0, &at) else { continue };
+                    let rows: Vec<(f64, [f64; 3])> = match model.innovation(&seen, q, time) {
+                        AttitudeInnovation::Two(two) => two.value.into_iter().zip(two.sensitivity).collect(),
+                        AttitudeInnovation::Three(three) => three.value.into_iter().zip(three.sensitivity).collect(),
+                    };
+                    for (value, row) in rows {
+                        assert!(
+                            (value / size - row[axis]).abs() < 1e-5 * norm(row),
+                            "{} {turn:?} {value} {row:?}",
+                            kind.name
+                        );
+                        compared += 1;
+                    }
+                }
+            }
+            assert!(compared >= 12, "{}: {compared}", kind.name);
+        }
     }
 }

@@ -10,17 +10,17 @@ use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
 
 /// A model of a sensor in one run.
 pub trait Sensor: Send {
-    /// What it measures of `truth`, in the order of its kind's quantities; `None` where it gives nothing. `count` is
+    /// Its measurement of `truth`, in the order of its kind's quantities; `None` if it gives nothing. `count` is
     /// the number of its samples before this one: 0 at the start of the run.
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values>;
 
-    /// The true bias of a gyro at its last sample, in F_s, rad/s: what an estimate of it is judged by.
+    /// The true bias of a gyro at its last sample, in F_s, rad/s.
     fn bias_s(&self) -> Option<[f64; 3]> {
         None
     }
 }
 
-/// What the sensor of one run is made from.
+/// The settings of a sensor in one run.
 #[derive(Clone, Copy, Debug)]
 pub struct SensorContext<'a> {
     /// Its parameters as drawn; the name of the table is that of the sensor.
@@ -52,7 +52,7 @@ pub struct NormalErrors<const N: usize> {
 }
 
 impl<const N: usize> NormalErrors<N> {
-    /// Those of `count`, each times its factor of `deviations`; where that is zero nothing is drawn.
+    /// The numbers of `count`, each times its deviation; for a deviation of zero nothing is drawn.
     pub fn scaled(&mut self, count: u64, deviations: [f64; N]) -> [f64; N] {
         let mut errors = [0.0; N];
         if let Some(noise) = &mut self.noise {
@@ -73,11 +73,11 @@ pub struct SensorKind {
     pub name: &'static str,
     /// The keys of its table; `period_s` and `latency_s` are those of every sensor.
     pub parameters: &'static [LawParameter],
-    /// What it measures: the numbers of a measurement in their order, and columns of telemetry.
+    /// The numbers of a measurement in their order, and columns of telemetry.
     pub quantities: &'static [MeasuredQuantity],
-    /// What it says of the state.
+    /// The part of the state that it observes.
     pub observes: Observes,
-    /// What must be there beside the spacecraft for it to measure anything; debris apart ([`Observes::needs_debris`]).
+    /// Its needs besides debris ([`Observes::needs_debris`]).
     pub needs: Option<Need>,
     /// The key that an orbit with an epoch replaces.
     pub replaced_by_epoch: Option<&'static str>,
@@ -101,7 +101,7 @@ impl SensorKind {
     }
 }
 
-/// What a sensor needs.
+/// A need of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// `[orbit]`.
@@ -111,7 +111,7 @@ pub enum Need {
 }
 
 impl Need {
-    /// Whether it is met in `scene`.
+    /// True if it is met in `scene`.
     pub fn is_met(self, scene: &SceneInput) -> bool {
         match self {
             Need::Orbit => scene.orbit.is_some(),
@@ -119,7 +119,7 @@ impl Need {
         }
     }
 
-    /// What is allowed where it is not met, and how to meet it.
+    /// The allowed values without it, and the remedy.
     pub fn refusal(self) -> [&'static str; 2] {
         match self {
             Need::Orbit => ["another kind without an [orbit]", "add an [orbit] table, or delete this one"],
@@ -140,23 +140,23 @@ pub struct MeasuredQuantity {
     pub components: Components,
     /// Its unit, and how that stands in the name of a column.
     pub unit: [&'static str; 2],
-    /// Whether telemetry shows it over the period of the sensor: of rotations their mean rate.
+    /// True if telemetry divides it by the period of the sensor, as it does rotations.
     pub is_over_period: bool,
-    /// What it is, as a sentence without its end.
+    /// Its meaning, a sentence without full stop.
     pub meaning: &'static str,
 }
 
 /// The components of a measured vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Components {
-    /// Those with these names.
+    /// Components with these names.
     Named(&'static [&'static str]),
     /// One for each wheel that turns.
     Wheels,
 }
 
 impl Components {
-    /// How many numbers of a measurement they take.
+    /// Their number.
     pub fn width(self) -> usize {
         match self {
             Components::Named(list) => list.len(),

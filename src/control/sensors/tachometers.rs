@@ -61,30 +61,3 @@ impl Sensor for Tachometers {
         Some(values(&[&rates]))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::bench::{assert_normal, sensor, truth};
-    use super::*;
-    use crate::control::measurement::part;
-
-    /// Law: each rate is scaled and has noise of its own (4,000 samples, alpha 1e-3, seed 5); a wheel that is not there
-    /// reads zero.
-    #[test]
-    fn rates_have_scale_and_noise() {
-        let mut at = truth(0.0, [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
-        at.wheel_rates[0] = 100.0;
-        at.wheel_rates[1] = -50.0;
-        let mut tachometers = sensor("tachometers", &[("noise_rad_s", &[0.2]), ("scale", &[1.01])], 0.1, 2);
-        let mut errors = [Vec::new(), Vec::new()];
-        for count in 0..4_000 {
-            let rates: [f64; MAX_WHEELS] = part(&tachometers.measure(count, &at).expect("rates"), 0);
-            errors[0].push(rates[0] - 101.0);
-            errors[1].push(rates[1] + 50.5);
-            assert_eq!(rates[2..], [0.0; MAX_WHEELS][2..]);
-        }
-        errors.iter().for_each(|errors| assert_normal(errors, 0.2, 1e-3));
-        let both: Vec<f64> = errors[0].iter().zip(&errors[1]).map(|(a, b)| a + b).collect();
-        assert_normal(&both, 0.2 * std::f64::consts::SQRT_2, 1e-3);
-    }
-}

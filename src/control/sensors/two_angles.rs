@@ -1,18 +1,27 @@
-//! A direction measured as two angles, by a sensor with a boresight: what the Sun sensor and the horizon sensor have in
-//! common.
+//! A direction measured as two angles by a sensor with a boresight, of the Sun or of nadir.
 //!
 //! The third axis of the sensor, F_t, is its boresight; the others are turned with s3 to it the shortest way. With the
-//! direction u in F_t the angles are atan(u1/u3) and atan(u2/u3): what two crossed slits measure (J. R. Wertz,
+//! direction u in F_t the angles are atan(u1/u3) and atan(u2/u3), as by two crossed slits (J. R. Wertz,
 //! *Spacecraft Attitude Determination and Control*, 1978, section 7.1). The rotation about the direction is not seen.
 
-use crate::control::estimators::attitude_innovation::{AttitudeInnovation, Innovation};
+use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::rotation::from_s3_to;
-use crate::control::sensors::sensor::{NormalErrors, SensorContext};
+use crate::control::sensors::sensor::{NormalErrors, Sensor, SensorContext};
 use crate::control::small_matrix::{multiplied, transposed};
+use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, transposed_product};
 
-/// Where a sensor looks, and how exactly it measures.
+/// A direction that such sensors look for.
+pub trait Direction: std::fmt::Debug + Send + Sync {
+    /// The unit vector in F_e at `time`, s, as filters expect it; zero where it is unknown, and nothing is learned.
+    fn expected(&self, time: f64) -> [f64; 3];
+
+    /// The unit vector in F_e in the state `truth`; `None` if it is hidden.
+    fn actual(&self, truth: &Truth) -> Option<[f64; 3]>;
+}
+
+/// A boresight, and the noise of the angles.
 #[derive(Clone, Copy, Debug)]
 pub struct TwoAngles {
     /// F_t -> F_s.
@@ -22,7 +31,7 @@ pub struct TwoAngles {
 }
 
 impl TwoAngles {
-    /// Those about `boresight` in F_s, of any length, with the standard deviation `deviation`, rad.
+    /// Angles about `boresight` in F_s, of any length, with the standard deviation `deviation`, rad.
     pub fn new(boresight: [f64; 3], deviation: f64) -> Self {
         TwoAngles { c_st: from_s3_to(boresight), deviation }
     }
@@ -54,34 +63,50 @@ impl TwoAngles {
     }
 }
 
-/// The angles as a sensor of a run measures them, with their errors, within its field of view.
+/// A sensor of the direction `D` as filters believe it.
 #[derive(Debug)]
-pub struct AnglesInView {
-    /// Where it looks.
-    pub angles: TwoAngles,
+pub struct Believed<D>(pub TwoAngles, pub D);
+
+impl<D: Direction> AttitudeSensor for Believed<D> {
+    fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
+        let Believed(angles, direction) = self;
+        angles.innovation(values, angles.in_sensor(direction.expected(time), q_es))
+    }
+}
+
+/// A sensor of the direction `D` in a run.
+#[derive(Debug)]
+pub struct DirectionSensor<D> {
+    angles: TwoAngles,
+    direction: D,
     /// Cosine of the largest angle from the boresight.
     least_cosine: f64,
     bias: f64,
     noise: NormalErrors<2>,
 }
 
-impl AnglesInView {
-    /// Those of `angles` with a constant error of `bias` (rad), up to `half_field_of_view` (rad) from the boresight;
-    /// zero: all before the sensor.
-    pub fn new(context: &SensorContext<'_>, angles: TwoAngles, half_field_of_view: f64, bias: f64) -> Self {
-        AnglesInView {
+impl<D> DirectionSensor<D> {
+    /// A sensor with a constant error of `bias` (rad), up to `half_field_of_view` (rad) from the boresight; zero: all
+    /// before the sensor.
+    pub fn new(
+        context: &SensorContext<'_>,
+        Believed(angles, direction): Believed<D>,
+        [half_field_of_view, bias]: [f64; 2],
+    ) -> Self {
+        DirectionSensor {
             angles,
+            direction,
             least_cosine: if half_field_of_view > 0.0 { libm::cos(half_field_of_view).max(0.0) } else { 0.0 },
             bias,
             noise: context.normal("noise", ["x", "y"]),
         }
     }
+}
 
-    /// What is measured as number `count` of the direction `u_e` in F_e, a unit vector, at the attitude `q_es`; `None`
-    /// where it is out of view.
-    pub fn measure(&mut self, count: u64, u_e: [f64; 3], q_es: [f64; 4]) -> Option<Values> {
-        let [x, y, z] = self.angles.in_sensor(u_e, q_es);
-        // not a number is out of view too
+impl<D: Direction> Sensor for DirectionSensor<D> {
+    fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
+        let [x, y, z] = self.angles.in_sensor(self.direction.actual(truth)?, truth.body.q_es);
+        // NaN is out of view too
         if z.is_nan() || z <= self.least_cosine {
             return None;
         }

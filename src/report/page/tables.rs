@@ -6,7 +6,7 @@ use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::Survey;
 use crate::campaign::{Display, Plan};
 use crate::control::ControlLaw;
-use crate::control::laws::asked;
+use crate::control::laws::callback;
 use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::names::sentence;
@@ -196,7 +196,7 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
             )
         })
         .collect();
-    let kept = if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(asked::is_law_of) {
+    let kept = if plan.law.as_ref().and_then(ControlLaw::spec).is_some_and(callback::is_law_of) {
         "The law of attitude is a function of Python, which is not part of the plan: the rows cannot be made again \
         without it."
     } else {

@@ -16,8 +16,8 @@
 //!
 //! Latin hypercube, Sobol and Halton designs may consist of independently scrambled [`replicates`].
 //!
-//! Dimensions are known by name (the component's, or the parameter's with a number). Blocks of eight samples ([`BLOCK`])
-//! match a block of ChaCha and a call of the quantiles.
+//! Dimensions are known by name (the component's, or the parameter's with a number). Blocks of eight samples
+//! ([`BLOCK`]) match a block of ChaCha and a call of the quantiles.
 
 pub mod grid;
 pub mod halton;

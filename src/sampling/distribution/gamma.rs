@@ -31,7 +31,8 @@ impl GammaQuantile {
         GammaQuantile { shape, scale, min, log }
     }
 
-    /// The value at the normal score `z`; relative error above `min` below 1e-12 (test `quantiles_are_those_of_mpmath`).
+    /// The value at the normal score `z`; relative error above `min` below 1e-12 (test
+    /// `quantiles_are_those_of_mpmath`).
     fn at_score(&self, z: f64) -> f64 {
         self.min + self.scale * libm::exp(self.log.value(z))
     }

@@ -38,7 +38,8 @@ impl Map for UniformAttitude {
 }
 
 /// Unit quaternion (scalar first), uniform on the 3-sphere and so a rotation uniform on SO(3) (K. Shoemake, *Uniform
-/// random rotations*, Graphics Gems III, 1992, p. 124-132); norm 1 to rounding; tested in `tests/sampling/geometric.rs`.
+/// random rotations*, Graphics Gems III, 1992, p. 124-132); norm 1 to rounding; tested in
+/// `tests/sampling/geometric.rs`.
 fn uniform_attitude(u: [f64; 3]) -> [f64; 4] {
     let (near, far) = ((1.0 - u[0]).sqrt(), u[0].sqrt());
     let ((s1, c1), (s2, c2)) = (libm::sincos(TAU * u[1]), libm::sincos(TAU * u[2]));

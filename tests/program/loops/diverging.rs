@@ -82,7 +82,7 @@ impl PhaseLaw for Brake {
     }
 }
 
-static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: |_| AttitudeLaw::own(Brake) };
+static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: &|_| AttitudeLaw::new(Brake) };
 
 #[test]
 fn a_law_of_a_program_can_diverge() {

@@ -45,10 +45,10 @@ static PARAMETERS: [LawParameter; 3] = [
 static OWN: LawKind = LawKind {
     name: "own_feedback",
     parameters: &PARAMETERS,
-    make: |settings: &LawSettings<'_>| {
+    make: &|settings: &LawSettings<'_>| {
         let [bandwidth, damping, creep] =
             ["own_bandwidth_rad_s", "own_damping", "creep_n_m"].map(|key| settings.table.named(key).unwrap()[0]);
-        AttitudeLaw::own(Feedback { bandwidth, damping, creep, ticks: 0.0 })
+        AttitudeLaw::new(Feedback { bandwidth, damping, creep, ticks: 0.0 })
     },
 };
 
