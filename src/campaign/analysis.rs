@@ -1,19 +1,18 @@
 //! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`,
 //! `[display]`. No row depends on it.
 
-use super::derived_observable::{self, DerivedObservable};
-use super::display::{self, Display};
+use super::derived_observable::DerivedObservable;
+use super::display::Display;
 use super::document::Document;
 use super::known_columns::KnownColumns;
-use super::lines::Lines;
 use super::numbers::{CONFIDENCE, MAX_SAMPLES};
-use super::requirement::{self, DEFAULT_CONFIDENCE, Requirement};
+use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
 use super::section::Section;
 use super::size::MOST_TABLES;
-use super::stop::{self, Stop, When};
+use super::stop::{Stop, When};
 use crate::observables::Request;
 use crate::observables::window::{MAX_WINDOWS, Window};
-use crate::sampling::keys::{Kind, ListLimit, Presence, Row, Value};
+use crate::sampling::keys::{Kind, ListLimit, Presence, Row};
 use crate::sampling::{Column, Design};
 
 /// What is made of the rows of a campaign.
@@ -96,23 +95,20 @@ impl Analysis {
         });
         // an observable is not made of others that are derived
         root.document.known = Some(known);
-        let mut of = |header: &str, rows: &[Row]| {
-            let mut section = root.section(header);
-            let written = section.right_rows(rows);
-            section.finish();
-            written
-        };
-        let (statistics, summary) = (of("statistics", &STATISTICS), of("summary", &SUMMARY));
-        let summary_columns =
-            if let Some(Value::Texts(names)) = summary.get("columns") { names.clone() } else { vec![] };
+        let statistics = root.kept("[statistics]", &STATISTICS, |written| {
+            if !written.has("quantiles") {
+                written.set("quantiles", &QUANTILES[..]);
+            }
+        });
+        let summary = root.kept("[summary]", &SUMMARY, |_| {});
         let requirements = root.sections("require", MOST_TABLES, Requirement::read);
         let stop = Stop::read(&mut root.section("stop"));
         let written = std::mem::take(&mut root.document.units);
-        let display = Display::read(&mut root.section("display"), written);
+        let display = Display::read(root, written);
         Analysis {
-            quantiles: statistics.numbers("quantiles").unwrap_or(&QUANTILES).to_vec(),
-            confidence: statistics.number("confidence").unwrap_or(DEFAULT_CONFIDENCE),
-            summary_columns,
+            quantiles: statistics.numbers("quantiles").unwrap_or_default().to_vec(),
+            confidence: statistics.number("confidence").unwrap_or_default(),
+            summary_columns: summary.texts("columns").to_vec(),
             derived: derived.into_iter().flatten().collect(),
             requirements: requirements.into_iter().flatten().collect(),
             stop,
@@ -187,26 +183,5 @@ impl Analysis {
         let of = |index: usize| self.requirements[index].window();
         let is_first = move |index: &usize| (0..*index).all(|other| of(other) != of(*index));
         (0..self.requirements.len()).filter(is_first).filter_map(of)
-    }
-
-    pub(super) fn write(&self, lines: &mut Lines) {
-        for derived in &self.derived {
-            lines.rows("[[observable]]", &derived_observable::ROWS, |key| derived.value(key));
-        }
-        lines.rows("[statistics]", &STATISTICS, |key| {
-            Some(if key == "quantiles" { self.quantiles.as_slice().into() } else { self.confidence.into() })
-        });
-        if !self.summary_columns.is_empty() {
-            lines.rows("[summary]", &SUMMARY, |_| Some(Value::Texts(self.summary_columns.clone())));
-        }
-        for requirement in &self.requirements {
-            lines.rows("[[require]]", &requirement::ROWS, |key| requirement.value(key));
-        }
-        if let Some(stop) = &self.stop {
-            lines.rows("[stop]", &stop::ROWS, |key| stop.value(key));
-        }
-        if self.display != Display::default() {
-            lines.rows("[display]", &display::ROWS, |key| self.display.value(key));
-        }
     }
 }

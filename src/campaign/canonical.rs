@@ -11,11 +11,10 @@
 use super::draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
-use super::{bands, control, event, extreme, failure_tables, retention, settings};
+use super::{bands, control, scene, settings};
 use crate::observables::request::NutationAxis;
-use crate::sampling::keys::{Counts, Row, Value, Values};
+use crate::sampling::keys::{Counts, Row, Value, Values, Written};
 use crate::scene::table::Table;
-use crate::scene::{ArcErrors, EnvironmentInput, Name, Shadow};
 use sha2::{Digest, Sha256};
 
 fn digest(text: &str) -> String {
@@ -72,15 +71,9 @@ impl Plan {
             derivation_lines(derivation, &mut lines);
         }
         self.write_settings(&settings::TAIL, whole, &mut lines);
-        for event in &self.events {
-            lines.rows("[[event]]", &event::ROWS, |key| event.value(key));
-        }
-        for extreme in &self.extremes {
-            lines.rows("[[extreme]]", &extreme::ROWS, |key| extreme.value(key));
-        }
-        if whole {
-            self.analysis.write(&mut lines);
-            lines.rows("[retain]", &retention::ROWS, |_| Some(self.retention.text().as_str().into()));
+        let is_of_rows = |header: &str| ["[[event]]", "[[extreme]]"].contains(&header);
+        for (header, written) in self.tables.iter().filter(|(header, _)| whole || is_of_rows(header)) {
+            lines.rows(header, written);
         }
         lines.into_text()
     }
@@ -93,14 +86,17 @@ impl Plan {
     /// Tables of settings: `whole`, or without the keys that do not change rows.
     fn write_settings(&self, tables: &[(&str, &[Row])], whole: bool, lines: &mut Lines) {
         for (header, rows) in tables {
-            lines.rows(&format!("[{header}]"), rows, |key| {
-                let path = format!("{header}.{key}");
+            let value = |row: &Row| {
+                let path = format!("{header}.{}", row.key);
                 let is_written = match path.as_str() {
                     "campaign.samples" => whole || self.design.facts().depends_on_samples.is_some(),
                     path => whole || !Self::OUTSIDE_ROWS.contains(&path),
                 };
-                self.setting(&path).filter(|_| is_written)
-            });
+                Some((row.key, self.setting(&path).filter(|_| is_written)?))
+            };
+            let values = rows.iter().filter_map(value);
+            let written = values.fold(Written::NONE, |written, (key, value)| written.with(key, value));
+            lines.rows(&format!("[{header}]"), &written);
         }
     }
 
@@ -134,104 +130,16 @@ impl Plan {
         })
     }
 
-    /// The tables of the nominal scene, every key that it has in the order of the schema.
+    /// The tables of the nominal scene.
     fn write_scene(&self, lines: &mut Lines) {
-        let scene = &self.nominal;
-        lines.table("[body]");
-        lines.keys(Table::Body, 0, scene);
-        lines.keys(Table::BodyErrors, 0, scene);
-        if scene.parts.is_empty() {
-            lines.key("includes_wheels", scene.body.includes_wheels);
-        }
-        for (instance, part) in scene.parts.iter().enumerate() {
-            lines.table("[[body.parts]]");
-            lines.key("name", part.name);
-            lines.key("shape", part.shape.name());
-            lines.keys(Table::Part, instance, scene);
-            lines.keys(Table::PartErrors, instance, scene);
-        }
-        for (instance, wheel) in scene.wheels.iter().enumerate() {
-            lines.table("[[wheels]]");
-            lines.key("name", wheel.name);
-            lines.key("mode", wheel.mode.name());
-            lines.keys(Table::Wheel, instance, scene);
-        }
-        for (instance, thruster) in scene.thrusters.iter().enumerate() {
-            lines.table("[[thrusters]]");
-            lines.key("name", thruster.name);
-            lines.keys(Table::Thruster, instance, scene);
-        }
-        for (instance, rod) in scene.torque_rods.iter().enumerate() {
-            lines.table("[[torque_rods]]");
-            lines.key("name", rod.name);
-            lines.keys(Table::TorqueRod, instance, scene);
-        }
-        if self.nominal.debris.is_some() {
-            lines.keys_of("[debris]", Table::Debris, 0, &self.nominal);
-        }
-        lines.keys_of("[initial]", Table::Initial, 0, &self.nominal);
-        if self.nominal.environment != EnvironmentInput::DEFAULT {
-            lines.keys_of("[environment]", Table::Environment, 0, &self.nominal);
-            let environment = &scene.environment;
-            for (key, acts) in [
-                ("gravity_gradient", environment.gravity_gradient),
-                ("drag", environment.drag),
-                ("solar_pressure", environment.solar_pressure),
-                ("coupled", environment.coupled),
-            ] {
-                if acts {
-                    lines.key(key, true);
-                }
+        scene::write(&self.nominal, lines, |lines| {
+            if let Some(spec) = self.loop_spec() {
+                control::write(spec, &self.nominal, lines);
+            } else if let Some(law) = &self.law {
+                lines.table("[control]");
+                lines.key("law", law.name());
+                lines.keys(Table::Control, 0, &self.nominal);
             }
-            for (key, list) in
-                [("air_heights_m", environment.air_heights_m), ("air_densities_kg_m3", environment.air_densities_kg_m3)]
-            {
-                if let Some(list) = list {
-                    lines.key(key, list);
-                }
-            }
-            if environment.shadow != Shadow::default() {
-                lines.key("shadow", environment.shadow.name());
-            }
-            if let Some(model) = self.nominal.environment.magnetic_field {
-                lines.key("magnetic_field", model.name());
-            }
-        }
-        if let Some(orbit) = &self.nominal.orbit {
-            lines.keys_of("[orbit]", Table::Orbit, 0, &self.nominal);
-            if let Some(epoch) = orbit.epoch {
-                lines.text_key("epoch", &epoch.to_string());
-            }
-        }
-        for (instance, plate) in scene.plates.iter().enumerate() {
-            lines.table("[[plates]]");
-            lines.key("name", plate.name);
-            lines.keys(Table::Plate, instance, scene);
-        }
-        for arc in 0..self.nominal.actuation.len() {
-            let command = &self.nominal.actuation[arc];
-            lines.table("[[actuation]]");
-            if command.name != Name::NONE {
-                lines.key("name", command.name);
-            }
-            lines.keys(Table::Actuation, arc, &self.nominal);
-            // most arcs have none, and a schedule may have many thousands of arcs
-            if command.errors != ArcErrors::NONE {
-                lines.keys(Table::ArcErrors, arc, &self.nominal);
-            }
-            lines.by_name("thrust_n", self.nominal.thrusters.iter().map(|thruster| thruster.name), command.thrust_n);
-            lines.by_name("torque_n_m", self.nominal.wheels.iter().map(|wheel| wheel.name), command.torque_n_m);
-        }
-        if !self.nominal.actuation.is_empty() {
-            lines.keys_of("[actuators]", Table::Actuators, 0, &self.nominal);
-        }
-        if let Some(spec) = self.loop_spec() {
-            control::write(spec, scene, lines);
-        } else if let Some(law) = &self.law {
-            lines.table("[control]");
-            lines.key("law", law.name());
-            lines.keys(Table::Control, 0, scene);
-        }
-        failure_tables::write(scene, lines);
+        });
     }
 }

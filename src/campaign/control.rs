@@ -4,26 +4,61 @@
 use super::lines::Lines;
 use super::module_key::{self, ModuleKey};
 use super::numbers::POSITIVE;
-use super::phase_tables::{GYROSCOPIC, LAUNCH, connected, read_phase};
+use super::phase_tables::{connected, read_phase};
 use super::section::Section;
 use super::sensor_tables::{check_sensors, read_sensor};
 use super::size::MOST_TABLES;
 use super::tables::{ignore_others, read_keys};
 use crate::control::actuators::modulation;
-use crate::control::guidance::phase::{MANEUVERS, Next};
-use crate::control::guidance::target::{TARGETS, Target};
-use crate::control::laws::rod_law::{ROD_USES, RodUse};
+use crate::control::laws::rod_law::RodUse;
 use crate::control::observes::Observes;
 use crate::control::sensor_spec::SensorSpec;
-use crate::control::spec::{LoopSpec, ModelSpec, PhaseSpec};
-use crate::control::{ControlLaw, estimators, net_launch, parameters, sensors};
+use crate::control::spec::{LoopSpec, PhaseSpec};
+use crate::control::{ControlLaw, estimators, net_launch, parameters};
 use crate::math::symmetric::is_positive_definite;
-use crate::scene::schema::Limit;
+use crate::sampling::keys::{ANY_TEXT, Condition, Kind, Row, Rule, Value, Written};
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{BodyInput, DeclaredTable, Name, Scene, SceneError, SceneInput, WheelMode};
 
-const MOST_PHASES: usize = 64;
+pub const MOST_PHASES: usize = 64;
+
+/// The keys of `[control]` that are no parameters.
+#[rustfmt::skip]
+pub const ROWS: [Row; 9] = [
+    Row::new("period_s", Kind::Number, "Control period").limited(POSITIVE).required_as(POSITIVE.allowed, "0.1"),
+    Row::new("estimator", Kind::Word(&estimators::NAMES), "What estimates the state from measurements"),
+    Row::new("wheels", Kind::Names, "The wheels that the loop drives"),
+    Row::new("thrusters", Kind::Names, "The thrusters that the loop fires"),
+    Row::new("modulation", Kind::Word(&modulation::NAMES), "How thrusters are fired"),
+    Row::new("hold_force", Kind::Flag, "Whether thrusters keep a force of zero where no maneuver wants one; default: \
+        false"),
+    Row::new("torque_rods", Kind::Names, "The torque rods that the loop drives"),
+    Row::new("module", Kind::Text(ANY_TEXT), "File of a WebAssembly module, which phases name as their law"),
+    Row::new("module_sha256", Kind::Text(ANY_TEXT), "SHA-256 of that file"),
+];
+
+/// What they have to do with each other.
+pub const RULES: [Rule; 2] = [
+    Rule::Only {
+        keys: &["modulation", "hold_force"],
+        with: &[Condition::Has("thrusters")],
+        allowed: "left out in a loop without thrusters",
+        remedy: "add thrusters = [...], or delete this line",
+    },
+    module_key::RULE,
+];
+
+/// The keys of `[control.model]`.
+pub const MODEL: [Row; 3] = [
+    Row::new("mass_kg", Kind::Number, "Believed mass; default: the nominal one").limited(POSITIVE),
+    Row::new("center_of_mass_m", Kind::Vector, "Believed centre of mass from p, in F_s; default: the nominal one"),
+    Row::new(
+        "inertia_kg_m2",
+        Kind::Matrix,
+        "Believed inertia about that centre with wheels locked, in F_s; default: the nominal one",
+    ),
+];
 
 /// Reads the control loop of a file that has `[control]`; its numbers become parameters of `scene`. `None` where
 /// something is wrong.
@@ -34,36 +69,27 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     let has_debris = scene.debris.is_some();
     let craft = Scene::resolve(scene).ok();
     let mut section = root.section("control");
-    section.require("period_s", POSITIVE.allowed, "0.1");
-    let period = section.number("period_s", POSITIVE);
-    let estimator = choice(&mut section, "estimator", &estimators::KINDS.each_ref().map(|kind| kind.name));
-    let modulation = choice(&mut section, "modulation", &modulation::NAMES);
-    let wheels = actuators(&mut section, "wheels", &turning(scene), "free wheels");
-    let thrusters: Vec<Option<Name>> = scene.thrusters.iter().map(|thruster| Some(thruster.name)).collect();
-    let thrusters = actuators(&mut section, "thrusters", &thrusters, "thrusters");
-    let rods: Vec<Option<Name>> = scene.torque_rods.iter().map(|rod| Some(rod.name)).collect();
-    let rods = actuators(&mut section, "torque_rods", &rods, "torque rods");
+    let mut written = section.right_rows(&ROWS);
+    let period = written.number("period_s");
+    let place = |key: &str, names: &[&str]| names.iter().position(|name| written.text(key) == Some(name));
+    let (estimator, modulation) = (place("estimator", &estimators::NAMES), place("modulation", &modulation::NAMES));
+    let thrusters = scene.thrusters.iter().map(|thruster| Some(thruster.name)).collect();
+    let rods = scene.torque_rods.iter().map(|rod| Some(rod.name)).collect();
+    let mut driven = |key, known: Vec<Option<Name>>, what| actuators(&mut section, &mut written, (key, what), &known);
+    let wheels = driven("wheels", turning(scene), "free wheels");
+    let thrusters = driven("thrusters", thrusters, "thrusters");
+    let rods = driven("torque_rods", rods, "torque rods");
     let has_actuators = section.has("wheels") || section.has("thrusters") || section.has("torque_rods");
-    if !has_actuators {
+    if has_actuators {
+        section.obeys(&RULES[0], true);
+    } else {
         let remedy = "add wheels = [\"w1\"], thrusters = [\"p1\"] or torque_rods = [\"m1\"] to [control]";
         let path = section.path("wheels");
         let content = "the names of the wheels that the loop drives, or thrusters, or torque rods";
         section.document.add(&path, None, content, remedy);
     }
-    let may_fire = !has_actuators || thrusters.as_ref().is_none_or(|places| !places.is_empty());
-    let holds_force = section.flag("hold_force").unwrap_or(false);
-    if !may_fire {
-        for key in ["modulation", "hold_force"] {
-            if section.has(key) {
-                section.refuse(
-                    key,
-                    "left out in a loop without thrusters",
-                    "add thrusters = [...], or delete this line",
-                );
-            }
-        }
-    }
-    let module = module_key::read(&mut section);
+    let may_fire = !has_actuators || section.has("thrusters");
+    let module = module_key::read(&mut section, &mut written);
     if let (Some(thrusters), Some(modulation)) = (&thrusters, modulation) {
         check_valves(&mut section, scene, (thrusters, modulation), period);
     }
@@ -140,11 +166,12 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         thrusters: thrusters?,
         rods: rods?,
         modulation: modulation?,
-        holds_force,
+        holds_force: written.flag("hold_force"),
         sensors: sensors.into_iter().collect::<Option<_>>()?,
         module,
         phases: phases?,
         model,
+        written: written.completed(&ROWS, &RULES),
         has_debris,
         wheel_names: scene
             .wheels
@@ -158,12 +185,6 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     (has_actuators && !spec.phases.is_empty()).then(|| ControlLaw::closed_loop(spec))
 }
 
-/// The place of the name that `key` has among `names`, the first where it was not written; `None` where it is wrong.
-fn choice(section: &mut Section<'_, '_>, key: &str, names: &[&str]) -> Option<usize> {
-    let found = section.name(key, names, |name| names.iter().position(|known| *known == name));
-    if section.has(key) { found } else { Some(0) }
-}
-
 /// The kind of this place, or all of them where it is not known which is meant.
 fn kinds<T>(place: Option<usize>, list: &[T]) -> impl Iterator<Item = &T> {
     list.iter().enumerate().filter(move |(kind, _)| place.is_none_or(|one| one == *kind)).map(|(_, kind)| kind)
@@ -175,22 +196,27 @@ pub(super) fn turning(scene: &SceneInput) -> Vec<Option<Name>> {
     turning.map(|wheel| (wheel.mode == WheelMode::Free).then_some(wheel.name)).collect()
 }
 
-/// The places of the actuators that `key` names, ascending; `known` are those that are there, `None` where one cannot
-/// be driven. `None` where the names are wrong.
-fn actuators(section: &mut Section<'_, '_>, key: &str, known: &[Option<Name>], what: &str) -> Option<Vec<usize>> {
+/// The places of the actuators that `key` names, ascending, with their names in `written`; `known` are those that are
+/// there, `None` where one cannot be driven. `None` where the names are wrong.
+fn actuators(
+    section: &mut Section<'_, '_>,
+    written: &mut Written,
+    (key, what): (&'static str, &str),
+    known: &[Option<Name>],
+) -> Option<Vec<usize>> {
     if !section.has(key) {
-        section.know(key);
         return Some(Vec::new());
     }
     let names: Vec<&str> = known.iter().flatten().map(Name::as_str).collect();
     if names.is_empty() {
-        section.know(key);
         section.refuse(key, format!("left out where the scene has no {what}"), "delete it");
         return None;
     }
     let place = |text: &str| known.iter().position(|name| name.is_some_and(|name| name.as_str() == text));
     let mut places = section.names(key, &names, place, "none")?;
     places.sort_unstable();
+    let name = |place: &usize| known[*place].map(|name| name.to_string());
+    written.set(key, Value::Texts(places.iter().filter_map(name).collect()));
     Some(places)
 }
 
@@ -257,26 +283,21 @@ fn check_valves(
 }
 
 /// `[control.model]`; `craft` is the nominal scene, where it is physical.
-fn read_model(section: &mut Section<'_, '_>, craft: Option<&Scene>) -> ModelSpec {
+fn read_model(section: &mut Section<'_, '_>, craft: Option<&Scene>) -> Written {
     const KEY: &str = "inertia_kg_m2";
     let mut model = section.section("model");
-    let mass = model.number("mass_kg", POSITIVE);
-    let mut center = [0.0; 3];
-    let center = model.fill("center_of_mass_m", &mut center, Limit::Finite).then_some(center);
-    let mut inertia = [0.0; 9];
-    let has_inertia = model.fill(KEY, &mut inertia, Limit::Inertia);
-    let is_written = has_inertia && inertia.iter().all(|number| number.is_finite());
-    let inertia = has_inertia.then(|| std::array::from_fn(|i| std::array::from_fn(|j| inertia[3 * i + j])));
-    if let Some(wrong) = inertia.filter(|_| is_written).and_then(impossible) {
+    let written = model.right_rows(&MODEL);
+    let inertia = written.matrix(KEY);
+    if let Some(wrong) = inertia.and_then(impossible) {
         model.refuse(KEY, wrong.allowed, wrong.remedy);
-    } else if let (true, Some(craft), Some(inertia)) = (is_written, craft, inertia)
+    } else if let (Some(craft), Some(inertia)) = (craft, inertia)
         && !is_positive_definite(craft.mass.with_inertia(inertia).inertia_rotating())
     {
         let allowed = "the inertia with the wheels locked: more than the axial inertias of the wheels about their axes";
         model.refuse(KEY, allowed, "add the inertia of the wheels, or check units");
     }
     model.finish();
-    ModelSpec { mass, center, inertia }
+    written
 }
 
 /// Why no body has the inertia `inertia` about its centre of mass: what is said of that of the spacecraft.
@@ -291,85 +312,17 @@ fn impossible(inertia: [[f64; 3]; 3]) -> Option<SceneError> {
 
 /// The loop `spec` as canonical text; `scene` has its numbers.
 pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
-    lines.table("[control]");
-    lines.key("period_s", spec.period);
-    lines.key("estimator", estimators::KINDS[spec.estimator].name);
-    let named = |places: &[usize], names: &[Name]| places.iter().map(|place| names[*place]).collect::<Vec<_>>();
-    if !spec.wheels.is_empty() {
-        lines.key("wheels", named(&spec.wheels, &spec.wheel_names));
-    }
-    if !spec.thrusters.is_empty() {
-        lines.key("thrusters", named(&spec.thrusters, &spec.thruster_names));
-        lines.key("modulation", modulation::NAMES[spec.modulation]);
-        lines.key("hold_force", spec.holds_force);
-    }
-    if !spec.rods.is_empty() {
-        lines.key("torque_rods", named(&spec.rods, &spec.rod_names));
-    }
-    if let Some(module) = &spec.module {
-        lines.text_key("module", &module.file);
-        lines.key("module_sha256", module.code.sha256());
-    }
+    lines.rows("[control]", &spec.written);
     lines.keys(Table::Control, 0, scene);
-    let ModelSpec { mass, center, inertia } = &spec.model;
-    if mass.is_some() || center.is_some() || inertia.is_some() {
-        lines.table("[control.model]");
-        if let Some(mass) = mass {
-            lines.key("mass_kg", mass);
-        }
-        if let Some(center) = center {
-            lines.key("center_of_mass_m", center);
-        }
-        if let Some(inertia) = inertia {
-            lines.key("inertia_kg_m2", inertia);
-        }
+    if spec.model != Written::NONE {
+        lines.rows("[control.model]", &spec.model);
     }
     for (place, sensor) in spec.sensors.iter().enumerate() {
-        lines.table("[[sensors]]");
-        lines.key("name", sensor.name);
-        lines.key("kind", sensors::KINDS[sensor.kind].name);
-        lines.key("period_s", sensor.period);
-        if sensor.latency > 0.0 {
-            lines.key("latency_s", sensor.latency);
-        }
+        lines.rows("[[sensors]]", &sensor.written);
         lines.keys(Table::Sensors, place, scene);
     }
     for (place, phase) in spec.phases.iter().enumerate() {
-        lines.table("[[guidance]]");
-        lines.key("phase", phase.name);
-        if let Some(law) = phase.law {
-            lines.key("law", law.name);
-            if law.name == GYROSCOPIC {
-                lines.key("gyroscopic", phase.gyroscopic);
-            }
-        }
-        lines.key(
-            "target",
-            TARGETS.iter().find(|(_, target)| same_kind(*target, phase.target)).map_or("none", |one| one.0),
-        );
-        lines.key(
-            "thrust",
-            MANEUVERS.iter().find(|(_, maneuver)| *maneuver == phase.thrust).map_or("none", |one| one.0),
-        );
-        if let Some((name, _)) = ROD_USES.iter().find(|(_, used)| *used == phase.rods && phase.rods != RodUse::None) {
-            lines.key("rods", name);
-        }
-        if let Some(until) = &phase.until {
-            lines.text_key("until", &until.text);
-            match phase.next {
-                Next::Launch => lines.key("next", LAUNCH),
-                Next::Phase(next) => lines.key("next", spec.phases[next].name),
-                Next::Stay => {}
-            }
-            if let Some(other) = phase.otherwise {
-                lines.key("otherwise", spec.phases[other].name);
-            }
-        }
+        lines.rows("[[guidance]]", &phase.written);
         lines.keys(Table::Guidance, place, scene);
     }
-}
-
-/// Whether both are the same target, whatever the attitude.
-fn same_kind(a: Target, b: Target) -> bool {
-    std::mem::discriminant(&a) == std::mem::discriminant(&b)
 }

@@ -5,14 +5,30 @@ use super::meaning::meant;
 use super::parameter::{named, unknown_parameter, without_effect};
 use super::section::Section;
 use crate::sampling::DataColumn;
+use crate::sampling::keys::{ANY_TEXT, Kind, Row};
 use crate::scene::{Parameter, SceneInput};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+const SHA256: Row = Row::new("sha256", Kind::Text(ANY_TEXT), "SHA-256 of the file");
+
+/// The keys beside the one of a file of which one column is read.
+pub const COLUMN: [Row; 2] = [
+    SHA256,
+    Row::new("column", Kind::Text(ANY_TEXT), "The column of the file")
+        .required_as("the name of a column of the file", "\"mass_kg\""),
+];
+
+/// The keys beside the one of a file whose columns are parameters.
+pub const COLUMNS: [Row; 3] = [
+    SHA256,
+    Row::new("parameters", Kind::Names, "The parameters that are read; default: all columns of the file"),
+    Row::new("columns", Kind::Names, "Their columns; default: the names of the parameters"),
+];
+
 /// The column `column` of the file `file`.
 pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
-    table.require("column", "the name of a column of the file", "\"mass_kg\"");
-    let column = table.text("column").map(str::to_owned);
+    let column = table.right_rows(&COLUMN[1..]).text("column").map(str::to_owned);
     let wanted = column.clone();
     let (file, data) = file(table, &|name| wanted.as_deref() == Some(name))?;
     let column = column?;

@@ -9,7 +9,7 @@ use super::section::Section;
 use crate::run::Quantity;
 use crate::sampling::Column;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, Value, is_name};
+use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, is_name};
 use crate::scene::{Parameter, SceneInput};
 
 /// An observable that follows from others and from dispersed parameters.
@@ -90,8 +90,9 @@ impl DerivedObservable {
             table.refuse_value("expression", format!("{value:?}"), allowed, remedy);
             return None;
         }
-        let unit = written.text("unit").unwrap_or_default().to_owned();
-        Some(DerivedObservable { name: name?, unit, expression })
+        let (name, unit) = (name?, written.text("unit").unwrap_or_default().to_owned());
+        table.document.keep("[[observable]]", written.completed(&ROWS, &[]));
+        Some(DerivedObservable { name, unit, expression })
     }
 
     /// Name, unit and meaning.
@@ -130,15 +131,6 @@ impl DerivedObservable {
             }
             _ => None,
         })
-    }
-
-    /// The value of a key, if canonical text has it.
-    pub(super) fn value(&self, key: &str) -> Option<Value> {
-        match key {
-            "name" => Some(self.name.as_str().into()),
-            "unit" => Some(self.unit.as_str().into()).filter(|_| !self.unit.is_empty()),
-            _ => Some(self.expression.as_str().into()),
-        }
     }
 }
 

@@ -43,7 +43,7 @@ fn of_key(text: &str) -> Option<String> {
 /// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with
 /// something else than that, blank lines, or what it extends. Lines that are indented continue a sentence.
 fn of_comment(text: &str) -> Option<String> {
-    let is_before = |line: &&str| line.trim().is_empty() || line.starts_with("extends");
+    let is_before = |line: &&str| line.trim().is_empty() || line.starts_with("extends") || line.starts_with("#:schema");
     let comments = text.lines().skip_while(is_before).map_while(|line| line.trim_start().strip_prefix('#'));
     let mut found = String::new();
     for line in comments {

@@ -154,35 +154,6 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Known: numbers of dispersions and limits have the unit of what they are of, in which they were written; of other
-    /// keys a number is in the unit of the key's name, unless it is shorter in that of people. What is no number stays.
-    #[test]
-    fn values_are_said_in_the_units_of_people() {
-        let text = include_str!("../../campaigns/net_launch.toml");
-        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
-        let radians = core::f64::consts::PI / 180.0;
-        for (key, value, known) in [
-            ("disperse[thrusters.p1.tilt_rad].std", format!("{:?}", 0.3 * radians), "0.3 deg"),
-            ("disperse[initial.position_m].std", "1.5".to_owned(), "1.5 m"),
-            ("disperse[sensors.tracker.bias_rad].std", format!("{:?}", 20.0 * radians / 3600.0), "20 arcsec"),
-            ("disperse[thrusters.p1.thrust_scale].std", "0.03".to_owned(), "0.03"),
-            ("disperse[thrusters.p1.tilt_rad].distribution", "\"normal\"".to_owned(), "\"normal\""),
-            ("disperse[initial.attitude].std_rad", format!("{:?}", 2.0 * radians), "2 deg"),
-            ("require[1].at_most", format!("{:?}", 2.0 * radians), "2 deg"),
-            ("require[4].at_most", "0.05".to_owned(), "5 cm/s"),
-            ("require[0].fraction", "0.95".to_owned(), "0.95"),
-            ("guidance.aim.bandwidth_rad_s", "0.06".to_owned(), "0.06"),
-            ("guidance.aim.max_rate_rad_s", format!("{radians:?}"), "1 deg/s"),
-            ("initial.position_m", "[-28.0, -14.0, 18.0]".to_owned(), "[-28, -14, 18]"),
-            ("campaign.samples", "1024".to_owned(), "1024"),
-        ] {
-            let [found, none] = said(Some([&plan; 2]), key, [Some(&value), None]);
-            assert_eq!((found.as_deref(), none), (Some(known), None), "{key}");
-        }
-        // without a plan, and of a key without a unit
-        assert_eq!(said(None, "campaign.duration_s", [Some("600.0"), None])[0].as_deref(), Some("600"));
-    }
-
     /// Law: both values of a key are in one unit, in which they differ, and both say it or, where the key names it,
     /// neither; those of requirements about different quantities are each in its own.
     #[test]

@@ -98,15 +98,18 @@ pub const ROWS: [Row; 2] = [
 impl Display {
     /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are
     /// of.
-    pub(super) fn read(section: &mut Section<'_, '_>, written: Vec<(String, &'static str)>) -> Self {
-        let found = section.right_rows(&ROWS);
-        section.finish();
-        let units = if let Some(Value::Words(units)) = found.get("units") { units.clone() } else { Vec::new() };
-        let mut columns: BTreeMap<String, &'static str> = written.into_iter().collect();
-        if let Some(Value::Units(own)) = found.get("columns") {
-            columns.extend(own.clone());
-        }
-        Display { units, columns }
+    pub(super) fn read(root: &mut Section<'_, '_>, written: Vec<(String, &'static str)>) -> Self {
+        let mut display = Display { units: Vec::new(), columns: written.into_iter().collect() };
+        root.kept("[display]", &ROWS, |found| {
+            if let Some(Value::Words(units)) = found.get("units") {
+                display.units.clone_from(units);
+            }
+            if let Some(Value::Units(own)) = found.get("columns") {
+                display.columns.extend(own.clone());
+            }
+            found.set("columns", Value::Units(display.columns.clone()));
+        });
+        display
     }
 
     /// The unit in which the column or parameter `name`, of unit `unit`, is shown.
@@ -125,15 +128,6 @@ impl Display {
                 size: [wanted.size[0] * own.size[1], wanted.size[1] * own.size[0]],
             },
             _ => ShownUnit::own(unit),
-        }
-    }
-
-    /// The value of a key, if canonical text has it.
-    pub(super) fn value(&self, key: &str) -> Option<Value> {
-        match key {
-            "units" if !self.units.is_empty() => Some(Value::Words(self.units.clone())),
-            "columns" if !self.columns.is_empty() => Some(Value::Units(self.columns.clone())),
-            _ => None,
         }
     }
 }
@@ -232,42 +226,5 @@ mod tests {
         assert_eq!(written(vec![]), ("deg".to_owned(), 1.7189));
         assert_eq!(written(vec!["rad"]), ("rad".to_owned(), 0.03));
         assert_eq!(Display::default().of("x", "rad/s").unit, "deg/s");
-    }
-
-    /// Law: speeds of wheels are in rpm, and rates of bodies in deg/s, whether the file says so or nothing; one that
-    /// asks for another unit of rates gets it.
-    #[test]
-    fn wheel_speeds_are_in_rpm() {
-        let said = Display { units: vec!["deg", "deg/s"], ..Display::default() };
-        let wheels =
-            ["rate_w1_final_rad_s", "speed_w1_max_rad_s", "speed_peak_w1_rad_s", "wheel_speed_margin_launch_rad_s"];
-        for name in wheels.into_iter().chain(["speed_w1_rad_s", "rate_w1_rad_s", "wheels.w1.speed_limit_rad_s"]) {
-            for display in [Display::default(), said.clone()] {
-                let shown = display.of(name, "rad/s");
-                // 100 pi rad/s are 3000 turns a minute
-                assert_eq!(
-                    (shown.unit.as_str(), shown.written(100.0 * core::f64::consts::PI)),
-                    ("rpm", 3000.0),
-                    "{name}"
-                );
-            }
-            for unit in ["rad/s", "rev/s"] {
-                let asked = Display { units: vec![unit], ..Display::default() };
-                assert_eq!(asked.of(name, "rad/s").unit, unit, "{name}");
-            }
-        }
-        for name in [
-            "angular_rate_max_rad_s",
-            "omega_se_s_x_final_rad_s",
-            "rate_estimate_error_rad_s",
-            "body_rate_launch_rad_s",
-        ] {
-            assert_eq!(Display::default().of(name, "rad/s").unit, "deg/s", "{name}");
-        }
-        // a speed that is no rate, and a torque of a wheel
-        assert_eq!(Display::default().of("relative_speed_launch_m_s", "m/s").unit, "m/s");
-        assert_eq!(Display::default().of("wheels.w1.torque_limit_n_m", "N m").unit, "N m");
-        let own = Display { columns: BTreeMap::from([("speed_w1_max_rad_s".to_owned(), "deg/s")]), ..said };
-        assert_eq!(own.of("speed_w1_max_rad_s", "rad/s").unit, "deg/s");
     }
 }

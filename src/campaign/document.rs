@@ -12,6 +12,7 @@ use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
 use crate::control::ControlLaw;
 use crate::control::laws::LawKind;
+use crate::sampling::keys::Written;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -72,6 +73,8 @@ pub struct Document<'a> {
     pub(super) known: Option<KnownColumns>,
     /// The units in which limits and dispersions are written, by the name of the column or parameter.
     pub(super) units: Vec<(String, &'static str)>,
+    /// Tables that canonical text has as they were read, in its order.
+    pub(super) tables: Vec<(&'static str, Written)>,
 }
 
 /// Where a key is in the text, bytes.
@@ -105,6 +108,7 @@ impl<'a> Document<'a> {
             ignored: Vec::new(),
             known: None,
             units: Vec::new(),
+            tables: Vec::new(),
         }
     }
 
@@ -244,6 +248,13 @@ impl<'a> Document<'a> {
     /// Forgets the problems after the first `noted`: they follow from one of those.
     pub(super) fn forget_since(&mut self, noted: usize) {
         self.problems.truncate(noted);
+    }
+
+    /// Keeps a table as it was read, for canonical text; nothing where it has no key.
+    pub(super) fn keep(&mut self, header: &'static str, written: Written) {
+        if written != Written::NONE {
+            self.tables.push((header, written));
+        }
     }
 
     /// Whether `name` may be a parameter of the control loop, of which too little could be read.

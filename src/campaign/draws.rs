@@ -4,16 +4,37 @@
 
 use super::lines::Lines;
 use super::numbers::MAX_SAMPLES;
-use super::parameter::{parameter, unknown_parameter};
+use super::parameter::{PARAMETER, parameter, unknown_parameter};
 use super::section::Section;
 use super::units;
 use crate::sampling::design::replicates::REPLICATES;
+use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule};
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure, Numbers, Table};
 use crate::scene::Parameter;
 
+/// The keys of `[[correlate]]`.
+pub const CORRELATE: [Row; 5] = [
+    Row::new("parameters", Kind::Names, "The dispersed parameters that depend on each other")
+        .required_as("an array of texts", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]"),
+    Row::new("correlation", Kind::Correlations, "Correlation of their normal scores"),
+    Row::new("rank_correlation", Kind::Correlations, "Rank correlation"),
+    Row::new("covariance", Kind::Correlations, "Covariance of normal distributions"),
+    Row::new("nearest_psd", Kind::Flag, "Whether to take the nearest matrix of correlations; default: false"),
+];
+
+/// One of these says how much they depend on each other.
+const MEASURE: Rule = Rule::One(&[&["correlation"], &["rank_correlation"], &["covariance"]], "0.5", ALL_BUT_ONE);
+
+/// The keys of `[[derive]]`.
+pub const DERIVE: [Row; 2] = [
+    PARAMETER,
+    Row::new("expression", Kind::Text(ANY_TEXT), "Arithmetic over other parameters")
+        .required_as("arithmetic over other parameters", "\"wheels.w1.density_kg_m3\""),
+];
+
 /// Reads one `[[correlate]]` table; `None` where something is wrong, which is then noted.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
-    table.require("parameters", "an array of texts", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]");
+    table.right_rows(&CORRELATE[..1]);
     let names = table.texts("parameters", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]");
     let parameters = names.and_then(|names| {
         let mut parameters = Vec::with_capacity(names.len());
@@ -34,15 +55,7 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
         }
         Some(parameters)
     });
-    let written: Vec<Measure> = Measure::ALL.into_iter().filter(|measure| table.has(measure.key())).collect();
-    match written[..] {
-        [_] => {}
-        [] => table.require("correlation", "given (correlation, rank_correlation or covariance)", "0.5"),
-        [_, second, ..] => {
-            let allowed = "the only one of correlation, rank_correlation, covariance";
-            table.refuse(second.key(), allowed, "delete all but one of them");
-        }
-    }
+    let is_one = table.obeys(&MEASURE, true);
     let mut numbers = Vec::new();
     for measure in Measure::ALL {
         numbers.extend(table.correlations(measure.key()).map(|numbers| (measure, numbers)));
@@ -51,7 +64,7 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
     let flag_passed = !table.has("nearest_psd") || nearest_psd.is_some();
     table.finish();
     match (parameters, numbers.pop()) {
-        (Some(parameters), Some((measure, numbers))) if flag_passed && written.len() == 1 => {
+        (Some(parameters), Some((measure, numbers))) if flag_passed && is_one => {
             Some(Correlation { parameters, measure, numbers, nearest_psd: nearest_psd.unwrap_or(false) })
         }
         _ => None,
@@ -61,8 +74,7 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
 /// Reads one `[[derive]]` table; `None` where something is wrong, which is then noted.
 pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     let target = parameter(table, "parameter");
-    table.require("expression", "arithmetic over other parameters", "\"wheels.w1.density_kg_m3\"");
-    let expression = table.text("expression").map(str::to_owned);
+    let expression = table.right_rows(&DERIVE[1..]).text("expression").map(str::to_owned);
     table.finish();
     let ((parameter, component), expression) = target.zip(expression)?;
     Some(Derivation { parameter, component, expression })

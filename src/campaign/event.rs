@@ -9,7 +9,7 @@ use crate::observables::Request;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::{Kind, Row, TextLimit, Value, Written, is_name};
+use crate::sampling::keys::{Kind, Row, TextLimit, Written, is_name, words};
 
 /// In which direction a quantity crosses the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,8 +67,8 @@ const NAME: TextLimit = TextLimit {
     remedy: "write it like settled",
     test: |name| is_name(name, 40),
 };
-const DIRECTIONS: [&str; 3] = [Direction::ALL[0].0, Direction::ALL[1].0, Direction::ALL[2].0];
-const WHICH: [&str; 3] = [Which::ALL[0].0, Which::ALL[1].0, Which::ALL[2].0];
+const DIRECTIONS: [&str; 3] = words(&Direction::ALL);
+const WHICH: [&str; 3] = words(&Which::ALL);
 
 /// The keys of the table.
 #[rustfmt::skip]
@@ -81,7 +81,7 @@ pub const ROWS: [Row; 6] = [
     Row::new("direction", Kind::Word(&DIRECTIONS), "Direction of the crossing"),
     Row::new("which", Kind::Word(&WHICH), "Which crossing gives its time; `stays`: the last one, if the quantity then \
         stays on that side to the end of the run"),
-    Row::new("ends_run", Kind::Flag, "Whether the run ends at its first crossing; default: false"),
+    Row::new("ends_run", Kind::Flag, "Whether the run ends at its first crossing; default: false").sparse(),
 ];
 
 impl Event {
@@ -136,14 +136,17 @@ impl Event {
             );
             return None;
         }
-        let (head, _) = head.zip(variables)?;
+        let (mut head, _) = head.zip(variables)?;
         let name = head.text("name")?;
         if taken.iter().any(|other| other == name) {
             table.refuse("name", "another name than that of the other [[event]] tables", "give each its own name");
             return None;
         }
         let (name, quantity) = (name.to_owned(), head.text("quantity")?.to_owned());
-        Some(Event { name, quantity, value: rest.number("value")?, direction, which, ends_run })
+        let value = rest.number("value")?;
+        head.extend(rest);
+        table.document.keep("[[event]]", head.completed(&ROWS, &[]));
+        Some(Event { name, quantity, value, direction, which, ends_run })
     }
 
     /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what
@@ -193,19 +196,6 @@ impl Event {
             None => Vec::new(),
             Some(_) => others[..1 + usize::from(ends)].iter().copied().chain(of_events).collect(),
         }
-    }
-
-    /// The value of a key in canonical text.
-    pub(super) fn value(&self, key: &str) -> Option<Value> {
-        Some(match key {
-            "name" => self.name.as_str().into(),
-            "quantity" => self.quantity.as_str().into(),
-            "value" => self.value.into(),
-            "ends_run" if !self.ends_run => return None,
-            "ends_run" => true.into(),
-            "direction" => Value::Word(Direction::ALL.iter().find(|(_, one)| *one == self.direction)?.0),
-            _ => Value::Word(Which::ALL.iter().find(|(_, one)| *one == self.which)?.0),
-        })
     }
 }
 

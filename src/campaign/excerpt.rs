@@ -102,12 +102,4 @@ mod tests {
         assert!(lines[0].chars().count() < WIDTH + 10);
         assert_eq!(Excerpt::new("short", 9..10), None);
     }
-
-    /// Law: what a terminal obeys is shown as text, and nothing else is changed.
-    #[test]
-    fn a_terminal_obeys_nothing() {
-        assert_eq!(printable("\u{1b}[31mred\r\u{9b}1m\u{202e}"), "\\u{1b}[31mred\\u{d}\\u{9b}1m\\u{202e}");
-        assert!(matches!(printable("plain \u{3b1}\n\tlines"), Cow::Borrowed(_)));
-        assert_eq!(Excerpt::new("a\u{1b}b", 0..1).unwrap().line, "a\u{fffd}b");
-    }
 }

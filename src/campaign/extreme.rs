@@ -9,7 +9,7 @@ use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{ColumnKind, LawColumn, Request};
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, Value, is_name};
+use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, TextLimit, is_name};
 
 /// The largest or the smallest value of a quantity over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub const ROWS: [Row; 5] = [
     Row::new("which", Kind::Word(&WHICH), "Whether to take the largest value or the smallest"),
     Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` after which it is taken; default: from the \
         start of the run"),
-    Row::new("delay_s", Kind::Number, "Delay from that time; default: 0").not_negative(),
+    Row::new("delay_s", Kind::Number, "Delay from that time").not_negative().or(Presence::Or(0.0)),
 ];
 
 impl Extreme {
@@ -95,8 +95,10 @@ impl Extreme {
             return None;
         }
         let is_highest = written.text("which") == Some(WHICH[0]);
-        let delay_s = written.number("delay_s").unwrap_or(0.0);
-        Some(Extreme { name: written.text("name")?.to_owned(), quantity, unit, is_highest, after, delay_s })
+        let written = written.completed(&ROWS, &[]);
+        let (name, delay_s) = (written.text("name")?.to_owned(), written.number("delay_s")?);
+        table.document.keep("[[extreme]]", written);
+        Some(Extreme { name, quantity, unit, is_highest, after, delay_s })
     }
 
     /// The expression, and the quantities that are its variables; `None` only for what [`Extreme::read_all`] refuses.
@@ -137,16 +139,5 @@ impl Extreme {
             kind: ColumnKind::Float,
             codes: &[],
         }
-    }
-
-    /// The value of a key in canonical text.
-    pub(super) fn value(&self, key: &str) -> Option<Value> {
-        Some(match key {
-            "name" => self.name.as_str().into(),
-            "quantity" => self.quantity.as_str().into(),
-            "which" => Value::Word(WHICH[usize::from(!self.is_highest)]),
-            "after" => self.after.as_deref()?.into(),
-            _ => self.delay_s.into(),
-        })
     }
 }

@@ -1,9 +1,9 @@
 //! `[[failure]]`: devices that fail during a run, as a campaign file says them and as canonical text.
 
 use super::control::turning;
-use super::lines::Lines;
+use super::scene_table::{Field, SceneTable};
 use super::section::Section;
-use super::tables::{read_keys, read_name};
+use crate::sampling::keys::{Kind, Row, Value};
 use crate::scene::table::Table;
 use crate::scene::{Device, FailureInput, Name, SceneInput, SensorOutput, WheelMode};
 
@@ -18,33 +18,54 @@ const KEYS: [&[&str]; 4] =
 /// The place of sensors in these lists.
 const SENSOR: usize = 3;
 
-/// Reads the tables into `scene`, whose devices have been read.
-pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    let has_loop = root.has("control");
-    root.sections("failure", MOST_FAILURES, |section| {
-        let taken: Vec<Name> = scene.failures.iter().map(|failure| failure.name).collect();
-        let name = read_name(section, Table::Failure, &taken);
-        let device = read_device(section, scene, has_loop);
-        scene.failures.push(FailureInput { name, ..FailureInput::DEFAULT });
-        let place = scene.failures.len() - 1;
-        if let Some((kind, _)) = device {
-            check_keys(section, kind);
+/// A key that names the device.
+macro_rules! device {
+    ($kind:literal, $meaning:literal) => {
+        Field {
+            row: Row::new(DEVICES[$kind], Kind::Name, $meaning),
+            get: |scene, place| {
+                let (key, device) = named(scene, scene.failures[place].device)?;
+                (key == DEVICES[$kind]).then(|| device.as_str().into())
+            },
+            // with the other devices, by `check`
+            set: |_, _, _| {},
         }
-        read_keys(section, Table::Failure, place, scene);
-        let names = SensorOutput::ALL.map(SensorOutput::name);
-        let output = section.name("output", &names, SensorOutput::from_name);
-        if let Some((_, device)) = device {
-            check_device(section, scene, device, has_loop);
-            let failure = &mut scene.failures[place];
-            (failure.device, failure.output) = (device, output);
-        }
-        section.finish();
-    });
+    };
+}
+
+/// The tables of failures, which are read where the devices of the scene are.
+#[rustfmt::skip]
+pub static TABLE: SceneTable = SceneTable::list(&[Table::Failure], MOST_FAILURES, |scene, name| {
+    scene.failures.push(FailureInput { name, ..FailureInput::DEFAULT });
+})
+.checked(check)
+.with(&[
+    device!(0, "The wheel that fails"),
+    device!(1, "The thruster that fails"),
+    device!(2, "The torque rod that fails"),
+    device!(3, "The sensor that fails"),
+    Field {
+        row: Row::new("output", Kind::OneOf(|| SensorOutput::ALL.map(SensorOutput::name).to_vec()),
+            "What a sensor delivers from then on"),
+        get: |scene, place| scene.failures[place].output.map(|output| Value::Word(output.name())),
+        set: |scene, place, value| scene.failures[place].output = value.text().and_then(SensorOutput::from_name),
+    },
+], &[]);
+
+/// Reads which device fails, and notes what it cannot do.
+fn check(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
+    let has_loop = section.document.law.is_some() || section.document.is_loop_unknown;
+    if let Some((kind, device)) = read_device(section, scene, has_loop) {
+        check_keys(section, kind);
+        check_device(section, scene, device, has_loop);
+        scene.failures[place].device = device;
+    } else {
+        scene.failures[place].output = None;
+    }
 }
 
 /// The device that fails, and the place of its kind; `None` where that is wrong, which is then noted.
 fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool) -> Option<(usize, Device)> {
-    DEVICES.iter().for_each(|key| section.know(key));
     let written: Vec<usize> = (0..DEVICES.len()).filter(|kind| section.has(DEVICES[*kind])).collect();
     let kind = match written[..] {
         [kind] => kind,
@@ -164,19 +185,4 @@ fn named(scene: &SceneInput, device: Device) -> Option<(&'static str, Name)> {
 /// The device of `scene` in words: `wheel w1`.
 pub fn failed_device(scene: &SceneInput, device: Device) -> String {
     named(scene, device).map_or_else(String::new, |(kind, name)| format!("{} {name}", kind.replace('_', " ")))
-}
-
-/// The failures of `scene` as canonical text.
-pub(super) fn write(scene: &SceneInput, lines: &mut Lines) {
-    for (place, failure) in scene.failures.iter().enumerate() {
-        lines.table("[[failure]]");
-        lines.key("name", failure.name);
-        if let Some((key, device)) = named(scene, failure.device) {
-            lines.key(key, device);
-        }
-        if let Some(output) = failure.output {
-            lines.key("output", output.name());
-        }
-        lines.keys(Table::Failure, place, scene);
-    }
 }

@@ -81,29 +81,3 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most { Err(InputError::Size(bytes.len() as u64)) } else { Ok(bytes) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: folders, devices and pipes are refused by kind without waiting, a file by its size, and a link to a good
-    /// file is followed.
-    #[cfg(unix)]
-    #[test]
-    fn only_regular_files_are_read() {
-        let folder = std::env::temp_dir().join(format!("spindrift-input-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&folder);
-        std::fs::create_dir_all(&folder).unwrap();
-        let (good, link, pipe) = (folder.join("good"), folder.join("link"), folder.join("pipe"));
-        std::fs::write(&good, b"12345").unwrap();
-        std::os::unix::fs::symlink(&good, &link).unwrap();
-        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-        assert_eq!(read(&link, 5).unwrap(), b"12345");
-        assert!(matches!(read(&good, 4), Err(InputError::Size(5))));
-        assert!(matches!(read(&pipe, 9), Err(InputError::Kind("a named pipe (FIFO)"))));
-        assert!(matches!(read(Path::new("/dev/zero"), 9), Err(InputError::Kind("a device"))));
-        assert!(matches!(read(&folder, 9), Err(InputError::Kind("a folder"))));
-        assert!(matches!(read(&folder.join("none"), 9), Err(InputError::Io(_))));
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
-}

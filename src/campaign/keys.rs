@@ -36,6 +36,17 @@ impl Section<'_, '_> {
         written
     }
 
+    /// What is right of the table `[header]`, which is kept for canonical text, completed after `change`.
+    pub(super) fn kept(&mut self, header: &'static str, rows: &[Row], change: impl FnOnce(&mut Written)) -> Written {
+        let mut section = self.section(header.trim_matches(['[', ']']));
+        let mut written = section.right_rows(rows);
+        section.finish();
+        change(&mut written);
+        let written = written.completed(rows, &[]);
+        self.document.keep(header, written.clone());
+        written
+    }
+
     /// What is right of that; without the keys that are wrong, which are noted.
     pub(super) fn right_rows(&mut self, rows: &[Row]) -> Written {
         let mut written = Written::default();
@@ -136,6 +147,16 @@ impl Section<'_, '_> {
             }
             Kind::Units => Some(Value::Words(display::of_quantities(self, key))),
             Kind::UnitsByName => Some(Value::Units(display::by_name(self, key))),
+            // read where it is known what there is
+            Kind::Name | Kind::Names | Kind::ByName | Kind::Correlations => {
+                self.know(key);
+                None
+            }
+            Kind::OneOf(words) => {
+                let words = words();
+                let found = self.name(key, &words, |word| words.iter().copied().find(|known| *known == word));
+                found.map(Value::Word)
+            }
             Kind::Column => data_keys::column(self).map(Value::Column),
             Kind::Columns => data_keys::columns(self).map(Value::Columns),
         }
@@ -191,7 +212,7 @@ impl Section<'_, '_> {
     /// Numbers, any count of them; at least one where they have a limit.
     fn list(&mut self, key: &str, unit: &'static str, limit: Option<NumberLimit>) -> Option<Value> {
         let list = self.numbers(key, unit)?;
-        if let Some(limit) = limit.filter(|limit| list.is_empty() || !list.iter().all(|x| (limit.test)(*x))) {
+        if let Some(limit) = limit.filter(|limit| list.is_empty() || !list.iter().all(|x| limit.holds(*x))) {
             self.refuse(key, limit.allowed, limit.remedy);
             return None;
         }
@@ -227,7 +248,7 @@ impl Section<'_, '_> {
     }
 
     /// Whether the table obeys a rule; notes where not. `is_right`: it obeys those before.
-    fn obeys(&mut self, rule: &Rule, is_right: bool) -> bool {
+    pub(super) fn obeys(&mut self, rule: &Rule, is_right: bool) -> bool {
         let only = |table: &mut Self, written: &[&'static str], all: &[&'static str], remedy: &str| {
             let Some(second) = written.get(1) else { return true };
             table.refuse(second, format!("the only one of {}", all.join(", ")), remedy);
@@ -257,10 +278,7 @@ impl Section<'_, '_> {
                 self.has(first) == self.has(second)
             }
             Rule::Only { keys, with, allowed, remedy } => {
-                let holds = |condition: &Condition| match condition {
-                    Condition::Has(key) => self.has(key),
-                    Condition::IsNot(key, word) => self.plain_text(key) != Some(word),
-                };
+                let holds = |condition: &Condition| condition.holds(|key| self.has(key), |key| self.plain_text(key));
                 if !is_right || with.iter().all(holds) {
                     return true;
                 }
@@ -301,12 +319,10 @@ impl Section<'_, '_> {
 }
 
 impl Lines {
-    /// A table: of the keys `rows` those that `value` has, in their order.
-    pub(super) fn rows(&mut self, header: &str, rows: &[Row], value: impl Fn(&'static str) -> Option<Value>) {
+    /// A table with these keys.
+    pub(super) fn rows(&mut self, header: &str, written: &Written) {
         self.table(header);
-        let values = rows.iter().filter_map(|row| Some((row.key, value(row.key)?)));
-        let written = values.fold(Written::default(), |written, (key, value)| written.with(key, value));
-        self.written(header, &written);
+        self.written(header, written);
     }
 
     /// The keys of a table. A distribution among them is a table within `[header]` and comes last.
@@ -328,6 +344,11 @@ impl Lines {
                     self.written(&header, written);
                 }
                 Value::Flag(flag) => self.key(key, flag),
+                Value::ByName(numbers) if numbers.is_empty() => {}
+                Value::ByName(numbers) => {
+                    let entries = numbers.iter().map(|(name, number)| format!("{name} = {number:?}"));
+                    self.raw(key, &format!("{{ {} }}", entries.collect::<Vec<_>>().join(", ")));
+                }
                 Value::Texts(texts) => self.key(key, texts),
                 Value::Units(units) => {
                     let entry =

@@ -1,8 +1,8 @@
 //! [`Lines`]: canonical text while it is written, table by table and key by key.
 
+use crate::scene::SceneInput;
 use crate::scene::schema::limit::shown;
 use crate::scene::table::Table;
-use crate::scene::{Name, SceneInput};
 
 /// A table's lines while they are written.
 #[derive(Default)]
@@ -37,31 +37,12 @@ impl Lines {
         self.0.push_str(&format!("# {text}\n"));
     }
 
-    /// A table of the scene: every key that `scene` has.
-    pub(super) fn keys_of(&mut self, header: &str, table: Table, instance: usize, scene: &SceneInput) {
-        self.table(header);
-        self.keys(table, instance, scene);
-    }
-
     /// Every key of a table that `scene` has.
     pub(super) fn keys(&mut self, table: Table, instance: usize, scene: &SceneInput) {
         for key in table.keys_in(scene, instance) {
             if let Some(numbers) = key.read(scene, instance) {
                 self.0.push_str(&format!("{} = {}\n", key.facts().key, shown(numbers)));
             }
-        }
-    }
-
-    /// Numbers by the names of what they belong to; nothing where there is nothing.
-    pub(super) fn by_name(
-        &mut self,
-        key: &str,
-        names: impl Iterator<Item = Name>,
-        numbers: impl IntoIterator<Item = f64>,
-    ) {
-        let entries: Vec<String> = names.zip(numbers).map(|(name, number)| format!("{name} = {number:?}")).collect();
-        if !entries.is_empty() {
-            self.0.push_str(&format!("{key} = {{ {} }}\n", entries.join(", ")));
         }
     }
 

@@ -6,10 +6,11 @@
 //! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
 //! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the
 //!   lines. By hand and not by serde's derive, which stops at the first error and knows no line of a key that passed.
-//! - [`spec`]: a campaign file as written; [`settings`]: keys that are no part of the scene; `scene`: those of the
-//!   scene, from [`crate::scene::schema`]; `control`, `sensor_tables`, `phase_tables`: those of a control loop;
-//!   `failure_tables`: devices that fail; [`draws`]: those that say what is drawn; `keys`: rows of keys, read and
-//!   written; [`data`], `data_columns`, `data_keys`: files of numbers; `parameter`: names of parameters; [`bands`].
+//! - [`spec`]: a campaign file as written. [`settings`]: keys outside the scene. [`scene`], [`scene_table`]: keys of
+//!   the scene, with the numbers that [`crate::scene::schema`] declares. `control`, `sensor_tables`, `phase_tables`:
+//!   control loops. [`failure_tables`]: devices that fail. [`draws`]: dispersions and designs. `keys`: rows of keys,
+//!   read and written. [`schema`]: the JSON Schema of campaign files. [`data`], `data_columns`, `data_keys`: files of
+//!   numbers. [`parameter`]: names of parameters. [`bands`].
 //! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what
 //!   they can name; [`columns`]: what runs are observed for; [`event`]: quantities that cross a value; [`extreme`]:
 //!   their largest values; `watched_quantity`: which there are; [`event_columns`]: when events and failures happened.
@@ -47,7 +48,7 @@ pub mod event;
 pub mod event_columns;
 pub mod excerpt;
 pub mod extreme;
-mod failure_tables;
+pub mod failure_tables;
 pub mod find;
 pub mod forces;
 pub mod input_file;
@@ -59,14 +60,16 @@ pub mod meaning;
 mod module_key;
 pub mod notes;
 pub mod numbers;
-mod parameter;
+pub mod parameter;
 mod phase_tables;
 pub mod plan;
 mod plan_rows;
 pub mod problem;
 pub mod requirement;
 pub mod retention;
-mod scene;
+pub mod scene;
+pub mod scene_table;
+pub mod schema;
 pub mod section;
 mod sensor_tables;
 pub mod settings;

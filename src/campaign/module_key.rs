@@ -9,7 +9,17 @@ use crate::control::laws::LawKind;
 use crate::control::sensor_spec::SensorSpec;
 use crate::control::sensors;
 use crate::control::spec::ModuleSpec;
+use crate::sampling::Written;
+use crate::sampling::keys::{Condition, Rule};
 use sha2::{Digest, Sha256};
+
+/// A checksum is the one of a module.
+pub(super) const RULE: Rule = Rule::Only {
+    keys: &["module_sha256"],
+    with: &[Condition::Has("module")],
+    allowed: "left out without `module`",
+    remedy: "delete it, or add module = \"law.wasm\"",
+};
 
 /// What the file says of a module.
 pub(super) enum ModuleKey {
@@ -30,20 +40,18 @@ impl ModuleKey {
     }
 }
 
-/// Reads `module` and `module_sha256` of `[control]`.
-pub(super) fn read(section: &mut Section<'_, '_>) -> ModuleKey {
-    let sha256 = section.text("module_sha256").map(str::to_owned);
+/// Reads `module` and `module_sha256` of `[control]`, of which `written` is read; completes the checksum there.
+pub(super) fn read(section: &mut Section<'_, '_>, written: &mut Written) -> ModuleKey {
+    let [file, sha256] = ["module", "module_sha256"].map(|key| written.text(key).map(str::to_owned));
     if !section.has("module") {
-        section.know("module");
-        if section.has("module_sha256") {
-            section.refuse("module_sha256", "left out without `module`", "delete it, or add module = \"law.wasm\"");
-            return ModuleKey::Wrong;
-        }
-        return ModuleKey::Absent;
+        return if section.obeys(&RULE, true) { ModuleKey::Absent } else { ModuleKey::Wrong };
     }
-    let Some(file) = section.text("module").map(str::to_owned) else { return ModuleKey::Wrong };
+    let Some(file) = file else { return ModuleKey::Wrong };
     match module(section, &file, sha256.as_deref()) {
-        Ok(code) => ModuleKey::Read(ModuleSpec { file, code }),
+        Ok(code) => {
+            written.set("module_sha256", code.sha256());
+            ModuleKey::Read(ModuleSpec { file, code })
+        }
         Err((key, allowed, remedy)) => {
             section.refuse(key, allowed, remedy);
             ModuleKey::Wrong

@@ -3,20 +3,25 @@
 use super::section::Section;
 use super::units::{self, UnitProblem};
 use crate::sampling::Values;
+use crate::sampling::keys::{between, inside};
 use crate::scene::schema::Limit;
+use std::ops::Bound;
 use toml::de::DeValue;
 
 pub use crate::sampling::keys::NumberLimit;
 
-pub const FINITE: NumberLimit =
-    NumberLimit { allowed: "a finite number", remedy: "write a number such as 1.5", test: |x| x.is_finite() };
+pub const FINITE: NumberLimit = NumberLimit {
+    allowed: "a finite number",
+    remedy: "write a number such as 1.5",
+    range: inside(f64::NEG_INFINITY, f64::INFINITY),
+};
 pub const POSITIVE: NumberLimit =
-    NumberLimit { allowed: "a number > 0", remedy: "write a positive number", test: |x| x.is_finite() && x > 0.0 };
+    NumberLimit { allowed: "a number > 0", remedy: "write a positive number", range: inside(0.0, f64::INFINITY) };
 
 pub const NOT_NEGATIVE: NumberLimit = NumberLimit {
     allowed: "a number of at least 0",
     remedy: "write zero or a positive number",
-    test: |x| x.is_finite() && x >= 0.0,
+    range: (Bound::Included(0.0), Bound::Excluded(f64::INFINITY)),
 };
 
 impl Section<'_, '_> {
@@ -50,7 +55,7 @@ impl Section<'_, '_> {
     pub(super) fn number_in(&mut self, key: &str, unit: &'static str, limit: NumberLimit) -> Option<f64> {
         let value = self.take(key)?;
         match number(value.get_ref(), unit) {
-            Some(number) if (limit.test)(number) => Some(number),
+            Some(number) if limit.holds(number) => Some(number),
             Some(_) => {
                 self.refuse(key, limit.allowed, limit.remedy);
                 None
@@ -217,23 +222,26 @@ pub const MAX_POINTS: u64 = 1_000_000;
 pub const TOLERANCE: NumberLimit = NumberLimit {
     allowed: "a number from 1e-16 to 1e-2",
     remedy: "1e-10 is a good start",
-    test: |x| (1e-16..=1e-2).contains(&x),
+    range: between(1e-16, 1e-2),
 };
 
 /// A probability that is neither impossible nor certain.
 pub const PROBABILITY: NumberLimit = NumberLimit {
     allowed: "a number between 0 and 1, neither included",
     remedy: "write it like 0.99",
-    test: |x| x > 0.0 && x < 1.0,
+    range: inside(0.0, 1.0),
 };
 
 /// Confidence of an interval or a decision.
-pub const CONFIDENCE: NumberLimit =
-    NumberLimit { allowed: "a number from 0.5 to below 1", remedy: "0.95 is usual", test: |x| (0.5..1.0).contains(&x) };
+pub const CONFIDENCE: NumberLimit = NumberLimit {
+    allowed: "a number from 0.5 to below 1",
+    remedy: "0.95 is usual",
+    range: (Bound::Included(0.5), Bound::Excluded(1.0)),
+};
 
 /// A share of the samples.
 pub const FRACTION: NumberLimit = NumberLimit {
     allowed: "a number from 0 to 1",
     remedy: "0.01 runs one sample in a hundred again exactly, 1 all of them",
-    test: |x| (0.0..=1.0).contains(&x),
+    range: between(0.0, 1.0),
 };

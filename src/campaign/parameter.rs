@@ -2,11 +2,18 @@
 
 use super::meaning::meant;
 use super::section::Section;
-use crate::scene::{LawParameter, Parameter, SceneInput};
+use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row};
+use crate::scene::{EnvironmentInput, LawParameter, Parameter, SceneInput};
+
+/// The key that says what a table is about.
+pub const PARAMETER: Row = Row::new("parameter", Kind::Text(ANY_TEXT), "A number of the scene or of the control loop")
+    .required_as("a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
 
 /// The parameter, and the component if one is meant, that `key` names.
 pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
-    table.require(key, "a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
+    if let Presence::Required { allowed, example } = PARAMETER.presence {
+        table.require(key, allowed, example);
+    }
     let name = table.text(key)?;
     let found = Parameter::find(&table.document.scene, name);
     if found.is_none() && !table.document.may_be_of_loop(name) {
@@ -19,9 +26,30 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
     found
 }
 
-/// Why no draw of `parameter` would change a run, and what to do instead: it is a number that a filter takes from the
-/// file.
+/// The setting that a key of a table with this header needs in order to act, where `environment` lacks it.
+pub fn lacking(environment: &EnvironmentInput, header: &str, key: &str) -> Option<&'static str> {
+    let (acts, setting) = match (header, key) {
+        ("environment", "density_scale") | ("plates", "drag_coefficient") => (environment.drag, "drag = true"),
+        ("environment", "solar_pressure_n_m2" | "shadow") | ("plates", "specular" | "diffuse") => {
+            (environment.solar_pressure, "solar_pressure = true")
+        }
+        ("environment", "area_scale") | ("plates", _) => {
+            (environment.acts_on_plates(), "drag = true or solar_pressure = true")
+        }
+        _ => return None,
+    };
+    (!acts).then_some(setting)
+}
+
+/// Why no draw of `parameter` would change a run, and the remedy: its effect does not act, or it is a number that a
+/// filter takes from the file.
 pub(super) fn without_effect(table: &Section<'_, '_>, parameter: Parameter) -> Option<(String, &'static str)> {
+    let (name, environment) = (parameter.name(), &table.document.scene.environment);
+    let header = name.split('.').next().unwrap_or_default();
+    if let Some(setting) = lacking(environment, header, parameter.facts().key) {
+        let allowed = format!("a parameter that acts, which {name} does with environment.{setting} alone");
+        return Some((allowed, "add that line to [environment], or delete this table"));
+    }
     let kind = table.document.law.as_ref()?.spec()?.estimator_kind();
     let is_own = |own: &LawParameter| parameter.name().strip_prefix("control.") == Some(own.facts.key);
     kind.parameters.iter().any(is_own).then(|| {

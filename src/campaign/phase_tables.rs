@@ -11,25 +11,49 @@ use crate::control::laws::rod_law::{ROD_USES, RodUse};
 use crate::control::laws::{self, LawKind, callback};
 use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
+use crate::sampling::keys::{ANY_TEXT, Condition as When, Kind, Row, Rule, Value, Written, words};
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, LawParameter, Name, SceneInput, WheelMode};
 
 /// The word that stands for the launch of the net where a phase stands else.
-pub(super) const LAUNCH: &str = "launch";
-
+const LAUNCH: &str = "launch";
 /// The law that may have the term omega x H or not.
-pub(super) const GYROSCOPIC: &str = "mrp_feedback";
+const GYROSCOPIC: &str = "mrp_feedback";
+const TARGET_NAMES: [&str; TARGETS.len()] = words(&TARGETS);
+const MANEUVER_NAMES: [&str; MANEUVERS.len()] = words(&MANEUVERS);
+const ROD_USE_NAMES: [&str; ROD_USES.len()] = words(&ROD_USES);
 
-/// The keys of a phase that are no numbers.
-const WORDS: [&str; 9] = ["phase", "law", "gyroscopic", "target", "thrust", "rods", "until", "next", "otherwise"];
+/// The keys of `[[guidance]]` that are no parameters.
+#[rustfmt::skip]
+pub const ROWS: [Row; 9] = [
+    Row::new("phase", Kind::Text(ANY_TEXT), "Its name").required_as(Name::ALLOWED, "\"hold\""),
+    Row::new("law", Kind::OneOf(|| laws::KINDS.iter().map(|kind| kind.name).collect()),
+        "The law of attitude, or `module`; default: no torque"),
+    Row::new("gyroscopic", Kind::Flag, "Whether mrp_feedback has the term omega x H; default: false"),
+    Row::new("target", Kind::Word(&TARGET_NAMES), "The attitude that it wants"),
+    Row::new("thrust", Kind::Word(&MANEUVER_NAMES), "What thrust is for"),
+    Row::new("rods", Kind::Word(&ROD_USE_NAMES), "What torque rods are for").sparse(),
+    Row::new("until", Kind::Text(ANY_TEXT), "The condition that ends it; default: it lasts to the end of the run"),
+    Row::new("next", Kind::Text(ANY_TEXT), "The phase that follows, or `launch`; default: the next one of the file"),
+    Row::new("otherwise", Kind::Text(ANY_TEXT), "The phase that follows at once where the condition is not met"),
+];
 
-/// A phase as read: what follows it is a word until all phases are known.
-pub(super) struct ReadPhase {
-    spec: PhaseSpec,
-    next: Option<String>,
-    otherwise: Option<String>,
-}
+/// What they have to do with each other.
+pub const RULES: [Rule; 2] = [
+    Rule::Only {
+        keys: &["gyroscopic"],
+        with: &[When::Is("law", GYROSCOPIC)],
+        allowed: "left out where the law is not \"mrp_feedback\"",
+        remedy: "delete this line",
+    },
+    Rule::Only {
+        keys: &["hold_s", "next", "otherwise"],
+        with: &[When::Has("until")],
+        allowed: "left out without `until`",
+        remedy: "add until = \"...\", or delete this line",
+    },
+];
 
 /// The law that a phase names among `kinds`. A module that is wrong is told once: here it counts as no law.
 fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &ModuleKey) -> Option<&'static LawKind> {
@@ -51,6 +75,11 @@ fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &Modul
     }
 }
 
+/// What the word of `key` means in `list`; `None` where it is wrong.
+fn meaning<T: Copy>(list: &[(&str, T)], written: &Written, key: &str) -> Option<T> {
+    list.iter().find(|(word, _)| written.text(key) == Some(word)).map(|(_, meaning)| *meaning)
+}
+
 /// One table of `[[guidance]]`; its name joins `taken`. `None` where its name is wrong, or a word that other keys
 /// depend on, which are then not known.
 pub(super) fn read_phase(
@@ -58,7 +87,7 @@ pub(super) fn read_phase(
     scene: &mut SceneInput,
     ([has_thrusters, has_rods], module): ([bool; 2], &ModuleKey),
     taken: &mut Vec<Name>,
-) -> Option<ReadPhase> {
+) -> Option<PhaseSpec> {
     section.require("phase", Name::ALLOWED, "\"hold\"");
     let name = section.text("phase").map(|text| (text, Name::new(text)));
     let name = match name {
@@ -87,9 +116,10 @@ pub(super) fn read_phase(
     let brought = [&callback::KIND].into_iter().chain(section.document.attitude_law).chain(module.kind());
     let kinds: Vec<&'static LawKind> = laws::KINDS.iter().chain(brought).collect();
     let law = law(section, &kinds, module);
-    let gyroscopic = section.flag("gyroscopic").unwrap_or(false);
-    if section.has("gyroscopic") && law.is_some_and(|law| law.name != GYROSCOPIC) {
-        section.refuse("gyroscopic", format!("left out where the law is not {GYROSCOPIC:?}"), "delete this line");
+    let mut written = section.right_rows(&ROWS[4..]);
+    written.extend(section.right_rows(&ROWS[2..3]));
+    if !section.has("law") || law.is_some() {
+        section.obeys(&RULES[0], true);
     }
     let (has_orbit, has_date) = (scene.orbit.is_some(), scene.orbit.is_some_and(|orbit| orbit.epoch.is_some()));
     let is_there = |target: &Target| {
@@ -99,15 +129,13 @@ pub(super) fn read_phase(
     };
     let targets: Vec<(&str, Target)> = TARGETS.into_iter().filter(|(_, target)| is_there(target)).collect();
     let names: Vec<&str> = targets.iter().map(|(name, _)| *name).collect();
-    let target =
-        section.name("target", &names, |name| targets.iter().find(|(known, _)| *known == name).map(|one| one.1));
+    let target = section.name("target", &names, |name| targets.iter().find(|(known, _)| *known == name).copied());
     let mut is_known = !(section.has("law") && law.is_none() || section.has("target") && target.is_none());
-    let target = target.unwrap_or(Target::None);
-    let thrust = section.name("thrust", &MANEUVERS.map(|(name, _)| name), |name| {
-        MANEUVERS.iter().find(|(known, _)| *known == name).map(|one| one.1)
-    });
-    is_known &= thrust.is_some() || !section.has("thrust");
-    let thrust = thrust.unwrap_or(Maneuver::None);
+    let (target_name, target) = target.unwrap_or(TARGETS[0]);
+    let thrust = meaning(&MANEUVERS, &written, "thrust");
+    let rods = meaning(&ROD_USES, &written, "rods");
+    is_known &= thrust.is_some() && rods.is_some();
+    let (thrust, rods) = (thrust.unwrap_or(Maneuver::None), rods.unwrap_or(RodUse::None));
     if thrust != Maneuver::None && !(has_thrusters && has_debris) {
         let allowed = "\"none\" in a loop without thrusters, or without debris";
         section.refuse(
@@ -116,11 +144,6 @@ pub(super) fn read_phase(
             "add thrusters = [...] to [control] and a [debris] table, or delete this line",
         );
     }
-    let rods = section.name("rods", &ROD_USES.map(|(name, _)| name), |name| {
-        ROD_USES.iter().find(|(known, _)| *known == name).map(|one| one.1)
-    });
-    is_known &= rods.is_some() || !section.has("rods");
-    let rods = rods.unwrap_or(RodUse::None);
     if rods != RodUse::None && !has_rods {
         let remedy = "add torque_rods = [...] to [control], or delete this line";
         section.refuse("rods", "\"none\" in a loop without torque rods", remedy);
@@ -135,31 +158,21 @@ pub(super) fn read_phase(
             "write the same word, or target = \"velocity\"",
         );
     }
-    if section.has("hold_s") && !section.has("until") {
-        section.know("hold_s");
-        section.refuse("hold_s", "left out without `until`", "add until = \"...\", or delete this line");
-    }
-    let until = section.text("until");
-    let until = until.and_then(|text| match Condition::parse(text, has_debris) {
+    section.obeys(&RULES[1], true);
+    let until = written.text("until").and_then(|text| match Condition::parse(text, has_debris) {
         Ok(condition) => Some(condition),
         Err(allowed) => {
             section.refuse("until", allowed, "write it like \"body_rate_rad_s < 0.002\"");
             None
         }
     });
-    let next = section.text("next").map(str::to_owned);
-    let otherwise = section.text("otherwise").map(str::to_owned);
-    for key in ["next", "otherwise"] {
-        if section.has(key) && !section.has("until") {
-            section.refuse(key, "left out without `until`", "add until = \"...\", or delete this line");
-        }
-    }
     let mut lists = parameters::of_phase(target, thrust, [section.has("until"), has_thrusters]);
     lists.push(rods.parameters());
     if let Some(law) = law {
         let is_taken = |parameter: &LawParameter| {
             let key = parameter.facts.key;
-            WORDS.contains(&key) || lists.iter().any(|list| list.iter().any(|other| other.facts.key == key))
+            ROWS.iter().any(|row| row.key == key)
+                || lists.iter().any(|list| list.iter().any(|other| other.facts.key == key))
         };
         if let Some(taken) = law.parameters.iter().find(|parameter| is_taken(parameter)) {
             let allowed = format!("a law whose parameters are not also keys of the phase ({:?} is)", taken.facts.key);
@@ -177,14 +190,17 @@ pub(super) fn read_phase(
     let place = law.and_then(|law| kinds.iter().position(|kind| *kind == law));
     ignore_others(section, "law", place, kinds.iter().map(|kind| (kind.name, kind.parameters)));
     section.finish();
-    let spec = PhaseSpec { name: own, law, gyroscopic, target, thrust, rods, until, next: Next::Stay, otherwise: None };
-    name.map(|_| ReadPhase { spec, next, otherwise })
+    let gyroscopic = written.flag("gyroscopic");
+    written = written.with("phase", own.as_str()).with("target", Value::Word(target_name));
+    law.into_iter().for_each(|law| written.set("law", Value::Word(law.name)));
+    let (next, otherwise) = (Next::Stay, None);
+    name.map(|_| PhaseSpec { name: own, law, gyroscopic, target, thrust, rods, until, next, otherwise, written })
 }
 
 /// The phases with what follows them. One with a condition and without `next` is followed by the next in the list.
 pub(super) fn connected(
     root: &mut Section<'_, '_>,
-    phases: Vec<Option<ReadPhase>>,
+    phases: Vec<Option<PhaseSpec>>,
     names: &[Name],
 ) -> Option<Vec<PhaseSpec>> {
     let place = |word: &str| names.iter().position(|name| name.as_str() == word);
@@ -194,10 +210,11 @@ pub(super) fn connected(
     let is_known = phases.iter().all(Option::is_some);
     let mut is_whole = true;
     for (index, phase) in phases.into_iter().enumerate() {
-        let Some(ReadPhase { mut spec, next, otherwise }) = phase else {
+        let Some(mut spec) = phase else {
             is_whole = false;
             continue;
         };
+        let [next, otherwise] = ["next", "otherwise"].map(|key| spec.written.text(key).map(str::to_owned));
         let mut unknown = |key: &str, word: &str, also: &str| {
             is_whole = false;
             if !is_known {
@@ -214,7 +231,10 @@ pub(super) fn connected(
                 Some(place) => spec.next = Next::Phase(place),
                 None => unknown("next", word, " or \"launch\""),
             },
-            None if spec.until.is_some() && index + 1 < count => spec.next = Next::Phase(index + 1),
+            None if spec.until.is_some() && index + 1 < count => {
+                spec.next = Next::Phase(index + 1);
+                spec.written.set("next", names[index + 1].as_str());
+            }
             None => {}
         }
         if let Some(word) = otherwise.as_deref() {
@@ -223,6 +243,7 @@ pub(super) fn connected(
                 None => unknown("otherwise", word, ""),
             }
         }
+        spec.written = spec.written.completed(&ROWS, &RULES);
         list.push(spec);
     }
     is_whole.then_some(list)

@@ -27,7 +27,7 @@ use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
-use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Written};
 use crate::scene::schedule::applied;
 use crate::scene::{Scene, SceneInput};
 use std::path::{Path, PathBuf};
@@ -85,6 +85,8 @@ pub struct Plan {
     pub analysis: Analysis,
     /// Which runs keep their full time series.
     pub retention: Retention,
+    /// The tables of events, extremes, analysis and retention as canonical text has them.
+    pub tables: Vec<(&'static str, Written)>,
     /// The keys of the file that have no effect, a sentence each; the plan as text is without them.
     pub ignored: Vec<String>,
 }
@@ -276,7 +278,7 @@ fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document
     };
     check("--samples", overrides.samples, 1, MAX_SAMPLES);
     check("--seed", overrides.seed, 0, LARGEST_SEED);
-    if let Some(fraction) = overrides.audit_fraction.filter(|fraction| !(FRACTION.test)(*fraction)) {
+    if let Some(fraction) = overrides.audit_fraction.filter(|fraction| !FRACTION.holds(*fraction)) {
         document.add("--audit", Some(format!("{fraction:?}")), FRACTION.allowed, FRACTION.remedy);
     }
     if let (Some(samples), Some(written), Some(design)) =
@@ -399,6 +401,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         retention: spec.retention.clone().unwrap_or_default(),
         law: document.law.clone(),
         ignored: std::mem::take(&mut document.ignored),
+        tables: std::mem::take(&mut document.tables),
     })
 }
 

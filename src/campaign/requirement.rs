@@ -5,7 +5,7 @@ use super::section::Section;
 use super::units;
 use crate::observables::window::Window;
 use crate::run::{points_before, points_to};
-use crate::sampling::keys::{Condition, Kind, ListLimit, Presence, Row, Rule, Value};
+use crate::sampling::keys::{Condition, Kind, ListLimit, Presence, Row, Rule};
 use crate::statistics::gate::GateLimit;
 
 /// What must be within the limit.
@@ -99,7 +99,7 @@ pub const ROWS: [Row; 13] = [
     Row::new("at_least", Kind::Amount, "Lower limit, in the unit of the observable or quantity"),
     Row::new("bounded", Kind::Numbers(BOUNDS), "For a mean: two values between which every run is known to lie"),
     Row::new("never", Kind::Word(&NEVER), "For a fraction: whether a run without a value, because the event never \
-        happens, meets the limit"),
+        happens, meets the limit").sparse(),
     Row::new("confidence", Kind::Number, "Confidence of the verdict")
         .limited(CONFIDENCE)
         .or(Presence::Or(DEFAULT_CONFIDENCE)),
@@ -142,7 +142,7 @@ impl Requirement {
     /// Reads one table; `None` where something is wrong, which is then noted.
     pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         table.describes(None, units::UNKNOWN);
-        let written = table.whole(&ROWS, &RULES)?;
+        let written = table.whole(&ROWS, &RULES)?.completed(&ROWS, &RULES);
         let number = |key| written.number(key);
         let limit = number("at_most").map(GateLimit::AtMost).or(number("at_least").map(GateLimit::AtLeast))?;
         let share = number("quantile").map(Statement::Quantile).or(number("fraction").map(Statement::Fraction));
@@ -158,14 +158,16 @@ impl Requirement {
             }
             Some(band) => Subject::Band(band),
         };
-        Some(Requirement {
+        let requirement = Requirement {
             subject,
             statement: share.unwrap_or(Statement::Mean),
             limit,
             bounded: written.numbers("bounded").and_then(|list| list.try_into().ok()),
             never_meets: written.text("never") == Some(NEVER[1]),
-            confidence: number("confidence").unwrap_or(DEFAULT_CONFIDENCE),
-        })
+            confidence: number("confidence")?,
+        };
+        table.document.keep("[[require]]", written);
+        Some(requirement)
     }
 
     /// Whether a run whose observable has this value meets it; NaN is none.
@@ -212,24 +214,5 @@ impl Requirement {
         let which = if self.window().is_some() { "at all times" } else { "at each time" };
         let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end} s"));
         format!(" {which}{}{}", end("from", band.from_s), end("to", band.to_s))
-    }
-
-    /// The value of a key, if canonical text has it.
-    pub(super) fn value(&self, key: &str) -> Option<Value> {
-        let band = self.band();
-        Some(match (key, self.statement, self.limit) {
-            ("observable", ..) if band.is_none() => self.name().into(),
-            ("band", ..) => band?.series.as_str().into(),
-            ("from_s", ..) => band?.from_s?.into(),
-            ("to_s", ..) => band?.to_s?.into(),
-            ("at_all_times", ..) => band.map(|_| self.window().is_some())?.into(),
-            ("quantile", Statement::Quantile(share), _) | ("fraction", Statement::Fraction(share), _) => share.into(),
-            ("mean", Statement::Mean, _) => true.into(),
-            ("at_most", _, GateLimit::AtMost(limit)) | ("at_least", _, GateLimit::AtLeast(limit)) => limit.into(),
-            ("bounded", ..) => self.bounded?.as_slice().into(),
-            ("never", ..) if self.never_meets => Value::Word(NEVER[1]),
-            ("confidence", ..) => self.confidence.into(),
-            _ => return None,
-        })
     }
 }

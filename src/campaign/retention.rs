@@ -1,7 +1,7 @@
 //! The `[retain]` table: which runs keep their full time series. No row depends on it.
 
 use super::section::{Section, choice};
-use crate::sampling::keys::{ANY_TEXT, Kind, Row};
+use crate::sampling::keys::{ANY_TEXT, Kind, Row, Written};
 
 /// Which runs keep their full time series.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -34,7 +34,9 @@ impl Retention {
     /// Reads the table; `None` without the key, and where it is wrong, which is then noted.
     pub(super) fn read(section: &mut Section<'_, '_>) -> Option<Self> {
         let written = section.whole(&ROWS, &[])?;
-        parsed(section, written.text(KEY)?)
+        let retention = written.text(KEY).map_or(Some(Retention::None), |text| parsed(section, text))?;
+        section.document.keep("[retain]", Written::NONE.with(KEY, retention.text().as_str()));
+        Some(retention)
     }
 
     /// As in a campaign file.

@@ -1,22 +1,130 @@
-//! The tables that describe the scene: which keys, with which defaults, says [`crate::scene::schema`].
+//! The tables that describe the scene: their numbers are declared by [`crate::scene::schema`], their other keys here.
 //!
-//! Here is what no single row can say: names, which ways to describe a body exclude each other, what belongs to a body
-//! that is not there, and keys that are no numbers.
+//! Here is also what no single key can say: which ways to describe a body exclude each other, what belongs to a body
+//! that is not there, and what has no effect.
 
 use super::control;
 use super::failure_tables;
+use super::lines::Lines;
+use super::parameter::lacking;
+use super::scene_table::{Field, SceneTable, flag, list, word};
 use super::section::Section;
-use super::tables::{read_keys, read_name};
+use super::tables::read_keys;
+use crate::sampling::keys::{Kind, Row, TextLimit, Value};
 use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
 use crate::scene::schema::numbers::kept;
 use crate::scene::table::Table;
 use crate::scene::{
-    ActuationInput, ControlInput, DebrisInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS, Name,
-    OrbitInput, PartInput, PartShape, SceneInput, ThrusterInput, TorqueRodInput, WheelInput, WheelMode,
+    ActuationInput, ControlInput, DebrisInput, EnvironmentInput, Epoch, FieldModel, MAX_THRUSTERS, MAX_TORQUE_RODS,
+    MAX_WHEELS, Name, OrbitInput, PartInput, PartShape, SceneInput, ThrusterInput, TorqueRodInput, WheelInput,
+    WheelMode,
 };
 use crate::scene::{MAX_PLATES, PlateInput, Shadow};
-use std::collections::HashSet;
+
+const MODES: [&str; WheelMode::ALL.len()] = ["free", "speed_held", "locked"];
+const SHADOWS: [&str; Shadow::ALL.len()] = ["cone", "cylinder"];
+const EPOCH: TextLimit =
+    TextLimit { allowed: Epoch::ALLOWED, remedy: "correct the date", test: |text| Epoch::parse(text).is_some() };
+
+/// The tables of the scene but for the control loop and what fails, in the order of canonical text.
+#[rustfmt::skip]
+pub static TABLES: [SceneTable; 12] = [
+    SceneTable::new(&[Table::Body, Table::BodyErrors], |_| true).checked(check_body).with(&[], &[Field {
+        row: Row::new("includes_wheels", Kind::Flag, "Whether mass, centre and inertia are those with the wheels"),
+        get: |scene, _| scene.parts.is_empty().then(|| scene.body.includes_wheels.into()),
+        set: |scene, _, value| scene.body.includes_wheels = *value == Value::Flag(true),
+    }]),
+    SceneTable::list(&[Table::Part, Table::PartErrors], MAX_PARTS, |scene, name| {
+        scene.parts.push(PartInput { name, shape: PartShape::PointMass, ..PartInput::DEFAULT });
+    })
+    .checked(check_part)
+    .with(&[word!(
+        Row::new("shape", Kind::OneOf(|| PartShape::ALL.map(PartShape::name).to_vec()), "Its shape")
+            .required_as("one of hollow_cylinder, solid_cylinder, box, sphere, point_mass", "\"box\""),
+        PartShape, scene, part => scene.parts[part].shape
+    )], &[]),
+    SceneTable::list(&[Table::Wheel], MAX_WHEELS, |scene, name| {
+        scene.wheels.push(WheelInput { name, ..WheelInput::DEFAULT });
+    })
+    .checked(check_wheel)
+    .with(&[word!(
+        Row::new("mode", Kind::Word(&MODES), "What it does where no torque is commanded"),
+        WheelMode, scene, wheel => scene.wheels[wheel].mode
+    )], &[]),
+    SceneTable::list(&[Table::Thruster], MAX_THRUSTERS, |scene, name| {
+        scene.thrusters.push(ThrusterInput { name, ..ThrusterInput::DEFAULT });
+    }),
+    SceneTable::list(&[Table::TorqueRod], MAX_TORQUE_RODS, |scene, name| {
+        scene.torque_rods.push(TorqueRodInput { name, ..TorqueRodInput::DEFAULT });
+    }),
+    SceneTable::new(&[Table::Debris], |scene| scene.debris.is_some())
+        .optional(|scene, _| scene.debris = Some(DebrisInput::BLANK))
+        .checked(exclude_shapes),
+    SceneTable::new(&[Table::Initial], |_| true).checked(refuse_states_of_absent_debris),
+    SceneTable::new(&[Table::Environment], |scene| scene.environment != EnvironmentInput::DEFAULT)
+        .checked(ignore_idle)
+        .with(&[], &[
+            flag!(gravity_gradient, "Whether the torque of the gravity gradient acts; default: false"),
+            flag!(drag, "Whether the torque of the air on the plates acts; default: false"),
+            flag!(solar_pressure, "Whether the torque of sunlight on the plates acts; default: false"),
+            flag!(coupled, "Whether the forces of air and light move the spacecraft; default: false"),
+            list!(air_heights_m, "Heights at which the density of the air is given"),
+            list!(air_densities_kg_m3, "The density at each of them"),
+            word!(Row::new("shadow", Kind::Word(&SHADOWS), "The shape of the Earth's shadow").sparse(),
+                Shadow, scene, _place => scene.environment.shadow),
+            Field {
+                row: Row::new("magnetic_field", Kind::OneOf(|| FieldModel::ALL.map(FieldModel::name).to_vec()),
+                    "The model of the Earth's magnetic field; default: none"),
+                get: |scene, _| scene.environment.magnetic_field.map(|model| Value::Word(model.name())),
+                set: |scene, _, value| {
+                    scene.environment.magnetic_field = value.text().and_then(FieldModel::from_name);
+                },
+            },
+        ]),
+    SceneTable::new(&[Table::Orbit], |scene| scene.orbit.is_some())
+        .optional(|scene, _| scene.orbit = Some(OrbitInput::DEFAULT))
+        .with(&[], &[Field {
+            row: Row::new("epoch", Kind::Text(EPOCH), "Date and time of the start of the run, UTC"),
+            get: |scene, _| Some(scene.orbit?.epoch?.to_string().as_str().into()),
+            set: |scene, _, value| {
+                let epoch = value.text().and_then(Epoch::parse);
+                scene.orbit.iter_mut().for_each(|orbit| orbit.epoch = epoch);
+            },
+        }]),
+    SceneTable::list(&[Table::Plate], MAX_PLATES, |scene, name| {
+        scene.plates.push(PlateInput { name, ..PlateInput::DEFAULT });
+    }),
+    // each arc is read in the same time, and there are as many as a file may have keys
+    SceneTable::list(&[Table::Actuation, Table::ArcErrors], usize::MAX, |scene, name| {
+        scene.actuation.push(ActuationInput { name, ..ActuationInput::DEFAULT });
+    })
+    .checked(read_commands)
+    .with(&[], &[
+        Field {
+            row: Row::new("thrust_n", Kind::ByName, "Commanded thrusts, by the names of thrusters"),
+            get: |scene, arc| {
+                let names = scene.thrusters.iter().map(|thruster| thruster.name);
+                Some(Value::ByName(names.zip(scene.actuation[arc].thrust_n).collect()))
+            },
+            set: |_, _, _| {},
+        },
+        Field {
+            row: Row::new("torque_n_m", Kind::ByName, "Commanded motor torques, by the names of wheels"),
+            get: |scene, arc| {
+                let names = scene.wheels.iter().map(|wheel| wheel.name);
+                Some(Value::ByName(names.zip(scene.actuation[arc].torque_n_m).collect()))
+            },
+            set: |_, _, _| {},
+        },
+    ]),
+    SceneTable::new(&[Table::Actuators], |scene| !scene.actuation.is_empty()).checked(|section, scene, _| {
+        if section.is_present() && scene.actuation.is_empty() {
+            let remedy = "delete this table, or add [[actuation]] tables";
+            section.refuse_table("left out where there is no [[actuation]]", remedy);
+        }
+    }),
+];
 
 /// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
 pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
@@ -25,64 +133,43 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         let content = "a table with the mass properties of the body, or its parts";
         root.document.add("body", None, content, "add a [body] table, or [[body.parts]] tables");
     }
-    read_wheels(root, &mut scene);
-    read_thrusters(root, &mut scene);
-    read_torque_rods(root, &mut scene);
+    // what is said of the body depends on its parts and on the wheels
+    TABLES[1..].iter().for_each(|table| table.read(root, &mut scene));
     if root.has("body") {
-        read_body(root, &mut scene);
+        TABLES[0].read(root, &mut scene);
     }
-    let mut names = HashSet::new();
-    // each arc is read in the same time, and there are as many as a file may have keys
-    root.sections("actuation", usize::MAX, |section| {
-        scene.actuation.push(ActuationInput::DEFAULT);
-        let arc = scene.actuation.len() - 1;
-        read_keys(section, Table::Actuation, arc, &mut scene);
-        scene.actuation[arc].name = read_arc_name(section, &mut names);
-        read_commands(section, &mut scene, arc);
-        read_keys(section, Table::ArcErrors, arc, &mut scene);
-        section.finish();
-    });
-    let mut section = root.section("debris");
-    if section.is_present() {
-        scene.debris = Some(DebrisInput::BLANK);
-        exclude_shapes(&mut section);
-        read_keys(&mut section, Table::Debris, 0, &mut scene);
-        section.finish();
-    }
-    let mut section = root.section("initial");
-    read_keys(&mut section, Table::Initial, 0, &mut scene);
-    refuse_states_of_absent_debris(&mut section, &scene);
-    section.finish();
-    let mut section = root.section("environment");
-    read_keys(&mut section, Table::Environment, 0, &mut scene);
-    scene.environment.gravity_gradient = section.flag("gravity_gradient").unwrap_or(false);
-    scene.environment.magnetic_field =
-        section.name("magnetic_field", &FieldModel::ALL.map(FieldModel::name), FieldModel::from_name);
-    scene.environment.drag = section.flag("drag").unwrap_or(false);
-    scene.environment.solar_pressure = section.flag("solar_pressure").unwrap_or(false);
-    scene.environment.coupled = section.flag("coupled").unwrap_or(false);
-    scene.environment.air_heights_m = read_list(&mut section, "air_heights_m");
-    scene.environment.air_densities_kg_m3 = read_list(&mut section, "air_densities_kg_m3");
-    let shadow = section.name("shadow", &Shadow::ALL.map(Shadow::name), Shadow::from_name);
-    scene.environment.shadow = shadow.unwrap_or_default();
-    section.finish();
-    let mut section = root.section("orbit");
-    if section.is_present() {
-        scene.orbit = Some(OrbitInput { epoch: read_epoch(&mut section), ..OrbitInput::DEFAULT });
-        read_keys(&mut section, Table::Orbit, 0, &mut scene);
-        section.finish();
-    }
-    read_plates(root, &mut scene);
-    if root.has("actuators") && !root.has("actuation") {
-        let remedy = "delete this table, or add [[actuation]] tables";
-        root.refuse("actuators", "left out where there is no [[actuation]]", remedy);
-    }
-    let mut section = root.section("actuators");
-    read_keys(&mut section, Table::Actuators, 0, &mut scene);
-    section.finish();
     read_law(root, &mut scene);
-    failure_tables::read(root, &mut scene);
+    failure_tables::TABLE.read(root, &mut scene);
     scene
+}
+
+/// Writes the tables of the scene as canonical text; `write_law` those of the control loop.
+pub(super) fn write(scene: &SceneInput, lines: &mut Lines, write_law: impl FnOnce(&mut Lines)) {
+    TABLES.iter().for_each(|table| table.write(scene, lines));
+    write_law(lines);
+    failure_tables::TABLE.write(scene, lines);
+}
+
+/// Resets the keys of `[environment]` that do not act to their defaults, and notes them.
+fn ignore_idle(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usize) {
+    let (written, blank) = (scene.environment, SceneInput::blank());
+    let mut idle = Vec::new();
+    for key in Table::Environment.keys_in(scene, 0) {
+        let (Some(default), Some(numbers)) = (key.read(&blank, 0), key.write(scene, 0)) else { continue };
+        // a wrong number is refused, whether it acts or not
+        let is_valid = numbers.iter().all(|number| number.is_finite() && *number >= 0.0);
+        if lacking(&written, "environment", key.facts().key).is_some() && is_valid && numbers != default {
+            numbers.copy_from_slice(default);
+            idle.push(key.facts().key);
+        }
+    }
+    if !written.solar_pressure && std::mem::take(&mut scene.environment.shadow) != Shadow::default() {
+        idle.push("shadow");
+    }
+    for key in idle {
+        let setting = lacking(&written, "environment", key).unwrap_or_default();
+        section.ignore([key], &format!("environment.{setting}"));
+    }
 }
 
 /// Reads the parameters of the control law that the program brings, or the control loop of the file.
@@ -143,58 +230,8 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     }
 }
 
-/// The numbers of `key`, of any count, if they were written.
-fn read_list(section: &mut Section<'_, '_>, key: &'static str) -> Option<&'static [f64]> {
-    let values = section.values(key, section.unit_of(key))?;
-    Some(kept(values.numbers()))
-}
-
-/// The date of an orbit, if it has one.
-fn read_epoch(section: &mut Section<'_, '_>) -> Option<Epoch> {
-    let text = section.text("epoch")?;
-    let epoch = Epoch::parse(text);
-    if epoch.is_none() {
-        section.refuse("epoch", Epoch::ALLOWED, "correct the date");
-    }
-    epoch
-}
-
-/// The name of an arc, if it has one, different from `taken`, to which it is added.
-fn read_arc_name(section: &mut Section<'_, '_>, taken: &mut HashSet<Name>) -> Name {
-    let Some(text) = section.text("name") else { return Name::NONE };
-    let Some(name) = Name::new(text) else {
-        section.refuse("name", Name::ALLOWED, "write a name such as \"burn1\", or leave it out");
-        return Name::NONE;
-    };
-    if !taken.insert(name) {
-        section.refuse("name", "another name than that of the other [[actuation]] tables", "give each its own name");
-    }
-    name
-}
-
-fn read_wheels(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    root.sections("wheels", MAX_WHEELS, |section| {
-        let taken: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
-        let name = read_name(section, Table::Wheel, &taken);
-        exclude_wheel_masses(section);
-        scene.wheels.push(WheelInput { name, ..WheelInput::DEFAULT });
-        let wheel = scene.wheels.len() - 1;
-        read_keys(section, Table::Wheel, wheel, scene);
-        let mode = section.name("mode", &WheelMode::ALL.map(WheelMode::name), WheelMode::from_name);
-        scene.wheels[wheel].mode = mode.unwrap_or_default();
-        if mode == Some(WheelMode::Locked) && scene.wheels[wheel].rate_rad_s != 0.0 {
-            section.refuse(
-                "rate_rad_s",
-                "left out (or 0) where mode is \"locked\"",
-                "delete it, or choose another mode",
-            );
-        }
-        section.finish();
-    });
-}
-
 /// A wheel is a solid cylinder, or given by mass and inertias.
-fn exclude_wheel_masses(section: &mut Section<'_, '_>) {
+fn check_wheel(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     let by_mass = WheelInput::MASSES.iter().any(|key| section.has(key));
     let (asked, excluded) =
         if by_mass { (WheelInput::MASSES, WheelInput::SIZES) } else { (WheelInput::SIZES, WheelInput::MASSES) };
@@ -209,59 +246,16 @@ fn exclude_wheel_masses(section: &mut Section<'_, '_>) {
     for (key, example) in asked.into_iter().zip(if by_mass { of_mass } else { [0.25, 0.1, 2700.0] }) {
         section.require(key, "a finite number", &format!("{example:?}"));
     }
+    if scene.wheels[place].mode == WheelMode::Locked && scene.wheels[place].rate_rad_s != 0.0 {
+        let allowed = "left out (or 0) where mode is \"locked\"";
+        section.refuse("rate_rad_s", allowed, "delete it, or choose another mode");
+    }
 }
 
-fn read_thrusters(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    root.sections("thrusters", MAX_THRUSTERS, |section| {
-        let taken: Vec<Name> = scene.thrusters.iter().map(|thruster| thruster.name).collect();
-        let name = read_name(section, Table::Thruster, &taken);
-        scene.thrusters.push(ThrusterInput { name, ..ThrusterInput::DEFAULT });
-        let thruster = scene.thrusters.len() - 1;
-        read_keys(section, Table::Thruster, thruster, scene);
-        section.finish();
-    });
-}
-
-fn read_plates(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    root.sections("plates", MAX_PLATES, |section| {
-        let taken: Vec<Name> = scene.plates.iter().map(|plate| plate.name).collect();
-        let name = read_name(section, Table::Plate, &taken);
-        scene.plates.push(PlateInput { name, ..PlateInput::DEFAULT });
-        let plate = scene.plates.len() - 1;
-        read_keys(section, Table::Plate, plate, scene);
-        section.finish();
-    });
-}
-
-fn read_torque_rods(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    root.sections("torque_rods", MAX_TORQUE_RODS, |section| {
-        let taken: Vec<Name> = scene.torque_rods.iter().map(|rod| rod.name).collect();
-        let name = read_name(section, Table::TorqueRod, &taken);
-        scene.torque_rods.push(TorqueRodInput { name, ..TorqueRodInput::DEFAULT });
-        let rod = scene.torque_rods.len() - 1;
-        read_keys(section, Table::TorqueRod, rod, scene);
-        section.finish();
-    });
-}
-
-fn read_body(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
-    let mut section = root.section("body");
-    section.sections("parts", MAX_PARTS, |section| {
-        let taken: Vec<Name> = scene.parts.iter().map(|part| part.name).collect();
-        let name = read_name(section, Table::Part, &taken);
-        section.require("shape", &format!("one of {}", PartShape::ALL.map(PartShape::name).join(", ")), "\"box\"");
-        let shape = section.name("shape", &PartShape::ALL.map(PartShape::name), PartShape::from_name);
-        if let Some(shape) = shape {
-            exclude_sizes(section, shape);
-        }
-        scene.parts.push(PartInput { name, shape: shape.unwrap_or(PartShape::PointMass), ..PartInput::DEFAULT });
-        let part = scene.parts.len() - 1;
-        read_keys(section, Table::Part, part, scene);
-        read_keys(section, Table::PartErrors, part, scene);
-        section.finish();
-    });
+fn check_body(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usize) {
+    section.know("parts");
     let (has_parts, has_wheels) = (!scene.parts.is_empty(), !scene.wheels.is_empty());
-    exclude_inertias(&mut section);
+    exclude_inertias(section);
     if !has_parts {
         section.require("mass_kg", "a finite number (or describe the body by [[body.parts]])", "500.0");
         if ![MOMENTS, SECOND].iter().any(|key| section.has(key)) {
@@ -269,23 +263,19 @@ fn read_body(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
             section.require(TENSOR, &allowed, "[[100, 0, 0], [0, 120, 0], [0, 0, 80]]");
         }
     }
-    read_keys(&mut section, Table::Body, 0, scene);
-    read_keys(&mut section, Table::BodyErrors, 0, scene);
-    let is_direct = section.has("mass_kg") || section.has(TENSOR) || section.has(MOMENTS) || section.has(SECOND);
+    let is_direct = ["mass_kg", TENSOR, MOMENTS, SECOND].iter().any(|key| section.has(key));
     if is_direct && !has_parts && has_wheels {
         let allowed = "true or false: whether mass, centre and inertia of the body are those with the wheels";
         section.require("includes_wheels", allowed, "false");
     }
-    scene.body.includes_wheels = section.flag("includes_wheels").unwrap_or(false);
     if has_parts && scene.body.includes_wheels {
         let allowed = "false, or left out, where the body has parts: they do not include the wheels";
         section.refuse("includes_wheels", allowed, "delete this line");
     }
-    section.finish();
 }
 
 /// A part has the sizes of its shape, and a density or a mass.
-fn exclude_sizes(section: &mut Section<'_, '_>, shape: PartShape) {
+fn check_part(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     const SIZES: [(&str, &str); 5] = [
         ("outer_radius_m", "1.0"),
         ("wall_thickness_m", "0.03"),
@@ -293,6 +283,10 @@ fn exclude_sizes(section: &mut Section<'_, '_>, shape: PartShape) {
         ("length_m", "1.0"),
         ("size_m", "[1.0, 1.0, 1.0]"),
     ];
+    let shape = scene.parts[place].shape;
+    if section.plain_text("shape").and_then(PartShape::from_name).is_none() {
+        return;
+    }
     for (key, example) in SIZES {
         if shape.sizes().contains(&key) {
             section.require(key, "given", example);
@@ -373,7 +367,7 @@ fn exclude_inertias(section: &mut Section<'_, '_>) {
 }
 
 /// Debris is a cube, a box, or an irregular body given by mass and inertia.
-fn exclude_shapes(section: &mut Section<'_, '_>) {
+fn exclude_shapes(section: &mut Section<'_, '_>, _scene: &mut SceneInput, _place: usize) {
     exclude_inertias(section);
     let inertias = [TENSOR, MOMENTS, SECOND];
     if !["mass_kg"].iter().chain(&inertias).any(|key| section.has(key)) {
@@ -392,7 +386,7 @@ fn exclude_shapes(section: &mut Section<'_, '_>) {
 }
 
 /// What belongs to debris that the scene does not have.
-fn refuse_states_of_absent_debris(section: &mut Section<'_, '_>, scene: &SceneInput) {
+fn refuse_states_of_absent_debris(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usize) {
     let absent = |key: &&str| section.has(key);
     let keys: Vec<&str> = Table::Initial
         .keys()

@@ -28,17 +28,12 @@ pub struct Section<'d, 'a> {
 
 impl<'d, 'a> Section<'d, 'a> {
     pub fn root(document: &'d mut Document<'a>, table: &'d DeTable<'a>) -> Self {
-        Section {
-            document,
-            path: String::new(),
-            title: None,
-            table: Some(table),
-            known: Vec::new(),
-            ignored: Vec::new(),
-            unit: "1",
-            about: None,
-            every: None,
-        }
+        Section::of(document, String::new(), Some(table))
+    }
+
+    fn of(document: &'d mut Document<'a>, path: String, table: Option<&'d DeTable<'a>>) -> Self {
+        let (known, ignored) = (Vec::new(), Vec::new());
+        Section { document, path, title: None, table, known, ignored, unit: "1", about: None, every: None }
     }
 
     /// The dotted path of a key of this table.
@@ -67,9 +62,14 @@ impl<'d, 'a> Section<'d, 'a> {
         self.table?.get(key)
     }
 
+    /// Whether `key` is a key of this table.
+    pub(super) fn knows(&self, key: &str) -> bool {
+        self.known.iter().any(|known| known == key)
+    }
+
     /// Makes `key` a key of this table.
     pub(super) fn know(&mut self, key: &str) {
-        if !self.known.iter().any(|known| known == key) {
+        if !self.knows(key) {
             self.known.push(key.to_owned());
         }
         self.note_line(key);
@@ -98,6 +98,12 @@ impl<'d, 'a> Section<'d, 'a> {
         self.document.add(&path, value, allowed, remedy);
     }
 
+    /// Notes that the table should not be there.
+    pub(super) fn refuse_table(&mut self, allowed: &str, remedy: &str) {
+        let (path, header) = (self.path.clone(), format!("[{}]", self.path));
+        self.document.add(&path, Some(header), allowed, remedy);
+    }
+
     /// The table called `key`; one that was not written reads as empty.
     pub fn section(&mut self, key: &str) -> Section<'_, 'a> {
         let path = self.path(key);
@@ -117,17 +123,7 @@ impl<'d, 'a> Section<'d, 'a> {
         };
         // a distribution of an angle, `angle_rad = { ... }`, has its own unit
         let unit = Some(units::in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
-        Section {
-            document: &mut *self.document,
-            path,
-            title: None,
-            table,
-            known: Vec::new(),
-            ignored: Vec::new(),
-            unit,
-            about: None,
-            every: None,
-        }
+        Section { unit, ..Section::of(&mut *self.document, path, table) }
     }
 
     /// The tables `[[key]]`, in order, each read by `read`; of more than `most` the first ones, after the others were
@@ -149,18 +145,7 @@ impl<'d, 'a> Section<'d, 'a> {
         for (index, (span, table)) in tables.into_iter().take(most).enumerate() {
             let path = format!("{}[{index}]", self.path(key));
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
-            let mut section = Section {
-                document: &mut *self.document,
-                path,
-                title: None,
-                table: Some(table),
-                known: Vec::new(),
-                ignored: Vec::new(),
-                unit: "1",
-                about: None,
-                every: None,
-            };
-            list.push(read(&mut section));
+            list.push(read(&mut Section::of(&mut *self.document, path, Some(table))));
         }
         list
     }
@@ -194,18 +179,9 @@ impl<'d, 'a> Section<'d, 'a> {
 
     /// The keys of the table `key` and their values as written.
     pub(super) fn entries(&self, key: &str) -> Vec<(String, String)> {
-        match self.value(key).map(Spanned::get_ref) {
-            Some(DeValue::Table(table)) => self.written_entries(table),
-            _ => Vec::new(),
-        }
-    }
-
-    fn written_entries(&self, table: &DeTable<'a>) -> Vec<(String, String)> {
-        let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'a>>)| {
-            let key: &toml::de::DeString<'a> = key.get_ref();
-            (key.to_string(), self.document.text_of(value).to_owned())
-        };
-        table.iter().map(entry).collect()
+        let table = self.value(key).and_then(|value| value.get_ref().as_table());
+        let entries = table.into_iter().flat_map(DeTable::iter);
+        entries.map(|(key, value)| (key.get_ref().to_string(), self.document.text_of(value).to_owned())).collect()
     }
 
     /// Says that this table of the list `[[header]]` is known by its name, and no longer by its place.
@@ -290,17 +266,13 @@ impl<'d, 'a> Section<'d, 'a> {
         self.value(key)?.get_ref().as_str()
     }
 
-    /// Lets `keys` be there without effect: they are those of `owner`, and this table says `chosen`. A note says which
-    /// were written.
-    pub(super) fn ignore(&mut self, keys: impl Iterator<Item = &'static str>, owner: &str, chosen: &str) {
-        let written: Vec<&str> =
-            keys.filter(|key| self.has(key) && !self.known.iter().any(|known| known == key)).collect();
+    /// Lets `keys` be there without effect, and notes those that are written with the `setting` that they need.
+    pub(super) fn ignore(&mut self, keys: impl IntoIterator<Item = &'static str>, setting: &str) {
+        let written: Vec<&str> = keys.into_iter().filter(|key| self.has(key)).collect();
         if !written.is_empty() {
             let (first, have) = (self.path(written[0]), if written.len() == 1 { "has" } else { "have" });
             let all = [vec![first.as_str()], written[1..].to_vec()].concat().join(", ");
-            let these = if written.len() == 1 { "a key" } else { "keys" };
-            let note = format!("{all} {have} no effect: {these} of {owner}, and the file says {chosen}");
-            self.document.ignored.push(note);
+            self.document.ignored.push(format!("{all} {have} no effect without {setting}"));
             self.ignored.extend(written);
         }
     }
@@ -310,10 +282,7 @@ impl<'d, 'a> Section<'d, 'a> {
         let Some(table) = self.table else { return };
         for name in table.keys() {
             let name = name.get_ref();
-            if self.ignored.iter().any(|ignored| ignored == name) {
-                continue;
-            }
-            if self.known.iter().any(|known| known == name) {
+            if self.knows(name) || self.ignored.iter().any(|ignored| ignored == name) {
                 continue;
             }
             if self.document.is_full() {

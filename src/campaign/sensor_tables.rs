@@ -7,8 +7,20 @@ use crate::control::observes::Observes;
 use crate::control::sensor_spec::SensorSpec;
 use crate::control::spec::{MOST_TICKS, ticks_per_period};
 use crate::control::{estimators, sensors};
+use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, Value};
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, Name, SceneInput};
+
+/// The keys of `[[sensors]]` that are no parameters.
+pub const ROWS: [Row; 4] = [
+    Row::new("name", Kind::Text(ANY_TEXT), "Its name").required_as(Name::ALLOWED, "\"a1\""),
+    Row::new("kind", Kind::Word(&sensors::NAMES), "What it measures").required_as("a kind", "\"rate_gyro\""),
+    Row::new("period_s", Kind::Number, "Time between measurements; default: the control period").limited(POSITIVE),
+    Row::new("latency_s", Kind::Number, "Time from a measurement to its delivery")
+        .limited(NOT_NEGATIVE)
+        .or(Presence::Or(0.0))
+        .sparse(),
+];
 
 /// Most control periods from one measurement to the next.
 const MOST_PERIODS: f64 = 1e9;
@@ -19,15 +31,15 @@ pub(super) fn read_sensor(
     scene: &mut SceneInput,
     period: Option<f64>,
 ) -> Option<SensorSpec> {
-    let taken: Vec<Name> = scene.control.sensors.iter().map(|sensor| sensor.name).collect();
-    let name = read_name(section, Table::Sensors, &taken);
-    let names: Vec<&str> = sensors::KINDS.iter().map(|kind| kind.name).collect();
-    section.require("kind", &format!("one of {}", names.join(", ")), "\"rate_gyro\"");
+    let mut taken = scene.control.sensors.iter().map(|sensor| sensor.name).collect();
+    let name = read_name(section, Table::Sensors, &mut taken);
+    section.require("kind", &format!("one of {}", sensors::NAMES.join(", ")), "\"rate_gyro\"");
     let is_seen = |kind: &&sensors::SensorKind| scene.debris.is_some() || !kind.observes.needs_debris();
     let seen: Vec<&str> = sensors::KINDS.iter().filter(is_seen).map(|kind| kind.name).collect();
-    let kind = section.name("kind", &seen, |name| names.iter().position(|known| *known == name));
-    let own_period = section.number("period_s", POSITIVE).or(period);
-    let latency = section.number("latency_s", NOT_NEGATIVE).unwrap_or(0.0);
+    let kind = section.name("kind", &seen, |name| sensors::NAMES.iter().position(|known| *known == name));
+    let mut written = section.right_rows(&ROWS[2..]);
+    let own_period = written.number("period_s").or(period);
+    let latency = written.number("latency_s").unwrap_or(0.0);
     let declared = kind.map_or(&[][..], |kind| sensors::KINDS[kind].parameters_in(scene));
     scene.control.sensors.push(DeclaredTable::of(name, declared));
     let Some(kind) = kind else {
@@ -54,7 +66,10 @@ pub(super) fn read_sensor(
         section.refuse("kind", allowed, remedy);
     }
     // a wrong number is told, and the columns do not depend on it
-    Some(SensorSpec { name, kind, period: own_period.unwrap_or(f64::NAN), latency })
+    let period = own_period.unwrap_or(f64::NAN);
+    written =
+        written.with("name", name.as_str()).with("kind", Value::Word(sensors::NAMES[kind])).with("period_s", period);
+    Some(SensorSpec { name, kind, period, latency, written: written.completed(&ROWS, &[]) })
 }
 
 /// Notes where a sensor that measures every `own` seconds and delivers after `latency` seconds does not fit into a loop

@@ -5,7 +5,8 @@
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
 use super::numbers::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, POSITIVE, TOLERANCE};
-use super::{analysis, derived_observable, description, display, event, extreme, requirement, retention, stop};
+use super::{analysis, control, derived_observable, description, display, event, extreme};
+use super::{phase_tables, requirement, retention, sensor_tables, stop};
 use crate::observables::Group;
 use crate::propagation::Method;
 use crate::sampling::keys::{Kind, Row, Rule, TextLimit};
@@ -96,6 +97,14 @@ pub const TAIL: [(&str, &[Row]); 3] = [
             runs of a grid and of other lists of samples"),
     ]),
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the row files")]),
+];
+
+/// The tables of a control loop; their parameters are those of its parts.
+pub const LOOPS: [(&str, &[Row], &[Rule]); 4] = [
+    ("[control]", &control::ROWS, &control::RULES),
+    ("[control.model]", &control::MODEL, &[]),
+    ("[[sensors]]", &sensor_tables::ROWS, &[]),
+    ("[[guidance]]", &phase_tables::ROWS, &phase_tables::RULES),
 ];
 
 /// The tables of events and extremes, of what is made of the rows, and of what is kept of runs, with what their keys

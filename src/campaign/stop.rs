@@ -5,7 +5,7 @@ use super::numbers::{CONFIDENCE, MAX_SAMPLES, PROBABILITY};
 use super::requirement::DEFAULT_CONFIDENCE;
 use super::section::Section;
 use super::units;
-use crate::sampling::keys::{Condition, Kind, Presence, Row, Rule, Value};
+use crate::sampling::keys::{Condition, Kind, Presence, Row, Rule};
 use crate::statistics::looks::Goal;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -67,27 +67,16 @@ impl Stop {
             Some("decided") => vec![ROWS[0], ROWS[5]],
             _ => ROWS.to_vec(),
         };
-        let written = table.whole(&rows, &RULES)?;
+        let written = table.whole(&rows, &RULES)?.completed(&ROWS, &RULES);
         let goal = |observable: &str| {
-            let confidence = written.number("confidence").unwrap_or(DEFAULT_CONFIDENCE);
-            let (quantile, half_width) = (written.number("quantile")?, written.number("half_width")?);
+            let [quantile, half_width, confidence] =
+                ["quantile", "half_width", "confidence"].map(|key| written.number(key));
+            let (quantile, half_width, confidence) = (quantile?, half_width?, confidence?);
             Some(When::Precise { observable: observable.to_owned(), goal: Goal { quantile, half_width, confidence } })
         };
         let when = written.text("observable").and_then(goal).unwrap_or(When::Decided);
-        Some(Stop { when, max_samples: written.count("max_samples")? })
-    }
-
-    /// The value of a key, if canonical text has it.
-    pub(super) fn value(&self, key: &str) -> Option<Value> {
-        Some(match (key, &self.when) {
-            ("when", When::Precise { .. }) => Value::Word("precise"),
-            ("when", When::Decided) => Value::Word("decided"),
-            ("observable", When::Precise { observable, .. }) => observable.as_str().into(),
-            ("quantile", When::Precise { goal, .. }) => goal.quantile.into(),
-            ("half_width", When::Precise { goal, .. }) => goal.half_width.into(),
-            ("confidence", When::Precise { goal, .. }) => goal.confidence.into(),
-            ("max_samples", _) => self.max_samples.into(),
-            _ => return None,
-        })
+        let max_samples = written.count("max_samples")?;
+        table.document.keep("[stop]", written);
+        Some(Stop { when, max_samples })
     }
 }

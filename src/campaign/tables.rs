@@ -1,6 +1,8 @@
 //! What the tables of the scene and of its control loop have in common: their names, and numbers as the schema has
 //! them.
 
+use std::collections::HashSet;
+
 use super::section::Section;
 use crate::scene::table::Table;
 use crate::scene::{LawParameter, Name, SceneInput};
@@ -28,19 +30,27 @@ pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: u
     }
 }
 
-/// The name of one of a list of tables, different from `taken`; the table is called by it from now on.
-pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &[Name]) -> Name {
-    section.require("name", Name::ALLOWED, "\"a1\"");
-    let Some(text) = section.text("name") else { return Name::of("unnamed") };
+/// The name of one of a list of tables, different from those `taken`, to which it is added; the table is called by it
+/// from now on, but for an arc, which may have none.
+pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &mut HashSet<Name>) -> Name {
+    let is_arc = table == Table::Actuation;
+    if !is_arc {
+        section.require("name", Name::ALLOWED, "\"a1\"");
+    }
+    let nameless = if is_arc { Name::NONE } else { Name::of("unnamed") };
+    let Some(text) = section.text("name") else { return nameless };
     let Some(name) = Name::new(text) else {
-        section.refuse("name", Name::ALLOWED, "write a name such as \"w1\"");
-        return Name::of("unnamed");
+        let remedy = if is_arc { "\"burn1\", or leave it out" } else { "\"w1\"" };
+        section.refuse("name", Name::ALLOWED, format!("write a name such as {remedy}"));
+        return nameless;
     };
-    if taken.contains(&name) {
+    if !taken.insert(name) {
         let allowed = format!("another name than that of the other [[{}]] tables", table.header());
         section.refuse("name", allowed, "give each its own name");
     }
-    section.rename(table.header(), name.as_str());
+    if !is_arc {
+        section.rename(table.header(), name.as_str());
+    }
     name
 }
 
@@ -56,6 +66,7 @@ pub(super) fn ignore_others(
     let Some((chosen, _)) = chosen.and_then(|place| kinds.get(place)) else { return };
     for (name, parameters) in kinds.iter().filter(|(name, _)| name != chosen) {
         let keys = parameters.iter().map(|parameter| parameter.facts.key);
-        section.ignore(keys, &format!("{word} = {name:?}"), &format!("{chosen:?}"));
+        let foreign: Vec<&str> = keys.filter(|key| !section.knows(key)).collect();
+        section.ignore(foreign, &format!("{word} = {name:?}"));
     }
 }

@@ -65,6 +65,9 @@ pub enum Command {
     /// Write a campaign file to start from.
     #[command(after_help = help::NEW)]
     New(NewOptions),
+    /// Print the JSON Schema of campaign files, by which editors complete and check them.
+    #[command(after_help = help::SCHEMA)]
+    Schema,
     /// List the columns of the rows: name, unit, meaning.
     #[command(after_help = help::COLUMNS)]
     Columns(ColumnsOptions),

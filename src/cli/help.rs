@@ -92,6 +92,12 @@ Examples:
   spindrift new my_sweep.toml
   spindrift new studies/first.toml";
 
+/// Of `schema`.
+pub const SCHEMA: &str = "\
+Examples:
+  spindrift schema > spindrift.schema.json
+A file names it in its first line: #:schema spindrift.schema.json";
+
 /// Of `columns`.
 pub const COLUMNS: &str = "\
 Examples:

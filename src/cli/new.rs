@@ -1,8 +1,9 @@
-//! `spindrift new`: writes a campaign file to start from.
+//! `spindrift new`: writes a campaign file to start from, with its JSON Schema. `spindrift schema`: prints the schema.
 
 use std::fs::OpenOptions;
 use std::io::Write;
 
+use crate::campaign::schema::schema;
 use crate::cli::arguments::NewOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
@@ -12,6 +13,19 @@ use crate::storage::atomic;
 /// The file: a spacecraft with a wheel, what is uncertain of it, and a requirement.
 const START: &str = include_str!("../../assets/start.toml");
 
+/// The file of the schema, in the folder of the campaign file.
+const SCHEMA: &str = "spindrift.schema.json";
+
+/// The schema as text.
+fn schema_text() -> String {
+    format!("{:#}\n", schema())
+}
+
+pub fn print_schema() -> Result<CommandOutcome, Failure> {
+    screen::print(&schema_text())?;
+    Ok(CommandOutcome::Done)
+}
+
 pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
     let path = &options.file;
     let name = path.file_stem().and_then(|name| name.to_str()).unwrap_or("start");
@@ -19,7 +33,9 @@ pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
     let name = if is_plain && !name.starts_with('-') { name } else { "start" };
     let file = OpenOptions::new().write(true).create_new(true).open(path);
     let text = START.replace("name = \"start\"", &format!("name = \"{name}\""));
+    let text = format!("#:schema {SCHEMA}\n{text}");
     file.and_then(|mut file| file.write_all(text.as_bytes()))
+        .and_then(|()| std::fs::write(path.with_file_name(SCHEMA), schema_text()))
         .map_err(|error| Failure::Files(format!("{}: {}", path.display(), atomic::explained(path, error))))?;
     let file = quoted_path(path);
     screen::print(&format!(

@@ -24,6 +24,7 @@ pub fn run(words: impl Iterator<Item = OsString>) -> u8 {
         Command::New(options) => new::run(&options),
         Command::Precision(options) => precision::run(&options),
         Command::Report(options) => report::run(&options),
+        Command::Schema => new::print_schema(),
         Command::Sample(options) => sample::run(&options),
         Command::Simulate(options) => simulate::run(&options),
     };

@@ -3,6 +3,7 @@
 use super::measurement::{Reading, Values};
 use super::observes::Observes;
 use super::sensors;
+use crate::sampling::Written;
 use crate::scene::Name;
 
 /// A sensor.
@@ -16,6 +17,8 @@ pub struct SensorSpec {
     pub period: f64,
     /// Time from a measurement to its delivery, s.
     pub latency: f64,
+    /// The keys of its table that are no parameters, as canonical text has them.
+    pub written: Written,
 }
 
 impl SensorSpec {

@@ -11,6 +11,7 @@ use super::sensor_spec::SensorSpec;
 use crate::control::estimators::estimator::EstimatorKind;
 use crate::control::flight_code::module::FlightCode;
 use crate::observables::{LawSeries, Series};
+use crate::sampling::Written;
 use crate::scene::{Name, Scene};
 
 /// A control loop.
@@ -36,9 +37,12 @@ pub struct LoopSpec {
     pub module: Option<ModuleSpec>,
     /// The phases; there is at least one.
     pub phases: Vec<PhaseSpec>,
-    /// Numbers that flight software believes instead of the nominal ones.
-    pub model: ModelSpec,
-    /// True if the scene has debris.
+    /// What flight software believes instead of the nominal scene: mass and centre from p in F_s, and inertia about
+    /// that centre with wheels locked.
+    pub model: Written,
+    /// The keys of `[control]` that are no parameters, as canonical text has them.
+    pub written: Written,
+    /// Whether the scene has debris.
     pub has_debris: bool,
     /// The names of the wheels that turn.
     pub wheel_names: Vec<Name>,
@@ -102,17 +106,8 @@ pub struct PhaseSpec {
     pub next: Next,
     /// The phase that follows at once if the condition is not met.
     pub otherwise: Option<usize>,
-}
-
-/// Mass properties that flight software believes instead of the nominal ones.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ModelSpec {
-    /// Mass, kg.
-    pub mass: Option<f64>,
-    /// Centre of mass from p in F_s, m.
-    pub center: Option<[f64; 3]>,
-    /// Inertia about the centre of mass with wheels locked, F_s, kg m^2.
-    pub inertia: Option<[[f64; 3]; 3]>,
+    /// The keys of its table that are no parameters, as canonical text has them.
+    pub written: Written,
 }
 
 impl LoopSpec {
@@ -194,9 +189,9 @@ impl LoopSpec {
     pub fn believed(&self, nominal: &Scene) -> Scene {
         let mut scene = nominal.clone();
         let mass = &mut scene.mass;
-        mass.total = self.model.mass.unwrap_or(mass.total);
-        mass.center = self.model.center.unwrap_or(mass.center);
-        if let Some(inertia) = self.model.inertia {
+        mass.total = self.model.number("mass_kg").unwrap_or(mass.total);
+        mass.center = self.model.vector("center_of_mass_m").unwrap_or(mass.center);
+        if let Some(inertia) = self.model.matrix("inertia_kg_m2") {
             *mass = mass.with_inertia(inertia);
         }
         scene

@@ -4,9 +4,20 @@
 //! A distribution and a design list their rows. Reading, error messages, canonical text and the tables of the documents
 //! follow from them.
 
-use crate::scene::Parameter;
+use crate::scene::{Name, Parameter};
 use std::collections::BTreeMap;
+use std::ops::{Bound, RangeBounds};
 use std::sync::Arc;
+
+/// The words of a list of words and what they mean.
+pub const fn words<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'static str; N] {
+    let (mut words, mut place) = ([""; N], 0);
+    while place < N {
+        words[place] = list[place].0;
+        place += 1;
+    }
+    words
+}
 
 /// What a number may be.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +25,40 @@ pub struct NumberLimit {
     /// In words, to follow `must be`.
     pub allowed: &'static str,
     pub remedy: &'static str,
+    pub range: Range,
+}
+
+impl NumberLimit {
     /// Whether a number is allowed.
-    pub test: fn(f64) -> bool,
+    pub fn holds(&self, number: f64) -> bool {
+        self.range.contains(&number)
+    }
+}
+
+/// The ends of a range of numbers.
+pub type Range = (Bound<f64>, Bound<f64>);
+
+/// All numbers.
+pub const ANY: Range = (Bound::Unbounded, Bound::Unbounded);
+
+/// Numbers above `least`.
+pub const fn above(least: f64) -> Range {
+    (Bound::Excluded(least), Bound::Unbounded)
+}
+
+/// Numbers from `least` on.
+pub const fn at_least(least: f64) -> Range {
+    (Bound::Included(least), Bound::Unbounded)
+}
+
+/// Numbers from `least` to `most`.
+pub const fn between(least: f64, most: f64) -> Range {
+    (Bound::Included(least), Bound::Included(most))
+}
+
+/// Numbers between `least` and `most`, which are not among them.
+pub const fn inside(least: f64, most: f64) -> Range {
+    (Bound::Excluded(least), Bound::Excluded(most))
 }
 
 /// What a text may be.
@@ -86,6 +129,16 @@ pub enum Kind {
     Text(TextLimit),
     /// One of these words; the first one where the key is left out.
     Word(&'static [&'static str]),
+    /// The name of a table of the file.
+    Name,
+    /// Different names of tables of the file.
+    Names,
+    /// One correlation of all pairs, or a row of numbers for each parameter.
+    Correlations,
+    /// A table of numbers by the names of tables of the file.
+    ByName,
+    /// One of the kinds of a list, as far as the file can have them.
+    OneOf(fn() -> Vec<&'static str>),
     /// Different ones of these words, at least one; and what holds where the key is left out, in words.
     Words(&'static [&'static str], fn() -> String),
     /// One of these words, or three numbers of a direction; the first word where the key is left out.
@@ -126,12 +179,14 @@ pub struct Row {
     /// Where its numbers are multiples of those of another key: that key, and what they are divided by.
     pub multiple_of: Option<(&'static str, f64)>,
     pub meaning: &'static str,
+    /// Whether canonical text leaves it out where it has its default.
+    pub is_sparse: bool,
 }
 
 impl Row {
     /// A key that may be left out.
     pub const fn new(key: &'static str, kind: Kind, meaning: &'static str) -> Self {
-        Row { key, kind, presence: Presence::Optional, limit: None, multiple_of: None, meaning }
+        Row { key, kind, presence: Presence::Optional, limit: None, multiple_of: None, meaning, is_sparse: false }
     }
 
     /// Numbers in the unit of what is dispersed.
@@ -164,10 +219,28 @@ impl Row {
         self
     }
 
+    /// The same row, which canonical text leaves out where it has its default.
+    #[must_use]
+    pub const fn sparse(mut self) -> Self {
+        self.is_sparse = true;
+        self
+    }
+
+    /// The number, flag or word that holds where the key is left out.
+    pub fn default(&self) -> Option<Value> {
+        match (self.kind, self.presence) {
+            (_, Presence::Or(number)) => Some(number.into()),
+            (_, Presence::Required { .. }) => None,
+            (Kind::Flag, _) => Some(false.into()),
+            (Kind::Word(words), _) => words.first().map(|word| Value::Word(word)),
+            _ => None,
+        }
+    }
+
     /// The same row with a limit.
     #[must_use]
-    pub const fn within(mut self, allowed: &'static str, remedy: &'static str, test: fn(f64) -> bool) -> Self {
-        self.limit = Some(NumberLimit { allowed, remedy, test });
+    pub const fn within(mut self, allowed: &'static str, remedy: &'static str, range: Range) -> Self {
+        self.limit = Some(NumberLimit { allowed, remedy, range });
         self
     }
 
@@ -181,13 +254,13 @@ impl Row {
     /// The same row of zero or more.
     #[must_use]
     pub const fn not_negative(self) -> Self {
-        self.within(">= 0", "drop the minus sign", |x| x >= 0.0)
+        self.within(">= 0", "drop the minus sign", at_least(0.0))
     }
 
     /// The same row of a scale, which is above zero.
     #[must_use]
     pub const fn scale(self) -> Self {
-        self.within("> 0", "write it in the parameter's unit", |x| x > 0.0)
+        self.within("> 0", "write it in the parameter's unit", above(0.0))
     }
 }
 
@@ -228,6 +301,19 @@ pub enum Condition {
     Has(&'static str),
     /// The key does not say this word.
     IsNot(&'static str, &'static str),
+    /// The key says this word.
+    Is(&'static str, &'static str),
+}
+
+impl Condition {
+    /// Whether it holds in a table that `has` keys, which say a `word`.
+    pub fn holds<'t>(&self, has: impl Fn(&str) -> bool, word: impl Fn(&str) -> Option<&'t str>) -> bool {
+        match self {
+            Condition::Has(key) => has(key),
+            Condition::IsNot(key, other) => word(key) != Some(*other),
+            Condition::Is(key, own) => word(key) == Some(*own),
+        }
+    }
 }
 
 /// One number for all components, or one for each.
@@ -310,9 +396,33 @@ pub enum Value {
     /// Columns of one file, each for one number of the scene.
     Columns(Vec<DataColumn>),
     Flag(bool),
+    /// Numbers by name.
+    ByName(Vec<(Name, f64)>),
     Texts(Vec<String>),
     /// Units by the names of what is shown in them.
     Units(BTreeMap<String, &'static str>),
+}
+
+impl Value {
+    /// The text or the word.
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Value::Text(text) => Some(text),
+            Value::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// Whether it is an empty list or text.
+    fn is_empty(&self) -> bool {
+        match self {
+            Value::Text(text) => text.is_empty(),
+            Value::Words(list) => list.is_empty(),
+            Value::Texts(list) => list.is_empty(),
+            Value::Units(list) => list.is_empty(),
+            _ => false,
+        }
+    }
 }
 
 impl From<f64> for Value {
@@ -359,6 +469,11 @@ impl Written {
         self
     }
 
+    /// Writes the keys of `other`, too.
+    pub fn extend(&mut self, other: Written) {
+        other.0.into_iter().for_each(|(key, value)| self.set(key, value));
+    }
+
     /// Writes `key`, instead of what was there.
     pub fn set(&mut self, key: &'static str, value: impl Into<Value>) {
         let value = value.into();
@@ -366,6 +481,27 @@ impl Written {
             Some((_, known)) => *known = value,
             None => self.0.push((key, value)),
         }
+    }
+
+    /// The keys `rows` in their order, as canonical text has them: with the defaults of those that have a meaning under
+    /// `rules`; without empty lists and texts, and without keys that are sparse and have their default.
+    #[must_use]
+    pub fn completed(&self, rows: &[Row], rules: &[Rule]) -> Written {
+        let acts = |row: &Row| {
+            rules.iter().all(|rule| match rule {
+                Rule::Only { keys, with, .. } if keys.contains(&row.key) => {
+                    with.iter().all(|condition| condition.holds(|key| self.has(key), |key| self.text(key)))
+                }
+                _ => true,
+            })
+        };
+        let entry = |row: &Row| {
+            let default = row.default();
+            let value = self.get(row.key).or(default.as_ref()).filter(|_| acts(row))?;
+            let is_left_out = value.is_empty() || row.is_sparse && default.as_ref() == Some(value);
+            (!is_left_out).then(|| (row.key, value.clone()))
+        };
+        Written(rows.iter().filter_map(entry).collect())
     }
 
     /// Whether `key` is written.
@@ -386,6 +522,11 @@ impl Written {
     /// The numbers of `key`, one after the other.
     pub fn numbers(&self, key: &str) -> Option<&[f64]> {
         self.values(key).map(Values::numbers)
+    }
+
+    /// The rows of the matrix of `key`.
+    pub fn matrix(&self, key: &str) -> Option<[[f64; 3]; 3]> {
+        if let Value::Matrix(rows) = self.get(key)? { Some(*rows) } else { None }
     }
 
     /// The three numbers of `key`.
@@ -419,11 +560,12 @@ impl Written {
 
     /// The text or the word of `key`.
     pub fn text(&self, key: &str) -> Option<&str> {
-        match self.get(key)? {
-            Value::Text(text) => Some(text),
-            Value::Word(word) => Some(word),
-            _ => None,
-        }
+        self.get(key)?.text()
+    }
+
+    /// The texts of `key`; none where it is not written.
+    pub fn texts(&self, key: &str) -> &[String] {
+        if let Some(Value::Texts(texts)) = self.get(key) { texts } else { &[] }
     }
 
     /// The keys that are written.

@@ -15,6 +15,7 @@ mod loops;
 mod misspelt;
 mod ranges;
 mod refusals;
+mod schema;
 mod shipped;
 mod spacecraft;
 mod units;

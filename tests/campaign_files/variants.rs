@@ -44,7 +44,7 @@ fn wrong_settings_are_named() {
         ("campaign.duration", "3", "did you mean duration_s?"),
         ("scene.wheels.w1.rate_rad_s", "0", "scene: not a key of a campaign file; did you mean wheels.w1.rate_rad_s?"),
         ("campain.seed", "1", "campain: not a key of a campaign file; did you mean campaign.seed?"),
-        ("xyzzy", "1", "xyzzy = 1: not a key of a campaign file (wheels, thrusters, "),
+        ("xyzzy", "1", "xyzzy = 1: not a key of a campaign file (body, wheels, thrusters, "),
         ("require[99].quantile", "3", "require"),
     ] {
         assert!(said(&[(key, value)]).contains(allowed), "{}", said(&[(key, value)]));

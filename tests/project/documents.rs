@@ -115,6 +115,7 @@ fn program_problem(words: &[&str]) -> Option<String> {
         | Command::Index(_)
         | Command::New(_)
         | Command::Report(_)
+        | Command::Schema
         | Command::Show(_)
         | Command::Verify(_) => return None,
         Command::Columns(options) => options.campaign.as_ref()?,

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use spindrift::campaign::{Overrides, Plan, settings};
+use spindrift::campaign::scene::TABLES;
+use spindrift::campaign::{Overrides, Plan, draws, failure_tables, settings};
 use spindrift::dynamics::effects::{Effect, ForceModel};
 use spindrift::ensemble::plausibility::looked::digits;
 use spindrift::ensemble::plausibility::{rule::Limit, rules::RULES};
@@ -185,8 +186,7 @@ fn parameters() -> String {
     for table in Table::ALL {
         // the errors of a table are keys of it too
         if table.header() != last {
-            let header =
-                if is_list(*table) { format!("[[{}]]", table.header()) } else { format!("[{}]", table.header()) };
+            let header = header(*table);
             let newline = if last.is_empty() { "" } else { "\n" };
             let _ = writeln!(text, "{newline}## `{header}`\n");
             let _ = writeln!(
@@ -260,8 +260,17 @@ fn keys_of_tables() -> String {
         .iter()
         .chain(&settings::TAIL)
         .map(|(header, keys)| (format!("`[{header}]`"), keys.to_vec(), &[][..]));
+    let of_scene = TABLES.iter().chain([&failure_tables::TABLE]).map(|table| {
+        let rows = table.fields.into_iter().flatten().map(|field| field.row).collect();
+        (format!("`{}`", header(table.numbers[0])), rows, &[][..])
+    });
+    let draws = [("`[[correlate]]`", &draws::CORRELATE[..]), ("`[[derive]]`", &draws::DERIVE)]
+        .map(|(table, keys)| (table.to_owned(), keys.to_vec(), &[][..]));
+    let loops = settings::LOOPS.iter().map(|(table, keys, rules)| (format!("`{table}`"), keys.to_vec(), *rules));
     let analysis = settings::ANALYSIS.iter().map(|(table, keys, rules)| (format!("`{table}`"), keys.to_vec(), *rules));
-    for (table, rows, rules) in settings.chain(kinds).chain(designs).chain(analysis) {
+    for (table, rows, rules) in
+        settings.chain(of_scene).chain(loops).chain(kinds).chain(designs).chain(draws).chain(analysis)
+    {
         for row in &rows {
             let is_of =
                 |rule: &&Rule| matches!(rule, Rule::One(ways, ..) if ways.iter().any(|way| way.contains(&row.key)));
@@ -301,8 +310,15 @@ fn keys_of_tables() -> String {
                 Kind::Words(words, _) => (format!("an array of `\"{}\"`", words.join("\"`, `\"")), ""),
                 Kind::Counts(_) => ("whole numbers above zero".to_owned(), ""),
                 Kind::Word(words) | Kind::WordOrDirection(words) => {
-                    (format!("`\"{}\"`", words.join("\"`, `\"")).replacen("\"`", "\"` (default)", 1), "")
+                    let is_required = matches!(row.presence, Presence::Required { .. });
+                    let mark = if is_required { "\"`" } else { "\"` (default)" };
+                    (format!("`\"{}\"`", words.join("\"`, `\"")).replacen("\"`", mark, 1), "")
                 }
+                Kind::Correlations => ("a number, or a row of numbers for each parameter".to_owned(), ""),
+                Kind::ByName => ("a table of numbers by name".to_owned(), ""),
+                Kind::Name => ("a name of this file".to_owned(), ""),
+                Kind::Names => ("an array of names of this file".to_owned(), ""),
+                Kind::OneOf(words) => (format!("`\"{}\"`", words().join("\"`, `\"")), ""),
                 Kind::Distribution => ("a table with a distribution of one number".to_owned(), ""),
                 Kind::Column | Kind::Columns => ("the path of a file".to_owned(), ""),
             };
@@ -333,8 +349,9 @@ fn columns_of_loops() -> String {
     text
 }
 
-fn is_list(table: Table) -> bool {
-    table.owners(&SceneInput::blank()).is_empty()
+fn header(table: Table) -> String {
+    let is_list = table.owners(&SceneInput::blank()).is_empty();
+    if is_list { format!("[[{}]]", table.header()) } else { format!("[{}]", table.header()) }
 }
 
 fn replaced(document: &str, name: &str, table: &str) -> String {

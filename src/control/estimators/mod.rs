@@ -22,6 +22,8 @@ pub use estimator::{Estimator, EstimatorContext, EstimatorKind, KnownSensor, Upd
 
 /// All kinds.
 pub static KINDS: [EstimatorKind; 3] = [perfect::KIND, raw::KIND, mekf::KIND];
+/// Their names.
+pub const NAMES: [&str; 3] = [perfect::KIND.name, raw::KIND.name, mekf::KIND.name];
 
 /// The kind called `name`.
 pub fn kind(name: &str) -> Option<&'static EstimatorKind> {

@@ -35,6 +35,17 @@ pub static KINDS: [SensorKind; 8] = [
     relative_camera::KIND,
     tachometers::KIND,
 ];
+/// Their names.
+pub const NAMES: [&str; 8] = [
+    rate_gyro::KIND.name,
+    star_tracker::KIND.name,
+    sun_sensor::KIND.name,
+    horizon_sensor::KIND.name,
+    magnetometer::KIND.name,
+    ground_radar::KIND.name,
+    relative_camera::KIND.name,
+    tachometers::KIND.name,
+];
 
 /// The kind called `name`.
 pub fn kind(name: &str) -> Option<&'static SensorKind> {

@@ -5,7 +5,7 @@
 
 use super::traits::{MAX_SAMPLES, Options};
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values, Written};
+use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values, Written, inside};
 
 pub const LEVELS: [Row; 2] = [
     Row::new(
@@ -16,7 +16,7 @@ pub const LEVELS: [Row; 2] = [
     Row::new("quantiles", Kind::List, "The levels of each dimension as quantiles").within(
         "numbers between 0 and 1, neither included",
         "write them like [0.05, 0.5, 0.95]",
-        |u| u > 0.0 && u < 1.0,
+        inside(0.0, 1.0),
     ),
 ];
 

@@ -4,7 +4,7 @@ use super::choice::ChoiceQuantile;
 use super::target::Target;
 use super::traits::Scalar;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::Row;
+use crate::sampling::keys::{Row, between};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Bernoulli;
@@ -17,7 +17,7 @@ impl Scalar for Bernoulli {
         Row::values("probability", "Probability of `value`").required("0.05").within(
             "from 0 to 1",
             "0.05 is one in twenty",
-            |x| (0.0..=1.0).contains(&x),
+            between(0.0, 1.0),
         ),
     ];
     type Quantile = ChoiceQuantile;

@@ -7,17 +7,17 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::Row;
+use crate::sampling::keys::{Range, Row, between};
 
 /// Allowed shape parameters: outside, the distribution is one spike or two.
-const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
+const SHAPES: Range = between(0.01, 1e4);
 
 #[derive(Clone, Copy, Debug)]
 pub struct Beta;
 
 const fn shape(key: &'static str, meaning: &'static str) -> Row {
     let remedy = "1 is a uniform distribution";
-    Row::values(key, meaning).within("a number from 0.01 to 1e4", remedy, |x| SHAPES.contains(&x))
+    Row::values(key, meaning).within("a number from 0.01 to 1e4", remedy, SHAPES)
 }
 
 impl Scalar for Beta {

@@ -8,7 +8,7 @@ use super::target::JointTarget;
 use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
 use crate::math::vector::{cross, norm, scaled};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Kind, Row};
+use crate::sampling::keys::{Kind, Row, between};
 use core::f64::consts::{PI, TAU};
 use std::marker::PhantomData;
 
@@ -123,7 +123,7 @@ impl<N: Nested> Together for Cone<N> {
     const KEYS: &'static [Row] = &[
         Row::new("half_angle_rad", Kind::Number, "Half-angle of the cone")
             .required_as("given, above 0 and at most pi", "0.1")
-            .within("above 0 and at most pi", "write an angle in radians", |x| (f64::MIN_POSITIVE..=PI).contains(&x)),
+            .within("above 0 and at most pi", "write an angle in radians", between(f64::MIN_POSITIVE, PI)),
         AXIS,
         MAGNITUDE,
     ];
@@ -140,9 +140,11 @@ impl<N: Nested> Together for VonMisesFisher<N> {
     const KEYS: &'static [Row] = &[
         Row::new("concentration", Kind::Number, "kappa; about 1/sigma^2 for a narrow distribution")
             .required_as("given, above 0", "100.0")
-            .within("above 0", "1/sigma^2 of a narrow distribution: 100 spreads about 0.1 rad each way", |x| {
-                (f64::MIN_POSITIVE..=f64::MAX).contains(&x)
-            }),
+            .within(
+                "above 0",
+                "1/sigma^2 of a narrow distribution: 100 spreads about 0.1 rad each way",
+                between(f64::MIN_POSITIVE, f64::MAX),
+            ),
         AXIS,
         MAGNITUDE,
     ];

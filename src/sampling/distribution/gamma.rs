@@ -7,7 +7,7 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_gamma::log_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row};
+use crate::sampling::keys::{Presence, Range, Row, between};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Gamma;
@@ -22,7 +22,7 @@ pub struct GammaQuantile {
 }
 
 /// Allowed shapes: below, the distribution is a spike at its end; above, it is normal.
-const SHAPES: std::ops::RangeInclusive<f64> = 0.01..=1e4;
+const SHAPES: Range = between(0.01, 1e4);
 
 impl GammaQuantile {
     /// With `shape` from 0.01 to 1e4 and `scale` > 0.
@@ -44,7 +44,7 @@ impl Scalar for Gamma {
         Row::values("shape", "Shape; 1 is the exponential distribution").required("2.0").within(
             "a number from 0.01 to 1e4",
             "1 is the exponential distribution",
-            |x| SHAPES.contains(&x),
+            SHAPES,
         ),
         Row::amounts("scale", "Scale above `min`").required("0.1").scale(),
         Row::amounts("min", "Lower end").or(Presence::Or(0.0)),

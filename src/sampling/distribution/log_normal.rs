@@ -4,7 +4,7 @@ use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row};
+use crate::sampling::keys::{Presence, Row, above};
 
 #[derive(Clone, Copy, Debug)]
 pub struct LogNormal;
@@ -21,7 +21,7 @@ impl Scalar for LogNormal {
     const NAME: &'static str = "log_normal";
     const KEYS: &'static [Row] = &[
         Row::values("log_std", "Standard deviation of the natural logarithm").required("0.1").not_negative(),
-        Row::amounts("median", "Median").or(Presence::OrNominal).within("> 0", LOGARITHM, |x| x > 0.0),
+        Row::amounts("median", "Median").or(Presence::OrNominal).within("> 0", LOGARITHM, above(0.0)),
     ];
     type Quantile = LogNormalQuantile;
 

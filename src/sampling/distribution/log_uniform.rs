@@ -3,7 +3,7 @@
 use super::target::{LOGARITHM, Target};
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, above};
 
 #[derive(Clone, Copy, Debug)]
 pub struct LogUniform;
@@ -28,13 +28,13 @@ impl LogUniformQuantile {
 impl Scalar for LogUniform {
     const NAME: &'static str = "log_uniform";
     const KEYS: &'static [Row] = &[
-        Row::amounts("min", "Lower end").within("> 0", LOGARITHM, |x| x > 0.0),
+        Row::amounts("min", "Lower end").within("> 0", LOGARITHM, above(0.0)),
         Row::amounts("max", "Upper end"),
         Row::values(
             "factor",
             "The range is from the nominal value divided by this factor to the nominal value times it",
         )
-        .within("> 1", "2 means from half to twice the nominal", |x| x > 1.0),
+        .within("> 1", "2 means from half to twice the nominal", above(1.0)),
     ];
     const RULES: &'static [Rule] = &[
         Rule::One(&[&["factor"], &["min", "max"]], "2.0", ALL_BUT_ONE),

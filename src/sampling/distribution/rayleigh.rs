@@ -4,7 +4,7 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::Row;
+use crate::sampling::keys::{Row, above};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Rayleigh;
@@ -19,7 +19,7 @@ impl Scalar for Rayleigh {
     const NAME: &'static str = "rayleigh";
     const KEYS: &'static [Row] = &[Row::amounts("scale", "Standard deviation of each of the two components")
         .required("0.01")
-        .within("> 0", "the standard deviation of each of two components, in the parameter's unit", |x| x > 0.0)];
+        .within("> 0", "the standard deviation of each of two components, in the parameter's unit", above(0.0))];
     type Quantile = RayleighQuantile;
 
     fn quantiles(target: &Target<'_>) -> Result<Vec<RayleighQuantile>, DispersionError> {

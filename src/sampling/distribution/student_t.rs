@@ -7,7 +7,7 @@ use super::traits::{NumberWords, Quantile, Scalar, each_score};
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
+use crate::sampling::keys::{ALL_BUT_ONE, Range, Row, Rule, between};
 
 #[derive(Clone, Copy, Debug)]
 pub struct StudentT;
@@ -24,7 +24,7 @@ pub struct StudentTQuantile {
 }
 
 /// Allowed degrees of freedom: below, values overflow; above, the distribution is normal to four digits.
-const DEGREES: std::ops::RangeInclusive<f64> = 0.5..=1e4;
+const DEGREES: Range = between(0.5, 1e4);
 
 impl StudentTQuantile {
     /// With `degrees_of_freedom` from 0.5 to 1e4 about `middle`.
@@ -59,7 +59,7 @@ impl Scalar for StudentT {
         &[
             Row::values("degrees_of_freedom", "Degrees of freedom; 1 is the Cauchy distribution")
                 .required("5.0")
-                .within("a number from 0.5 to 1e4", "above 1e4 use a normal distribution", |x| DEGREES.contains(&x)),
+                .within("a number from 0.5 to 1e4", "above 1e4 use a normal distribution", DEGREES),
             Row::amounts("scale", "Scale about the nominal value").not_negative(),
             Row::values("relative_scale", "Scale as a fraction of the nominal value").not_negative(),
         ];

@@ -48,7 +48,7 @@ impl Target<'_> {
             (None, Some(Presence::OrNominal)) => return Ok(self.nominals.to_vec()),
             (None, _) => return self.refused(key, String::new(), "given", "write it"),
         };
-        match row.and_then(|row| row.limit).and_then(|limit| Some((limit, list.iter().find(|x| !(limit.test)(**x))?))) {
+        match row.and_then(|row| row.limit).and_then(|limit| Some((limit, list.iter().find(|x| !limit.holds(**x))?))) {
             Some((limit, x)) => self.refused(key, format!("{x:?}"), limit.allowed, limit.remedy),
             None => Ok(list),
         }

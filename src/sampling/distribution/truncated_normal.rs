@@ -5,7 +5,7 @@ use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::math::normal::{probability, quantile, quantiles};
 use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, Written};
+use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, Written, above};
 
 /// The keys of the lower and of the upper bound: absolute, relative, in sigmas.
 const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];
@@ -14,7 +14,7 @@ const BOTH_KEYS: [&str; 6] = [LOWER_KEYS[0], LOWER_KEYS[1], LOWER_KEYS[2], UPPER
 
 /// A number of standard deviations.
 const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
-    Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", |x| x > 0.0)
+    Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", above(0.0))
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row};
+use crate::sampling::keys::{Presence, Range, Row, between};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Weibull;
@@ -19,7 +19,7 @@ pub struct WeibullQuantile {
 }
 
 /// Allowed shapes: below, most values vanish or overflow; above, all equal the scale.
-const SHAPES: std::ops::RangeInclusive<f64> = 0.05..=1e4;
+const SHAPES: Range = between(0.05, 1e4);
 
 impl Scalar for Weibull {
     const NAME: &'static str = "weibull";
@@ -27,7 +27,7 @@ impl Scalar for Weibull {
         &[
             Row::values("shape", "Shape; 1 is the exponential distribution, 2 that of Rayleigh")
                 .required("2.0")
-                .within("a number from 0.05 to 1e4", "1 is the exponential distribution", |x| SHAPES.contains(&x)),
+                .within("a number from 0.05 to 1e4", "1 is the exponential distribution", SHAPES),
             Row::amounts("scale", "Scale above `min`: 63% of the values are below").required("0.1").scale(),
             Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
         ];

@@ -1,0 +1,180 @@
+//! [`SceneTable`]: a table of the scene in a campaign file: the numbers that [`crate::scene::schema`] declares, and
+//! other keys as [`Field`]s. Reading and canonical text follow from both.
+
+use std::collections::HashSet;
+
+use super::lines::Lines;
+use super::section::Section;
+use super::tables::{read_keys, read_name};
+use crate::sampling::Written;
+use crate::sampling::keys::{Row, Value};
+use crate::scene::table::Table;
+use crate::scene::{ArcErrors, Name, SceneInput};
+
+/// A key of the scene that is no number, and where an instance of its table has it.
+pub struct Field {
+    pub row: Row,
+    /// Its value; `None` where canonical text leaves it out.
+    pub get: fn(&SceneInput, usize) -> Option<Value>,
+    /// Takes what was read.
+    pub set: fn(&mut SceneInput, usize, &Value),
+}
+
+/// Adds a table of this name to a scene.
+type Add = fn(&mut SceneInput, Name);
+
+/// A table of the scene.
+pub struct SceneTable {
+    /// Where its numbers are in the schema, in their order.
+    pub numbers: &'static [Table],
+    /// Its other keys, in canonical text before the numbers and behind them.
+    pub fields: [&'static [Field]; 2],
+    /// How many there may be, where it is a list.
+    pub most: Option<usize>,
+    /// Adds one, where a scene need not have it.
+    add: Option<Add>,
+    /// Whether canonical text of a scene has it.
+    is_shown: fn(&SceneInput) -> bool,
+    /// Notes what is wrong with several keys together.
+    check: fn(&mut Section<'_, '_>, &mut SceneInput, usize),
+}
+
+impl SceneTable {
+    /// A table that every scene has.
+    pub const fn new(numbers: &'static [Table], is_shown: fn(&SceneInput) -> bool) -> Self {
+        SceneTable { numbers, fields: [&[], &[]], most: None, add: None, is_shown, check: |_, _, _| {} }
+    }
+
+    /// A list of at most so many tables.
+    pub const fn list(numbers: &'static [Table], most: usize, add: Add) -> Self {
+        SceneTable { most: Some(most), add: Some(add), ..Self::new(numbers, |_| true) }
+    }
+
+    /// The same, where a scene need not have it.
+    pub const fn optional(self, add: Add) -> Self {
+        SceneTable { add: Some(add), ..self }
+    }
+
+    /// The same with keys that are no numbers.
+    pub const fn with(self, before: &'static [Field], behind: &'static [Field]) -> Self {
+        SceneTable { fields: [before, behind], ..self }
+    }
+
+    /// The same with a check.
+    pub const fn checked(self, check: fn(&mut Section<'_, '_>, &mut SceneInput, usize)) -> Self {
+        SceneTable { check, ..self }
+    }
+
+    /// Reads the tables of this kind from `root`.
+    pub(super) fn read(&self, root: &mut Section<'_, '_>, scene: &mut SceneInput) {
+        let header = self.numbers[0].header();
+        match (header.split_once('.'), self.most, self.add) {
+            (Some((outer, inner)), Some(most), Some(add)) => {
+                self.read_list(&mut root.section(outer), inner, (most, add), scene);
+            }
+            (None, Some(most), Some(add)) => self.read_list(root, header, (most, add), scene),
+            (_, _, add) => {
+                let mut section = root.section(header);
+                match add {
+                    Some(_) if !section.is_present() => return,
+                    Some(add) => add(scene, Name::NONE),
+                    None => {}
+                }
+                self.read_one(&mut section, scene, 0);
+            }
+        }
+    }
+
+    fn read_list(&self, root: &mut Section<'_, '_>, key: &str, (most, add): (usize, Add), scene: &mut SceneInput) {
+        let (mut taken, mut place) = (HashSet::new(), 0);
+        root.sections(key, most, |section| {
+            let name = read_name(section, self.numbers[0], &mut taken);
+            add(scene, name);
+            self.read_one(section, scene, place);
+            place += 1;
+        });
+    }
+
+    fn read_one(&self, section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
+        for field in self.fields.into_iter().flatten() {
+            if let Some(value) = section.right_rows(&[field.row]).get(field.row.key) {
+                (field.set)(scene, place, value);
+            }
+        }
+        self.numbers.iter().for_each(|table| read_keys(section, *table, place, scene));
+        (self.check)(section, scene, place);
+        section.finish();
+    }
+
+    /// Writes the tables of this kind that `scene` has.
+    pub(super) fn write(&self, scene: &SceneInput, lines: &mut Lines) {
+        let header = self.numbers[0].header();
+        let header = if self.most.is_some() { format!("[[{header}]]") } else { format!("[{header}]") };
+        let owners = if (self.is_shown)(scene) { self.numbers[0].owners(scene) } else { Vec::new() };
+        for (place, owner) in owners.into_iter().enumerate() {
+            let name = if self.numbers[0] == Table::Actuation { scene.actuation[place].name } else { owner };
+            lines.table(&header);
+            if name != Name::NONE {
+                lines.key("name", name);
+            }
+            lines.written(&header, &self.written(0, scene, place));
+            for table in self.numbers {
+                // most arcs have none, and a schedule may have many thousands of arcs
+                if *table != Table::ArcErrors || scene.actuation[place].errors != ArcErrors::NONE {
+                    lines.keys(*table, place, scene);
+                }
+            }
+            lines.written(&header, &self.written(1, scene, place));
+        }
+    }
+
+    fn written(&self, side: usize, scene: &SceneInput, place: usize) -> Written {
+        self.fields[side].iter().fold(Written::NONE, |written, Field { row, get, .. }| match get(scene, place) {
+            Some(value) if !row.is_sparse || row.default().as_ref() != Some(&value) => written.with(row.key, value),
+            _ => written,
+        })
+    }
+}
+
+/// A field that is one of the names of a type.
+macro_rules! word {
+    ($row:expr, $Type:ty, $scene:ident, $place:ident => $field:expr) => {
+        Field {
+            row: $row,
+            get: |$scene, $place| Some(Value::Word($field.name())),
+            set: |$scene, $place, value| {
+                if let Some(named) = value.text().and_then(<$Type>::from_name) {
+                    $field = named;
+                }
+            },
+        }
+    };
+}
+
+/// A field of `[environment]` that is true or false.
+macro_rules! flag {
+    ($key:ident, $meaning:literal) => {
+        Field {
+            row: Row::new(stringify!($key), Kind::Flag, $meaning).sparse(),
+            get: |scene, _| Some(scene.environment.$key.into()),
+            set: |scene, _, value| scene.environment.$key = *value == Value::Flag(true),
+        }
+    };
+}
+
+/// A list of numbers of `[environment]` of any length.
+macro_rules! list {
+    ($key:ident, $meaning:literal) => {
+        Field {
+            row: Row::new(stringify!($key), Kind::List, $meaning),
+            get: |scene, _| scene.environment.$key.map(Value::from),
+            set: |scene, _, value| {
+                if let Value::Numbers(values) = value {
+                    scene.environment.$key = Some(kept(values.numbers()));
+                }
+            },
+        }
+    };
+}
+
+pub(super) use {flag, list, word};

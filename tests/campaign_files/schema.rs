@@ -1,0 +1,174 @@
+//! The JSON Schema of campaign files: what is accepted by the program is accepted by the schema; wrong names and types
+//! are refused.
+
+use serde_json::{Value, json};
+use spindrift::campaign::schema::schema;
+
+use crate::support::every_key::{EVERY_TABLE, distribution_tables, every_loop, every_scene, without_draws};
+
+/// The keywords of draft 4 that the schema may have, each with whether a value obeys it.
+fn obeys(schema: &Value, value: &Value) -> bool {
+    let keywords = schema.as_object().expect("a schema");
+    keywords.iter().all(|(keyword, wanted)| {
+        let list = || wanted.as_array().expect(keyword);
+        let size = || wanted.as_u64().expect(keyword) as usize;
+        let bound = |is_within: fn(&f64, &f64) -> bool, exclusive: &str| {
+            let is_exclusive = keywords.get(exclusive).is_some_and(|exclusive| exclusive == true);
+            let bound = wanted.as_f64().expect(keyword);
+            value.as_f64().is_none_or(|number| is_within(&number, &bound) && !(is_exclusive && number == bound))
+        };
+        match keyword.as_str() {
+            "$schema" | "title" | "description" | "default" | "exclusiveMinimum" | "exclusiveMaximum" => true,
+            "type" if wanted.is_array() => list().iter().any(|one| obeys(&json!({"type": one}), value)),
+            "type" => match wanted.as_str().expect("a type") {
+                "object" => value.is_object(),
+                "array" => value.is_array(),
+                "string" => value.is_string(),
+                "boolean" => value.is_boolean(),
+                "integer" => value.is_i64() || value.is_u64(),
+                "number" => value.is_number(),
+                other => panic!("the type {other}"),
+            },
+            "enum" => list().contains(value),
+            "minimum" => bound(f64::ge, "exclusiveMinimum"),
+            "maximum" => bound(f64::le, "exclusiveMaximum"),
+            "items" => value.as_array().is_none_or(|items| items.iter().all(|item| obeys(wanted, item))),
+            "minItems" => value.as_array().is_none_or(|items| items.len() >= size()),
+            "maxItems" => value.as_array().is_none_or(|items| items.len() <= size()),
+            "uniqueItems" => value
+                .as_array()
+                .is_none_or(|items| items.iter().enumerate().all(|(place, item)| !items[..place].contains(item))),
+            "properties" => value.as_object().is_none_or(|object| {
+                object.iter().all(|(key, inner)| wanted.get(key).is_none_or(|schema| obeys(schema, inner)))
+            }),
+            "additionalProperties" => value.as_object().is_none_or(|object| {
+                let others =
+                    object.iter().filter(|(key, _)| keywords.get("properties").is_none_or(|of| of.get(key).is_none()));
+                others
+                    .into_iter()
+                    .all(|(_, inner)| if wanted.is_object() { obeys(wanted, inner) } else { *wanted == true })
+            }),
+            "required" => value
+                .as_object()
+                .is_none_or(|object| list().iter().all(|key| object.contains_key(key.as_str().expect("a key")))),
+            "anyOf" => list().iter().any(|schema| obeys(schema, value)),
+            "not" => !obeys(wanted, value),
+            other => panic!("the keyword {other} is not of the ones that are checked here"),
+        }
+    })
+}
+
+fn parsed(text: &str) -> Value {
+    let table: toml::Table = text.parse().unwrap_or_else(|error| panic!("{error}\n{text}"));
+    serde_json::to_value(table).expect("a file without infinite numbers")
+}
+
+/// Valid files: those that are shipped, and files with every key.
+fn files() -> Vec<(String, String)> {
+    let entries = std::fs::read_dir("campaigns").expect("the campaigns").map(|entry| entry.expect("an entry").path());
+    let shipped = entries.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    let text = |path: std::path::PathBuf| (path.display().to_string(), std::fs::read_to_string(path).expect("a file"));
+    let mut files: Vec<(String, String)> = shipped.map(text).collect();
+    assert!(files.len() > 10);
+    let dispersed = distribution_tables().into_iter().map(|(_, table)| without_draws() + &table);
+    let others = [EVERY_TABLE.to_owned()].into_iter().chain(every_scene()).chain(every_loop()).chain(dispersed);
+    files.extend(others.map(|text| (text.clone(), text)));
+    files
+}
+
+/// Law: the schema accepts each shipped campaign and each file with every key.
+#[test]
+fn valid_files_are_accepted() {
+    let schema = schema();
+    for (name, text) in files() {
+        assert!(obeys(&schema, &parsed(&text)), "{name}");
+    }
+}
+
+/// `value` with the value at each place replaced by `other`, or its key by another one.
+fn changed(value: &Value, other: &dyn Fn(&Value) -> Option<Value>, path: &str, found: &mut Vec<(String, Value)>) {
+    let mut within = |path: String, inner: &Value, with: &dyn Fn(Value) -> Value| {
+        let mut of_inner = Vec::new();
+        changed(inner, other, &path, &mut of_inner);
+        found.extend(of_inner.into_iter().map(|(path, inner)| (path, with(inner))));
+    };
+    match value {
+        Value::Object(object) => {
+            for (key, inner) in object {
+                within(format!("{path}.{key}"), inner, &|inner| {
+                    let mut object = object.clone();
+                    object.insert(key.clone(), inner);
+                    object.into()
+                });
+            }
+        }
+        Value::Array(list) if list.iter().all(Value::is_object) => {
+            for (place, inner) in list.iter().enumerate() {
+                within(format!("{path}[{place}]"), inner, &|inner| {
+                    let mut list = list.clone();
+                    list[place] = inner;
+                    list.into()
+                });
+            }
+        }
+        _ => {}
+    }
+    found.extend(other(value).map(|value| (path.to_owned(), value)));
+}
+
+/// Tables whose keys are names of the file.
+const BY_NAME: [&str; 3] = ["thrust_n", "torque_n_m", "display.columns"];
+
+/// Law: a file with a key that no table has is refused, in every table; so is one with a value of another type, for
+/// every key.
+#[test]
+fn wrong_names_and_types_are_refused() {
+    let schema = schema();
+    let mut count = 0;
+    for (name, text) in files() {
+        let mut wrong = Vec::new();
+        let unknown = |value: &Value| {
+            let mut object = value.as_object()?.clone();
+            object.insert("no_such_key".to_owned(), json!(1));
+            Some(object.into())
+        };
+        let of_no_type = |value: &Value| (!value.is_object()).then(|| json!({"no_such_key": [[null]]}));
+        changed(&parsed(&text), &unknown, "", &mut wrong);
+        changed(&parsed(&text), &of_no_type, "", &mut wrong);
+        for (path, value) in wrong.into_iter().filter(|(path, _)| !BY_NAME.iter().any(|table| path.ends_with(table))) {
+            count += 1;
+            assert!(!obeys(&schema, &value), "accepted in {name}: {path}");
+        }
+    }
+    assert!(count > 5000, "{count}");
+}
+
+/// Law: numbers beyond their limits, words of no list, and files that lack what they must have are refused; a file that
+/// extends another one may leave out what that has.
+#[test]
+fn limits_words_and_missing_keys_are_refused() {
+    let schema = schema();
+    let is_accepted = |from: &str, to: &str| {
+        assert!(from.is_empty() || EVERY_TABLE.contains(from), "{from}");
+        let text = if from.is_empty() { format!("{to}{EVERY_TABLE}") } else { EVERY_TABLE.replacen(from, to, 1) };
+        obeys(&schema, &parsed(&text))
+    };
+    for (from, to) in [
+        ("duration_s = 10.0\n", "duration_s = 0.0\n"),
+        ("duration_s = 10.0\n", ""),
+        ("seed = 1\n", "seed = 1.5\n"),
+        ("seed = 1\n", ""),
+        ("method = \"auto\"", "method = \"automatic\""),
+        ("tolerance = 1e-10", "tolerance = 1.0"),
+        ("radius_m = 0.1", "radius_m = -0.1"),
+    ] {
+        assert!(!is_accepted(from, to), "{to:?} in place of {from:?}");
+    }
+    assert!(is_accepted("radius_m = 0.1", "radius_m = \"10 cm\""));
+    assert!(is_accepted("seed = 1\n", "seed = 1\n\n"));
+    assert!(obeys(
+        &schema,
+        &parsed("extends = \"base.toml\"\n[campaign]\nsamples = 5\n[[wheels]]\nname = \"w1\"\nrate_rad_s = 3\n")
+    ));
+    assert!(!obeys(&schema, &parsed("[campaign]\nsamples = 5\n")));
+}
