@@ -15,7 +15,7 @@ use crate::scene::{Actuated, LawParameter};
 /// A control law that a campaign flies.
 ///
 /// Its name and its parameters are part of the plan, and so of the identity of the rows. The law of a run is made at
-/// its start and sees this run alone; it must not depend on anything but its context and what it is told in the run.
+/// its start and sees this run alone; it must not depend on anything but its context and its input in the run.
 /// Change the name where you change the law: rows that are there already are then other rows.
 #[derive(Clone)]
 pub struct ControlLaw {
@@ -29,7 +29,7 @@ pub struct ControlLaw {
 }
 
 impl ControlLaw {
-    /// The law called `name`, which commands what `commands` says, with the parameters `parameters`; `make` makes the
+    /// The law called `name`, which commands `commands`, with the parameters `parameters`; `make` makes the
     /// law of a run.
     ///
     /// ```

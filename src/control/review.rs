@@ -45,7 +45,7 @@ fn directions_alone(spec: &LoopSpec) -> Option<String> {
 /// Effects on the spacecraft that the filters and laws do not model.
 fn unknown_effects(scene: &Scene) -> Option<String> {
     let is_unknown = |effect: &Effect| match effect {
-        // filters are told what torque rods do
+        // filters know the commands of torque rods
         Effect::MagneticTorque => scene.environment.magnetic_dipole_a_m2.is_some(),
         other => !matches!(other.form(), Form::Translation | Form::Force),
     };

@@ -1,4 +1,4 @@
-//! Rotations as vectors and as modified Rodrigues parameters, beside the quaternions of [`super::vector`] (scalar
+//! Rotations as vectors and as modified Rodrigues parameters, besides the quaternions of [`super::vector`] (scalar
 //! first, Hamilton product).
 
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, scaled, sum};

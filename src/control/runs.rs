@@ -1,4 +1,4 @@
-//! [`LawRuns`]: the laws of the runs that an engine propagates together, each beside the schedule of its scene, which a
+//! [`LawRuns`]: the laws of the runs that an engine propagates together, each with the schedule of its scene, which a
 //! control loop applies itself.
 
 use std::sync::{Arc as Shared, Mutex, MutexGuard, PoisonError};
@@ -51,7 +51,7 @@ impl LawRuns {
     /// Makes the law of run `run`, which starts. Indices are given from zero on, without a gap.
     pub fn begin(&mut self, run: usize, context: &LawContext<'_>) {
         let law = (self.make)(context);
-        // both are asked at the first arc
+        // both answer at the first arc
         let answers = [Actuation::none(f64::NEG_INFINITY); 2];
         let schedule = if self.take_schedule { Vec::new() } else { context.drawn.schedule.clone() };
         let begun = BesideSchedule { schedule, law, answers };

@@ -1,4 +1,4 @@
-//! [`TickTimes`]: the times of ticks as a person writes them. A tick at k T, in binary, may be an ulp beside the
+//! [`TickTimes`]: the times of ticks as a person writes them. A tick at k T, in binary, may be an ulp off the
 //! decimal number, and so may the difference of two such times: what compares them with numbers of a file takes the
 //! whole number of ticks instead.
 

@@ -25,7 +25,7 @@ pub struct Truth {
     pub debris: Option<DebrisState>,
 }
 
-/// The motion of the debris of a run over time: a free rigid body in uniform translation or beside an orbit, read at
+/// The motion of the debris of a run over time: a free rigid body in uniform translation or near an orbit, read at
 /// ascending times.
 #[derive(Clone, Debug)]
 pub struct DebrisMotion {
@@ -33,7 +33,7 @@ pub struct DebrisMotion {
     inverse: [[f64; 3]; 3],
     is_isotropic: bool,
     start: DebrisState,
-    /// Its motion beside an orbit, where there is one.
+    /// Its motion relative to an orbit, if there is one.
     orbit: Option<Box<RelativeOrbit>>,
     /// Time and state of the integration.
     time: f64,

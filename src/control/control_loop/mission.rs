@@ -127,7 +127,7 @@ impl Mission {
                 estimate: software.estimate(),
                 consistency: &consistency(plant, truth, software),
                 commanded: software.latest_commands(),
-                // no law is asked where the mission ends
+                // no law steps where the mission ends
                 telemetry: if guided.progress == Progress::Flies { software.telemetry() } else { &[] },
                 measurements: plant.measurements(truth.time).delivered,
             });

@@ -170,7 +170,7 @@ mod tests {
     }
 
     /// Law: at rest with equal noise the covariance converges to the closed form before and after the update, about
-    /// every axis, to 3e-14 (measured: 3.3e-15; asked: 1e-10), and axes do not mix.
+    /// every axis, to 3e-14 (measured: 3.3e-15), and axes do not mix.
     #[test]
     fn the_covariance_converges_to_the_closed_form() {
         for (sv, su, sn, t) in [(1e-4, 1e-5, 5e-4, 0.5), (1e-6, 2e-7, 2.5e-5, 2.0)] {

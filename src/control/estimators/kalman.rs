@@ -3,7 +3,7 @@
 use crate::control::small_matrix::{added, cholesky, multiplied, solved, transposed};
 
 /// e^T S^-1 e, of an innovation or of an error of the estimate: distributed as chi-square with `degrees` degrees of
-/// freedom where the filter is told the truth about its noise.
+/// freedom if the filter knows its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalizedSquare {
     /// Its value.

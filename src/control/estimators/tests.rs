@@ -231,7 +231,7 @@ fn estimates_without_noise_are_the_truth() {
     }
 }
 
-/// Law: each kind of sensor that an estimator is said to use changes its estimate, and no other does: what nobody uses
+/// Law: each kind of sensor that an estimator claims to use changes its estimate, and no other does: what nobody uses
 /// is refused by `check`, not ignored.
 #[test]
 fn each_sensor_that_is_used_changes_the_estimate() {

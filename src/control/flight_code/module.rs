@@ -5,7 +5,7 @@ use std::fmt;
 use crate::control::laws::LawKind;
 
 /// The numbers of the interfaces, of which `spindrift_interface` of a module returns one. 2 has measurements and
-/// telemetry beside what 1 has.
+/// telemetry in addition to 1.
 pub const INTERFACES: [i32; 2] = [1, 2];
 /// The name of modules as laws of phases.
 pub const NAME: &str = "module";
@@ -28,7 +28,7 @@ pub type Refusal = (String, String);
 pub struct WantedSensor {
     /// Its name in the campaign file.
     pub name: &'static str,
-    /// Its kind there, which says what its numbers mean.
+    /// Its kind there, which defines its numbers.
     pub kind: &'static str,
 }
 

@@ -111,10 +111,10 @@ impl FlightSoftware {
         ActingCommands { motor_torque, pulses, rods, until }
     }
 
-    /// Counts what acted for `length` seconds from `time` on, as commanded: what estimators are told.
+    /// Adds up the commands that act for `length` seconds from `time` on, for the estimator.
     pub fn count(&mut self, time: f64, length: f64) {
         if self.spec.knows_the_truth() {
-            // only filters ask what was commanded
+            // only filters need the commands
             return;
         }
         let same = SAME_TIME * self.spec.period;

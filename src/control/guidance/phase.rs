@@ -1,4 +1,4 @@
-//! [`Phase`]: one phase of guidance, as the file says it, with the numbers of a run.
+//! [`Phase`]: one phase of guidance, with the numbers of a run.
 
 use super::condition::Condition;
 use super::target::Target;

@@ -14,7 +14,7 @@ use crate::sampling::SampleId;
 /// Its name in `[[guidance]]`.
 pub const NAME: &str = "python";
 
-/// Its place beside the list of laws.
+/// The law of the list for which a process installs a callback.
 pub static KIND: LawKind = LawKind {
     name: NAME,
     parameters: &[],

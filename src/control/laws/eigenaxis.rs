@@ -25,7 +25,7 @@ pub struct Eigenaxis {
     pub damping: f64,
     /// Largest rate, rad/s; infinite without a limit.
     pub largest_rate: f64,
-    /// Largest torque on the body beside what its own momentum and a target that turns take, N m; infinite without a
+    /// Largest torque on the body besides what its own momentum and a target that turns take, N m; infinite without a
     /// limit. Beyond it the torque keeps its direction.
     pub largest_torque: f64,
     /// The integral of the error.

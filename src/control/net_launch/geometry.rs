@@ -7,7 +7,7 @@
 //!
 //! On an orbit v_d is the velocity along it, and e turns, at the rate omega = v_d x v_d'/|v_d|^2. "At rest" is meant in
 //! the frame that turns so: the relative velocity is v - v_d - omega x (r - r_d), zero of a spacecraft that stays on
-//! A_d. The relative motion is that beside a circular orbit of this rate (W. H. Clohessy & R. S. Wiltshire, Journal of
+//! A_d. The relative motion is that near a circular orbit of this rate (W. H. Clohessy & R. S. Wiltshire, Journal of
 //! the Aerospace Sciences 27, 1960); on an ellipse it is wrong by its eccentricity, which the loop corrects.
 
 use crate::control::vector::{cross, difference, dot, norm, product, scaled, sum, transposed_product};

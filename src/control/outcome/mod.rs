@@ -140,7 +140,7 @@ impl MissionOutcome {
         }
     }
 
-    /// Takes what the module has reported at a tick; nothing where it was not asked.
+    /// Takes the telemetry of the module at a tick; empty if it did not step.
     pub fn take_telemetry(&mut self, values: &[f64]) {
         self.telemetry.resize(self.telemetry.len().max(values.len()), [f64::NAN, 0.0]);
         for ([last, most], value) in self.telemetry.iter_mut().zip(values) {

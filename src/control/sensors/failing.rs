@@ -19,7 +19,7 @@ pub struct FailingSensor {
 }
 
 impl FailingSensor {
-    /// The sensor of `kind` in the run of `context`, which fails as `failure` says.
+    /// The sensor of `kind` in the run of `context`, with the failure `failure`.
     pub fn new(kind: &SensorKind, context: &SensorContext<'_>, failure: &FailureInput) -> Self {
         let biased = failure.output.is_none().then(|| {
             let parameters = &biased(context.parameters, failure);

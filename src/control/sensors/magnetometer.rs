@@ -1,6 +1,6 @@
 //! A magnetometer: the Earth's magnetic field in F_s, with noise, bias, errors of scale and misalignment.
 //!
-//! The field is that of `[environment]` at the true place. That of torque rods and wheels beside it is not in it: a
+//! The field is that of `[environment]` at the true place. The field of torque rods and wheels is not in it: a
 //! real one is read while rods are off, or has its bias corrected. Filters compare it with the field on the nominal
 //! orbit.
 
@@ -66,8 +66,8 @@ impl Believed {
 
 impl AttitudeSensor for Believed {
     /// The innovation is across the measured field m, as that of [`super::two_angles`]: e_i = b_i . (m - B) = -b_i . B
-    /// for two unit vectors b across m, where B is the field in F_s as estimated; the length of B says nothing of the
-    /// attitude. With B' = B x d for a small error d of the attitude, b . (B x d) = (b x B) . d.
+    /// for two unit vectors b across m, where B is the field in F_s as estimated; the length of B does not depend on
+    /// the attitude. With B' = B x d for a small error d of the attitude, b . (B x d) = (b x B) . d.
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
         let field_e = self.field.as_ref().map_or([0.0; 3], |(orbit, field)| field.at(time, orbit.state(time).position));
         let field_s = transposed_product(dcm_from_quaternion(q_es), field_e);

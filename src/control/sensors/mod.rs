@@ -1,6 +1,6 @@
 //! Models of sensors: from the true state to measurements. One file for each kind, one line for each in [`KINDS`].
 //!
-//! A sensor measures at its own period; [`SampledSensor`] says when, and delivers each measurement after the latency.
+//! A sensor measures at its own period; [`SampledSensor`] times it, and delivers each measurement after the latency.
 //! Noise is addressed by the sensor's own count, so that it depends neither on other sensors nor on measurements that
 //! were lost. The nominal run has no noise; biases, scales and misalignments stay.
 //!

@@ -45,7 +45,7 @@ impl TwoAngles {
     ///
     /// It is across the measured direction m: e_i = -b_i . u for two unit vectors b across m. With u' = u x d for a
     /// small error d of the attitude, b . (u x d) = (b x u) . d; the noise of the angles moves m by b_i . dm/d(angle).
-    /// Unlike the difference of the angles it has no pole where the estimate has the direction beside the sensor.
+    /// Unlike the difference of the angles it has no pole where the estimate has the direction across the boresight.
     pub fn innovation(&self, values: &Values, u_t: [f64; 3]) -> AttitudeInnovation {
         let tangents = part::<2>(values, 0).map(libm::tan);
         let seen = [tangents[0], tangents[1], 1.0];
