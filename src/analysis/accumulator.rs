@@ -8,7 +8,6 @@ use std::num::NonZeroUsize;
 use crate::analysis::part_columns::PartColumns;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// Gathers something from the parts of a campaign.
 pub trait Accumulator: Sync {
     type Whole: Send;
     type OfPart: Send;

@@ -20,17 +20,13 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 pub struct Analysed {
     pub statistics: Statistics,
     pub verdicts: Verdicts,
-    /// Drivers of the main observables.
     pub sensitivities: Vec<InputSensitivity>,
     /// Quantiles over time.
     pub bands: Option<Bands>,
-    /// The last look of `[stop]`.
     pub stopping: Option<Stopping>,
-    /// The data of the page.
     pub survey: Survey,
     /// Ends of missions under a control loop.
     pub missions: Missions,
-    /// Ends of runs, and the audits.
     pub tally: Tally,
     /// Drivers of whether a run is computed, if many are not.
     pub failures: Vec<InputSensitivity>,

@@ -5,7 +5,6 @@ use crate::statistics::binomial::{Decision, upper_bound};
 use crate::statistics::gate::{Gate, GateLimit};
 use crate::statistics::looks::adjusted;
 
-/// The verdict on one requirement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assessment {
     pub requirement: Requirement,
@@ -13,7 +12,6 @@ pub struct Assessment {
     pub confidences: [f64; 2],
     /// Unit of its limit; empty for a pure number.
     pub unit: String,
-    /// The unit on the screen.
     pub shown: ShownUnit,
     /// Decision, estimate and one-sided bounds: of the fraction of runs within the limit, or of the mean.
     pub gate: Gate,
@@ -28,9 +26,7 @@ pub struct Assessment {
     pub violations: u64,
     /// Runs without a value, which violate the requirement.
     pub missing: u64,
-    /// Runs that are not `ok`.
     pub failed: u64,
-    /// The worst point of a requirement over time.
     pub worst: Option<WorstPoint>,
     /// The reason of an open decision, or of one that does not follow from the numbers.
     pub reason: Option<String>,
@@ -46,7 +42,6 @@ pub const RARE: u64 = 10;
 /// The first point of time with the fewest runs within the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstPoint {
-    /// The time, s.
     pub time_s: f64,
     pub points: usize,
     /// Runs in one bucket with the limit, on an unknown side of it; counted as violations.
@@ -54,7 +49,6 @@ pub struct WorstPoint {
 }
 
 impl Assessment {
-    /// PASS, FAIL or UNDECIDED.
     pub fn word(&self) -> &'static str {
         match self.gate.decision {
             Decision::Pass => "PASS",
@@ -102,7 +96,6 @@ impl Assessment {
         self.interval.iter().any(|end| end.is_finite())
     }
 
-    /// Number of points of time tested.
     fn points(&self) -> usize {
         self.worst.map_or(1, |worst| worst.points)
     }
@@ -117,7 +110,6 @@ impl Assessment {
         adjusted(self.confidences[0], self.points())
     }
 
-    /// Whether it would fail if it were the only requirement.
     pub fn fails_alone(&self) -> bool {
         let [lower, mut upper] = self.gate.bounds;
         if let Some(worst) = self.worst {

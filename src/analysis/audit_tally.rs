@@ -21,7 +21,6 @@ pub const FALSE_ALARM: f64 = 0.01;
 /// An estimate compared with the true error.
 #[derive(Clone, Debug, Default)]
 pub struct Coverage {
-    /// Runs with both.
     pub audited: u64,
     /// Runs with an estimate that covers the true error.
     pub covered: u64,
@@ -50,7 +49,6 @@ impl Coverage {
     }
 }
 
-/// Counts over the audited runs.
 #[derive(Clone, Debug, Default)]
 pub struct AuditTally {
     pub audited: u64,
@@ -58,9 +56,7 @@ pub struct AuditTally {
     pub failed: u64,
     /// Audited runs with a reference solution in double-double; others have plain doubles.
     pub in_double_double: u64,
-    /// `state_error_estimate` against the true error.
     pub coverage: Coverage,
-    /// `debris_state_error_estimate` against the true error.
     pub debris_coverage: Coverage,
     /// Maximum of the next two.
     pub state: Spread,
@@ -68,14 +64,11 @@ pub struct AuditTally {
     pub omega: Spread,
     /// Errors of the attitude, rad.
     pub attitude: Spread,
-    /// Errors of the rotation of the debris.
     pub debris: Spread,
-    /// Errors of the observables that have numerical statistics.
     pub observables: Vec<Spread>,
 }
 
 impl AuditTally {
-    /// An empty tally of `observables` observables.
     pub fn new(observables: usize) -> Self {
         AuditTally { observables: vec![Spread::default(); observables], ..AuditTally::default() }
     }

@@ -21,7 +21,6 @@ fn factor_names(plan: &Plan) -> Vec<String> {
     names
 }
 
-/// Sobol indices from whole blocks.
 pub(super) fn of_blocks(
     plan: &Plan,
     names: &[&str],

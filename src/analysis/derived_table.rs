@@ -11,10 +11,8 @@ use crate::storage::rows_file::{SAMPLE_ID, STATUS};
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 use crate::table::{Column, Content, Values};
 
-/// Why the table could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum DerivedTableError {
-    /// The rows could not be read.
     #[error(transparent)]
     Rows(#[from] RowsError),
     #[error(transparent)]

@@ -32,7 +32,6 @@ impl InputSensitivity {
     }
 }
 
-/// Whether the interval of a share is informative.
 pub fn is_known(share: &Estimate) -> bool {
     share.upper - share.lower <= MOST_WIDTH
 }
@@ -42,7 +41,6 @@ const LEAST_RATIO: f64 = 1.5;
 /// Least distance from one half of the chance in [`Dependence::Shift`].
 pub const LEAST_CHANCE: f64 = 0.1;
 
-/// A question about an outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
     Spread,
@@ -56,12 +54,10 @@ pub struct Ranked<'a> {
     pub effect: Option<&'a OnEvent>,
     /// Its share of the variance, of the outcome or of the event; `None` if the rows are too few.
     pub share: Option<Estimate>,
-    /// Whether it acts, notably.
     pub is_driver: bool,
 }
 
 impl Ranked<'_> {
-    /// The input that may act instead.
     pub fn instead(&self) -> Option<&str> {
         self.effect.map_or(&self.input.instead, |effect| &effect.instead).as_deref()
     }

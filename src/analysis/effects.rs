@@ -15,7 +15,6 @@ const MANY_EQUAL: f64 = 0.1;
 /// Share of equal values of an input above which all other values are one group.
 const MOSTLY_EQUAL: f64 = 0.5;
 
-/// The trend of an observable with an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     Rises,
@@ -33,7 +32,6 @@ pub struct Level {
     pub of: Occurrence,
 }
 
-/// The dependence of an event on an input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dependence {
     /// On an input with few values, ascending.
@@ -58,7 +56,6 @@ pub enum Dependence {
     },
 }
 
-/// The effect of an input on an event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnEvent {
     pub event: Event,

@@ -15,13 +15,11 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ending {
     pub rows: u64,
-    /// Number of runs that are not `ok`.
     pub failed: u64,
     /// Uncovered audits of the estimates that break their promise.
     pub not_covered: u64,
     /// Without the values of quantiles.
     pub verdicts: Verdicts,
-    /// The last look of `[stop]`.
     pub stopping: Option<Stopping>,
 }
 

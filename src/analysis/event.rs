@@ -8,7 +8,6 @@ use crate::statistics::correlation::ascending_order;
 
 /// Most values of an observable or input that are treated as groups.
 pub const FEW: usize = 5;
-/// Least rows for each of few values.
 const ROWS_OF_EACH: usize = 4;
 /// Fewer events show no influence of an input with many values ([`crate::statistics::rank_tests`]): the tail is
 /// explained instead.
@@ -45,7 +44,6 @@ impl Occurs {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     pub occurs: Occurs,
-    /// The runs in which it occurs.
     pub of: Occurrence,
     /// Whether the outcome has few values, so that the event is its spread.
     pub has_few_values: bool,
@@ -67,7 +65,6 @@ pub fn are_few(distinct: usize, rows: usize) -> bool {
     (2..=FEW).contains(&distinct) && rows >= ROWS_OF_EACH * distinct
 }
 
-/// Whether an outcome with these values has few, or one.
 fn has_few(known: &[(f64, usize)], rows: usize) -> bool {
     are_few(known.len(), rows) || known.len() == 1
 }

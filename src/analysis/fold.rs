@@ -31,14 +31,11 @@ type Everything = (
     ((FirstRows, Retained), (Surveyor, MissionCounter)),
 );
 
-/// Gathers everything that the end of a campaign needs.
 #[derive(Debug)]
 pub struct RowsFold(Everything);
 
-/// What one fold over the rows of a campaign gathers.
 #[derive(Clone, Debug)]
 pub struct Gathered {
-    /// Statuses, worst runs, audits.
     pub tally: Tally,
     /// The observables of the first of the [`batches`].
     pub columns: Collected,
@@ -47,12 +44,9 @@ pub struct Gathered {
     pub stop_values: StopValues,
     /// Inputs and main observables of the first rows.
     pub first_rows: RowTable,
-    /// Samples whose runs are retained, ascending.
     pub retained: Vec<SampleId>,
     pub survey: Survey,
-    /// How missions ended, of a campaign under a control loop.
     pub missions: Missions,
-    /// Quantities over time, where the campaign has bands.
     pub bands: Option<Bands>,
 }
 

@@ -30,15 +30,12 @@ pub struct InputSensitivity {
     pub total: Option<Estimate>,
     /// P-value of no influence on the spread, adjusted for all inputs (Holm).
     pub p_value: Option<f64>,
-    /// Trend of the observable, for a driver of the spread.
     pub direction: Option<Direction>,
-    /// Effects on the events of the observable.
     pub on_events: Vec<OnEvent>,
     /// The correlated input that the rows do not separate from this one as a driver.
     pub instead: Option<String>,
     /// The input with the largest notable rank correlation, and that correlation.
     pub correlated_with: Option<(String, f64)>,
-    /// Caveats.
     pub note: Option<String>,
 }
 

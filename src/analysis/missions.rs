@@ -47,7 +47,6 @@ pub struct MissionCounter {
 pub struct MissionCounts {
     /// `ok` runs by end: launched, flying, then by failure.
     ends: [u64; 2 + Failure::NAMES.len()],
-    /// Timed-out runs by phase.
     timeouts: Vec<u64>,
     /// Physical samples without an `ok` run.
     missing: u64,

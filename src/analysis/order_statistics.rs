@@ -30,7 +30,6 @@ impl QuantileStatistic {
     }
 }
 
-/// The order statistics of a group of values.
 pub enum Order {
     /// The values; only the places that quantiles need are in order.
     Exact(Vec<f64>),
@@ -126,7 +125,6 @@ pub fn among_values(p: f64, count: u64, missing: u64, limit: GateLimit) -> Optio
 }
 
 impl AskedQuantile {
-    /// The `p`-quantile of all values.
     pub fn new(p: f64, confidence: f64, ranks: Option<IntervalRanks>) -> Self {
         AskedQuantile { p, confidence, ranks, of_values: Some(p), missing: 0, lost: 0 }
     }
@@ -176,7 +174,6 @@ pub fn without_value(missing: &str) -> String {
     }
 }
 
-/// Estimates a quantile, with the interval of independent samples.
 pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     let AskedQuantile { p, confidence, ranks, of_values, missing, lost } = *asked;
     let value = of_values.and_then(|p| order.quantile(p));

@@ -16,7 +16,6 @@ pub const OF_MOTION: [&str; 8] = [
     "energy_error_max",
 ];
 
-/// The number of default outcomes.
 const FEW: usize = 3;
 
 /// The observables that the file of `plan` requires, lists for the summary, or derives, and the times of its events.

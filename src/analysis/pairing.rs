@@ -9,7 +9,6 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 /// Rows compared one by one: the nominal sample and the first [`MOST_EXACT`].
 pub const MOST_ROWS: usize = MOST_EXACT as usize + 1;
 
-/// A result: its plan and the files of its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct ResultRows<'r> {
     pub plan: &'r Plan,

@@ -62,7 +62,6 @@ impl PartColumns for PartReader {
     }
 }
 
-/// The place of a column in a block of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Position {
     Parameter(usize),
@@ -71,7 +70,6 @@ enum Position {
     AuditError(usize),
 }
 
-/// The columns of the rows of a campaign by name.
 #[derive(Clone, Debug)]
 pub struct RowNames(HashMap<String, Position>);
 

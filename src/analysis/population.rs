@@ -32,7 +32,6 @@ impl Loss {
         })
     }
 
-    /// The numbers in words.
     pub fn counts(self) -> String {
         let which = if self.outside > 0 { " that are physical" } else { "" };
         format!("{} of {} dispersed runs{which}", self.missing, self.runs)
@@ -44,7 +43,6 @@ impl Loss {
     }
 }
 
-/// How samples represent the population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Population {
     Independent,
@@ -60,7 +58,6 @@ pub enum Population {
 }
 
 impl Population {
-    /// The population of the samples of `plan`.
     pub fn of(plan: &Plan) -> Self {
         let name = plan.design.name();
         match &plan.design {
@@ -96,7 +93,6 @@ impl Population {
         (sample.0.saturating_sub(1) % self.groups() as u64) as usize
     }
 
-    /// Whether statistics count `sample`.
     pub fn contains(self, sample: SampleId) -> bool {
         self == Population::Nominal || sample.0 > 0
     }

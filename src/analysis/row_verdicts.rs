@@ -12,7 +12,6 @@ use crate::statistics::gate::{
 use crate::statistics::mean::MOST_SHARE;
 use crate::statistics::moments::Moments;
 
-/// Counts of one requirement in a group of samples.
 #[derive(Clone, Debug, Default)]
 pub(super) struct GroupRuns {
     pub(super) runs: u64,
@@ -54,14 +53,11 @@ pub(super) struct Judged<'r> {
     pub requirement: &'r Requirement,
     /// The confidences of a pass and of a failure.
     pub confidences: [f64; 2],
-    /// Confidence of the two-sided interval.
     pub interval: f64,
-    /// Runs that are not `ok`.
     pub failed: u64,
 }
 
 impl Judged<'_> {
-    /// The confidence of each end of the interval.
     pub(super) fn of_an_end(&self) -> f64 {
         0.5 + 0.5 * self.interval
     }

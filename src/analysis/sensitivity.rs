@@ -77,7 +77,6 @@ fn at(rows: &[usize], values: &[f64]) -> Vec<f64> {
     rows.iter().map(|row| values[*row]).collect()
 }
 
-/// Inputs without estimates, and why.
 fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<InputSensitivity> {
     let of = |name: &&str, input: &String| InputSensitivity {
         observable: (*name).to_owned(),
@@ -89,7 +88,6 @@ fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<Input
     names.iter().flat_map(|name| inputs.iter().map(move |input| of(name, input))).collect()
 }
 
-/// Inputs prepared for all estimates.
 pub struct Prepared {
     rows: usize,
     /// Inputs that vary and are no linear combination of those before them, as values and as ranks.
@@ -103,7 +101,6 @@ pub struct Prepared {
     tested: Vec<Option<TestedInput>>,
     /// Inputs with many values and tails that the rows may not show.
     with_tails: Vec<bool>,
-    /// Rank correlations of the inputs.
     correlations: Vec<Vec<f64>>,
 }
 
@@ -203,7 +200,6 @@ impl Prepared {
         instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
     }
 
-    /// The inputs in some of the rows.
     fn of_rows(&self, rows: &[usize], threads: Option<NonZeroUsize>) -> Self {
         Prepared::new(self.values.iter().map(|input| at(rows, input)).collect(), threads)
     }

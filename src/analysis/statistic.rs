@@ -6,14 +6,12 @@ use crate::analysis::statistics::ColumnStatistics;
 pub struct Statistic {
     /// The column in files and the key in the summary.
     pub name: &'static str,
-    /// The name in comparisons.
     pub words: &'static str,
     /// The head of its column on the page, if it has one.
     pub head: Option<&'static str>,
     pub meaning: &'static str,
     pub value: fn(&ColumnStatistics) -> Option<f64>,
     pub uncertainty: Option<Uncertainty>,
-    /// Whether two results are compared by it.
     pub is_compared: bool,
 }
 

@@ -14,7 +14,6 @@ use crate::storage::rows_reader::RowsError;
 /// Most failed samples listed by number for each status.
 const KEPT: usize = 10;
 
-/// The samples with one status.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ended {
     pub status: Status,
@@ -36,13 +35,11 @@ pub struct Statuses {
 pub type StatusPart = (Vec<SampleId>, Vec<Status>, Vec<(usize, String)>);
 
 impl Statuses {
-    /// No runs.
     pub fn none(population: Population) -> Self {
         let none = |status| Ended { status, count: 0, of_population: 0, first: Vec::new() };
         Statuses { list: Status::ALL.map(none), reasons: FailureReasons::default(), population }
     }
 
-    /// Counts a run.
     pub fn add(&mut self, sample: SampleId, status: Status, reason: &str) {
         let of_population = self.population.contains(sample);
         for ended in self.list.iter_mut().filter(|ended| ended.status == status) {
@@ -96,7 +93,6 @@ impl Statuses {
     }
 }
 
-/// Counts [`Statuses`].
 #[derive(Clone, Copy, Debug)]
 pub struct StatusCounter(Population);
 

@@ -14,7 +14,6 @@ use crate::statistics::looks::{Goal, Look, decision};
 use crate::storage::bands_file;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// A look at `samples` samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopping {
     /// Number of samples, with the nominal one.
@@ -39,7 +38,6 @@ impl Stopping {
         }
     }
 
-    /// Whether the campaign ends with this look.
     pub fn ends(&self) -> bool {
         self.is_reached() || self.look == self.looks
     }
@@ -52,7 +50,6 @@ pub struct StopValues {
     pub lost: usize,
 }
 
-/// Takes [`StopValues`].
 #[derive(Clone, Debug)]
 pub struct ObservedValues {
     observed: Vec<Observed>,

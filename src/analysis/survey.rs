@@ -62,7 +62,6 @@ pub struct SurveyedOutcome {
 
 #[derive(Clone, Debug, Default)]
 pub struct Thinned {
-    /// The samples, ascending.
     pub samples: Vec<u64>,
     pub statuses: Vec<Status>,
     /// Inputs as applied, column by column.

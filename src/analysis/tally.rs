@@ -22,10 +22,8 @@ use crate::sampling::SampleId;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
 use crate::storage::rows_reader::RowsError;
 
-/// Number of worst runs listed.
 const LISTED: usize = 3;
 
-/// The runs with the greatest values of an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
     pub name: &'static str,
@@ -34,13 +32,11 @@ pub struct Worst {
     pub list: WorstRuns,
 }
 
-/// Ends of runs, the worst ones, and the audits.
 #[derive(Clone, Debug)]
 pub struct Tally {
     pub statuses: Statuses,
     /// Whether statistics leave out the nominal sample, which else is the only one.
     pub without_nominal: bool,
-    /// The runs with the greatest observed errors.
     pub worst: Vec<Worst>,
     pub audits: Option<AuditTally>,
     /// Runs beyond the heights of the table of the air; `None` without such a table in the file, or without observed
@@ -50,13 +46,11 @@ pub struct Tally {
     pub headlines: Vec<String>,
 }
 
-/// Counts a [`Tally`].
 #[derive(Debug)]
 pub struct TallyColumns {
     statuses: StatusCounter,
     nothing: Tally,
     selection: Mutex<Selection>,
-    /// The observables.
     names: Vec<String>,
     /// Indices of the counted observables, ascending.
     wanted: Vec<usize>,

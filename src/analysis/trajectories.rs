@@ -27,22 +27,16 @@ use crate::storage::rows_reader::RowsError;
 use crate::storage::store::StoreError;
 use crate::storage::timeseries::time_series;
 
-/// The stream that chooses the runs of `sample:N`; no other draw depends on it.
 const STREAM: &str = "retain";
 
-/// Why trajectories could not be written.
 #[derive(Debug, Error)]
 pub enum TrajectoryError {
-    /// The rows could not be read.
     #[error(transparent)]
     Rows(#[from] RowsError),
-    /// Threads could not be started.
     #[error("cannot start the threads: {0}")]
     Threads(String),
-    /// A time series could not be encoded.
     #[error("{}: {source}", path.display())]
     Encoding { path: PathBuf, source: EncodingError },
-    /// A file could not be written.
     #[error(transparent)]
     File(#[from] StoreError),
 }
@@ -55,9 +49,7 @@ pub fn file_name(sample: SampleId) -> String {
 #[derive(Clone, Debug)]
 pub struct Retained {
     retention: Retention,
-    /// The observable of `worst:N`.
     observed: Vec<Observed>,
-    /// The samples of `sample:N`.
     at_random: BTreeSet<SampleId>,
 }
 
@@ -75,7 +67,6 @@ impl Retained {
         Retained { retention: plan.retention.clone(), observed, at_random }
     }
 
-    /// The samples, ascending.
     pub fn chosen(&self, worst: WorstRuns) -> Vec<SampleId> {
         let mut samples: Vec<SampleId> = worst.runs.into_iter().map(|(sample, _)| sample).collect();
         samples.sort_unstable();

@@ -29,10 +29,8 @@ use crate::statistics::looks::adjusted;
 use crate::statistics::moments::Moments;
 use crate::storage::rows_reader::RowsError;
 
-/// The verdicts on the requirements of a campaign.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdicts {
-    /// One for each requirement, in the order of the file.
     pub list: Vec<Assessment>,
     /// Dispersed samples that are not physical.
     pub invalid: u64,
@@ -71,7 +69,6 @@ pub struct RequirementCounts {
     list: Vec<RequirementRuns>,
 }
 
-/// Counts the requirements of a campaign.
 #[derive(Clone, Debug)]
 pub struct RequirementCounter {
     requirements: Vec<Requirement>,

@@ -7,7 +7,6 @@ use crate::sampling::SampleId;
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRuns {
     most: usize,
-    /// Whether small values are the bad ones.
     pub is_low: bool,
     pub runs: Vec<(SampleId, f64)>,
 }

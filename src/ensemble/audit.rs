@@ -87,7 +87,6 @@ impl AuditValue {
         matches!(self, AuditValue::Debris | AuditValue::DebrisEstimate)
     }
 
-    /// Name, unit and meaning of the column.
     pub fn quantity(self) -> &'static Quantity {
         &COLUMNS[self as usize]
     }
@@ -108,7 +107,6 @@ impl Audit {
         self.values[value as usize]
     }
 
-    /// The true error of the body's rotation.
     pub fn state(&self) -> f64 {
         self.value(AuditValue::State)
     }
@@ -119,10 +117,8 @@ impl Audit {
 pub enum NoAudit {
     #[error("the run ended with {}", .0.name())]
     Run(Status),
-    /// The reference solution is incomplete.
     #[error("the reference solution ended with {}", .0.name())]
     Reference(Status),
-    /// The work is beyond the limit.
     #[error(
         "the {body} turns for {units:e} units of time (powers of two near the inverse of its rate), more than the \
         {most} that an audit integrates in double-double"
@@ -130,7 +126,6 @@ pub enum NoAudit {
     Limit {
         /// The debris, or a spacecraft whose motion has no Taylor series.
         body: &'static str,
-        /// The limit.
         most: f64,
         /// Units of time of its motion in the run.
         units: f64,
@@ -159,7 +154,6 @@ pub struct Auditor {
     grid: Grid,
     /// Most steps of a reference solution in plain doubles.
     most_steps: u64,
-    /// The columns of the campaign, and the group numerics.
     request: Request,
     engine: Box<dyn Engine>,
     observer: Observer,
@@ -171,12 +165,10 @@ pub struct Auditor {
     /// The places of each observable of the campaign in the two rows.
     indices: Vec<(usize, Option<usize>)>,
     estimate: usize,
-    /// `debris_state_error_estimate`, with debris.
     debris_estimate: Option<usize>,
 }
 
 impl Auditor {
-    /// For runs of `plan` observed at the times of `grid`.
     pub fn new(plan: &Plan, isa: Isa, grid: &Grid) -> Self {
         let campaign = plan.request();
         let groups = plan.groups.iter().copied();
@@ -207,7 +199,6 @@ impl Auditor {
         }
     }
 
-    /// With at most these steps of reference solutions in plain doubles.
     #[must_use]
     pub fn with_most_steps(self, most_steps: u64) -> Self {
         Auditor { most_steps, ..self }
@@ -267,12 +258,10 @@ impl Auditor {
         Ok(Audit { values, observables: self.indices.iter().map(error).collect() })
     }
 
-    /// The columns of the audited run: those of the campaign, and of the group numerics.
     pub fn request(&self) -> &Request {
         &self.request
     }
 
-    /// The reference solution of `scene`, and its tolerance.
     fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Result<(ReferenceSolution, f64), NoAudit> {
         let (duration, model) = (self.grid.duration(), ForceModel::of(scene));
         let unit = Gyrostat::new(0.0, scene, duration).time_unit();
@@ -309,7 +298,6 @@ impl Auditor {
     }
 }
 
-/// The compared states of scenes of the kind of `request`.
 fn compared(request: &Request) -> StateFields {
     let spacecraft = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
     if request.debris { spacecraft.with(StateField::DebrisRate).with(StateField::DebrisAttitude) } else { spacecraft }

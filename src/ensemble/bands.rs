@@ -40,12 +40,10 @@ pub struct BandLayout {
 }
 
 impl BandLayout {
-    /// Series times points.
     pub fn columns(&self) -> usize {
         self.series.len() * self.times.len()
     }
 
-    /// Whether both have the same bits.
     pub fn is(&self, other: &BandLayout) -> bool {
         let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
         self.series == other.series
@@ -113,7 +111,6 @@ impl PartBands {
         }
     }
 
-    /// Clears an earlier part.
     pub fn start(&mut self) {
         (self.runs, self.counted, self.recent_runs, self.pending) = (0, 0, 0, 0);
         self.min.fill(f64::INFINITY);
@@ -199,7 +196,6 @@ impl PartBands {
 pub struct RunsOfColumn {
     /// The smallest and the largest kept number, exactly; `None` without numbers.
     pub extremes: Option<[f64; 2]>,
-    /// Runs without a value.
     pub without: u64,
 }
 
@@ -221,11 +217,9 @@ struct BandColumn {
     counts: DeviationWindow<u64>,
 }
 
-/// Bands of any number of parts, added in any order.
 #[derive(Clone, Debug)]
 pub struct Bands {
     layout: Arc<BandLayout>,
-    /// All, and counted ones.
     runs: [u64; 2],
     columns: Vec<BandColumn>,
 }
@@ -280,27 +274,22 @@ impl Bands {
         &self.layout
     }
 
-    /// Number of dispersed `ok` runs.
     pub fn runs(&self) -> u64 {
         self.runs[0]
     }
 
-    /// Number of runs behind quantiles: all, or the first ones.
     pub fn counted_runs(&self) -> u64 {
         self.runs[1]
     }
 
-    /// The index of the series `name`.
     pub fn find(&self, name: &str) -> Option<usize> {
         self.layout.series.iter().position(|(quantity, _)| quantity.name() == name)
     }
 
-    /// Name, unit and meaning of a series.
     pub fn quantity(&self, series: usize) -> &Quantity {
         &self.layout.series[series].0
     }
 
-    /// The times of the points, s.
     pub fn times(&self) -> &[f64] {
         &self.layout.times
     }
@@ -311,24 +300,20 @@ impl Bands {
         (index, &self.columns[index])
     }
 
-    /// The value of the nominal run.
     pub fn nominal(&self, series: usize, point: usize) -> Option<f64> {
         let (index, _) = self.column(series, point);
         let kept = self.layout.nominal[index];
         (!kept.is_nan()).then(|| self.layout.form(index).shown(kept))
     }
 
-    /// Number of runs with a value.
     pub fn count(&self, series: usize, point: usize) -> u64 {
         self.runs() - self.column(series, point).1.all.without
     }
 
-    /// Number of runs behind the quantiles.
     pub fn counted(&self, series: usize, point: usize) -> u64 {
         self.column(series, point).1.counts.buckets().map(|(_, count)| count).sum()
     }
 
-    /// The smallest and the largest value, exactly.
     pub fn extremes(&self, series: usize, point: usize) -> Option<[f64; 2]> {
         let (index, column) = self.column(series, point);
         column.all.extremes.map(|extremes| extremes.map(|kept| self.layout.form(index).shown(kept)))

@@ -4,11 +4,10 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::ensemble::audit::{Auditor, NoAudit};
-use crate::ensemble::event_finder::{self, EventFinder};
+use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Runs, replayed};
 use crate::ensemble::observed_runs::{Means, ObservedRun, ObservedRuns};
 use crate::ensemble::rows::Rows;
-use crate::ensemble::run_end::RunEnd;
 use crate::ensemble::supervision::Report;
 use crate::propagation::CompletedRun;
 use crate::run::{Grid, Status};
@@ -24,22 +23,16 @@ pub(super) struct Batch<'p> {
     /// The scenes, one for each row; more may be left of earlier batches.
     pub scenes: Vec<Scene>,
     pub rows_of_scenes: Vec<usize>,
-    /// Scenes to be audited; empty without audits.
     pub is_selected: Vec<bool>,
-    /// The draws of the laws; empty without a law.
     pub draws_of_laws: Vec<LawDraw>,
-    /// Scenes that have ended.
     is_done: Vec<bool>,
-    /// The events that end scenes.
     ends: Vec<Option<RunEnd>>,
     /// The arcs flown by audited scenes; empty without a law.
     flown: Vec<Vec<Arc>>,
     runs: ObservedRuns<'p>,
     places_of_law: Range<usize>,
     report: Vec<f64>,
-    /// Finds the events of the runs.
     events: Option<EventFinder<'p>>,
-    /// The place of events in a row.
     first_of_events: usize,
     auditor: Option<Auditor>,
 }
@@ -68,13 +61,11 @@ impl<'p> Batch<'p> {
         }
     }
 
-    /// With audits of selected scenes.
     pub fn audited(self) -> Self {
         let auditor = Some(Auditor::new(self.means.plan, self.means.engines.isa, &self.grid));
         Batch { auditor, ..self }
     }
 
-    /// Audits the selected scenes.
     pub fn audit(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
         let Some(auditor) = &mut self.auditor else { return };
         let Means { plan, engines, .. } = self.means;
@@ -133,12 +124,10 @@ impl<'p> Batch<'p> {
         self.renew();
     }
 
-    /// Replaces memory after a panic.
     fn renew(&mut self) {
         self.runs = self.means.runs(&self.grid);
     }
 
-    /// Writes the reports of the laws of the scenes `which`, just flown together.
     fn report_laws(&mut self, which: Range<usize>, rows: &mut Rows) {
         let place = self.places_of_law.clone();
         for (run, scene) in which.enumerate().filter(|(_, scene)| self.is_done[*scene]) {

@@ -19,19 +19,15 @@ pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
     })
 }
 
-/// The result of a search for a crossing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Located {
-    /// The time, s.
     At(f64),
     /// Times before and after the crossing, s, between which to look again.
     Between(f64, f64),
 }
 
-/// The crossing to be located between two times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Wanted {
-    /// Upwards, or downwards.
     pub is_rising: bool,
     /// The last one, or else the first.
     pub is_last: bool,
@@ -43,7 +39,6 @@ impl Wanted {
         if self.is_rising { before <= 0.0 && after > 0.0 } else { before >= 0.0 && after < 0.0 }
     }
 
-    /// The point before the crossing.
     fn place(self, values: &[f64]) -> Option<usize> {
         let mut places = (1..values.len()).filter(|after| self.is_between(values[after - 1], values[*after]));
         let after = if self.is_last { places.next_back() } else { places.next() };
@@ -113,7 +108,6 @@ impl Series {
         }))
     }
 
-    /// The size of the last coefficients.
     pub fn tail(&self) -> f64 {
         self.0[DEGREE - 2..].iter().map(|coefficient| coefficient.abs()).sum()
     }

@@ -2,7 +2,6 @@
 
 use crate::statistics::deviation::{Code, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
 
-/// Counts of the buckets between two magnitudes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DeviationWindow<C> {
     first: Code,
@@ -71,7 +70,6 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
 
 /// Of one part: 16-bit counts, so that a column fits in the first-level cache.
 impl DeviationWindow<u16> {
-    /// Empties it, keeping its buckets.
     pub(super) fn clear(&mut self) {
         self.counts.fill(0);
         self.zeros = 0;
@@ -101,9 +99,7 @@ impl DeviationWindow<u16> {
     }
 }
 
-/// Sums over parts, of any number of runs.
 impl DeviationWindow<u64> {
-    /// Adds `buckets`; NaN is in none.
     pub(super) fn add_buckets(&mut self, buckets: impl Iterator<Item = (Code, u64)>) {
         for (code, count) in buckets {
             let counter = match self.counter(code) {

@@ -56,7 +56,6 @@ pub const MASS_COLUMNS: [[&str; 3]; 7] = [
     ],
 ];
 
-/// The numbers of [`MASS_COLUMNS`] of a scene.
 pub fn mass_properties(scene: &Scene) -> [f64; 7] {
     let (mut moments, _) = principal_axes(scene.mass.inertia);
     moments.sort_by(f64::total_cmp);
@@ -117,7 +116,6 @@ impl DrawnScenes {
         DrawnScenes { first: SampleId(0), physical: Vec::new(), columns, mass, magnitudes }
     }
 
-    /// Draws `samples`, replacing earlier ones.
     fn draw(&mut self, plan: &Plan, draws: &mut SceneDraws<'_>, samples: impl Iterator<Item = u64>) {
         let mut samples = samples.peekable();
         self.first = SampleId(samples.peek().copied().unwrap_or(0));

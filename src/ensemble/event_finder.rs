@@ -3,27 +3,27 @@
 //! A crossing shows in the values at two neighbouring observation points. Its time is located from values between these
 //! (`lookup`, `crossing`), so that a run without a crossing costs nothing. Time and count are null for a quantity that
 //! is not a number at some point.
+//!
+//! The [`RunEnd`] is found in a run to the end of the campaign, and the run is then flown again up to there: its row is
+//! that of a campaign of this duration, observed at the same points and at its end.
 
 use crate::campaign::event::{Event, Which};
 use crate::campaign::{Plan, event_columns};
-use crate::ensemble::crossing::{Located, ROUNDING, Wanted, nodes, of_curve, of_steps};
+use crate::ensemble::crossing::{Located, ROUNDING, Wanted, of_curve, of_steps};
 use crate::ensemble::extreme_finder::ExtremeFinder;
-use crate::ensemble::flights::Runs;
-use crate::ensemble::lookup::{Lookup, Query, ticks};
-use crate::ensemble::run_end::RunEnd;
+use crate::ensemble::flights::{LawDraw, Runs};
+use crate::ensemble::lookup::{ERRORS, Lookup, Search, ticks};
+use crate::ensemble::observed_runs::{Means, ObservedRuns};
 use crate::ensemble::settings::Engines;
 use crate::ensemble::sightings::{Place, Seen};
 use crate::observables::band_series::event_series;
 use crate::observables::{Observer, Request};
 use crate::propagation::CompletedRun;
 use crate::run::{Grid, Status};
+use crate::scene::Scene;
 
 /// Most points between two others at which a quantity of a loop is looked up.
 const MOST_TICKS: f64 = 64.0;
-/// Most repeated flights of a run: a jump between two points an hour apart is then located to 1e-12 s.
-const MOST_FLIGHTS: usize = 24;
-/// Limits of the error of the time of a crossing over the duration; within them it is that of the integration.
-const ERRORS: [f64; 2] = [1e-13, 1e-9];
 /// The shortest run over the duration of the campaign: the order of the errors of times.
 const SHORTEST: f64 = 1e-12;
 
@@ -37,39 +37,24 @@ struct Occurrence {
 /// The events that end runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ends {
-    /// To be found.
     Sought,
-    /// The event that ends each run, if any.
     Known(Option<RunEnd>),
-}
-
-/// A crossing to be located, of the event `event` in the run `run`.
-#[derive(Clone, Copy, Debug)]
-struct Pending {
-    run: usize,
-    event: usize,
-    wanted: Wanted,
-    /// Times before and after it, s.
-    between: [f64; 2],
 }
 
 /// Finds the events of the runs of a plan, and their extremes, which may begin with events.
 pub struct EventFinder<'p> {
     plan: &'p Plan,
-    /// The quantities of the events.
     lookup: Lookup<'p>,
     grid: Grid,
     ends: Ends,
-    /// Run by run, event by event.
     found: Vec<Occurrence>,
-    pending: Vec<Pending>,
+    pending: Vec<Search<Wanted>>,
     /// Run by run, whether its law has ended it.
     ended_by_law: Vec<bool>,
     extremes: ExtremeFinder<'p>,
 }
 
 impl<'p> EventFinder<'p> {
-    /// For the events and extremes of `plan` in runs observed on `grid`; `None` without any.
     pub fn new(plan: &'p Plan, grid: &Grid, engines: Engines) -> Option<Self> {
         if plan.events.is_empty() && plan.extremes.is_empty() {
             return None;
@@ -151,9 +136,9 @@ impl<'p> EventFinder<'p> {
             match place {
                 None => {}
                 Some(Place::Point(point)) => found.time = times[point],
-                Some(Place::Crossing { before, is_rising }) => self.pending.push(Pending {
+                Some(Place::Crossing { before, is_rising }) => self.pending.push(Search {
                     run: run.index,
-                    event: index,
+                    quantity: index,
                     wanted: Wanted { is_rising, is_last },
                     between: [times[before], times[before + 1]],
                 }),
@@ -179,40 +164,11 @@ impl<'p> EventFinder<'p> {
 
     /// Locates the crossings and extremes of the runs looked at, of `scenes` with the draws of their laws.
     pub fn locate(&mut self, runs: Runs<'_>) {
-        let events = self.plan.events.len();
-        for _ in 0..MOST_FLIGHTS {
-            if self.pending.is_empty() {
-                break;
-            }
-            let mut pending = std::mem::take(&mut self.pending);
-            pending.sort_by_key(|pending| (pending.run, pending.event));
-            self.look_again(&pending, runs);
-        }
-        // a jump, as near as numbers are
-        for pending in std::mem::take(&mut self.pending) {
-            self.found[pending.run * events + pending.event].time = pending.between[1];
-        }
-        let found = &self.found;
-        self.extremes.locate(runs, &|run, event| found[run * events + event].time);
-    }
-
-    /// Looks between the times of `pending`, and notes intervals for another look.
-    fn look_again(&mut self, pending: &[Pending], runs: Runs<'_>) {
-        let query = |&Pending { run, event, between: [start, end], .. }: &Pending| {
-            let times = match self.lookup.period(event) {
-                Some(period) => ticks(period, start, end, MOST_TICKS),
-                None => nodes(start, end).collect(),
-            };
-            Query { run, quantity: event, times }
-        };
-        let queries: Vec<Query> = pending.iter().map(query).collect();
-        let (events, lookup) = (&self.plan.events, &self.lookup);
+        let (events, lookup, found) = (&self.plan.events, &self.lookup, &mut self.found);
         let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]) * self.grid.duration();
-        let (found, again) = (&mut self.found, &mut self.pending);
-        lookup.answer(&queries, runs, &mut |index, values| {
-            let (one, times) = (pending[index], &queries[index].times);
-            let values: Vec<f64> = values.iter().map(|value| value - events[one.event].value).collect();
-            let located = match lookup.period(one.event) {
+        let left = lookup.refine(std::mem::take(&mut self.pending), runs, MOST_TICKS, &mut |one, times, values| {
+            let values: Vec<f64> = values.iter().map(|value| value - events[one.quantity].value).collect();
+            let located = match lookup.period(one.quantity) {
                 Some(period) => {
                     let is_next = |before: f64, after: f64| ticks(period, before, after, MOST_TICKS).len() <= 2;
                     of_steps(times, &values, one.wanted, is_next)
@@ -220,13 +176,21 @@ impl<'p> EventFinder<'p> {
                 None => of_curve(times, &values, one.wanted, error),
             };
             match located {
-                Located::At(time) => found[one.run * events.len() + one.event].time = time,
-                Located::Between(start, end) => again.push(Pending { between: [start, end], ..one }),
+                Located::At(time) => {
+                    found[one.run * events.len() + one.quantity].time = time;
+                    None
+                }
+                Located::Between(start, end) => Some([start, end]),
             }
         });
+        // a jump, as near as numbers are
+        for one in left {
+            found[one.run * events.len() + one.quantity].time = one.between[1];
+        }
+        let found = &self.found;
+        self.extremes.locate(runs, &|run, event| found[run * events.len() + event].time);
     }
 
-    /// The columns of the events and extremes of run `run`.
     pub fn values(&self, run: usize) -> impl Iterator<Item = f64> + '_ {
         let events = &self.plan.events;
         let of_run = &self.found[run * events.len()..(run + 1) * events.len()];
@@ -246,4 +210,53 @@ impl<'p> EventFinder<'p> {
 pub fn places(plan: &Plan, request: &Request) -> std::ops::Range<usize> {
     let all = request.places_of_events();
     all.start + event_columns::EACH * plan.nominal.failures.len()..all.end
+}
+
+/// The event that ends a run, and when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunEnd {
+    pub event: usize,
+    /// s, positive.
+    pub time: f64,
+}
+
+impl RunEnd {
+    /// The points of `grid` before this end, and the end; with the number of points of `grid` among them.
+    pub fn grid(self, grid: &Grid) -> (Grid, usize) {
+        let before = grid.times().partition_point(|time| *time < self.time);
+        let is_point = grid.times().get(before) == Some(&self.time);
+        let times = grid.times()[..before].iter().copied().chain([self.time]).collect();
+        (Grid::at(times), before + usize::from(is_point))
+    }
+}
+
+/// Finds the ends of runs of a plan, from its observation points, as its campaign does.
+pub struct EndFinder<'p> {
+    runs: ObservedRuns<'p>,
+    events: EventFinder<'p>,
+}
+
+impl<'p> EndFinder<'p> {
+    /// For runs of `plan`; `None` if no event ends them.
+    pub fn new(plan: &'p Plan, engines: Engines) -> Option<Self> {
+        if !plan.events.iter().any(|event| event.ends_run) {
+            return None;
+        }
+        let runs = Means::new(plan, engines).runs(&plan.grid);
+        Some(EndFinder { runs, events: EventFinder::new(plan, &plan.grid, engines)? })
+    }
+
+    /// The end of the run of `scene` under the law of `draw`; `None` if no event ends it.
+    pub fn end(&mut self, scene: &Scene, draw: &[LawDraw]) -> Option<RunEnd> {
+        let EndFinder { runs, events } = self;
+        let one = Runs::one(scene, draw);
+        events.restart(1);
+        let mut is_ended = false;
+        runs.fly(one, &mut |seen| is_ended = events.look(&seen.run, seen.observer, seen.status));
+        if !is_ended {
+            return None;
+        }
+        events.locate(one);
+        events.end(0)
+    }
 }

@@ -6,9 +6,8 @@
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
-use crate::ensemble::crossing::nodes;
 use crate::ensemble::flights::{Runs, end_of};
-use crate::ensemble::lookup::{Lookup, Query, ticks};
+use crate::ensemble::lookup::{ERRORS, Lookup, Search, ticks};
 use crate::ensemble::peak::{Peak, of_curve};
 use crate::ensemble::settings::Engines;
 use crate::observables::Observer;
@@ -18,23 +17,10 @@ use crate::run::Grid;
 
 /// Ticks looked up together.
 const TICKS: usize = 4096;
-/// Most repeated flights of a run: between points an hour apart a corner is then located to rounding.
-const MOST_FLIGHTS: usize = 24;
-/// Limits of the error of an extreme over its size; within them it is that of the integration.
-const ERRORS: [f64; 2] = [1e-13, 1e-9];
 /// A parabola exceeds its value at a point by an eighth of its second difference there; points are searched if four
 /// times that could make them the largest.
 const BEYOND: f64 = 0.5;
 
-/// An interval to be searched for an extreme.
-#[derive(Clone, Copy, Debug)]
-struct Pending {
-    run: usize,
-    extreme: usize,
-    between: [f64; 2],
-}
-
-/// Finds the extremes of the runs of a plan.
 pub(super) struct ExtremeFinder<'p> {
     plan: &'p Plan,
     lookup: Lookup<'p>,
@@ -43,19 +29,16 @@ pub(super) struct ExtremeFinder<'p> {
     ends: Vec<f64>,
     /// Values at the points, run by run and extreme by extreme; negated for a smallest value.
     values: Vec<f64>,
-    /// The largest known ones.
     found: Vec<f64>,
     /// Last time at which the quantity is not a number, s; NaN for never.
     undefined: Vec<f64>,
 }
 
-/// One, or minus one for a smallest value.
 fn sign(extreme: &Extreme) -> f64 {
     if extreme.is_highest { 1.0 } else { -1.0 }
 }
 
 impl<'p> ExtremeFinder<'p> {
-    /// For the extremes of `plan` in runs observed on `grid`.
     pub fn new(plan: &'p Plan, grid: &Grid, engines: Engines) -> Self {
         let series = event_series(&plan.request());
         let parsed = plan.extremes.iter().filter_map(|extreme| extreme.parsed(&series));
@@ -117,16 +100,27 @@ impl<'p> ExtremeFinder<'p> {
                 // NaN is not before it
                 if start <= end && !is_undefined {
                     let places = self.places(run, index, [start, end]);
-                    pending.extend(places.into_iter().map(|between| Pending { run, extreme: index, between }));
+                    let search = |between| Search { run, quantity: index, wanted: (), between };
+                    pending.extend(places.into_iter().map(search));
                 }
             }
         }
-        for _ in 0..MOST_FLIGHTS {
-            if pending.is_empty() {
-                return;
-            }
-            pending = self.look_again(&pending, runs);
-        }
+        let (extremes, found, lookup) = (&self.plan.extremes, &mut self.found, &self.lookup);
+        let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]);
+        lookup.refine(pending, runs, f64::INFINITY, &mut |one, times, values| {
+            let values: Vec<f64> = values.iter().map(|value| sign(&extremes[one.quantity]) * value).collect();
+            let peak = match lookup.period(one.quantity) {
+                Some(_) => Peak::Value(values.iter().fold(f64::NAN, |most, value| most.max(*value))),
+                None => of_curve(times, &values, error),
+            };
+            let (value, between) = match peak {
+                Peak::Value(value) => (value, None),
+                Peak::Between(value, between) => (value, Some(between)),
+            };
+            let found = &mut found[one.run * extremes.len() + one.quantity];
+            *found = found.max(value);
+            between
+        });
     }
 
     /// Intervals between `start` and `end` that may hold the largest value of an extreme of a run, besides the points.
@@ -157,39 +151,6 @@ impl<'p> ExtremeFinder<'p> {
         let found = &mut self.found[run * extremes + extreme];
         *found = found.max(known);
         places
-    }
-
-    /// Looks between the times of `pending`, and returns intervals for another look.
-    fn look_again(&mut self, pending: &[Pending], runs: Runs<'_>) -> Vec<Pending> {
-        let query = |Pending { run, extreme, between: [start, end] }: &Pending| {
-            let times = match self.lookup.period(*extreme) {
-                Some(period) => ticks(period, *start, *end, f64::INFINITY),
-                None if start == end => vec![*start],
-                None => nodes(*start, *end).collect(),
-            };
-            Query { run: *run, quantity: *extreme, times }
-        };
-        let queries: Vec<Query> = pending.iter().map(query).collect();
-        let (extremes, found, lookup) = (&self.plan.extremes, &mut self.found, &self.lookup);
-        let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]);
-        let mut again = Vec::new();
-        lookup.answer(&queries, runs, &mut |index, values| {
-            let one = pending[index];
-            let values: Vec<f64> = values.iter().map(|value| sign(&extremes[one.extreme]) * value).collect();
-            let peak = match lookup.period(one.extreme) {
-                Some(_) => Peak::Value(values.iter().fold(f64::NAN, |most, value| most.max(*value))),
-                None => of_curve(&queries[index].times, &values, error),
-            };
-            let (value, between) = match peak {
-                Peak::Value(value) => (value, None),
-                Peak::Between(value, between) => (value, Some(between)),
-            };
-            let found = &mut found[one.run * extremes.len() + one.extreme];
-            *found = found.max(value);
-            again.extend(between.map(|between| Pending { between, ..one }));
-        });
-        again.sort_by_key(|one: &Pending| one.run);
-        again
     }
 
     pub fn values(&self, run: usize) -> impl Iterator<Item = f64> + '_ {

@@ -13,7 +13,6 @@ pub struct FailureReason {
     pub status: Status,
     pub count: u64,
     pub first: SampleId,
-    /// The reason of that sample.
     pub text: String,
 }
 

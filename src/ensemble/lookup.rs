@@ -5,6 +5,7 @@
 //! at a time are flown again, in lanes.
 
 use crate::campaign::Plan;
+use crate::ensemble::crossing::nodes;
 use crate::ensemble::flights::{LawDraw, Runs, nominal_attitude};
 use crate::ensemble::observed_runs::Means;
 use crate::ensemble::settings::Engines;
@@ -35,10 +36,24 @@ struct WatchedQuantity {
 
 /// A query for quantity number `quantity` of run `run` at `times`, s.
 #[derive(Clone, Debug)]
-pub(super) struct Query {
+struct Query {
+    run: usize,
+    quantity: usize,
+    times: Vec<f64>,
+}
+
+/// Most repeated flights of a search: a jump or a corner between two points an hour apart is then located to rounding.
+const MOST_FLIGHTS: usize = 24;
+/// Limits of the error of a search over the size of what it locates; within them it is that of the integration.
+pub(super) const ERRORS: [f64; 2] = [1e-13, 1e-9];
+
+/// A search for a time of quantity number `quantity` of run `run` between two times, s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search<T> {
     pub run: usize,
     pub quantity: usize,
-    pub times: Vec<f64>,
+    pub wanted: T,
+    pub between: [f64; 2],
 }
 
 /// Reads quantities of the runs of a plan.
@@ -148,7 +163,7 @@ impl<'p> Lookup<'p> {
 
     /// Answers `queries`, ordered by run, about `scenes` with the draws of their laws: passes the number of each query
     /// with the values at its times.
-    pub fn answer(&self, queries: &[Query], of_runs: Runs<'_>, take: &mut dyn FnMut(usize, &[f64])) {
+    fn answer(&self, queries: &[Query], of_runs: Runs<'_>, take: &mut dyn FnMut(usize, &[f64])) {
         let mut first = 0;
         while first < queries.len() {
             let (mut runs, mut times, mut next): (Vec<usize>, usize, usize) = (Vec::new(), 0, first);
@@ -166,6 +181,39 @@ impl<'p> Lookup<'p> {
             self.fly_again(&runs, &queries[first..next], of_runs, &mut |index, values| take(first + index, values));
             first = next;
         }
+    }
+
+    /// Narrows down `searches`: `narrow` takes one with the values at times of its interval, and gives an interval for
+    /// another look, if any. Returns the searches without an end.
+    pub fn refine<T: Copy>(
+        &self,
+        mut searches: Vec<Search<T>>,
+        runs: Runs<'_>,
+        most_ticks: f64,
+        narrow: &mut dyn FnMut(Search<T>, &[f64], &[f64]) -> Option<[f64; 2]>,
+    ) -> Vec<Search<T>> {
+        for _ in 0..MOST_FLIGHTS {
+            if searches.is_empty() {
+                break;
+            }
+            searches.sort_by_key(|one| one.run);
+            let query = |&Search { run, quantity, between: [start, end], .. }: &Search<T>| {
+                let times = match self.period(quantity) {
+                    Some(period) => ticks(period, start, end, most_ticks),
+                    None if start == end => vec![start],
+                    None => nodes(start, end).collect(),
+                };
+                Query { run, quantity, times }
+            };
+            let queries: Vec<Query> = searches.iter().map(query).collect();
+            let mut again = Vec::new();
+            self.answer(&queries, runs, &mut |index, values| {
+                let between = narrow(searches[index], &queries[index].times, values);
+                again.extend(between.map(|between| Search { between, ..searches[index] }));
+            });
+            searches = again;
+        }
+        searches
     }
 
     /// Flies the runs `runs` again, with points at the times of `queries`.

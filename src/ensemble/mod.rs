@@ -1,30 +1,16 @@
 //! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! - [`mod@parts`]: division of samples into parts; [`run_cost`]: their size; [`rows`]: the rows of a part, taken by a
-//!   [`Sink`].
-//! - [`worker`]: [`Ensemble`], shared by all threads, and [`Worker`], the memory of one thread; `batch`: scenes run
-//!   together; [`runner`]: parts over threads; [`supervision`]: progress and stops.
-//! - [`drawn`]: drawn parameters without runs; [`percentiles`]: their quantiles; [`magnitude`]: lengths and angles.
-//! - [`influence`]: parameters without effect. [`plausibility`]: numbers that look like a mistake. [`undefined`]:
-//!   quantities that are not a number somewhere.
-//! - [`flights`]: runs under the control law of the plan; `observed_runs`: with their rows; [`single`]: one run with
-//!   its states; `surface`: contact with the central body.
-//! - [`event_finder`]: crossings, seen in `sightings` and located in `crossing` from values at other times (`lookup`);
-//!   `extreme_finder`: extremes, located in `peak`; [`run_end`]: the event that ends a run, found in `end_finder`.
-//! - [`bands`]: quantiles over time, counted in `deviation_window`.
-//! - [`audit`]: runs compared with a reference solution; [`precision`]: run time against error for every method.
-//! - [`settings`]: observables and engine of a plan; [`probe`]: time of a run and of an audit.
+//! A [`Worker`] draws and flies the samples of a part into [`Rows`], which a [`Sink`] takes; [`run`] gives parts to
+//! threads. [`SingleRun`] is one of these runs with its states.
 //!
 //! Not here: file formats (`storage`), and single runs (`run`, `propagation`).
 
 pub mod audit;
 pub mod bands;
 mod batch;
-pub mod crew;
 mod crossing;
 mod deviation_window;
 pub mod drawn;
-mod end_finder;
 pub mod event_finder;
 mod extreme_finder;
 pub mod failure_reasons;
@@ -41,7 +27,6 @@ pub mod precision;
 pub mod probe;
 pub mod rows;
 pub mod run_cost;
-pub mod run_end;
 pub mod runner;
 pub mod settings;
 mod sightings;

@@ -125,7 +125,6 @@ impl RunProbe {
 /// The first audits of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AuditProbe {
-    /// Time of an audit on one core, s.
     pub seconds: f64,
     pub count: u32,
 }

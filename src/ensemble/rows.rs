@@ -11,7 +11,6 @@ use crate::sampling::SampleId;
 
 const CACHE_LINE: usize = 8;
 
-/// The numbers of columns of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     pub parameters: usize,
@@ -97,7 +96,6 @@ impl Rows {
         self.shape
     }
 
-    /// Sample numbers, row by row.
     pub fn samples(&self) -> &[SampleId] {
         &self.samples
     }
@@ -134,7 +132,6 @@ impl Rows {
         self.scatter(self.shape.parameters + first, row, values);
     }
 
-    /// Sets the audit of row `row`: `None` if it failed.
     pub fn set_audit(&mut self, row: usize, audit: Option<Audit>) {
         assert!(row < self.part.count);
         let audit = audit.map(|Audit { values, observables }| {
@@ -149,7 +146,6 @@ impl Rows {
         self.audit_reasons.push((row, reason));
     }
 
-    /// The rows with failed audits, and the reasons.
     pub fn audit_reasons(&self) -> &[(usize, String)] {
         &self.audit_reasons
     }
@@ -176,7 +172,6 @@ impl Rows {
         self.bands.as_mut()
     }
 
-    /// Adds CPU time of the runs and of their audits, s.
     pub fn add_seconds(&mut self, runs: f64, audits: f64) {
         self.seconds[0] += runs;
         self.seconds[1] += audits;
@@ -199,7 +194,6 @@ impl Rows {
     }
 }
 
-/// A finite number, or NaN.
 fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }

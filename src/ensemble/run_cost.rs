@@ -25,7 +25,6 @@ const fn evaluation_seconds(method: Method) -> f64 {
         Method::Auto | Method::Taylor | Method::Gyrostat(_) => 3e-6,
     }
 }
-/// Most points of the counted run.
 const POINTS: usize = 101;
 /// Time of a tick of a control loop, with its sensors, estimator and law, s (`detumble_magnetic`: 1.4e-5).
 const TICK_S: f64 = 1.5e-5;
@@ -50,7 +49,6 @@ pub fn parts(plan: &Plan, isa: Isa) -> Parts {
     parts_of_runs(plan, run_seconds(plan, isa))
 }
 
-/// The parts of a campaign of `plan` with runs of `seconds` s ([`run_seconds`]).
 pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
     Parts::up_to(plan.rows(), if has_callback(plan) { SERVED } else { (LOST_S / seconds) as u64 })
 }

@@ -14,10 +14,8 @@ use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 
-/// The reason why a campaign was not completed.
 #[derive(Debug, Error)]
 pub enum RunError<E> {
-    /// Threads could not be started.
     #[error("cannot start the threads: {0}")]
     Threads(#[from] ThreadPoolBuildError),
     #[error("{0}")]

@@ -14,12 +14,10 @@ pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 #[derive(Clone, Copy, Debug)]
 pub struct Engines {
     pub isa: Isa,
-    /// Makes engines in place of those of the plan's method.
     pub own: Option<EngineMaker>,
 }
 
 impl Engines {
-    /// Engines of the plan's method.
     pub fn of(isa: Isa) -> Self {
         Engines { isa, own: None }
     }

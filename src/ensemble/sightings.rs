@@ -19,7 +19,6 @@ pub(super) struct Seen {
     pub last: Option<Place>,
     /// The start of the stay on the side of the event until the end.
     pub stays: Option<Place>,
-    /// Whether some value is unknown.
     pub has_gap: bool,
 }
 

@@ -9,14 +9,12 @@ use rayon::ThreadPoolBuilder;
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
-use crate::ensemble::end_finder::EndFinder;
-use crate::ensemble::event_finder::{self, EventFinder};
+use crate::ensemble::event_finder::{self, EndFinder, EventFinder};
 use crate::ensemble::flights::{LawDraw, Runs, nominal_attitude, observe, replayed};
 use crate::ensemble::observed_runs::{Means, ObservedRun, ObservedRuns};
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
 use crate::math::Isa;
-use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry, points_to};
 use crate::sampling::SampleId;
@@ -34,19 +32,15 @@ const GROUPS: [Group; 6] = [
 
 #[derive(Clone, Debug)]
 pub struct SingleRun {
-    /// The scene that was run.
     pub scene: Scene,
     /// The times of the table's points, from zero.
     pub grid: Grid,
     pub table: StateTable,
-    /// The arcs of constant actuation.
     pub arcs: Vec<Arc>,
     pub outcome: Outcome,
-    /// Why it is not `ok`, else empty.
     pub reason: String,
     /// Energies and conservation errors at the points reached.
     pub series: Vec<(Series, Vec<f64>)>,
-    /// The record of the control law.
     pub telemetry: Telemetry,
     /// The row of the sample in a campaign on this grid, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
@@ -59,7 +53,7 @@ impl SingleRun {
     /// # Errors
     /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
-        SingleRuns::new(plan, grid, isa).run(sample)
+        SingleRuns::new(plan, grid, isa, &GROUPS).run(sample)
     }
 
     /// [`SingleRun::new`] with the series of `groups`.
@@ -73,7 +67,7 @@ impl SingleRun {
         isa: Isa,
         groups: &[Group],
     ) -> Result<Self, Vec<SceneError>> {
-        SingleRuns::with_series(plan, grid, isa, groups).run(sample)
+        SingleRuns::new(plan, grid, isa, groups).run(sample)
     }
 
     /// Compares the run of `plan`, on its own grid, with the reference solution. Decisions of a control law are part of
@@ -99,58 +93,44 @@ pub struct SingleRuns<'p> {
     grid: Grid,
     isa: Isa,
     request: Request,
-    /// The columns for the series.
     shown: Request,
-    /// Finds the ends of runs; `None` if no event ends one, or the end is known.
     ends: Option<EndFinder<'p>>,
     plan: &'p Plan,
+    is_replay: bool,
     runs: ObservedRuns<'p>,
     series_observer: Observer,
     events: Option<EventFinder<'p>>,
-    /// The columns of the groups with series.
     ignored: Vec<f64>,
 }
 
 impl<'p> SingleRuns<'p> {
-    /// Runs of `plan`, observed at the times of `grid`.
-    pub fn new(plan: &'p Plan, grid: Grid, isa: Isa) -> Self {
-        Self::with_series(plan, grid, isa, &GROUPS)
-    }
-
-    pub fn with_series(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
-        let request = plan.request_over(grid.duration());
-        let shown = Request { groups: groups.iter().copied().collect(), ..request };
-        SingleRuns {
-            ends: EndFinder::new(plan, Engines::of(isa)),
-            ..Self::observing(plan, grid, isa, [request, shown])
-        }
+    /// Runs of `plan` with the series of `groups`, observed at the times of `grid`.
+    pub fn new(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
+        Self::of_kind(plan, grid, isa, groups, false)
     }
 
     /// Runs without differences from the nominal run and times of events, which only rows have.
     pub fn replays(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
+        Self::of_kind(plan, grid, isa, groups, true)
+    }
+
+    fn of_kind(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group], is_replay: bool) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
         let ends = EndFinder::new(plan, Engines::of(isa));
-        SingleRuns { ends, events: None, ..Self::with_nominal(plan, grid, isa, ([request, shown], None)) }
+        SingleRuns { ends, ..Self::without_ends(plan, grid, isa, [request, shown], is_replay) }
     }
 
     /// Runs with one request for rows and one for series; no event ends them.
-    fn observing(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2]) -> Self {
-        let nominal = requests.iter().find_map(|request| nominal_attitude(plan, request, &grid, isa));
-        Self::with_nominal(plan, grid, isa, (requests, nominal))
-    }
-
-    /// Runs compared with the attitude of the `nominal` run, if known.
-    fn with_nominal(
-        plan: &'p Plan,
-        grid: Grid,
-        isa: Isa,
-        ([request, shown], nominal): ([Request; 2], Option<NominalAttitude>),
-    ) -> Self {
+    fn without_ends(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2], is_replay: bool) -> Self {
+        let [request, shown] = requests;
+        let nominal =
+            requests.iter().filter(|_| !is_replay).find_map(|request| nominal_attitude(plan, request, &grid, isa));
         let fields = states(&request).union(shown.fields()).union(request.fields());
         let engines = Engines::of(isa);
         let mut runs = Means { plan, request, engines }.runs_with(&grid, fields, nominal.clone());
         runs.flights = runs.flights.recording();
+        let events = if is_replay { None } else { EventFinder::new(plan, &grid, engines) };
         SingleRuns {
             draws: SceneDraws::new(plan),
             plan,
@@ -158,9 +138,10 @@ impl<'p> SingleRuns<'p> {
             request,
             shown,
             ends: None,
+            is_replay,
             runs,
             series_observer: Observer::new(shown, &grid).with_nominal(nominal),
-            events: EventFinder::new(plan, &grid, Engines::of(isa)).map(|events| events.ended_by(None)),
+            events: events.map(|events| events.ended_by(None)),
             ignored: vec![f64::NAN; shown.columns().len()],
             grid,
         }
@@ -186,7 +167,8 @@ impl<'p> SingleRuns<'p> {
         let Some(end) = end.filter(|end| end.time <= self.grid.duration()) else {
             return Ok(self.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0));
         };
-        let mut ended = Self::observing(plan, end.grid(&self.grid).0, self.isa, [self.request, self.shown]);
+        let grid = end.grid(&self.grid).0;
+        let mut ended = Self::without_ends(plan, grid, self.isa, [self.request, self.shown], self.is_replay);
         ended.events = ended.events.map(|events| events.ended_by(Some(end)));
         Ok(ended.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0))
     }
@@ -210,7 +192,6 @@ impl<'p> SingleRuns<'p> {
         drawn.into_iter().map(|scene| scene.map(|_| flown.next().expect("a run of each scene"))).collect()
     }
 
-    /// The runs of `scenes`, with the draws of their laws.
     fn fly(&mut self, runs: Runs<'_>) -> Vec<SingleRun> {
         let (isa, series_observer) = (self.isa, &mut self.series_observer);
         let (plan, ignored, events, grid) = (self.plan, &mut self.ignored, &mut self.events, &self.grid);
@@ -296,7 +277,7 @@ pub fn run_each<T: Send, E: Send>(
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
             let Some(sample) = samples.get(place) else { break };
-            let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa));
+            let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa, &GROUPS));
             let result = job(runs, *sample);
             let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
             match (&mut *made, result) {

@@ -1,33 +1,24 @@
-//! [`Supervision`]: stops and progress of a running campaign; [`Report`]: progress within a batch.
+//! [`Supervision`]: stops and progress of a running campaign; [`Report`]: progress within a batch; [`Crew`]: the work
+//! of one thread.
 
 use std::sync::atomic::AtomicBool;
 
-use crate::ensemble::crew::{Alone, Crew};
-
-/// Stops and progress of a running campaign.
 #[derive(Clone, Copy)]
 pub struct Supervision<'a> {
     /// Receives, from any thread, the number of samples completed there since its last call.
     pub progress: &'a (dyn Fn(u64) + Sync),
-    /// Set to start no further part.
     pub stop: &'a AtomicBool,
-    /// Set to give up parts under way.
     pub abandon: &'a AtomicBool,
-    /// The way in which a thread does its work.
     pub crew: &'a dyn Crew,
 }
 
 /// Evaluations of equations of motion between reports, some 10 ms; a report of each run would slow a fast campaign.
 const REPORTED_AFTER: u64 = 4096;
 
-/// The samples of a batch as they are completed.
 pub struct Report<'a> {
     supervision: Supervision<'a>,
-    /// Samples of the batch not yet reported.
     left: u64,
-    /// Completed samples not yet reported.
     done: u64,
-    /// Evaluations since the last call.
     work: u64,
 }
 
@@ -36,7 +27,6 @@ impl<'a> Report<'a> {
         Report { supervision, left: samples as u64, done: 0, work: 0 }
     }
 
-    /// Completes a sample after so many evaluations.
     pub fn add(&mut self, evaluations: u64) {
         self.done += 1;
         self.work = self.work.saturating_add(evaluations);
@@ -45,7 +35,6 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// Completes the batch.
     pub fn finish(mut self) {
         self.send(self.left);
     }
@@ -59,7 +48,22 @@ impl<'a> Report<'a> {
     }
 }
 
-/// A flag that is never set.
+/// Does the work of a thread, possibly several times side by side.
+pub trait Crew: Sync {
+    /// Calls `work`, which flies parts until none is left, at least once on this thread, and returns after all calls.
+    /// Calls may take turns: a run yields the thread only while it waits for its law.
+    fn work(&self, work: &(dyn Fn() + Sync));
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Alone;
+
+impl Crew for Alone {
+    fn work(&self, work: &(dyn Fn() + Sync)) {
+        work();
+    }
+}
+
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl<'a> Supervision<'a> {

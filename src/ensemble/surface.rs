@@ -33,7 +33,6 @@ pub(super) fn leaves_orbit(plan: &Plan) -> bool {
     plan.nominal.orbit.is_some() && (plan.request().actuated.thrusters || plan.nominal.environment.moves())
 }
 
-/// The motion at a time.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     time: f64,
@@ -42,7 +41,6 @@ struct Place {
     is_rising: bool,
     /// Lower bound of the distance on the osculating orbit, m.
     lowest: f64,
-    /// Half of the period of the osculating orbit, s.
     half_period: f64,
 }
 
@@ -75,7 +73,6 @@ impl Pushes {
         Pushes(sums)
     }
 
-    /// Until `time`, m/s.
     fn until(&self, time: f64) -> f64 {
         let next = self.0.partition_point(|[end, _]| *end <= time);
         let [start, before] = self.0[next.max(1) - 1];
@@ -83,7 +80,6 @@ impl Pushes {
     }
 }
 
-/// A search for the surface in one run.
 struct Search<'a> {
     orbit: &'a Orbit,
     pushes: Pushes,

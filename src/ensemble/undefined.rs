@@ -1,7 +1,7 @@
 //! [`notes`]: quantities of events and extremes that are not a number somewhere in the first samples, which are flown.
 
 use crate::campaign::{Plan, SceneDraws};
-use crate::ensemble::end_finder::EndFinder;
+use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Runs};
 use crate::ensemble::lookup::Lookup;
 use crate::ensemble::observed_runs::Means;
@@ -11,7 +11,6 @@ use crate::math::Isa;
 use crate::observables::band_series::event_series;
 use crate::sampling::SampleId;
 
-/// Number of samples flown.
 const TRIED: u64 = 8;
 
 /// The number of runs in which a quantity is not a number, and the first one with its time, s.

@@ -7,7 +7,7 @@ use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::Selection;
 use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::batch::Batch;
-use crate::ensemble::end_finder::EndFinder;
+use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Runs};
 use crate::ensemble::observed_runs::Means;
 use crate::ensemble::parts::Part;
@@ -26,7 +26,6 @@ use crate::sampling::SampleId;
 /// the second-level cache.
 pub const BATCH: usize = 128;
 
-/// A plan ready to run.
 #[derive(Debug)]
 pub struct Ensemble<'p> {
     means: Means<'p>,
@@ -69,7 +68,6 @@ impl<'p> Ensemble<'p> {
         Shape { parameters: self.plan().dispersions.columns().len(), observables: self.request().columns().len() }
     }
 
-    /// Rows for parts of up to `capacity` samples.
     pub fn rows(&self, capacity: usize) -> Rows {
         Rows::new(self.shape(), capacity).with_bands(self.bands().cloned())
     }
@@ -119,7 +117,6 @@ pub struct Worker<'c> {
     campaign: &'c Ensemble<'c>,
     draws: SceneDraws<'c>,
     batch: Batch<'c>,
-    /// Chooses audited samples.
     selection: Option<Selection>,
 }
 
@@ -169,7 +166,6 @@ impl Worker<'_> {
         }
     }
 
-    /// Notes the draw of the law of the last scene.
     fn note_law(&mut self, sample: SampleId) {
         if self.campaign.plan().law.is_none() {
             return;
@@ -185,7 +181,6 @@ impl Worker<'_> {
         }
     }
 
-    /// Chooses the audited scenes of the batch.
     fn select(&mut self, rows: &Rows) {
         let Batch { is_selected, rows_of_scenes, .. } = &mut self.batch;
         is_selected.clear();

@@ -2,7 +2,6 @@
 
 use crate::scene::{Parameter, SceneInput};
 
-/// One number of the scene that a draw writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     pub parameter: Parameter,
@@ -10,7 +9,6 @@ pub struct Column {
     pub nominal: f64,
 }
 
-/// The numbers that a draw writes, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Columns(Vec<Column>);
 
@@ -19,7 +17,6 @@ impl Columns {
         &self.0
     }
 
-    /// The index of a component, if it is there.
     pub fn find(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
         self.0.iter().position(|column| (column.parameter, column.component) == (parameter, component))
     }

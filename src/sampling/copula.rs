@@ -12,13 +12,10 @@
 use super::design::BLOCK;
 use crate::math::normal::{probability, quantiles};
 
-/// A square matrix by rows.
 pub type Matrix = Vec<Vec<f64>>;
 
-/// Dependence between some dimensions, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Copula {
-    /// The dimensions, in the order of the matrix.
     pub dimensions: Vec<usize>,
     /// The Cholesky factor by rows, row i of i + 1 numbers.
     factor: Matrix,

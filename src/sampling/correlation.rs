@@ -10,7 +10,6 @@ use super::error::{DispersionError, Table, error_of};
 use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
 
-/// The kind of numbers in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Correlations of the normal scores, and of normal values.
@@ -22,7 +21,6 @@ pub enum Measure {
 impl Measure {
     pub const ALL: [Measure; 3] = [Measure::Scores, Measure::Ranks, Measure::Covariance];
 
-    /// The key in campaign files.
     pub const fn key(self) -> &'static str {
         match self {
             Measure::Scores => "correlation",
@@ -40,10 +38,8 @@ pub enum Numbers {
     Rows(Matrix),
 }
 
-/// A `[[correlate]]` table as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Correlation {
-    /// The parameters, whole or by component.
     pub parameters: Vec<(Parameter, Option<usize>)>,
     pub measure: Measure,
     /// The numbers, in the order of the parameters and their components.
@@ -52,21 +48,16 @@ pub struct Correlation {
     pub nearest_psd: bool,
 }
 
-/// A correlation matrix replaced by the nearest that exists.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replaced {
-    /// The components, in the order of the matrix.
     pub names: Vec<String>,
-    /// The correlations of the normal scores in the file.
     pub written: Matrix,
-    /// The correlations of the normal scores in use.
     pub used: Matrix,
 }
 
 /// Two numbers that differ by more are not one number in two roundings.
 const SAME: f64 = 1e-9;
 
-/// The dimension and the distribution of a component.
 type Drawn<'d> = (usize, &'d Distribution);
 
 struct Pairs {
@@ -74,7 +65,6 @@ struct Pairs {
     measure: Measure,
     shown: String,
     nearest_psd: bool,
-    /// The components, each with its dimension.
     components: Vec<(usize, String)>,
     /// Two dimensions and the correlation of their normal scores.
     scores: Vec<(usize, usize, f64)>,
@@ -173,7 +163,6 @@ impl Correlation {
         self.parameters.iter().flat_map(components_of).collect()
     }
 
-    /// The scores of table `index`.
     fn pairs<'d>(
         &self,
         index: usize,
@@ -250,7 +239,6 @@ impl Correlation {
         Ok(Pairs { table: index, measure: self.measure, shown, nearest_psd: self.nearest_psd, components, scores })
     }
 
-    /// Dimension and distribution of each component, each once.
     fn drawn<'d>(
         &self,
         index: usize,

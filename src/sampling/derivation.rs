@@ -7,7 +7,6 @@ use super::expression::Expression;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
-/// A `[[derive]]` table as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivation {
     pub parameter: Parameter,
@@ -17,7 +16,6 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// The numbers in the expression.
     pub fn inputs(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
         let Ok(expression) = Expression::parse(&self.expression) else { return Vec::new() };
         let found = expression.variables().iter().filter_map(|name| Parameter::find(scene, name));
@@ -25,17 +23,14 @@ impl Derivation {
     }
 }
 
-/// A column computed from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
     pub column: usize,
     expression: Expression,
-    /// The source of each variable of the expression.
     sources: Vec<DerivedInput>,
     pub text: String,
 }
 
-/// The source of a variable's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DerivedInput {
     Column(usize),

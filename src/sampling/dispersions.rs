@@ -15,7 +15,6 @@ use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
 
-/// A `[[disperse]]` table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersion {
     /// The parameter; the first one of a distribution that names its parameters.
@@ -44,11 +43,9 @@ pub struct Draws<'a> {
     pub design: &'a Design,
     pub disperse: &'a [Dispersion],
     pub correlate: &'a [Correlation],
-    /// Parameters computed from others.
     pub derive: &'a [Derivation],
 }
 
-/// The dispersions of a campaign, ready to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersions {
     seed: u64,
@@ -57,7 +54,6 @@ pub struct Dispersions {
     pub(super) columns: Columns,
     pub(super) assigned: Vec<Assigned>,
     pub(super) dimensions: Vec<String>,
-    /// Columns with values from a file.
     pub(super) tabled: Vec<(usize, Arc<[f64]>)>,
     pub(super) copulas: Vec<Copula>,
     replaced: Vec<Replaced>,
@@ -115,7 +111,6 @@ impl Dispersions {
         if errors.is_empty() { Ok(these) } else { Err(errors) }
     }
 
-    /// The numbers that a draw writes, in the order of the file.
     pub fn columns(&self) -> &[Column] {
         self.columns.list()
     }
@@ -153,17 +148,14 @@ impl Dispersions {
         self.derived.iter().find(|derived| derived.column == column).map(|derived| derived.text.as_str())
     }
 
-    /// The correlation matrices replaced by the nearest that exist.
     pub fn replaced_correlations(&self) -> &[Replaced] {
         &self.replaced
     }
 
-    /// Whether a column's values are in a file.
     pub fn is_tabled(&self, column: usize) -> bool {
         self.tabled.iter().any(|(tabled, _)| *tabled == column)
     }
 
-    /// The names of the random dimensions, in the order of the file.
     pub fn dimensions(&self) -> &[String] {
         &self.dimensions
     }
@@ -174,7 +166,6 @@ impl Dispersions {
         random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()
     }
 
-    /// The points of the design, for one worker.
     pub fn points(&self) -> Points {
         let factors = self.factors();
         let (seed, samples, names) = (self.seed, self.samples, self.dimensions.as_slice());
@@ -185,7 +176,6 @@ impl Dispersions {
         assigned_to(&self.assigned, &self.columns, component)
     }
 
-    /// Adds a parameter in a column of the design's file.
     fn add_tabled(&mut self, data: &DataColumn, nominal: &SceneInput) -> Result<(), DispersionError> {
         let refused = |allowed: &str, remedy: &str| {
             Err(error_of(Table::Design, "parameters", format!("{:?}", data.target_name()), allowed, remedy))
@@ -251,7 +241,6 @@ impl Dispersions {
         self.columns.add(parameter, component, nominal)
     }
 
-    /// Checks that the components exist and have no distribution yet.
     fn check_components(
         &self,
         index: usize,
@@ -281,13 +270,11 @@ impl Dispersions {
     }
 }
 
-/// The distribution among `assigned` that writes a component.
 fn assigned_to<'a>(assigned: &'a [Assigned], columns: &Columns, component: (Parameter, usize)) -> Option<&'a Assigned> {
     let column = columns.find(component)?;
     assigned.iter().find(|assigned| assigned.columns.contains(&column))
 }
 
-/// The number of samples, checked against the design.
 fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -> Result<u64, DispersionError> {
     let (name, count) = (design.name(), drawn.dimensions.len());
     let refused =

@@ -1,6 +1,5 @@
 //! [`DispersionError`]: the reason why a campaign's dispersions cannot be drawn.
 
-/// A table of a campaign file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Table {
     /// A `[[disperse]]` table, counted from zero.
@@ -25,7 +24,6 @@ impl std::fmt::Display for Table {
     }
 }
 
-/// A key that keeps a campaign from being drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{table}.{key}{}: must be {allowed}; {remedy}", .value.as_ref().map_or(" is missing".to_owned(),
     |value| format!(" = {value}")))]
@@ -40,13 +38,10 @@ pub struct DispersionError {
     pub remedy: String,
 }
 
-/// The condition on a drawn key.
 pub const HAS_KEY: &str = "a key that the scene has";
-/// The remedy for a key that the scene does not have.
 pub const GIVE_KEY: &str =
     "give it a nominal value in its table (of debris: add a [debris] table), or disperse another key";
 
-/// An error of dispersion `dispersion`, key `key`.
 pub fn error(
     dispersion: usize,
     key: &'static str,

@@ -20,7 +20,6 @@ mod bounds;
 
 pub const DEEPEST: usize = 32;
 
-/// One step of the stack machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
     Number(f64),
@@ -30,7 +29,6 @@ enum Step {
     Function(Function),
 }
 
-/// An operator between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Binary {
     Or,
@@ -90,7 +88,6 @@ const FUNCTIONS: [Function; 15] = [
     Function::If,
 ];
 
-/// An expression, ready to be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     steps: Vec<Step>,
@@ -156,7 +153,6 @@ impl Expression {
         stack[0]
     }
 
-    /// Most numbers on the stack at once.
     fn depth(&self) -> usize {
         let (mut top, mut most) = (0usize, 0);
         for step in &self.steps {
@@ -247,7 +243,6 @@ impl Parser<'_> {
         format!("an expression: {what} instead of {found} at character {}", self.text[..self.at].chars().count() + 1)
     }
 
-    /// Consumes `token` if it comes next.
     fn take(&mut self, token: &str) -> bool {
         self.space();
         let is_next = self.rest().starts_with(token);

@@ -9,19 +9,16 @@ use rand::rngs::ChaCha8Rng;
 use super::stream::{SampleId, generator, unit};
 use crate::math::normal;
 
-/// The last eight bytes of every key.
 const PURPOSE: [u8; 8] = *b"noise\0\0\0";
 
 /// The random numbers called `name` in one run; reading ticks in order is fastest.
 #[derive(Debug)]
 pub struct Noise {
     generator: ChaCha8Rng,
-    /// The tick whose word the generator gives next.
     next: u64,
 }
 
 impl Noise {
-    /// The numbers called `name` in the run of `sample`.
     pub fn new(seed: u64, name: &str, sample: SampleId) -> Self {
         let mut generator = generator(seed, name, PURPOSE);
         generator.set_stream(sample.0);

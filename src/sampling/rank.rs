@@ -16,7 +16,6 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 /// The grade of a value as a function of its normal score.
 #[derive(Clone, Debug, PartialEq)]
 enum Grades {
-    /// The normal probability.
     Continuous,
     /// Steps: probability below each, score, height.
     Steps(Vec<[f64; 3]>),
@@ -55,7 +54,6 @@ impl Grades {
         Grades::Steps((0..kept.len()).map(step).collect())
     }
 
-    /// The standard deviation of the grade.
     fn deviation(&self) -> f64 {
         match self {
             Grades::Continuous => (1.0f64 / 12.0).sqrt(),

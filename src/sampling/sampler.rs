@@ -26,9 +26,7 @@ pub struct Sampler<'a> {
     /// Normal scores of the block; arbitrary for dimensions without a copula.
     scores: Vec<[f64; BLOCK]>,
     correlated: Vec<bool>,
-    /// Values of the block, column by column.
     values: Vec<[f64; BLOCK]>,
-    /// One draw of a joint distribution.
     together: Vec<f64>,
     normalised: Vec<Parameter>,
     /// Parameters among them that a file gives as a whole: recorded values keep their bits.
@@ -103,7 +101,6 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Draws the samples of `block`.
     fn fill(&mut self, block: u64) {
         self.points.fill(block, &mut self.u);
         let some_stay = self.dispersions.design().facts().leaves_nominal;
@@ -190,7 +187,6 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Whether each dimension is in a copula.
 fn correlated(dispersions: &Dispersions) -> Vec<bool> {
     let mut correlated = vec![false; dispersions.dimensions.len()];
     dispersions
@@ -201,7 +197,6 @@ fn correlated(dispersions: &Dispersions) -> Vec<bool> {
     correlated
 }
 
-/// Largest number of values of one draw.
 fn most_together(dispersions: &Dispersions) -> usize {
     dispersions.assigned.iter().map(|assigned| assigned.columns.len()).max().unwrap_or(0)
 }

@@ -33,12 +33,10 @@ const PURPOSE: [u8; 8] = *b"sampling";
 const FNV_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
-/// FNV-1a of `text`, 128 bits.
 fn fnv1a(text: &str) -> u128 {
     text.bytes().fold(FNV_BASIS, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(FNV_PRIME))
 }
 
-/// The generator of a seed, a name and a purpose.
 pub(super) fn generator(seed: u64, name: &str, purpose: [u8; 8]) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -56,17 +54,14 @@ pub(super) fn key(seed: u64, name: &str, purpose: [u8; 8]) -> u64 {
 #[derive(Debug)]
 pub struct Stream {
     generator: ChaCha8Rng,
-    /// The sample whose word the generator gives next.
     next: u64,
 }
 
 impl Stream {
-    /// The stream of the component called `name`.
     pub fn new(seed: u64, name: &str) -> Self {
         Stream { generator: generator(seed, name, PURPOSE), next: 0 }
     }
 
-    /// The 64 random bits of `sample`.
     #[inline]
     pub fn bits(&mut self, sample: SampleId) -> u64 {
         if sample.0 != self.next {
@@ -98,10 +93,8 @@ impl Stream {
     }
 }
 
-/// The upper 52 bits as an odd multiple of 2^-53.
 #[inline]
 pub(super) fn unit(bits: u64) -> f64 {
-    /// 2^-53.
     const STEP: f64 = f64::EPSILON / 2.0;
     ((bits >> 11) | 1) as f64 * STEP
 }

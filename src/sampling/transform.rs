@@ -5,7 +5,6 @@ use super::distribution::{Distribution, Joint, Map, NumberWords, Quantile};
 /// A distribution with the u that it takes and the columns that it writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assigned {
-    /// The index of its `[[disperse]]` table.
     pub table: usize,
     /// Its first dimension; further ones follow.
     pub first: usize,
@@ -14,16 +13,13 @@ pub struct Assigned {
     pub map: Transform,
 }
 
-/// From u in (0, 1) to values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transform {
-    /// One u, one value.
     Scalar(Distribution),
     Joint(Joint),
 }
 
 impl Transform {
-    /// Number of u.
     pub fn dimensions(&self) -> usize {
         match self {
             Transform::Scalar(distribution) => distribution.dimensions(),

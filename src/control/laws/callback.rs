@@ -2,7 +2,7 @@
 //! `plan.run(control=...)` takes.
 //!
 //! A loop calls its law at a tick and waits for the torque. Runs flown side by side on one thread
-//! ([`crate::ensemble::crew::Crew`]) can wait for one another, so that one call serves all of them.
+//! ([`crate::ensemble::supervision::Crew`]) can wait for one another, so that one call serves all of them.
 
 use std::sync::{Arc, PoisonError, RwLock};
 

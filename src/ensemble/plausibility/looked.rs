@@ -11,12 +11,6 @@ const DRAWS: u64 = 1000;
 /// The fraction of the draws that may be beyond a limit.
 const FEW: f64 = 0.01;
 
-/// A size to be compared with the limit of a rule, and the start of its note.
-pub struct Found {
-    pub size: f64,
-    pub what: String,
-}
-
 pub struct Looked<'p> {
     pub plan: &'p Plan,
     pub scene: Result<Scene, Vec<SceneError>>,
@@ -33,7 +27,6 @@ impl<'p> Looked<'p> {
         self.plan.loop_spec()
     }
 
-    /// The parameters of the nominal scene.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> {
         let scene = &self.plan.nominal;
         Parameter::all(scene).filter(|parameter| parameter.exists(scene))

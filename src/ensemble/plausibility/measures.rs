@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::looked::{Found, Looked, digits, most_of};
+use super::looked::{Looked, digits, most_of};
 use crate::campaign::{Plan, SceneDraws};
 use crate::control::guidance::target::Target;
 use crate::control::laws::rod_law::RodUse;
@@ -10,239 +10,220 @@ use crate::control::observes::Observes;
 use crate::control::parameters::LoopNumbers;
 use crate::control::sensor_spec::SensorSpec;
 use crate::control::sensors;
-use crate::ensemble::drawn::magnitudes;
-use crate::math::symmetric::principal_axes;
+use crate::ensemble::drawn::{magnitudes, mass_properties};
 use crate::math::vector::{conjugate, dot, hamilton, norm};
 use crate::observables::Group;
 use crate::observables::request::{NutationAxis, nearest_principal_axis};
 use crate::sampling::keys::{Value, Written};
 use crate::sampling::{Dispersion, SampleId};
 use crate::scene::parameter::Shape;
-use crate::scene::{DeclaredTable, LocalFrame, Name, Orbit, OrbitInput, Parameter, WheelInput, WheelMode};
+use crate::scene::{LocalFrame, Orbit, OrbitInput, Parameter, WheelMode};
 
-/// A year of 365.25 days, s.
 const YEAR: f64 = 365.25 * 86_400.0;
 /// Most observation points that a note suggests.
 const MANY_POINTS: f64 = 1e7;
 /// Least draws that show the range of a distribution.
 const RANGE_DRAWS: usize = 30;
-/// Draws of initial rates.
 const RATES: u64 = 1000;
 /// Draws of orbits, each a scene to be resolved.
 const ORBITS: u64 = 200;
 
-fn found(size: f64, what: String) -> Vec<Found> {
-    vec![Found { size, what }]
-}
+/// Takes a size and the start of its note.
+pub type Note<'a> = dyn FnMut(f64, String) + 'a;
 
-pub fn duration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn duration(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let duration = looked.plan.grid.duration();
-    found(duration, format!("campaign.duration_s = {}: that is {} years", digits(duration), digits(duration / YEAR)))
+    note(duration, format!("campaign.duration_s = {}: that is {} years", digits(duration), digits(duration / YEAR)));
 }
 
-/// The third components of quaternions, the scalar in other programs.
-pub fn scalar_last(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let scene = &looked.plan.nominal;
-    let quaternions = looked.parameters().filter(|parameter| parameter.shape() == Shape::Quaternion);
-    let note = |parameter: Parameter| {
-        let values: Vec<f64> = (0..4).filter_map(|component| parameter.value(scene, component)).collect();
+pub fn scalar_last(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    for parameter in looked.parameters().filter(|parameter| parameter.shape() == Shape::Quaternion) {
+        let values: Vec<f64> =
+            (0..4).filter_map(|component| parameter.value(&looked.plan.nominal, component)).collect();
         let turn = 2.0 * libm::atan2(norm([values[1], values[2], values[3]]), values[0].abs()).to_degrees();
         let shown: Vec<String> = values.iter().map(|value| digits(*value)).collect();
         let what = format!("{} = [{}]: a turn of {} deg", parameter.name(), shown.join(", "), digits(turn));
-        Found { size: values[3].abs() / values.iter().fold(0.0, |size, value| libm::hypot(size, *value)), what }
-    };
-    quaternions.map(note).collect()
+        note(values[3].abs() / values.iter().fold(0.0, |size, value| libm::hypot(size, *value)), what);
+    }
 }
 
 /// The turn of one draw in a hundred, rad, of quaternions with a distribution for each component.
-pub fn drawn_by_components(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let by_components = looked.plan.dispersed.iter().filter(|dispersion| {
-        dispersion.parameter.shape() == Shape::Quaternion && dispersion.distribution.kind.is_of_one_number()
-    });
+pub fn drawn_by_components(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let turns: Vec<_> = magnitudes(looked.plan).into_iter().zip(&looked.drawn.magnitudes).collect();
-    let note = |dispersion: &Dispersion| {
-        let (_, turns) = turns.iter().find(|(magnitude, _)| magnitude.parameter == dispersion.parameter)?;
-        let (size, kind) = (most_of((*turns).clone())?, dispersion.distribution.kind.name());
-        let (name, angle) = (dispersion.parameter.name(), digits(size.to_degrees()));
-        let what =
-            format!("{name}: distribution = {kind:?} draws each component by itself, {angle} deg off in 1 draw of 100");
-        Some(Found { size, what })
-    };
-    by_components.filter_map(note).collect()
+    for Dispersion { parameter, distribution, .. } in &looked.plan.dispersed {
+        if parameter.shape() != Shape::Quaternion || !distribution.kind.is_of_one_number() {
+            continue;
+        }
+        let turns = turns.iter().find(|(magnitude, _)| magnitude.parameter == *parameter);
+        if let Some(size) = turns.and_then(|(_, turns)| most_of((*turns).clone())) {
+            let (name, kind, angle) = (parameter.name(), distribution.kind.name(), digits(size.to_degrees()));
+            note(
+                size,
+                format!(
+                    "{name}: distribution = {kind:?} draws each component by itself, {angle} deg off in 1 draw of 100"
+                ),
+            );
+        }
+    }
 }
 
-/// Standard deviations of attitude errors, rad.
-pub fn attitude_error(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let note = |dispersion: &Dispersion| {
-        let std = dispersion.distribution.written.numbers("std_rad")?;
-        let size = std.iter().fold(0.0_f64, |most, std| most.max(std.abs()));
-        let (name, degrees) = (dispersion.parameter.name(), digits(size * 360.0 / TAU));
-        Some(Found { size, what: format!("{name}: std_rad = {} is {degrees} deg", digits(size)) })
-    };
-    looked.plan.dispersed.iter().filter_map(note).collect()
+pub fn attitude_error(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    for dispersion in &looked.plan.dispersed {
+        if let Some(std) = dispersion.distribution.written.numbers("std_rad") {
+            let size = largest(std.iter().copied());
+            let (name, degrees) = (dispersion.parameter.name(), digits(size * 360.0 / TAU));
+            note(size, format!("{name}: std_rad = {} is {degrees} deg", digits(size)));
+        }
+    }
 }
 
-pub fn sensor_scale(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let note = |table: &DeclaredTable| {
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most, value| most.max(value.abs()))
+}
+
+pub fn sensor_scale(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    for table in &looked.plan.nominal.control.sensors {
         let off = |scale: &&f64| (**scale - 1.0).abs();
-        let scale = table.named("scale")?.iter().max_by(|a, b| off(a).total_cmp(&off(b)))?;
-        Some(Found { size: off(&scale), what: format!("sensors.{}.scale: {scale:?}", table.name) })
-    };
-    looked.plan.nominal.control.sensors.iter().filter_map(note).collect()
+        let scales = table.named("scale").into_iter().flatten();
+        if let Some(scale) = scales.max_by(|a, b| off(a).total_cmp(&off(b))) {
+            note(off(&scale), format!("sensors.{}.scale: {scale:?}", table.name));
+        }
+    }
 }
 
-/// The times of a control loop, s.
-pub fn periods(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let Some(spec) = looked.spec() else { return Vec::new() };
-    let of_loop = [("control.period_s".to_owned(), spec.period)];
-    let of_sensors = spec.sensors.iter().flat_map(|sensor| {
+pub fn periods(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    let Some(spec) = looked.spec() else { return };
+    let mut noted = |name: String, time: f64| {
+        note(time, format!("{name} = {time:?}: that is {} min", digits(time / 60.0)));
+    };
+    noted("control.period_s".to_owned(), spec.period);
+    if let Some(delay) = looked.plan.nominal.control.named("delay_s") {
+        noted("control.delay_s".to_owned(), delay[0]);
+    }
+    for sensor in &spec.sensors {
         // the period of the loop is judged once
-        let own = if sensor.period == spec.period { 0.0 } else { sensor.period };
-        [("period_s", own), ("latency_s", sensor.latency)]
-            .map(|(key, time)| (format!("sensors.{}.{key}", sensor.name), time))
-    });
-    let delay = looked.plan.nominal.control.named("delay_s").map(|delay| ("control.delay_s".to_owned(), delay[0]));
-    let times = of_loop.into_iter().chain(delay).chain(of_sensors);
-    times
-        .map(|(name, time)| Found {
-            size: time,
-            what: format!("{name} = {time:?}: that is {} min", digits(time / 60.0)),
-        })
-        .collect()
+        if sensor.period != spec.period {
+            noted(format!("sensors.{}.period_s", sensor.name), sensor.period);
+        }
+        noted(format!("sensors.{}.latency_s", sensor.name), sensor.latency);
+    }
 }
 
 /// The rates to which the schedule drives wheels that are below `limit` at the start, rad/s.
-pub fn driven_wheels(looked: &Looked<'_>, limit: f64) -> Vec<Found> {
-    let Ok(scene) = &looked.scene else { return Vec::new() };
+pub fn driven_wheels(looked: &Looked<'_>, limit: f64, note: &mut Note<'_>) {
+    let Ok(scene) = &looked.scene else { return };
     let turning = looked.plan.nominal.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).enumerate();
-    let slow = turning.filter(|(_, wheel)| wheel.rate_rad_s.abs() < limit);
-    let note = |(place, wheel): (usize, &WheelInput)| {
+    for (place, wheel) in turning.filter(|(_, wheel)| wheel.rate_rad_s.abs() < limit) {
         let (mut rate, mut most) = (wheel.rate_rad_s, 0.0_f64);
         for arc in &scene.schedule {
             rate += arc.applied.motor_torque[place] * (arc.end() - arc.start) / scene.mass.wheels[place].axial;
             most = most.max(rate.abs());
         }
         let rpm = digits(most * 60.0 / TAU);
-        Found {
-            size: most,
-            what: format!("wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm", wheel.name),
-        }
-    };
-    slow.map(note).collect()
+        note(most, format!("wheels.{}: the torques of [[actuation]] bring it to about {rpm} rpm", wheel.name));
+    }
 }
 
 /// Mass, kg, and principal moments of the spacecraft, ascending, kg m^2.
 fn inertia(looked: &Looked<'_>) -> Option<(f64, [f64; 3])> {
-    let mass = &looked.scene.as_ref().ok()?.mass;
-    let (mut moments, _) = principal_axes(mass.inertia);
-    moments.sort_by(f64::total_cmp);
-    Some((mass.total, moments))
+    let [mass, _, _, _, a, b, c] = mass_properties(looked.scene.as_ref().ok()?);
+    Some((mass, [a, b, c]))
 }
 
-pub fn mass(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let note = |(mass, _)| found(mass, format!("the spacecraft has a mass of {} kg", digits(mass)));
-    inertia(looked).map(note).unwrap_or_default()
+pub fn mass(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    if let Some((mass, _)) = inertia(looked) {
+        note(mass, format!("the spacecraft has a mass of {} kg", digits(mass)));
+    }
 }
 
 /// The radius of gyration about the axis of the largest moment, over the cube root of the mass, m/kg^(1/3).
-pub fn radius_of_gyration(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let note = |(mass, [_, _, largest]): (f64, [f64; 3])| {
-        let radius = libm::sqrt(largest / mass);
-        let (kilograms, moment, metres) = (digits(mass), digits(largest), digits(radius));
-        found(
-            radius / libm::cbrt(mass),
-            format!(
-                "the spacecraft has {kilograms} kg and a principal moment of {moment} kg m^2: its radius of \
-                         gyration is {metres} m"
-            ),
-        )
-    };
-    inertia(looked).map(note).unwrap_or_default()
+pub fn radius_of_gyration(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    let Some((mass, [_, _, largest])) = inertia(looked) else { return };
+    let radius = libm::sqrt(largest / mass);
+    let (kilograms, moment, metres) = (digits(mass), digits(largest), digits(radius));
+    let what = format!(
+        "the spacecraft has {kilograms} kg and a principal moment of {moment} kg m^2: its radius of gyration is \
+        {metres} m"
+    );
+    note(radius / libm::cbrt(mass), what);
 }
 
 /// The excess of the two smaller principal moments over the largest, relative to it.
-pub fn flatness(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let note = |(_, moments @ [a, b, c]): (f64, [f64; 3])| {
-        let shown = moments.map(digits).join(", ");
-        let excess = (a + b - c) / c;
-        let almost = if excess.abs() > 1e-12 { "almost " } else { "" };
-        found(excess, format!("principal moments [{shown}] kg m^2: the largest is {almost}the sum of the others"))
-    };
-    inertia(looked).map(note).unwrap_or_default()
+pub fn flatness(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    let Some((_, moments @ [a, b, c])) = inertia(looked) else { return };
+    let excess = (a + b - c) / c;
+    let (shown, almost) = (moments.map(digits).join(", "), if excess.abs() > 1e-12 { "almost " } else { "" });
+    note(excess, format!("principal moments [{shown}] kg m^2: the largest is {almost}the sum of the others"));
 }
 
 /// The area of all plates over the mass, m^2/kg.
-pub fn area(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn area(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let area: f64 = looked.plan.nominal.plates.iter().map(|plate| plate.area_m2).sum();
-    let note = |(mass, _)| found(area / mass, format!("[[plates]] have {} m^2 for {} kg", digits(area), digits(mass)));
-    inertia(looked).map(note).unwrap_or_default()
+    if let Some((mass, _)) = inertia(looked) {
+        note(area / mass, format!("[[plates]] have {} m^2 for {} kg", digits(area), digits(mass)));
+    }
 }
 
 /// The torque limit of each wheel over the smallest principal moment, rad/s^2.
-pub fn wheel_torque(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let Some((_, [smallest, ..])) = inertia(looked) else { return Vec::new() };
-    let limited = looked.plan.nominal.wheels.iter().filter_map(|wheel| Some((wheel.name, wheel.torque_limit_n_m?)));
-    let note = |(name, torque): (Name, f64)| {
-        let (size, turned) = (torque / smallest, digits(torque / smallest));
-        Found {
-            size,
-            what: format!("wheels.{name}.torque_limit_n_m = {torque:?} turns the spacecraft by {turned} rad/s^2"),
+pub fn wheel_torque(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    let Some((_, [smallest, ..])) = inertia(looked) else { return };
+    for wheel in &looked.plan.nominal.wheels {
+        if let Some(torque) = wheel.torque_limit_n_m {
+            let (name, turned) = (wheel.name, digits(torque / smallest));
+            let what = format!("wheels.{name}.torque_limit_n_m = {torque:?} turns the spacecraft by {turned} rad/s^2");
+            note(torque / smallest, what);
         }
-    };
-    limited.map(note).collect()
+    }
 }
 
 /// Spreads relative to the nominal value, also of nested distributions.
-pub fn wide_spreads(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    fn of(name: &str, written: &Written) -> Vec<Found> {
-        let wide = |(key, value): (&str, &Value)| match value {
-            Value::Distribution(_, within) => of(name, within),
-            Value::Numbers(values) if key.starts_with("relative_") => {
-                let size = values.numbers().iter().fold(0.0_f64, |most, number| most.max(number.abs()));
-                found(size, format!("{name}, {key} = {}", values.text()))
+pub fn wide_spreads(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    fn of(name: &str, written: &Written, note: &mut Note<'_>) {
+        for (key, value) in written.entries() {
+            match value {
+                Value::Distribution(_, within) => of(name, within, note),
+                Value::Numbers(values) if key.starts_with("relative_") => {
+                    note(largest(values.numbers().iter().copied()), format!("{name}, {key} = {}", values.text()));
+                }
+                _ => {}
             }
-            _ => Vec::new(),
-        };
-        written.entries().flat_map(wide).collect()
+        }
     }
-    let dispersed = looked.plan.dispersed.iter();
-    dispersed.flat_map(|dispersion| of(&dispersion.parameter.name(), &dispersion.distribution.written)).collect()
+    for dispersion in &looked.plan.dispersed {
+        of(&dispersion.parameter.name(), &dispersion.distribution.written, note);
+    }
 }
 
 /// The distance of nominal values from the range of their draws, over that range: the largest of each parameter.
-pub fn nominal_outside(looked: &Looked<'_>, _: f64) -> Vec<Found> {
-    let mut notes: Vec<(Parameter, Found)> = Vec::new();
+pub fn nominal_outside(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
+    let mut notes: Vec<(Parameter, f64, String)> = Vec::new();
     if looked.drawn.count() < RANGE_DRAWS {
-        return Vec::new();
+        return;
     }
     let written: Vec<_> = looked.plan.dispersed.iter().flat_map(|dispersion| dispersion.components()).collect();
     for (column, values) in looked.plan.dispersions.columns().iter().zip(&looked.drawn.columns) {
-        let ends = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
-        let ([low, high], nominal) = (ends, column.nominal);
+        let (parameter, nominal) = (column.parameter, column.nominal);
+        let [low, high] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
         let beyond = (low - nominal).max(nominal - high);
-        if beyond <= 0.0 || !written.contains(&(column.parameter, column.component)) {
+        if beyond <= 0.0 || !written.contains(&(parameter, column.component)) {
             continue;
         }
-        let name = column.parameter.component_name(column.component);
-        let what = format!(
-            "{name}: its nominal value {} is outside of its draws, {} to {}",
-            digits(nominal),
-            digits(low),
-            digits(high)
-        );
-        let note = Found { size: beyond / (high - low), what };
-        match notes.iter_mut().find(|(parameter, _)| *parameter == column.parameter) {
-            Some((_, other)) if other.size < note.size => *other = note,
+        let (name, shown) = (parameter.component_name(column.component), [nominal, low, high].map(digits));
+        let [value, low_end, high_end] = shown;
+        let what = format!("{name}: its nominal value {value} is outside of its draws, {low_end} to {high_end}");
+        let found = (parameter, beyond / (high - low), what);
+        match notes.iter_mut().find(|(of, ..)| *of == parameter) {
+            Some(other) if other.1 < found.1 => *other = found,
             Some(_) => {}
-            None => notes.push((column.parameter, note)),
+            None => notes.push(found),
         }
     }
-    notes.into_iter().map(|(_, note)| note).collect()
+    notes.into_iter().for_each(|(_, size, what)| note(size, what));
 }
 
 /// The angle between the local orbital frames of drawn orbits and of the nominal one, with the drift of their mean
 /// motions until the end, if flight software uses the nominal one; rad.
-pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn unknown_orbit(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let plan = looked.plan;
     let columns = plan.dispersions.columns().iter().map(|column| column.parameter.name());
     let mut dispersed: Vec<String> = columns.filter(|name| name.starts_with("orbit.")).collect();
@@ -255,7 +236,7 @@ pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
         !spec.knows_the_truth() && (is_measured || spec.phases.iter().any(|phase| is_orbital(phase.target)))
     });
     let (Some(nominal), false, true) = (plan.nominal.orbit.as_ref().map(flown), dispersed.is_empty(), is_used) else {
-        return Vec::new();
+        return;
     };
     let mut draws = SceneDraws::new(plan);
     let angle = |sample: u64| {
@@ -271,7 +252,7 @@ pub fn unknown_orbit(looked: &Looked<'_>, _: f64) -> Vec<Found> {
         dispersed.join(", "),
         digits(size.to_degrees())
     );
-    found(size, what)
+    note(size, what);
 }
 
 /// The attitude of the local orbital frame at the start, and the mean motion, rad/s.
@@ -282,17 +263,17 @@ fn flown(orbit: &OrbitInput) -> ([f64; 4], f64) {
 }
 
 /// The angle of the principal axis from s3, deg, if nutation is measured from s3: that part is no motion.
-pub fn nutation(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn nutation(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let plan = looked.plan;
     let is_observed = plan.groups.contains(&Group::Motion) && plan.nutation_axis == NutationAxis::SpinAxis;
-    let Some(scene) = looked.scene.as_ref().ok().filter(|_| is_observed) else { return Vec::new() };
+    let Some(scene) = looked.scene.as_ref().ok().filter(|_| is_observed) else { return };
     let [x, y, z] = nearest_principal_axis(scene.mass.inertia);
     let angle = libm::atan2(libm::hypot(x, y), z).to_degrees();
-    found(angle, format!("the principal axis is {} deg off s3", digits(angle)))
+    note(angle, format!("the principal axis is {} deg off s3", digits(angle)));
 }
 
 /// The turn of the body from one observation point to the next, rad.
-pub fn coarse_grid(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn coarse_grid(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let (grid, initial) = (&looked.plan.grid, &looked.plan.nominal.initial);
     let step = grid.duration() / (grid.points().max(2) - 1) as f64;
     let rate = norm(initial.angular_velocity_rad_s);
@@ -300,19 +281,19 @@ pub fn coarse_grid(looked: &Looked<'_>, _: f64) -> Vec<Found> {
     let enough = libm::ceil(rate * grid.duration() / PI * 4.0) + 1.0;
     let enough = if enough < MANY_POINTS { format!(" ({enough} points are eight to a turn)") } else { String::new() };
     let (points, turns) = (grid.points(), digits(turn / TAU));
-    found(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"))
+    note(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"));
 }
 
 /// The turn of the body over the lag of B-dot, rad, at the largest initial rate. The dipole opposes the change of the
 /// field half an interval of measurements before, and is held; its mean power is that of a prompt dipole times the
 /// cosine of the turn.
-pub fn late_rods(looked: &Looked<'_>, most: f64) -> Vec<Found> {
+pub fn late_rods(looked: &Looked<'_>, most: f64, note: &mut Note<'_>) {
     let rods = looked.spec().and_then(|spec| {
         let phase = spec.phases.iter().find(|phase| phase.rods == RodUse::BDot)?;
         let is_field = |sensor: &&SensorSpec| matches!(sensor.observes(), Observes::Field(_));
         Some((spec, phase, spec.sensors.iter().find(is_field)?))
     });
-    let Some((spec, phase, sensor)) = rods else { return Vec::new() };
+    let Some((spec, phase, sensor)) = rods else { return };
     let plan = looked.plan;
     let delay = sensor.latency + LoopNumbers::of(&plan.nominal.control.law).delay;
     let lag = 0.5 * (sensor.period + sensor.period.max(spec.period)) + delay;
@@ -334,7 +315,7 @@ pub fn late_rods(looked: &Looked<'_>, most: f64) -> Vec<Found> {
         phase.name,
         digits(lag)
     );
-    found(rate * lag, what)
+    note(rate * lag, what);
 }
 
 /// The ends of the table of the air in the file of `plan`, as distances from the centre, m.
@@ -345,26 +326,23 @@ pub fn ends_of_air(plan: &Plan) -> Option<[f64; 2]> {
 }
 
 /// The distance of the nominal orbit beyond the table of the air, m.
-pub fn beyond_air(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn beyond_air(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let ends = ends_of_air(looked.plan).zip(looked.plan.nominal.orbit.as_ref());
-    let Some(([low, high], orbit)) = ends else { return Vec::new() };
+    let Some(([low, high], orbit)) = ends else { return };
     let shape = Orbit::of(orbit).shape();
     let beyond = (low - shape.periapsis).max(shape.semi_major_axis * (1.0 + shape.eccentricity) - high);
     if beyond > 0.0 {
-        let note = format!("environment.air_heights_m: the nominal orbit is up to {} km beyond", digits(beyond / 1e3));
-        found(beyond, note)
-    } else {
-        Vec::new()
+        let kilometres = digits(beyond / 1e3);
+        note(beyond, format!("environment.air_heights_m: the nominal orbit is up to {kilometres} km beyond"));
     }
 }
 
 /// The start of the first arc after the end of the run, s, from that end.
-pub fn late_arcs(looked: &Looked<'_>, _: f64) -> Vec<Found> {
+pub fn late_arcs(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let duration = looked.plan.grid.duration();
-    let late = looked.plan.nominal.actuation.iter().position(|arc| arc.start_s >= duration);
-    let note = |place: usize| {
-        let start = looked.plan.nominal.actuation[place].start_s;
-        found(start - duration, format!("actuation[{place}].start_s = {start:?} (campaign.duration_s = {duration:?})"))
-    };
-    late.map(note).unwrap_or_default()
+    let mut arcs = looked.plan.nominal.actuation.iter().map(|arc| arc.start_s).enumerate();
+    if let Some((place, start)) = arcs.find(|(_, start)| *start >= duration) {
+        let what = format!("actuation[{place}].start_s = {start:?} (campaign.duration_s = {duration:?})");
+        note(start - duration, what);
+    }
 }

@@ -18,7 +18,6 @@ pub use self::measures::ends_of_air;
 use self::rule::Rule;
 use self::rules::RULES;
 
-/// The rules broken by `plan`, each with its note.
 pub fn noted(plan: &Plan) -> Vec<(&'static Rule, String)> {
     of(&Looked::new(plan))
 }

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use super::looked::{Found, Looked, digits};
+use super::looked::{Looked, digits};
+use super::measures::Note;
 use crate::scene::Parameter;
 
-/// The size that a rule judges.
 pub enum Look {
     /// The numbers of the keys `table.key`, or with `table.*` of all keys of the table in the unit of the rule: nominal
     /// values, and the distance of one draw in a hundred from them.
     Keys(&'static [&'static str]),
     /// Sizes computed from several numbers and the limit.
-    Sizes(fn(&Looked<'_>, f64) -> Vec<Found>),
+    Sizes(fn(&Looked<'_>, f64, &mut Note<'_>)),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,6 @@ pub struct Rule {
     /// The size, for the documents.
     pub subject: &'static str,
     pub look: Look,
-    /// In `unit`.
     pub limit: Limit,
     /// The SI unit, `1` for a pure number; the usual unit and its number in one SI unit.
     pub unit: &'static str,
@@ -37,23 +36,18 @@ pub struct Rule {
 impl Rule {
     /// The notes on broken limits, without parameters that are judged already.
     pub fn notes(&self, looked: &Looked<'_>, judged: &mut BTreeSet<String>) -> Vec<String> {
-        let found = match self.look {
+        let mut found: Vec<String> = Vec::new();
+        match self.look {
             Look::Sizes(sizes) => {
                 let (Limit::From(limit) | Limit::Below(limit)) = self.limit;
-                sizes(looked, limit)
-                    .into_iter()
-                    .filter(|found| self.is_broken_by(found.size))
-                    .map(|found| found.what)
-                    .collect()
+                sizes(looked, limit, &mut |size, what| found.extend(self.is_broken_by(size).then_some(what)));
             }
             Look::Keys(keys) => {
-                let own: Vec<Parameter> = looked.parameters().filter(|parameter| self.has(keys, *parameter)).collect();
-                own.into_iter()
-                    .filter(|parameter| judged.insert(parameter.name()))
-                    .filter_map(|parameter| self.of_parameter(looked, parameter))
-                    .collect::<Vec<String>>()
+                let own = looked.parameters().filter(|parameter| self.has(keys, *parameter));
+                let new = own.filter(|parameter| judged.insert(parameter.name()));
+                found.extend(new.filter_map(|parameter| self.of_parameter(looked, parameter)));
             }
-        };
+        }
         found.into_iter().map(|what| format!("{what}; {}; {}", self.usual, self.remedy)).collect()
     }
 

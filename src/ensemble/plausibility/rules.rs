@@ -11,7 +11,6 @@ use super::rule::Rule;
 /// An SI unit, with the usual unit and its number in one SI unit.
 type Units = (&'static str, (&'static str, f64));
 
-/// No other usual unit.
 const SAME: (&str, f64) = ("", 1.0);
 const ONE: Units = ("1", SAME);
 const RAD: Units = ("rad", ("deg", 360.0 / TAU));
@@ -20,7 +19,6 @@ const DEG_S: Units = ("rad/s", ("deg/s", 360.0 / TAU));
 const RPM: Units = ("rad/s", ("rpm", 60.0 / TAU));
 /// One turn written in degrees has a different last bit.
 const BEYOND_A_TURN: f64 = TAU * (1.0 + 1e-9);
-/// Seconds in ten years of 365.25 days.
 const TEN_YEARS: f64 = 315_576_000.0;
 
 /// The remedy of a number in another unit: the unit's name, and an example.

@@ -25,7 +25,6 @@ struct Radix {
     cells: f64,
 }
 
-/// The scrambled sequence in some dimensions.
 #[derive(Clone, Debug)]
 pub struct Halton {
     dimensions: Vec<Radix>,

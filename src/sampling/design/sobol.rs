@@ -20,7 +20,6 @@ const NESTED: u32 = 32;
 /// d, s, a, m_1 ... m_s of each dimension after the first; the licence is in the same folder.
 const DIRECTIONS: &str = include_str!("../../../assets/joe-kuo-6.512");
 
-/// The scrambled sequence in some dimensions.
 #[derive(Clone, Debug)]
 pub struct Sobol {
     directions: Vec<[u64; 64]>,

@@ -67,7 +67,6 @@ impl Facts {
     }
 }
 
-/// The values of a design's keys.
 pub trait Options: Clone + Debug + PartialEq {
     fn read(written: &Written) -> Self;
 
@@ -117,7 +116,6 @@ pub trait Kind: PointSource + Sized {
         Ok(())
     }
 
-    /// The points, for one worker.
     fn points(options: &Self::Options, dimensions: Dimensions<'_>) -> Self;
 }
 

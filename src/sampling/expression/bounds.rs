@@ -2,7 +2,6 @@
 
 use super::{Binary, Expression, Function, Step};
 
-/// An unknown range.
 const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 impl Expression {
