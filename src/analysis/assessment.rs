@@ -77,10 +77,10 @@ impl Assessment {
     /// and so suggests no decision. `true`: a lower bound.
     pub fn hidden_bound(&self) -> Option<([f64; 2], bool)> {
         let [low, high] = self.interval;
-        let (limit, is_least) = match (self.requirement.statement, self.requirement.limit) {
-            (Statement::Mean, limit) => (limit.value(), matches!(limit, GateLimit::AtLeast(_))),
-            (Statement::Fraction(target), _) => (target, true),
-            (Statement::Quantile(p), limit) => (limit.fraction(p), true),
+        let limit = self.requirement.limit;
+        let (limit, is_least) = match self.requirement.share() {
+            Some(share) => (share, true),
+            None => (limit.value(), matches!(limit, GateLimit::AtLeast(_))),
         };
         let is_lower = match self.gate.decision {
             Decision::Pass => is_least,
@@ -119,11 +119,10 @@ impl Assessment {
         }
         let is_undecided = matches!(self.gate.decision, Decision::Undecided(_)) && self.reason.is_none();
         is_undecided
-            && match (self.requirement.statement, self.requirement.limit) {
-                (Statement::Mean, GateLimit::AtMost(limit)) => lower > limit,
-                (Statement::Mean, GateLimit::AtLeast(limit)) => upper < limit,
-                (Statement::Fraction(target), _) => upper < target,
-                (Statement::Quantile(p), limit) => upper < limit.fraction(p),
+            && match (self.requirement.share(), self.requirement.limit) {
+                (Some(share), _) => upper < share,
+                (None, GateLimit::AtMost(limit)) => lower > limit,
+                (None, GateLimit::AtLeast(limit)) => upper < limit,
             }
     }
 }

@@ -29,11 +29,7 @@ pub(super) fn over_time(
     let within: Vec<([u64; 2], u64)> = found.map_or_else(Vec::new, |(bands, series)| {
         points.iter().map(|(point, _)| (bands.within(series, *point, requirement.limit), runs)).collect()
     });
-    let target = match requirement.statement {
-        Statement::Quantile(p) => requirement.limit.fraction(p),
-        Statement::Fraction(fraction) => fraction,
-        Statement::Mean => f64::NAN,
-    };
+    let target = requirement.share().unwrap_or(f64::NAN);
     let (mut gate, worst) = points_gate(&within, target, confidences);
     let mut interval = points_gate(&within, target, [judged.of_an_end(); 2]).0.bounds;
     let mut reason = None;

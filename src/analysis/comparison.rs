@@ -16,7 +16,7 @@ use std::num::NonZeroUsize;
 
 use crate::analysis::accumulator::of_files;
 use crate::analysis::observed::Observed;
-use crate::analysis::pairing::{MOST_ROWS, ResultRows, first_dispersed, pairs, statuses};
+use crate::analysis::pairing::{MOST_ROWS, ResultRows, first_dispersed, pairs};
 use crate::analysis::statistic::{STATISTICS, Statistic};
 use crate::analysis::statistics::{self, ColumnStatistics, Statistics};
 use crate::analysis::statuses::StatusCounter;
@@ -204,7 +204,7 @@ pub fn compare(
         statistics::compute(plan, reader, &ended, (None, &[]), threads)
     };
     let statistics = [of(first)?, of(second)?];
-    let ended = [statuses(first)?, statuses(second)?];
+    let ended = [first.statuses()?, second.statuses()?];
     let mut pairs = pairs(first, second, [&ended[0], &ended[1]])?;
     let starts = [first_dispersed(first.plan), first_dispersed(second.plan)];
     let rows = [starts[0]..ended[0].len(), starts[1]..ended[1].len()];

@@ -114,11 +114,7 @@ impl Event {
             let occurs = if known.len() == 2 { Occurs::Value(other) } else { Occurs::OtherThan(frequent) };
             return vec![event(occurs, values.iter().map(|value| *value != frequent && !value.is_nan()).collect())];
         }
-        let share = requirements().find_map(|one| match one.statement {
-            Statement::Quantile(p) => Some(1.0 - one.limit.fraction(p)),
-            Statement::Fraction(fraction) => Some(1.0 - fraction),
-            Statement::Mean => None,
-        });
+        let share = requirements().find_map(|one| Some(1.0 - one.share()?));
         let share = share.filter(|share| *share <= 0.25).unwrap_or(TAIL);
         let is_low = is_worst_when_low(plan, name);
         let badness = |value: &f64| if is_low { -value } else { value.abs() };

@@ -1,19 +1,7 @@
 //! Layer 8: statistics and verdicts from rows.
 //!
-//! - [`analysed`]: all results; [`fold`]: one pass over the parts, in memory or in files ([`part_columns`]), with an
-//!   [`accumulator`] for each result.
-//! - [`statistics`]: of every observable ([`observed`], [`population`], [`column_counts`], [`order_statistics`]), with
-//!   their list ([`mod@statistic`]).
-//! - [`tally`]: ends of runs ([`statuses`]), worst runs ([`worst_runs`]), audits ([`audit_tally`]).
-//! - [`verdicts`]: requirements, each an [`assessment`] (`row_verdicts`, over time `band_verdicts`);
-//!   [`mod@stopping`]: looks of `[stop]`; [`mod@ending`]: the end of the campaign.
-//! - [`sensitivity`]: effects of inputs ([`input_sensitivity`]) from the [`first_rows`] (`block_indices`: of a
-//!   `saltelli` design); [`effects`]: their tests, also on an [`event`]; [`drivers`]: their ranking; [`noise_share`]:
-//!   noise within loops.
-//! - [`comparison`]: two results, in pairs of samples that both drew ([`pairing`]).
-//! - [`statistics_table`], [`sensitivity_table`], [`comparison_table`]: results as files.
-//! - [`trajectories`]: retained runs and their time series.
-//! - [`survey`]: the data of the page.
+//! One [`fold`] over the parts of a campaign, in memory or in files ([`part_columns`]), has an [`accumulator`] for each
+//! result; [`analysed`] has all results. Two campaigns are compared in [`comparison`].
 //!
 //! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
 

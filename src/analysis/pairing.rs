@@ -4,7 +4,7 @@ use crate::analysis::column_counts::MOST_EXACT;
 use crate::campaign::Plan;
 use crate::campaign::common_draws::draw_alike;
 use crate::run::Status;
-use crate::storage::rows_reader::{RowsError, RowsReader};
+use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
 
 /// Rows compared one by one: the nominal sample and the first [`MOST_EXACT`].
 pub const MOST_ROWS: usize = MOST_EXACT as usize + 1;
@@ -42,13 +42,7 @@ fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[us
     if of_first.len() != of_second.len() || !of_first.iter().all(|name| of_second.contains(name)) {
         return Ok(false);
     }
-    let drawn = |result: ResultRows<'_>, name: &str| -> Result<Vec<f64>, RowsError> {
-        let mut column = Vec::new();
-        for part in result.reader.first_parts(MOST_ROWS) {
-            column.extend(part?.numbers(name)?);
-        }
-        Ok(column)
-    };
+    let drawn = |result: ResultRows<'_>, name: &str| result.first(|part| part.numbers(name));
     for name in &of_first {
         let (a, b) = (drawn(first, name)?, drawn(second, name)?);
         let bits = |column: &[f64], row: usize| column.get(row).map(|value| value.to_bits());
@@ -59,17 +53,24 @@ fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[us
     Ok(true)
 }
 
-/// The statuses of the first rows, fewer than planned if the campaign was stopped.
-///
-/// # Errors
-/// Where a file cannot be read.
-pub fn statuses(result: ResultRows<'_>) -> Result<Vec<Status>, RowsError> {
-    let mut statuses = Vec::new();
-    for part in result.reader.first_parts(MOST_ROWS) {
-        statuses.extend(part?.statuses()?);
+impl ResultRows<'_> {
+    /// Numbers of the first rows, fewer than planned if the campaign was stopped.
+    fn first<T>(self, of: impl Fn(&PartReader) -> Result<Vec<T>, RowsError>) -> Result<Vec<T>, RowsError> {
+        let mut all = Vec::new();
+        for part in self.reader.first_parts(MOST_ROWS) {
+            all.extend(of(&part?)?);
+        }
+        all.truncate(MOST_ROWS);
+        Ok(all)
     }
-    statuses.truncate(MOST_ROWS);
-    Ok(statuses)
+
+    /// The statuses of the first rows.
+    ///
+    /// # Errors
+    /// Where a file cannot be read.
+    pub fn statuses(self) -> Result<Vec<Status>, RowsError> {
+        self.first(PartReader::statuses)
+    }
 }
 
 /// The rows of each plan with the same dispersed sample, among the first.

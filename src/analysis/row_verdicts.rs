@@ -76,11 +76,7 @@ pub(super) fn assessment(
     let limit = requirement.limit;
     let mut whole = Moments::default();
     counts.groups.iter().for_each(|group| whole.merge(&group.moments));
-    let target = match requirement.statement {
-        Statement::Quantile(p) => Some(limit.fraction(p)),
-        Statement::Fraction(fraction) => Some(fraction),
-        Statement::Mean => None,
-    };
+    let target = requirement.share();
     let at = |confidence| match target {
         Some(target) => of_fraction(counts, target, confidence, population),
         None if is_constant && whole.min() == whole.max() => constant_gate(whole.mean().unwrap_or(f64::NAN), limit),
@@ -310,33 +306,6 @@ mod tests {
             let found = assessment(asked(&mean), String::new(), &equal, Population::Independent, is_constant);
             assert_eq!((found.word(), found.reason.is_some()), (word, !is_constant));
         }
-    }
-
-    /// Law: a verdict with values that are not numbers holds for every number of them within the limit, or is UNDECIDED
-    /// with the reason, as for every mean. The counter-test: violations would fail it, runs within the limit pass it.
-    #[test]
-    fn what_is_not_a_number_decides_nothing() {
-        let share = requirement(Statement::Fraction(0.9), GateLimit::AtMost(1.0));
-        let of = |within: u64, undefined: u64, population| {
-            let mut counts = counts(&[(100, within / 2, &[]), (100, within / 2, &[])]);
-            counts.groups.iter_mut().for_each(|group| group.undefined = undefined / 2);
-            assessment(asked(&share), String::new(), &counts, population, false)
-        };
-        for population in [Population::Independent, Population::Replicated(2)] {
-            let said = |within, undefined| of(within, undefined, population).word();
-            let all = of(0, 200, population);
-            assert_eq!((all.word(), all.reason.as_deref()), ("UNDECIDED", Some("x is not a number in 200 runs")));
-            assert!(all.gate.estimate.is_nan(), "{all:?}");
-            assert_eq!((said(0, 0), said(200, 0), said(60, 20), said(60, 140)), ("FAIL", "PASS", "FAIL", "UNDECIDED"));
-        }
-        let few = of(196, 2, Population::Independent);
-        assert_eq!((few.word(), few.reason.as_deref()), ("PASS", None));
-        assert!(few.note.is_some_and(|note| note.starts_with("x is not a number in 2 runs, counted as violations")));
-        let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
-        let mut counts = counts(&[(31, 30, &[1.0, 2.0, 3.0].repeat(10))]);
-        counts.groups[0].undefined = 1;
-        let found = assessment(asked(&mean), String::new(), &counts, Population::Independent, false);
-        assert_eq!((found.word(), found.reason.as_deref()), ("UNDECIDED", Some("x is not a number in 1 run")));
     }
 
     /// Law: the interval of a share is Clopper and Pearson's two-sided one, whatever the confidence of the requirement.

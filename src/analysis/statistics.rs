@@ -86,12 +86,8 @@ impl Statistics {
 
     /// Number of `ok` samples among them.
     pub fn ok(&self) -> u64 {
-        Status::ALL
-            .iter()
-            .zip(self.statuses)
-            .filter(|(status, _)| **status == Status::Done)
-            .map(|(_, count)| count)
-            .sum()
+        let Loss { runs, missing, .. } = self.loss();
+        runs - missing
     }
 
     pub fn required(&self, requirement: &Requirement) -> Option<&QuantileStatistic> {

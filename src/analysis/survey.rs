@@ -22,6 +22,7 @@ use crate::observables::Group;
 use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
 use crate::run::{Quantity, Status};
 use crate::sampling::SampleId;
+use crate::sampling::design::hash::{GOLDEN, mix};
 use crate::statistics::quantile::interval_ranks;
 use crate::statistics::sketch::{Ranks, Sketch, middle};
 use crate::storage::rows_reader::RowsError;
@@ -104,12 +105,9 @@ fn interval([count, lost]: [u64; 2], ranks: &Ranks, p: f64, confidence: f64) -> 
     ends.map(|rank| rank.and_then(|rank| ranks.bounds(rank)).map_or(f64::NAN, middle))
 }
 
-/// The hash of a sample's number (the finaliser of SplitMix64, G. L. Steele, D. Lea & C. H. Flood, OOPSLA 2014).
+/// The hash of a sample's number.
 fn hash(sample: u64) -> u64 {
-    let mut z = sample.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    mix(sample.wrapping_add(GOLDEN))
 }
 
 /// Keeps the `most` indices whose samples have the smallest hashes, in ascending order.

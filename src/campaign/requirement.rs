@@ -170,6 +170,15 @@ impl Requirement {
         Some(requirement)
     }
 
+    /// The least share of runs within the limit; `None` for a mean.
+    pub fn share(&self) -> Option<f64> {
+        match self.statement {
+            Statement::Quantile(p) => Some(self.limit.fraction(p)),
+            Statement::Fraction(fraction) => Some(fraction),
+            Statement::Mean => None,
+        }
+    }
+
     /// Whether a run whose observable has this value meets it; NaN is none.
     pub fn is_met(&self, value: f64) -> bool {
         self.limit.is_met(value) || self.never_meets && value.is_nan()

@@ -63,11 +63,11 @@ audit_values! {
         estimates: the larger of the next two."
     Omega "audit_omega_error" "" "True largest error of omega on the grid, relative to the largest |omega|, or to one \
         radian over the duration where that is more."
-    Attitude "audit_attitude_error_rad" "rad" "True largest error of the attitude on the grid, twice the distance of the \
-        quaternions: the angle where the norm is kept."
-    Debris "audit_debris_error" "" "True largest error of the debris's rotation on the grid: of its omega relative to the \
-        largest |omega| (or to one radian over the duration where that is more), or of its attitude in rad, whichever is \
-        larger."
+    Attitude "audit_attitude_error_rad" "rad" "True largest error of the attitude on the grid, twice the distance of \
+        the quaternions: the angle where the norm is kept."
+    Debris "audit_debris_error" "" "True largest error of the debris's rotation on the grid: of its omega relative to \
+        the largest |omega| (or to one radian over the duration where that is more), or of its attitude in rad, \
+        whichever is larger."
     Tolerance "audit_truth_tolerance" "" "Tolerance of the reference solution that the run was compared with: 1e-31 in \
         double-double, 1e-17 there with drag or sunlight, 1e-16 in plain doubles where the run was too long for \
         double-double."

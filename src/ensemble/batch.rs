@@ -5,8 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::ensemble::audit::{Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
-use crate::ensemble::flights::{LawDraw, Runs, replayed};
-use crate::ensemble::observed_runs::{Means, ObservedRun, ObservedRuns};
+use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, replayed};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Report;
 use crate::propagation::CompletedRun;

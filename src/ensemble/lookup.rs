@@ -6,8 +6,7 @@
 
 use crate::campaign::Plan;
 use crate::ensemble::crossing::nodes;
-use crate::ensemble::flights::{LawDraw, Runs, nominal_attitude};
-use crate::ensemble::observed_runs::Means;
+use crate::ensemble::flights::{LawDraw, Means, Runs, nominal_attitude};
 use crate::ensemble::settings::Engines;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::{BandSeries, event_series};

@@ -17,8 +17,6 @@ pub mod failure_reasons;
 pub mod flights;
 pub mod influence;
 mod lookup;
-pub mod magnitude;
-mod observed_runs;
 pub mod parts;
 mod peak;
 pub mod percentiles;

@@ -2,9 +2,8 @@
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::event_finder::EndFinder;
-use crate::ensemble::flights::{LawDraw, Runs};
+use crate::ensemble::flights::{LawDraw, Means, Runs};
 use crate::ensemble::lookup::Lookup;
-use crate::ensemble::observed_runs::Means;
 use crate::ensemble::probe::limited;
 use crate::ensemble::settings::Engines;
 use crate::math::Isa;

@@ -1,8 +1,8 @@
 //! The dispersions of a plan in words and numbers, as `check` and `sample` show them.
 
 use crate::campaign::{Plan, SceneDraws, ShownUnit};
+use crate::ensemble::drawn::Magnitude;
 use crate::ensemble::drawn::{MASS_COLUMNS, magnitudes, mass_properties};
-use crate::ensemble::magnitude::Magnitude;
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::findings::finding::{Finding, Kind};
 use crate::findings::names::unit_of_input;

@@ -118,11 +118,7 @@ fn rank(one: &Assessment) -> (u8, f64) {
 
 /// What the estimate of the gate has to reach: a share of the runs, or the limit of the mean.
 fn target(one: &Assessment) -> f64 {
-    match one.requirement.statement {
-        Statement::Mean => one.requirement.limit.value(),
-        Statement::Fraction(target) => target,
-        Statement::Quantile(p) => one.requirement.limit.fraction(p),
-    }
+    one.requirement.share().unwrap_or_else(|| one.requirement.limit.value())
 }
 
 /// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".

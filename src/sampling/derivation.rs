@@ -1,7 +1,7 @@
 //! [`Derivation`]: a `[[derive]]` table as written; [`Derived`]: a column computed from others.
 
-use super::columns::Columns;
 use super::correlation::components_of;
+use super::dispersions::Columns;
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error_of};
 use super::expression::Expression;
 use crate::scene::parameter::Shape;
@@ -39,7 +39,6 @@ enum DerivedInput {
 }
 
 impl Derived {
-    /// The value, where `column` gives the values of other columns.
     /// The value, given the values of other columns.
     pub fn value(&self, column: impl Fn(usize) -> f64) -> f64 {
         self.expression.value(|index| match self.sources[index] {

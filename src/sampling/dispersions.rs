@@ -1,16 +1,14 @@
 //! [`Dispersions`]: the dispersions of a campaign, checked against the nominal scene and ready for a
 //! [`super::Sampler`].
 
-use super::columns::{Column, Columns};
 use super::copula::Copula;
 use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
 use super::distribution::target::{JointTarget, Target};
-use super::distribution::{Distribution, Map, Quantile, WrittenDistribution};
+use super::distribution::{Distribution, Joint, Map, NumberWords, Quantile, WrittenDistribution};
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error, error_of};
 use super::keys::DataColumn;
-use super::transform::{Assigned, Transform};
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 use std::sync::Arc;
@@ -306,5 +304,67 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
             refused(Table::Campaign, "samples", samples.to_string(), allowed, "leave samples out for all of them")
         }
         (Some(samples), _) => Ok(samples),
+    }
+}
+
+/// A distribution with the u that it takes and the columns that it writes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assigned {
+    pub table: usize,
+    /// Its first dimension; further ones follow.
+    pub first: usize,
+    /// Its columns, in the order of the distribution's values.
+    pub columns: Vec<usize>,
+    pub map: Transform,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Transform {
+    Scalar(Distribution),
+    Joint(Joint),
+}
+
+impl Transform {
+    pub fn dimensions(&self) -> usize {
+        match self {
+            Transform::Scalar(distribution) => distribution.dimensions(),
+            Transform::Joint(joint) => joint.dimensions(),
+        }
+    }
+
+    pub fn text(&self, words: NumberWords<'_>) -> String {
+        match self {
+            Transform::Scalar(distribution) => distribution.text(words),
+            Transform::Joint(joint) => joint.text(words),
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    pub parameter: Parameter,
+    pub component: usize,
+    pub nominal: f64,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Columns(Vec<Column>);
+
+impl Columns {
+    pub fn list(&self) -> &[Column] {
+        &self.0
+    }
+
+    pub fn find(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
+        self.0.iter().position(|column| (column.parameter, column.component) == (parameter, component))
+    }
+
+    /// The index of a component, which is added if it is not there.
+    pub fn add(&mut self, parameter: Parameter, component: usize, nominal: &SceneInput) -> usize {
+        self.find((parameter, component)).unwrap_or_else(|| {
+            let nominal = parameter.value(nominal, component).unwrap_or(f64::NAN);
+            self.0.push(Column { parameter, component, nominal });
+            self.0.len() - 1
+        })
     }
 }

@@ -6,14 +6,9 @@
 //! 2. [`copula`]: dependence between the u of several dimensions;
 //! 3. [`distribution`]: from u to values;
 //! 4. [`expression`]: values derived from others;
-//! 5. [`dispersions`]: distributions assigned to columns ([`mod@transform`]) and checked against the nominal scene;
+//! 5. [`dispersions`]: distributions assigned to columns and checked against the nominal scene;
 //!    [`sampler`]: values written into the scene, and read back as applied.
-//!
-//! - [`correlation`], [`derivation`]: `[[correlate]]` and `[[derive]]` tables; [`rank`]: rank correlations;
-//! - [`columns`]: the numbers that a draw writes;
-//! - [`keys`]: the keys of distributions and designs; [`error`]: why something cannot be drawn.
 
-pub mod columns;
 pub mod copula;
 pub mod correlation;
 pub mod derivation;
@@ -23,21 +18,16 @@ pub mod distribution;
 pub mod error;
 pub mod expression;
 pub mod keys;
-pub mod noise;
 pub mod rank;
 pub mod sampler;
 pub mod stream;
-pub mod transform;
 
-pub use columns::Column;
 pub use correlation::{Correlation, Measure, Numbers, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
-pub use dispersions::{Dispersion, Dispersions, Draws};
+pub use dispersions::{Column, Dispersion, Dispersions, Draws, Transform};
 pub use distribution::{Distribution, DistributionKind, Joint, NumberWords, WrittenDistribution};
 pub use error::{DispersionError, Table};
 pub use keys::{DataColumn, Values, Written};
-pub use noise::Noise;
 pub use sampler::Sampler;
-pub use stream::{SampleId, Stream};
-pub use transform::Transform;
+pub use stream::{Noise, SampleId, Stream};

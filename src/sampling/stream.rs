@@ -17,6 +17,8 @@
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 
+use crate::math::normal::quantile;
+
 /// The number of a sample within a campaign; 0 is the nominal scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SampleId(pub u64);
@@ -99,6 +101,36 @@ pub(super) fn unit(bits: u64) -> f64 {
     ((bits >> 11) | 1) as f64 * STEP
 }
 
+/// The random numbers called `name` in one run, for sensors and control laws, addressed by tick: those of the key
+/// (seed, name, `noise`) with the sample as ChaCha's stream number, the k-th word for tick k. Reading ticks in order is
+/// fastest.
+#[derive(Debug)]
+pub struct Noise {
+    generator: ChaCha8Rng,
+    next: u64,
+}
+
+impl Noise {
+    pub fn new(seed: u64, name: &str, sample: SampleId) -> Self {
+        let mut generator = generator(seed, name, *b"noise\0\0\0");
+        generator.set_stream(sample.0);
+        Noise { generator, next: 0 }
+    }
+
+    /// The number u of `tick`, 0 < u < 1.
+    pub fn uniform(&mut self, tick: u64) -> f64 {
+        if tick != self.next {
+            self.generator.set_word_pos(2 * u128::from(tick));
+        }
+        self.next = tick.wrapping_add(1);
+        unit(self.generator.next_u64())
+    }
+
+    pub fn normal(&mut self, tick: u64) -> f64 {
+        quantile(self.uniform(tick))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,5 +151,22 @@ mod tests {
         // FNV-1a 128 of "" and "a" (the authors' test values)
         assert_eq!(fnv1a(""), FNV_BASIS);
         assert_eq!(fnv1a("a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
+    }
+
+    /// Law: a number depends on seed, name, sample and tick alone, not on the order of reading; each of the four
+    /// changes it.
+    #[test]
+    fn numbers_depend_on_their_address_alone() {
+        let mut noise = Noise::new(1, "gyro", SampleId(7));
+        let in_order: Vec<f64> = (0..40).map(|tick| noise.uniform(tick)).collect();
+        for tick in [39, 0, 17, 17, 3] {
+            assert_eq!(noise.uniform(tick), in_order[tick as usize]);
+        }
+        for mut other in
+            [Noise::new(2, "gyro", SampleId(7)), Noise::new(1, "gyrp", SampleId(7)), Noise::new(1, "gyro", SampleId(8))]
+        {
+            assert!((0..40).all(|tick| other.uniform(tick) != in_order[tick as usize]));
+        }
+        assert_ne!(Stream::new(1, "gyro").uniform(SampleId(7)), in_order[7]);
     }
 }
