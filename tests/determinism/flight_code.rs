@@ -111,7 +111,7 @@ fn results_hold(folder: ScratchFolder, text: &str, file: &str) {
         assert_eq!(replayed.row[place].to_bits(), stored.to_bits(), "{}", column.quantity.name());
     }
     let verified = verify(&session(1), &root, Verification { fraction: 0.02, repair: false }).unwrap().unwrap();
-    assert_eq!(verified.problems, 0);
+    assert_eq!(verified.checked.problems, 0);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::assembled_module::{constant, list, section, size, sized};
+use super::assembled_module::section;
 use super::flight_code::{CAMPAIGN, without_own_keys};
 use super::whole_rows::{bits, rows};
 use crate::support::scratch_folder::ScratchFolder;
@@ -16,11 +16,6 @@ const MODULES: u64 = 250;
 /// Most time on the processor that a module may take to be compiled and to fly twice, s: several times the slowest that
 /// was found.
 const MOST_CPU: f64 = 30.0;
-
-/// Types of values: i32, i64, f32, f64, v128.
-const TYPES: [u8; 5] = [0x7f, 0x7e, 0x7d, 0x7c, 0x7b];
-/// The exports of a module that wants no measurements and reports no telemetry.
-const NAMES: [&str; 4] = ["spindrift_interface", "spindrift_input", "spindrift_output", "spindrift_step"];
 
 /// Numbers at random, the same on every machine: `SplitMix64` (G. Steele, D. Lea & C. Flood, 2014).
 struct Numbers(u64);
@@ -39,10 +34,6 @@ impl Numbers {
 
     fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
-    }
-
-    fn once_in(&mut self, n: usize) -> bool {
-        self.below(n) == 0
     }
 
     fn bytes(&mut self, count: usize) -> Vec<u8> {
