@@ -248,30 +248,6 @@ mod tests {
     }
 
     #[test]
-    fn a_schedule_is_flown_as_it_is() {
-        let schedule = [Arc { start: 0.5, applied: thrust(1.0, 2.0) }, Arc { start: 1.0, applied: thrust(1.5, 3.0) }];
-        let mut law = OpenLoop { schedule: &schedule };
-        let flown = [(0.0, 0.5, 0.0), (0.5, 1.0, 2.0), (1.0, 1.5, 3.0), (1.5, 2.0, 0.0)];
-        assert_eq!(arcs(&mut law, 2.0), flown);
-        assert_eq!(arcs(&mut law, 0.75), [(0.0, 0.5, 0.0), (0.5, 0.75, 2.0)]);
-    }
-
-    #[test]
-    fn a_sampled_law_is_asked_once_per_period() {
-        let mut asked = Vec::new();
-        let mut law = ZeroOrderHold::new(0.1, |time: f64, _: &BodyState, _: &WheelState| {
-            asked.push(time);
-            thrust(f64::INFINITY, time)
-        });
-        assert_eq!(law.arc(0.0, &BODY, &WheelState::AT_REST), thrust(0.1, 0.0));
-        assert_eq!(law.arc(0.05, &BODY, &WheelState::AT_REST), thrust(0.1, 0.0));
-        let flown = arcs(&mut law, 0.35);
-        assert_eq!(flown.len(), 4);
-        let samples: Vec<f64> = (0..4).map(|k| f64::from(k) * 0.1).collect();
-        assert_eq!(asked, samples);
-    }
-
-    #[test]
     fn sources_add_and_the_earlier_end_wins() {
         let schedule = [Arc { start: 0.25, applied: thrust(0.6, 2.0) }];
         let mut calls = 0;

@@ -56,35 +56,3 @@ pub fn law_arc(
     add_constant_effects(scene, applied);
     arc
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{ActuationInput, samples};
-
-    fn arcs(switches: &[[f64; 2]], duration: f64) -> Vec<(f64, f64, bool)> {
-        let mut input = samples::table_two();
-        input.actuation =
-            switches.iter().map(|&[start_s, end_s]| ActuationInput::idle(start_s, end_s).with_thrust(&[1.0])).collect();
-        let scene = Scene::resolve(&input).expect("a legal schedule");
-        let (mut time, mut list) = (0.0, Vec::new());
-        while time < duration {
-            let arc = scheduled_arc(&scene, time, duration);
-            time = arc.end();
-            list.push((arc.start, arc.end(), arc.applied.thrust[0] > 0.0));
-        }
-        list
-    }
-
-    #[test]
-    fn arcs_cover_the_horizon_without_a_gap() {
-        assert_eq!(arcs(&[], 2.0), [(0.0, 2.0, false)]);
-        assert_eq!(arcs(&[[0.0, 2.0]], 2.0), [(0.0, 2.0, true)]);
-        assert_eq!(arcs(&[[0.0, 5.0]], 2.0), [(0.0, 2.0, true)]);
-        assert_eq!(arcs(&[[3.0, 5.0]], 2.0), [(0.0, 2.0, false)]);
-        assert_eq!(
-            arcs(&[[0.5, 1.0], [1.0, 1.5]], 2.0),
-            [(0.0, 0.5, false), (0.5, 1.0, true), (1.0, 1.5, true), (1.5, 2.0, false)]
-        );
-    }
-}

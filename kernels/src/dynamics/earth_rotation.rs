@@ -45,12 +45,4 @@ mod tests {
             assert!((found - expected).abs() < 1e-9, "{text}: {found} {expected}");
         }
     }
-
-    /// Law: the rate is the change of the angle per day, up to quadratic precession, 1.6e-11 turns.
-    #[test]
-    fn the_rate_is_the_change_of_the_angle() {
-        let [before, after] =
-            ["2026-11-24T00:00:00Z", "2026-11-25T00:00:00Z"].map(|text| turns_at(Epoch::parse(text).expect(text)));
-        assert!((after - before + 1.0 - 86_400.0 * TURNS_PER_SECOND).abs() < 4e-11, "{after} {before}");
-    }
 }

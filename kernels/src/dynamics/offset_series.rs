@@ -206,38 +206,3 @@ fn stretched_offset<R: Real>(offset: [R; 3], nearer: R, power: &[R], place: &[[R
     }
     own
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dynamics::orbit_state::OrbitState;
-    use crate::math::vector::{difference, norm};
-
-    /// Law: the first coefficient of the series is the closed form, the second is its slope along the motion.
-    #[test]
-    fn the_series_begins_with_the_closed_form() {
-        // a point mass, the Earth, and a hundred times flatter
-        for oblateness in [None, Some(6.606e10), Some(6.6e12)] {
-            let gravity = Gravity { mu: 3.986004418e14, oblateness };
-            let (position, velocity) = ([4.1e6, -5.2e6, 1.7e6], [3e3, 4e3, 5e3]);
-            let (offset, moving) = ([20.0, -7.0, 4.0], [0.3, 0.2, -0.1]);
-            let mut series = OffsetSeries::new(0.0, 3);
-            series.begin(gravity, position, velocity);
-            let first = series.extend(0, offset);
-            // the orbit bends, by r'' at second order
-            let at = |time: f64| {
-                let pull = gravity.acceleration(position, norm(position));
-                let position = sum(sum(position, scaled(time, velocity)), scaled(0.5 * time * time, pull));
-                gravity.tide(&OrbitState::at_rest(position), sum(offset, scaled(time, moving)))
-            };
-            let closed = at(0.0);
-            assert!(norm(difference(first, closed)) < 1e-15 * norm(closed), "{first:?} {closed:?}");
-            let second = series.extend(1, moving);
-            let slope = scaled(0.5 / 0.01, difference(at(0.01), at(-0.01)));
-            assert!(norm(difference(second, slope)) < 1e-9 * norm(slope), "{second:?} {slope:?}");
-            let third = series.extend(2, [0.0; 3]);
-            let second_order = scaled(0.5, difference(sum(at(1.0), at(-1.0)), scaled(2.0, at(0.0))));
-            assert!(norm(difference(third, second_order)) < 1e-5 * norm(third), "{third:?} {second_order:?}");
-        }
-    }
-}

@@ -135,7 +135,6 @@ impl<R: Real> OrbitInBody<R> {
     }
 }
 
-/// `sum` - a x b.
 #[inline(always)]
 fn minus_cross<R: Real>(a: [R; 3], b: [R; 3], sum: [R; 3]) -> [R; 3] {
     let [x, y, z] = [a[2].mul_add(b[1], sum[0]), a[0].mul_add(b[2], sum[1]), a[1].mul_add(b[0], sum[2])];

@@ -103,17 +103,4 @@ mod tests {
             assert!((found.upper / upper - 1.0).abs() < RELATIVE_ERROR, "{a} {x}: {found:?} {upper}");
         }
     }
-
-    #[test]
-    fn the_inverse_inverts() {
-        for a in [0.01, 0.3, 1.0, 4.5, 100.0, 1e4] {
-            for (p, q) in [(1e-14, 1.0), (1e-3, 0.999), (0.5, 0.5), (0.9, 0.1), (1.0, 1e-14)] {
-                let x = libm::exp(log_quantile(p, q, a));
-                let found = incomplete_gamma(a, x);
-                let error = if p < q { found.lower / p - 1.0 } else { found.upper / q - 1.0 };
-                // the last digit of x is worth 800 of them at the largest shape
-                assert!(x == 0.0 || error.abs() < 1e-11, "{a} {p}: {error:e}");
-            }
-        }
-    }
 }

@@ -57,27 +57,3 @@ impl<'a, T, const N: usize> IntoIterator for &'a List<T, N> {
         self.iter()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_the_values_count() {
-        let (mut a, mut b) = (List::<u8, 3>::empty(0), List::<u8, 3>::empty(9));
-        assert_eq!(a, b);
-        a.push(1);
-        assert_ne!(a, b);
-        b.push(1);
-        assert_eq!((a, a.len(), a[0]), (b, 1, 1));
-        assert_eq!(a.iter().sum::<u8>(), 1);
-    }
-
-    #[test]
-    #[should_panic = "at most 1 values is full"]
-    fn a_full_list_takes_no_more() {
-        let mut list = List::<u8, 1>::empty(0);
-        list.push(1);
-        list.push(2);
-    }
-}

@@ -39,7 +39,6 @@ impl<I: Iterator<Item = Arc>> Rods<I> {
 }
 
 impl<'a> Acting<'a> {
-    /// The schedule of `scene` and its environment.
     pub(super) fn scheduled(scene: &'a Scene) -> Self {
         Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }

@@ -30,7 +30,6 @@ impl<'a> Attitude<'a> {
         }
     }
 
-    /// C_es by rows.
     #[inline(always)]
     pub(super) fn c_es<S: Simd>(self, simd: S, at: usize) -> [[Lanes<S>; 3]; 3] {
         match self {

@@ -1,7 +1,7 @@
 //! [`Conditioning`]: estimated error of a run, and amplification of small errors of its rotational state.
 //!
-//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys eta' = eta x omega
-//! + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the energy T;
+//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys
+//! eta' = eta x omega + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the energy T;
 //! Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). They give the error across the curve of H at
 //! any time; only the shift along the curve is integrated. With w, the part of omega across H, and unit vectors along
 //! H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
@@ -332,7 +332,6 @@ impl Conditioning {
         (magnitudes_along(magnitudes, v) * (per_h * (per_w2 * across))).store(&mut self.digits[2][first..]);
     }
 
-    /// Error and amplification of a motion along a curve.
     #[inline(always)]
     fn along_curve<const NEAR: bool>(
         &self,

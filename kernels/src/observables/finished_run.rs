@@ -14,7 +14,6 @@ const MEANINGLESS: f64 = 1e-3;
 pub(super) struct FinishedRun<'a> {
     pub(super) table: &'a StateTable,
     pub(super) outcome: &'a Outcome,
-    /// Time reached, s.
     pub(super) time_reached: f64,
     /// Number of points reached.
     pub(super) filled: usize,
@@ -24,7 +23,6 @@ pub(super) struct FinishedRun<'a> {
     pub(super) final_point: Option<usize>,
     pub(super) exchange: Exchange,
     pub(super) estimate: ErrorEstimate,
-    /// Estimate for the debris.
     pub(super) debris_estimate: ErrorEstimate,
     pub(super) mass: &'a MassProperties,
     /// Principal moments of inertia of the spacecraft, ascending, kg m^2, if observed.
@@ -54,7 +52,6 @@ fn is_ill_conditioned(estimate: &ErrorEstimate) -> f64 {
 }
 
 impl FinishedRun<'_> {
-    /// A direct value, of wheel `wheel` if it is of wheels.
     #[inline]
     pub(super) fn value(&self, value: DirectValue, wheel: usize) -> f64 {
         match value {

@@ -11,7 +11,6 @@ impl DirectValue {
 }
 
 impl Value {
-    /// The value of wheel `wheel`, for a column of wheels.
     pub(super) fn of_wheel(self, wheel: usize) -> Self {
         match self {
             Value::Of(series, reduction) => Value::Of(series.of_wheel(wheel), reduction),
@@ -96,20 +95,5 @@ mod tests {
                 assert!(is_order || series.row().stored == Stored::Quantity, "{column:?}");
             }
         }
-    }
-
-    /// Law: a column affected by work or angular impulse of a torque on the body mentions it.
-    #[test]
-    fn torques_on_the_body_are_named() {
-        let mut named = 0;
-        for column in all() {
-            let name = column.quantity.name();
-            let enters = name == "work_thrusters_final_j"
-                || ["energy_error_", "angular_momentum_error_"].iter().any(|start| name.starts_with(start));
-            let says = column.quantity.meaning().contains("torques on the body");
-            assert_eq!(enters, says, "{name}");
-            named += usize::from(says);
-        }
-        assert_eq!(named, 9);
     }
 }

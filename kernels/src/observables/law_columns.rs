@@ -106,7 +106,6 @@ impl LawColumns {
         (0..self.list.len()).map(move |index| ColumnId { group: group(index), value: Value::Law(index as u8) })
     }
 
-    /// The columns.
     pub(super) fn columns(self) -> impl Iterator<Item = Column> {
         self.list.iter().zip(self.ids()).map(|(column, ColumnId { group, value })| Column {
             quantity: column.quantity.clone(),

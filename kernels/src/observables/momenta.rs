@@ -45,7 +45,6 @@ impl<'a, S: Simd> Sink<'a, S> {
     }
 }
 
-/// Balance of `momentum`, and the sum of the magnitudes of all terms, with `terms` of the momentum.
 #[inline(always)]
 fn balanced<S: Simd>(
     simd: S,

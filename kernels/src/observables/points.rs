@@ -24,9 +24,7 @@ pub(super) type Column<'a> = &'a [[f64; WIDTH]];
 pub(super) struct MeasuredRun<'a> {
     /// The series to compute.
     pub(super) observed: SeriesSet,
-    /// The sources of the series.
     pub(super) sources: &'a [SeriesSource],
-    /// Mass properties of the spacecraft.
     pub(super) mass: &'a MassProperties,
     /// The debris, if observed.
     pub(super) debris: Option<&'a Body>,
@@ -38,13 +36,11 @@ pub(super) struct MeasuredRun<'a> {
     pub(super) mu: f64,
     /// Magnetic field and dipoles, if any.
     pub(super) magnetism: Option<Magnetism<'a>>,
-    /// The scene.
     pub(super) scene: &'a Scene,
     /// The observation times, s.
     pub(super) times: &'a [f64],
     /// Records of the control law by series ([`super::law_columns::LawSeries`]) and point, or empty.
     pub(super) of_law: &'a [f64],
-    /// The states.
     pub(super) table: &'a StateTable,
     /// Number of filled points, at least one.
     pub(super) points: usize,
@@ -52,7 +48,6 @@ pub(super) struct MeasuredRun<'a> {
 
 #[derive(Clone, Copy)]
 pub(super) struct Magnetism<'a> {
-    /// The field.
     pub(super) field: MagneticField<f64>,
     /// The residual dipole, F_s, A m^2.
     pub(super) dipole: [f64; 3],
@@ -88,7 +83,6 @@ impl SeriesTable {
         self.columns[series.index()].as_flattened()
     }
 
-    /// The first `vectors` vectors of some series, for writing.
     #[inline(always)]
     pub(super) fn write<const N: usize>(&mut self, series: [Series; N], vectors: usize) -> [&mut [[f64; WIDTH]]; N] {
         let columns = self.columns.get_disjoint_mut(series.map(Series::index));
@@ -117,13 +111,11 @@ impl SeriesTable {
     }
 }
 
-/// The first `vectors` vectors of the only column of a block.
 #[inline(always)]
 pub(super) fn only(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> &mut [[f64; WIDTH]] {
     &mut block[0][..vectors]
 }
 
-/// The first `vectors` vectors of each column of a block.
 #[inline(always)]
 pub(super) fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> [&mut [[f64; WIDTH]]; W] {
     let columns: &mut [Vec<[f64; WIDTH]>; W] = block.try_into().expect("a block of so many series");
@@ -200,31 +192,7 @@ pub(super) fn of_wheels<const W: usize>(
     columns
 }
 
-/// Columns of a field that the table of observables declares as needed.
 #[inline(always)]
 pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> [Column<'_>; N] {
     columns(table, field, vectors).expect("the state table has the fields that the request needs")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: the padding repeats the last point; points, and series that are not observed, are unchanged.
-    #[test]
-    fn the_last_point_is_repeated() {
-        for points in [1, 7, 8, 9, 16, 21] {
-            let mut table = SeriesTable::new(points);
-            let [first, second] = [0, 1].map(|index| Series::all().nth(index).expect("a series"));
-            for series in [first, second] {
-                let columns = table.write([series], points.div_ceil(WIDTH));
-                columns.into_iter().flatten().flatten().zip(0..).for_each(|(value, k)| *value = f64::from(k));
-            }
-            table.pad(SeriesSet::default().with(first), points);
-            for (k, value) in table.column(first).iter().enumerate() {
-                assert_eq!(*value, k.min(points - 1) as f64, "{points} points: {k}");
-            }
-            assert!(table.column(second).last().is_some_and(|value| value.is_nan()), "{points} points");
-        }
-    }
 }

@@ -220,13 +220,6 @@ mod tests {
     }
 
     #[test]
-    fn order_statistics_are_told_apart() {
-        let order = Order { initial: 1.0, last: 2.0, max: 3.0 };
-        let all = [OrderStatistic::Initial, OrderStatistic::Final, OrderStatistic::Max];
-        assert_eq!(all.map(|statistic| order.get(statistic)), [1.0, 2.0, 3.0]);
-    }
-
-    #[test]
     fn a_line_has_its_slope_on_even_and_uneven_grids() {
         for times in [
             (0..101).map(|k| 0.1 * k as f64).collect::<Vec<_>>(),

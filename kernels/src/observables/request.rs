@@ -82,7 +82,6 @@ pub fn wheel_names(names: &[&str]) -> WheelNames {
     list
 }
 
-/// A set of series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct SeriesSet(u128);
 
@@ -278,108 +277,6 @@ mod tests {
             of_law: crate::observables::law_columns::LawColumns::NONE,
             windows: crate::observables::window::NO_WINDOWS,
         }
-    }
-
-    fn set(fields: &[StateField]) -> StateFields {
-        fields.iter().fold(StateFields::NONE, |set, field| set.with(*field))
-    }
-
-    #[test]
-    fn nothing_is_needed_that_nobody_asked_for() {
-        use Group::{
-            Constraints, Energies, EnergiesCom, EnergyConservation, Exchange, FinalState, MomentumConservation,
-            StepStatistics,
-        };
-        use StateField::*;
-        let spin = [Rate, WheelRates];
-        let cases: [(&[Group], [bool; 3], &[StateField]); 13] = [
-            (&[], [true; 3], &[]),
-            (&[StepStatistics], [true; 3], &[]),
-            (&[EnergiesCom], [true, false, false], &spin),
-            (&[EnergiesCom, Exchange, StepStatistics], [true, true, true], &spin),
-            (&[EnergyConservation], [false; 3], &[Rate, WheelRates, ComVelocity]),
-            (&[EnergyConservation], [false, true, false], &[Rate, WheelRates, ComVelocity, Work]),
-            (&[EnergyConservation], [true, false, false], &[Rate, WheelRates, ComVelocity, DebrisVelocity, DebrisRate]),
-            (&[Energies], [false; 3], &[Rate, Attitude, WheelRates, ComVelocity]),
-            (&[Energies], [false, false, true], &[Rate, Dcm, WheelRates, ComVelocity, KineticEnergies]),
-            (
-                &[MomentumConservation],
-                [true, true, false],
-                &[
-                    Rate,
-                    Attitude,
-                    WheelRates,
-                    ComVelocity,
-                    Impulse,
-                    AngularImpulse,
-                    DebrisVelocity,
-                    DebrisRate,
-                    DebrisAttitude,
-                ],
-            ),
-            (&[Group::Attitude], [true, true, false], &[Attitude]),
-            (&[Constraints], [true, true, false], &[]),
-            (&[FinalState], [true, true, true], &[Rate, Attitude, WheelRates]),
-        ];
-        for (groups, [debris, actuated, constrained], fields) in cases {
-            let request = request(groups, debris, actuated, constrained);
-            assert_eq!(request.fields(), set(fields), "{request:?}");
-        }
-    }
-
-    #[test]
-    fn wheel_angles_and_positions_are_never_read() {
-        for [debris, actuated, constrained] in [[false; 3], [true; 3]] {
-            let groups = Group::DEFAULT.into_iter().collect();
-            let fields = Request { groups, ..request(&[], debris, actuated, constrained) }.fields();
-            for field in [StateField::WheelAngles, StateField::ComPosition, StateField::DebrisPosition] {
-                assert!(!fields.contains(field));
-            }
-        }
-    }
-
-    #[test]
-    fn reasons_name_every_needed_field_and_no_other() {
-        let request = Request {
-            groups: Groups::ALL,
-            debris: true,
-            actuated: Actuated::ALL,
-            effects: ForceModel::NONE,
-            constrained: true,
-            wheels: wheel_names(&["w1", "w2"]),
-            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
-            of_law: crate::observables::law_columns::LawColumns::NONE,
-            windows: crate::observables::window::NO_WINDOWS,
-        };
-        let reasons = request.reasons();
-        assert_eq!(set(&reasons.iter().map(|(field, _)| *field).collect::<Vec<_>>()), request.fields());
-        let (_, why) = reasons.iter().find(|(field, _)| *field == StateField::AngularImpulse).unwrap();
-        assert_eq!(why, "momentum_conservation (angular impulse of thrusters and torques on the body)");
-    }
-
-    #[test]
-    fn columns_apply_to_scenes_that_have_what_they_measure() {
-        let names = |debris, actuated, constrained| -> Vec<String> {
-            Request { groups: Groups::ALL, ..request(&[], debris, actuated, constrained) }
-                .columns()
-                .iter()
-                .map(|c| c.quantity.name().to_owned())
-                .collect()
-        };
-        let bare = names(false, false, false);
-        let full = names(true, true, true);
-        for (name, in_bare, in_full) in [
-            ("energy_debris_max_j", false, true),
-            ("work_motors_final_j", false, true),
-            ("residual_collocation_max_m", false, true),
-            ("energy_com_error_max", true, false),
-            ("energy_error_max", true, true),
-        ] {
-            assert_eq!(bare.iter().any(|other| other == name), in_bare, "{name}");
-            assert_eq!(full.iter().any(|other| other == name), in_full, "{name}");
-        }
-        let request = Request { wheels: wheel_names(&[]), ..request(&Group::DEFAULT, true, true, false) };
-        assert!(request.columns().iter().all(|column| column.quantity.name() != "work_motors_final_j"), "no wheel");
     }
 
     /// Law: a linear momentum has an error if a velocity is integrated: for the spacecraft under thrust or with

@@ -82,38 +82,3 @@ impl<'a> Body<'a> {
 pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Some roundings of entries of size one.
-    const ROUNDING: f64 = 1e-15;
-
-    /// Law: the inverse times the inertia is one; a body without products of inertia is principal.
-    #[test]
-    fn the_inverse_inertia_is_the_inverse() {
-        let inertia = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
-        let body = Body::debris(inertia);
-        for (i, row) in body.inverse.iter().enumerate() {
-            for (j, column) in inertia.iter().enumerate() {
-                assert!((dot(*row, *column) - f64::from(u8::from(i == j))).abs() < ROUNDING, "{i}, {j}");
-            }
-        }
-        assert_eq!((body.size, body.is_principal), ((3.0 + 2.0 + 1.5) / 3.0, false));
-        assert!(Body::debris([[3.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.5]]).is_principal);
-    }
-
-    #[test]
-    fn the_adjugate_over_the_determinant_is_the_inverse() {
-        let m = [[3.0, 0.25, -0.5], [0.25, 2.0, 0.125], [-0.5, 0.125, 1.5]];
-        let (cofactors, determinant) = (adjugate(m), dot(m[0], adjugate(m)[0]));
-        for (i, row) in m.iter().enumerate() {
-            for (j, cofactor) in cofactors.iter().enumerate() {
-                // both are symmetric: a column is a row
-                let entry = dot(*row, *cofactor) / determinant;
-                assert!((entry - f64::from(u8::from(i == j))).abs() < ROUNDING, "{i}, {j}: {entry}");
-            }
-        }
-    }
-}

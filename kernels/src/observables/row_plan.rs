@@ -5,7 +5,6 @@ use super::reduction::Reduction;
 use super::request::Request;
 use super::table::{DirectValue, Series, Value};
 
-/// Statistics of every series.
 #[derive(Clone, Debug)]
 pub(super) struct Statistics(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
 
@@ -48,7 +47,6 @@ impl Statistics {
 pub(super) struct RowPlan {
     /// Statistic of each column; arbitrary for a direct value or a window.
     slots: Vec<Slot>,
-    /// Columns of direct values.
     direct_values: Vec<(usize, DirectValue, u8)>,
     /// For each column, true if a failed run has it.
     known_after_failure: Vec<bool>,
@@ -77,7 +75,6 @@ impl RowPlan {
         self.slots.len()
     }
 
-    /// Fills `row` from `statistics` and `direct`.
     #[inline(always)]
     pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue, u8) -> f64, row: &mut [f64]) {
         for (value, slot) in row.iter_mut().zip(&self.slots) {

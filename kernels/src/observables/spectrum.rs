@@ -205,7 +205,6 @@ impl Spectrum {
     }
 }
 
-/// a + b and w (a - b).
 #[inline(always)]
 fn butterfly<R: Real>(a: (R, R), b: (R, R), w: (R, R)) -> ((R, R), (R, R)) {
     let apart = (a.0 - b.0, a.1 - b.1);
@@ -281,49 +280,5 @@ mod tests {
         }
         // measured: 0.016
         assert!(worst > 2e-3, "the bound is meant to be near what is measured");
-    }
-
-    /// Law: monotone ordinates have no peak.
-    #[test]
-    fn an_end_of_the_spectrum_is_no_peak() {
-        let mut spectrum = Spectrum::of(&Grid::uniform(1.0, 65)).expect("an even grid");
-        let highest = |spectrum: &mut Spectrum, of: &dyn Fn(f64) -> f64| {
-            spectrum.power.iter_mut().enumerate().for_each(|(k, power)| *power = of(k as f64));
-            spectrum.highest()
-        };
-        assert!(highest(&mut spectrum, &|k| 1.0 / (1.0 + k)).is_nan());
-        assert!(highest(&mut spectrum, &|k| 1.0 + k).is_nan());
-        let peak = highest(&mut spectrum, &|k| 1.0 / (1.0 + (k - 20.0) * (k - 20.0)));
-        assert!((peak * 2.0 * spectrum.size as f64 * spectrum.step - 20.0).abs() < 1e-9, "{peak}");
-    }
-
-    #[test]
-    fn the_stronger_of_two_tones_wins() {
-        let tone = |t: f64, f: f64| libm::sin(2.0 * std::f64::consts::PI * f * t);
-        for (weak, strong) in [(5.0, 12.0), (12.0, 5.0)] {
-            let found = peak(101, 1.0, |t| tone(t, strong) + 0.5 * tone(t, weak));
-            assert!((found - strong).abs() <= BIN_ERROR, "{found}");
-        }
-    }
-
-    #[test]
-    fn uneven_or_short_grids_have_no_frequency() {
-        assert!(Spectrum::of(&Grid::uniform(1.0, 7)).is_none());
-        assert!(Spectrum::of(&Grid::at((0..20).map(|k| (k * k) as f64).collect())).is_none());
-        assert!(Spectrum::of(&Grid::uniform(10.0, 101)).is_some());
-    }
-
-    #[test]
-    fn every_path_gives_the_same_bits() {
-        let grid = Grid::uniform(1.0, 101);
-        let values: Vec<f64> = grid.times().iter().map(|t| libm::sin(40.0 * t)).collect();
-        let mut spectrum = Spectrum::of(&grid).unwrap();
-        let bits: Vec<u64> = Isa::available()
-            .into_iter()
-            .map(|isa| isa.run(Peak(&mut spectrum, &padded(values.clone()), 0.01, 0.1)).to_bits())
-            .collect();
-        for (isa, found) in Isa::available().into_iter().zip(&bits) {
-            assert_eq!(*found, bits[0], "{}", isa.name());
-        }
     }
 }

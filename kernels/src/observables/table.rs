@@ -65,7 +65,6 @@ impl Column {
         self.quantity.name().contains(WHEEL)
     }
 
-    /// The column of wheel `index` with the name `name`.
     pub(super) fn of_wheel(&self, index: usize, name: Name) -> Column {
         let value = self.value.of_wheel(index);
         Column { quantity: named(&self.quantity, name), value, wheel: Some(index as u8), ..self.clone() }
@@ -151,7 +150,6 @@ impl Series {
         (0..Self::COUNT).map(|index| Series(index as u8))
     }
 
-    /// The first series of a row.
     const fn first(kind: usize) -> Series {
         let (mut first, mut other) = (0, 0);
         while other < kind {
@@ -275,7 +273,6 @@ const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
 const SWING: Reduction = Reduction::Value(ValueStatistic::PeakToPeak);
 const MEAN: Reduction = Reduction::Value(ValueStatistic::Mean);
 
-/// Denominator of [`Reduction::Fraction`].
 pub(super) const FRACTION_SCALE: (Series, Reduction) = (Series::ComTotal, MAX);
 
 const CORRELATION: &[(Series, Reduction)] = &[

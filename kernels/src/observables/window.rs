@@ -52,7 +52,6 @@ impl Window {
         Window { series, group, is_change, is_highest, from_s, to_s }
     }
 
-    /// The column at `index` of the windows, in runs with the wheels `wheels`.
     pub(super) fn column(&self, wheels: &[Name], index: usize) -> Column {
         let of = self.series.over_time(self.is_change, wheels).expect("bands are of quantities that have a name");
         Column {
@@ -103,44 +102,5 @@ impl Window {
             Stored::Quantity if self.is_change => found - column[0],
             stored => stored.shown(found) / scale,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn window(is_highest: bool, from_s: Option<f64>, to_s: Option<f64>) -> Window {
-        Window { is_highest, from_s, to_s, ..BLANK }
-    }
-
-    /// Law: intervals are closed; the extreme is of their points only, on the requested side, and NaN if a value is.
-    #[test]
-    fn an_extreme_is_of_the_points_of_its_interval() {
-        let times = [0.0, 0.5, 1.0, 1.5];
-        let values = [9.0, 2.0, -3.0, 7.0];
-        for (from, to, [highest, lowest]) in [
-            (None, None, [9.0, -3.0]),
-            (Some(0.5), None, [7.0, -3.0]),
-            (None, Some(1.0), [9.0, -3.0]),
-            (Some(0.5), Some(0.5), [2.0, 2.0]),
-            (Some(0.6), Some(1.4), [-3.0, -3.0]),
-        ] {
-            let of = |is_highest| {
-                let window = window(is_highest, from, to);
-                window.extreme(&values, window.points(&times), 2.0)
-            };
-            assert_eq!([of(true), of(false)], [highest / 2.0, lowest / 2.0], "{from:?} {to:?}");
-        }
-        let whole = window(true, None, None);
-        for place in 0..4 {
-            let mut values = values;
-            values[place] = f64::NAN;
-            assert!(whole.extreme(&values, 0..4, 1.0).is_nan(), "{place}");
-        }
-        let none = window(true, Some(0.6), Some(0.9));
-        assert!(none.points(&times).is_empty() && none.extreme(&values, none.points(&times), 1.0).is_nan());
-        let change = Window { is_change: true, ..window(false, Some(0.5), None) };
-        assert_eq!(change.extreme(&values, change.points(&times), 1.0), -12.0);
     }
 }

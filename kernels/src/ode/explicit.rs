@@ -87,7 +87,6 @@ pub struct Carried<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> Carried<R, N> {
-    /// Writes the state advanced by `length * slope` to `end`.
     #[inline(always)]
     pub(super) fn advance_into(&self, length: R, slope: &[R; N], end: &mut Self) {
         for n in 0..N {

@@ -7,7 +7,6 @@ use crate::math::real::Real;
 pub(super) struct LaneSlots {
     /// The run in each lane.
     lanes: [LaneSlot; WIDEST],
-    /// Next run of the queue.
     next_run: usize,
     /// Number of lanes with a run.
     occupied: usize,

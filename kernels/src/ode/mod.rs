@@ -1,11 +1,4 @@
 //! Layer 1: integrators of ordinary differential equations, without physics; imports [`crate::math`] only.
-//!
-//! - [`System`]: right-hand side and norm of errors. [`Runs`]: source of runs. [`Recorder`]: sink of states.
-//! - [`integrate`]: driver of all methods. [`integrators`]: their list. [`Adaptive`]: step control by the tolerance,
-//!   for [`embedded`] pairs. [`Fixed`]: equal steps. [`ErrorModel`]: errors of a method.
-//! - [`extrapolation`]: steps of high order for reference solutions. [`switches`]: steps that end at changes of
-//!   branches.
-//! - [`tableau`]: coefficients. `explicit`: stages of explicit methods and the compensated step.
 
 pub mod adaptive;
 pub mod embedded;

@@ -216,7 +216,6 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         is_out_of_reach(max_steps - before as u64, self.time.lane(lane) - start, self.arc_end.lane(lane) - start)
     }
 
-    /// The result of the run in lane `lane`.
     #[inline(always)]
     pub(super) fn completion(&self, lane: usize, termination: Termination) -> EndedRun {
         EndedRun {

@@ -105,7 +105,6 @@ impl<R: Real> Switches<R> {
         self.pending = zero.never();
     }
 
-    /// Finds switches in `step`, which ends in `end`, and rejects it in lanes with a switch.
     #[inline(always)]
     pub(super) fn find<Q, P, const N: usize>(
         &mut self,
@@ -252,7 +251,7 @@ pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
 mod tests {
     use super::*;
     use crate::ode::adaptive::Adaptive;
-    use crate::ode::integrators::{Dop853, DormandPrince};
+    use crate::ode::integrators::Dop853;
     use crate::ode::lane_driver::integrate;
     use crate::ode::runs::{EndedRun, Recorder, Termination};
     use crate::ode::stepper::LaneMethod;
@@ -327,41 +326,7 @@ mod tests {
         assert_eq!(ended.termination, Termination::Completed);
         (last.0, ended)
     }
-
-    type Solve = dyn Fn(f64, &mut Case) -> ([f64; 2], EndedRun);
     type Switch = fn(f64, &[f64; 2]) -> f64;
-
-    /// Springs of frequencies 1 and 2 on the two sides of zero: half turns alternate.
-    fn springs(end: f64) -> Case {
-        let slope = |_: f64, [y, v]: &[f64; 2], above: bool| [*v, if above { -y } else { -4.0 * y }];
-        Case { slope, switch: |_, [y, _]| *y, start: [0.0, 1.0], end, branch: true, chosen: 0 }
-    }
-
-    /// Truth: closed form. Law: across switches the error falls with the tolerance as without, to rounding, and is
-    /// within it; each switch costs less than two rejected steps.
-    #[test]
-    fn a_method_keeps_its_order_across_switches() {
-        const PI: f64 = core::f64::consts::PI;
-        // ten periods of pi + pi/2, and an eighth of a turn above
-        let end = 15.0 * PI + 0.25 * PI;
-        let exact = [libm::sin(0.25 * PI), libm::cos(0.25 * PI)];
-        let error = |method: &Solve, tolerance: f64| {
-            let mut case = springs(end);
-            let (found, ended) = method(tolerance, &mut case);
-            println!("{tolerance:e}: {} steps, {} rejected, {} choices", ended.accepted, ended.rejected, case.chosen);
-            assert!((20..=22).contains(&case.chosen), "{} choices", case.chosen);
-            assert!(ended.rejected <= 42, "{ended:?}");
-            (found[0] - exact[0]).abs() + (found[1] - exact[1]).abs()
-        };
-        let dop853 = |tolerance: f64, case: &mut Case| solved(Adaptive(Dop853), tolerance, case);
-        let dormand_prince = |tolerance: f64, case: &mut Case| solved(Adaptive(DormandPrince), tolerance, case);
-        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
-            for (of, bound) in [(error(&dop853, tolerance), 10.0), (error(&dormand_prince, tolerance), 100.0)] {
-                println!("{tolerance:e}: {of:e}");
-                assert!(of < bound * tolerance + 1e-14, "{tolerance:e}: {of:e}");
-            }
-        }
-    }
 
     /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, without a net
     /// change of branch, are all found.

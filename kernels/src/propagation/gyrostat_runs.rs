@@ -20,7 +20,6 @@ pub struct GyrostatRuns<'a, R, E> {
     arcs: ArcSource<'a>,
     constants: Constants<R>,
     effects: E,
-    /// The run in each lane.
     run_in_lane: [usize; WIDTH],
     /// Time scale of the run in each lane as a rate, rad/s, a floor for rates in the error norm.
     scale: R,

@@ -2,14 +2,6 @@
 //!
 //! Every method computes the integrated components at the observation times, which are then completed to the physical
 //! [`crate::run::StateTable`]. Runs are in lanes that share no decision.
-//!
-//! - [`PropagationSettings`]: settings of a plan; `factory`: the [`Engine`] for them. [`integrated_effects`]: effects
-//!   of each engine.
-//! - [`taylor`]: Taylor series with periodic folding; double-double reference solution. [`runge_kutta_engine`]:
-//!   Runge-Kutta methods on the gyrostat. [`null_space_engine`]: Berdoz's formulation.
-//! - [`arc_source`]: arcs of constant actuation. [`gyrostat_batch`]: shared by methods on the gyrostat.
-//!   [`trajectory_recorder`]: trajectories from integrators.
-//! - [`local_error`], [`series_remainder`]: errors of the steps of a run.
 
 pub mod arc_source;
 pub mod engine;

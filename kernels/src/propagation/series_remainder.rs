@@ -82,9 +82,7 @@ impl Remainders {
                 (orbit.gravity(), place)
             });
             let mut acting = run.effects;
-            if let Some(torque) = &mut acting.magnetic_torque {
-                torque.begin_arc(run.rods_b(&run.arcs[arc].arc));
-            }
+            acting.begin_arc(|| run.rods_b(&run.arcs[arc].arc));
             series.begin(&acting, place.as_ref(), false, time, 1.0);
             &mut **series
         });

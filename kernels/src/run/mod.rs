@@ -1,8 +1,4 @@
 //! Layer 1: data of a run.
-//!
-//! [`Grid`]: observation times. [`StateTable`]: physical states by [`StateField`]. [`Trajectory`]: integrated
-//! components. [`Outcome`]: status, effort and estimated errors. [`Telemetry`]: records of a control law. [`Quantity`]:
-//! name, unit and meaning of a column.
 
 mod grid;
 mod outcome;

@@ -161,23 +161,11 @@ mod tests {
         assert_eq!(table.column(StateField::WheelRates, 1), [0.0, 0.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0]);
     }
 
-    #[test]
-    #[should_panic = "does not have the field Attitude"]
-    fn an_absent_field_cannot_be_read() {
-        rates_and_wheels().column(StateField::Attitude, 0);
-    }
-
     // counted from the marker of an absent field, this component would wrap around to the first column
     #[test]
     #[should_panic = "does not have the field Attitude"]
     fn an_absent_field_cannot_be_read_as_another() {
         rates_and_wheels().column(StateField::Attitude, 1);
-    }
-
-    #[test]
-    #[should_panic = "does not have the field DebrisRate"]
-    fn an_absent_field_cannot_be_written() {
-        rates_and_wheels().column_mut(StateField::DebrisRate, 0);
     }
 
     #[test]

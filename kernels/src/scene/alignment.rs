@@ -91,20 +91,4 @@ mod tests {
         assert!((axis[2] - 0.5f64.cos()).abs() < 4e-16, "the angle is the length of the vector");
         assert!((axis[1] / axis[0] - 0.75).abs() < 4e-16, "{axis:?}");
     }
-
-    #[test]
-    fn an_oblique_axis_is_turned_across_itself() {
-        let direction = [0.3, -2.0, 0.7];
-        let a = aligned(direction, [0.0; 2], 1.0);
-        let [first, second] = across(direction);
-        for (x, y, expected) in
-            [(a, first, 0.0), (a, second, 0.0), (first, second, 0.0), (first, first, 1.0), (a, a, 1.0)]
-        {
-            // roundings of products of size one; measured: 2.2e-16
-            assert!((dot(x, y) - expected).abs() < 4e-16);
-        }
-        assert!(norm(difference(cross(a, first), second)) < 4e-16, "right-handed");
-        let turned = aligned(direction, [0.02, 0.05], 1.0);
-        assert!((dot(a, turned) - 0.02f64.hypot(0.05).cos()).abs() < 4e-16);
-    }
 }

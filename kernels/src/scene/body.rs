@@ -138,7 +138,6 @@ impl<R: Real> Body<R> {
         Body::together(&bodies)
     }
 
-    /// The body without `part`.
     fn without(self, part: &Self) -> Self {
         let one = self.mass.splat(1.0);
         let mass = self.mass - part.mass;

@@ -382,21 +382,3 @@ fn free_inertia(overridden: bool, mass: &MassProperties, problems: &mut Problems
         );
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::samples;
-
-    #[test]
-    fn a_free_inertia_that_is_not_positive_definite_is_refused() {
-        let mut mass = MassProperties::of(&samples::table_two(), 1.0);
-        let mut problems = Problems::default();
-        free_inertia(false, &mass, &mut problems);
-        assert!(problems.0.is_empty());
-        mass.inertia_free[2][2] = -1e-9;
-        free_inertia(true, &mass, &mut problems);
-        assert_eq!(problems.0[0].key, "body.inertia_kg_m2");
-        assert!(problems.0[0].to_string().contains("J*"), "{}", problems.0[0]);
-    }
-}

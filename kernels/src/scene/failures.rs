@@ -28,7 +28,6 @@ pub(super) fn apply(failures: &[FailureInput], has_loop: bool, schedule: &mut Ve
     }
 }
 
-/// Splits the arc at `time`.
 fn split(schedule: &mut Vec<Arc>, time: f64) {
     if let Some(index) = schedule.iter().position(|arc| arc.start < time && time < arc.end()) {
         let rest = Arc { start: time, ..schedule[index] };
@@ -37,7 +36,6 @@ fn split(schedule: &mut Vec<Arc>, time: f64) {
     }
 }
 
-/// Fills the gaps of `schedule` from `time` on, and the time after its last arc, with idle arcs.
 fn fill(schedule: &mut Vec<Arc>, time: f64) {
     let mut end = time;
     let mut index = schedule.partition_point(|arc| arc.end() <= time);
@@ -52,56 +50,5 @@ fn fill(schedule: &mut Vec<Arc>, time: f64) {
     }
     if end < f64::INFINITY {
         schedule.push(Arc { start: end, applied: Actuation::none(f64::INFINITY) });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::schedule::actuation_at;
-
-    fn schedule() -> Vec<Arc> {
-        let arc = |start, end: f64, torque| Arc {
-            start,
-            applied: Actuation::none(end).with_thrust(&[10.0, 20.0]).with_motor_torque(&[torque, 5.0]),
-        };
-        vec![arc(1.0, 2.0, 3.0), arc(4.0, 6.0, -4.0)]
-    }
-
-    /// Law: at every time the applied values are the scheduled ones, except those of the device after its failure; arcs
-    /// stay in order and end at the failure.
-    #[test]
-    fn what_a_failed_device_applies() {
-        let wheel = FailureInput { device: Device::Wheel(0), torque_scale: Some(0.5), ..FailureInput::DEFAULT };
-        let thruster = FailureInput { device: Device::Thruster(1), ..FailureInput::DEFAULT };
-        for at_s in [0.0, 0.5, 1.0, 1.25, 2.0, 3.0, 4.0, 5.0, 6.0, 9.0] {
-            for failure in [
-                FailureInput { at_s, ..wheel },
-                FailureInput { at_s, thrust_n: Some(0.0), ..thruster },
-                FailureInput { at_s, thrust_n: Some(7.0), ..thruster },
-            ] {
-                let (before, mut after) = (schedule(), schedule());
-                apply(&[failure], false, &mut after);
-                assert!(after.iter().all(|arc| arc.start < arc.end()));
-                assert!(after.windows(2).all(|pair| pair[0].end() <= pair[1].start));
-                for step in 0..100 {
-                    let time = 0.125 * f64::from(step);
-                    let (mut expected, found) = (actuation_at(&before, time), actuation_at(&after, time));
-                    if time >= at_s {
-                        match failure.device {
-                            Device::Wheel(_) => expected.motor_torque[0] *= 0.5,
-                            _ => expected.thrust[1] = failure.thrust_n.expect("a thrust"),
-                        }
-                    } else {
-                        assert!(found.until <= at_s || found.until == expected.until, "{at_s} {time}");
-                    }
-                    assert_eq!(
-                        (found.thrust, found.motor_torque),
-                        (expected.thrust, expected.motor_torque),
-                        "{failure:?} {time}"
-                    );
-                }
-            }
-        }
     }
 }

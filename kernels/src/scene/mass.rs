@@ -137,33 +137,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn held_wheels_turn_with_the_rest() {
-        let mut input = samples::table_two();
-        assert_eq!(MassProperties::of(&input, 1.0).inertia_rotating(), MassProperties::of(&input, 1.0).inertia_free);
-        input.wheels[0].mode = WheelMode::SpeedHeld;
-        let mass = MassProperties::of(&input, 1.0);
-        assert_eq!(mass.inertia_rotating()[1][1], mass.inertia[1][1]);
-        assert_eq!(mass.inertia_rotating()[2][2], mass.inertia_free[2][2]);
-        input.wheels[1].mode = WheelMode::SpeedHeld;
-        let mass = MassProperties::of(&input, 1.0);
-        assert_eq!(mass.inertia_rotating(), mass.inertia);
-    }
-
-    #[test]
-    fn a_mass_alone_scales_the_inertia_and_a_missing_wheel_weighs_nothing() {
-        let mut input = samples::table_two();
-        let nominal = MassProperties::of(&input, 1.0);
-        input.body.mass_kg = Some(2.0 * nominal.body.mass);
-        input.wheels.clear();
-        let mass = MassProperties::of(&input, 1.0);
-        assert_eq!(mass.body.inertia[0][0], 2.0 * nominal.body.inertia[0][0]);
-        assert_eq!(mass.inertia, mass.body.inertia);
-        assert_eq!(mass.inertia_free, mass.body.inertia);
-        assert_eq!(mass.total, mass.body.mass);
-        assert_eq!(mass.center, mass.body.center);
-    }
-
     /// Law: a locked wheel is part of the body; the whole is that with the wheel at rest.
     #[test]
     fn a_locked_wheel_belongs_to_the_body() {

@@ -1,15 +1,5 @@
 //! Layer 1: the simulated scene: bodies to mass properties, actuators, initial state; validated, immutable, SI, no
 //! serde.
-//!
-//! - [`schema`]: one row per numeric key. [`input`]: the scene as written. [`table`]: positions of the schema's tables
-//!   in it. [`parameter`]: dispersable keys. [`resolve`]: from input to [`Scene`]. [`check`], [`error`],
-//!   `surroundings`: conditions beyond single keys. [`name`]: names.
-//! - [`solids`]: homogeneous solids (Berdoz's (60)-(67)). [`second_moment`]: second moments of mass, errors of a
-//!   distribution. [`body`], [`wheel`], `tensor`: bodies and wheels. [`mass`]: the whole.
-//! - [`orbit`], [`epoch`]: orbit and date. [`plate`]: plates for air and light. [`alignment`], [`unit_quaternion`]:
-//!   directions and attitudes.
-//! - [`schedule`]: arcs of constant actuation. [`thruster`]: forces and torques. [`actuated`]: kinds of actuation in a
-//!   run. `failures`: failures in a schedule.
 
 pub mod actuated;
 pub mod alignment;
@@ -24,8 +14,6 @@ pub mod name;
 pub mod orbit;
 pub mod parameter;
 pub mod plate;
-#[cfg(test)]
-mod refusals;
 pub mod resolve;
 #[cfg(test)]
 pub(crate) mod samples;

@@ -315,43 +315,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn columns_carry_the_unit_last() {
-        let column = |name| {
-            let (parameter, component) = Parameter::find(&full(), name).expect("in the table");
-            parameter.column_name(component.unwrap_or(0))
-        };
-        assert_eq!(column("initial.angular_velocity_rad_s.x"), "initial_angular_velocity_x_rad_s");
-        assert_eq!(column("initial.attitude"), "initial_attitude_w");
-        assert_eq!(column("body.parts.fuselage.density_kg_m3"), "body_parts_fuselage_density_kg_m3");
-        assert_eq!(column("body.inertia_kg_m2.xy"), "body_inertia_xy_kg_m2");
-        assert_eq!(column("wheels.w2.rate_rad_s"), "wheels_w2_rate_rad_s");
-        for wrong in [
-            "body.parts.fuselage.density",
-            "initial.attitude[2]",
-            "wheels.w2.tilt_rad[1]",
-            "initial.attitude.u",
-            "body.mass_kg[0]",
-            "body.mass_kg.",
-            "wheels.w3.radius_m",
-            "wheels.radius_m",
-        ] {
-            assert_eq!(Parameter::find(&full(), wrong), None, "{wrong}");
-        }
-    }
-
-    #[test]
-    fn a_symmetric_tensor_stays_symmetric_and_a_quaternion_stays_unit() {
-        let mut scene = full();
-        Parameter::find(&full(), "body.inertia_kg_m2").expect("in the table").0.set(&mut scene, 4, 7.0);
-        assert_eq!(scene.body.inertia_kg_m2, Some([[3.0, 0.1, 0.2], [0.1, 3.0, 7.0], [0.2, 7.0, 3.0]]));
-        let attitude = Parameter::find(&full(), "initial.attitude").expect("in the table").0;
-        attitude.set(&mut scene, 0, 3.0);
-        attitude.set(&mut scene, 3, 4.0);
-        attitude.normalise(&mut scene);
-        assert_eq!(scene.initial.attitude, [0.6, 0.0, 0.0, 0.8]);
-    }
-
     /// Law: normalised numbers keep their bits however often they are written and read. Dividing again would change a
     /// third of all quaternions.
     #[test]

@@ -177,25 +177,9 @@ fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::symmetric::{is_positive_definite, principal_axes};
     use crate::math::vector::{dot, norm, scaled};
+    use crate::scene::samples;
     use crate::scene::schema::OrbitInput;
-    use crate::scene::schema::limit::INERTIA_SLACK;
-    use crate::scene::{ActuationInput, samples};
-    use proptest::prelude::*;
-
-    type Change = fn(&mut SceneInput);
-
-    fn changed(change: Change) -> SceneInput {
-        let mut input = samples::table_two();
-        input.actuation = vec![arc(0.0, 1.0), arc(2.0, 3.0)];
-        change(&mut input);
-        input
-    }
-
-    fn arc(start_s: f64, end_s: f64) -> ActuationInput {
-        ActuationInput::idle(start_s, end_s).with_thrust(&[1.0]).with_torque(&[0.5, 0.25])
-    }
 
     #[test]
     fn all_problems_come_at_once_and_leave_the_scene_alone() {
@@ -217,19 +201,6 @@ mod tests {
             ]
         );
         assert_eq!(scene, before);
-    }
-
-    #[test]
-    fn resolving_into_a_used_scene_gives_the_same_scene() {
-        let input = changed(|_| ());
-        let mut scene = Scene::resolve(&changed(|input| {
-            input.wheels.clear();
-            input.debris = None;
-            input.actuation.clear();
-        }))
-        .expect("a legal scene");
-        scene.resolve_into(&input).expect("a legal scene");
-        assert_eq!(scene, Scene::resolve(&input).expect("a legal scene"));
     }
 
     /// Law: without rotation in the local orbital frame s3 points down and s1 ahead, and without rate the body turns
@@ -282,80 +253,6 @@ mod tests {
             near(product(dcm_from_quaternion(turned.q_es), [0.0, 0.0, 1.0]), wanted, 1e-15);
             let rate = sum([0.1, -0.2, 0.3], transposed_product(c_os, scene.initial.omega_se_s));
             near(turned.omega_se_s, rate, 1e-15);
-        }
-    }
-
-    #[test]
-    fn sigma_composes_debris_attitude_and_rate() {
-        let mut input = samples::table_two();
-        input.initial.attitude = [0.5, 0.5, -0.5, 0.5];
-        input.initial.debris_attitude = [0.0, 0.0, 0.0, 1.0]; // half a turn about s3
-        let state = Scene::resolve(&input).expect("a legal scene").initial;
-        assert_eq!(state.q_ed, [-0.5, -0.5, -0.5, 0.5]);
-        let omega = input.initial.angular_velocity_rad_s;
-        assert_eq!(state.omega_de_d, [100.0, -omega[1], omega[2]]);
-        input.debris = None;
-        let state = Scene::resolve(&input).expect("a legal scene").initial;
-        assert_eq!((state.q_ed, state.omega_de_d), ([1.0, 0.0, 0.0, 0.0], [0.0; 3]));
-    }
-
-    /// Law: motion of the debris in F_e is as written, for any motion of the spacecraft; refused if given twice.
-    #[test]
-    fn debris_can_be_given_in_the_inertial_frame() {
-        let mut input = samples::table_two();
-        input.initial.attitude = [0.5, 0.5, -0.5, 0.5];
-        input.initial.debris_attitude_inertial = Some([0.0, 0.0, 1.0, 0.0]);
-        input.initial.debris_angular_velocity_rad_s = Some([0.01, 0.02, -0.03]);
-        let refused = Scene::resolve(&input).expect_err("the rate is written twice");
-        assert_eq!(refused[0].key, "initial.debris_relative_angular_velocity_rad_s");
-        input.initial.debris_relative_angular_velocity_rad_s = [0.0; 3];
-        let state = Scene::resolve(&input).expect("a legal scene").initial;
-        assert_eq!((state.q_ed, state.omega_de_d), ([0.0, 0.0, 1.0, 0.0], [0.01, 0.02, -0.03]));
-        // the attitude alone: the rate is relative to the spacecraft's, in F_d
-        input.initial.debris_angular_velocity_rad_s = None;
-        let state = Scene::resolve(&input).expect("a legal scene").initial;
-        let c_ed = dcm_from_quaternion(state.q_ed);
-        let omega_se_e = crate::math::vector::product(dcm_from_quaternion(state.q_es), state.omega_se_s);
-        assert_eq!(state.omega_de_d, transposed_product(c_ed, omega_se_e));
-    }
-
-    proptest! {
-        /// Law: every accepted inertia is physical.
-        #[test]
-        fn what_is_accepted_is_physical(
-            sizes in prop::array::uniform3(-4.0f64..3.0),
-            wheels in prop::array::uniform4(-4.0f64..2.0),
-            overrides in prop::option::of((prop::array::uniform6(-1.0f64..3.0), prop::array::uniform3(-1.0f64..1.0))),
-            mass in prop::option::of(1e-3f64..1e5),
-            present in prop::array::uniform2(any::<bool>()),
-        ) {
-            let size = sizes.map(|e| 10f64.powf(e));
-            let mut input = samples::table_two();
-            input.parts[0].wall_thickness_m = Some(size[0]);
-            input.parts[0].outer_radius_m = Some(size[1]);
-            input.parts[0].length_m = Some(size[2]);
-            input.body.mass_kg = mass;
-            for i in 0..2 {
-                input.wheels[i].radius_m = Some(10f64.powf(wheels[2 * i]));
-                input.wheels[i].position_m[2] = wheels[2 * i + 1];
-            }
-            let mut present = present.into_iter();
-            input.wheels.retain(|_| present.next() == Some(true));
-            if let Some(([a, b, c, d, e, f], center)) = overrides {
-                let (d, e, f) = (d - 1.0, e - 1.0, f - 1.0);
-                input.body.inertia_kg_m2 = Some([[a, d, e], [d, b, f], [e, f, c]]);
-                input.body.center_of_mass_m = Some(center);
-            }
-            if let Ok(Scene { mass, .. }) = Scene::resolve(&input) {
-                prop_assert!(mass.total.is_finite() && mass.total > 0.0);
-                prop_assert!(is_positive_definite(mass.inertia) && is_positive_definite(mass.inertia_free));
-                let (moments, _) = principal_axes(mass.inertia);
-                let trace: f64 = moments.iter().sum();
-                for moment in moments {
-                    prop_assert!(moment > 0.0);
-                    prop_assert!(moment <= trace - moment + 2.0 * INERTIA_SLACK * trace, "{:?}", moments);
-                }
-            }
         }
     }
 }

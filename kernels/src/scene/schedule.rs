@@ -193,38 +193,4 @@ mod tests {
             schedule.iter().map(|arc| [arc.applied.motor_torque[0], arc.applied.motor_torque[1]]).collect();
         assert_eq!(torques, [[4.25, 0.0], [0.0, 0.0], [-3.75, 0.0]], "no bias where nothing is commanded");
     }
-
-    #[test]
-    fn torques_are_those_of_the_wheels_that_turn() {
-        let mut input = samples::table_two();
-        input.actuation = vec![ActuationInput::idle(0.0, 1.0).with_torque(&[0.0, 2.0])];
-        input.wheels[0].mode = crate::scene::WheelMode::Locked;
-        let scene = Scene::resolve(&input).expect("a legal schedule");
-        assert_eq!(scene.schedule[0].applied.motor_torque[..2], [2.0, 0.0]);
-        assert_eq!((scene.mass.wheels.len(), scene.initial.wheel_rates[0]), (1, input.wheels[1].rate_rad_s));
-    }
-
-    #[test]
-    fn a_misaligned_thruster_pushes_where_it_points() {
-        let mut input = samples::table_two();
-        input.thrusters[1].tilt_rad = [0.1, 0.0];
-        let scene = Scene::resolve(&input).expect("a legal scene");
-        // -s3 turned about s1: towards +s2; at (0, -0.5, 3), 1.5 above c
-        let (sine, cosine) = libm::sincos(0.1);
-        let thrust = |thrust: &[f64]| crate::scene::Actuation::none(1.0).with_thrust(thrust).thrust;
-        let force = scene.thruster_force_s(thrust(&[0.0, 10.0]));
-        // an ulp of 10 N is 1.8e-15, and of the torques below 3.6e-15 N m
-        assert!((force[1] - 10.0 * sine).abs() < 4e-15 && (force[2] + 10.0 * cosine).abs() < 4e-15, "{force:?}");
-        let torque = scene.thruster_torque_s(thrust(&[0.0, 10.0]));
-        assert!((torque[0] - (0.5 * 10.0 * cosine - 1.5 * 10.0 * sine)).abs() < 1e-14, "{torque:?}");
-        // the general form is the plain one without tilt
-        let aligned = Scene::resolve(&samples::table_two()).expect("a legal scene");
-        let mut nearly = aligned.clone();
-        nearly.thrusters[0].direction[0] = 1e-300;
-        let thrust = thrust(&[10.0, 20.0, 35.0]);
-        for (a, b) in aligned.thruster_torque_s(thrust).into_iter().zip(nearly.thruster_torque_s(thrust)) {
-            // 1e-300 of the direction is below the smallest rounding
-            assert!((a - b).abs() < 1e-15);
-        }
-    }
 }

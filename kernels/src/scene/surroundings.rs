@@ -91,7 +91,6 @@ pub(super) fn check_keys(environment: &EnvironmentInput, problems: &mut Problems
     check_air_table(environment, problems);
 }
 
-/// Checks the table of the air's density.
 fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
     const KEYS: [&str; 2] = ["environment.air_heights_m", "environment.air_densities_kg_m3"];
     let lists = [environment.air_heights_m, environment.air_densities_kg_m3];

@@ -56,7 +56,6 @@ impl Ord for Key {
     }
 }
 
-/// Row `index`, counted through `parts`.
 const fn row_of<T>(parts: &'static [&'static [Row<T>]], index: usize) -> &'static Row<T> {
     let (mut part, mut index) = (0, index);
     while index >= parts[part].len() {
@@ -299,7 +298,6 @@ impl Key {
     }
 }
 
-/// A scene with every table at its defaults.
 fn with_every_table() -> SceneInput {
     let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
     let plate = PlateInput { name: Name::of("plate"), ..PlateInput::DEFAULT };

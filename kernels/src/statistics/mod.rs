@@ -1,10 +1,4 @@
 //! Layer 2: statistics of many runs: pure functions of numbers.
-//!
-//! - [`moments`], [`quantile`], [`sketch`] (on [`carries`]), [`spread`]: one column. [`deviation`]: buckets.
-//! - [`student`], [`mean`], [`jackknife`], [`binomial`], [`replicates`], [`share_within`]: intervals.
-//! - [`gate`]: decisions on requirements. [`looks`]: stopping. [`two_sample`]: comparison of two campaigns.
-//! - [`correlation`], [`regression`], [`sensitivity`], [`contingency`], [`rank_tests`], [`conditional`]: influence of
-//!   inputs.
 
 pub mod binomial;
 pub mod carries;

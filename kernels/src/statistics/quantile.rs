@@ -99,25 +99,6 @@ pub fn runs_for_interval(p: f64, confidence: f64) -> u64 {
     runs_for_bound(p, 0.5 + 0.5 * confidence)
 }
 
-/// The smallest number of runs whose extremes enclose at least the fraction `p` of the distribution with `confidence`:
-/// 93 for 95/95 (Wilks, Ann. Math. Statist. 12 (1941) 91): 1 - n p^(n-1) + (n-1) p^n >= confidence.
-pub fn runs_for_tolerance_interval(p: f64, confidence: f64) -> u64 {
-    let encloses = |n: u64| {
-        let n = n as f64;
-        n * libm::pow(p, n - 1.0) - (n - 1.0) * libm::pow(p, n) <= 1.0 - confidence
-    };
-    let (mut low, mut high) = (1, 2);
-    while !encloses(high) {
-        low = high;
-        high *= 2;
-    }
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if encloses(middle) { high = middle } else { low = middle }
-    }
-    high
-}
-
 /// The smallest whole number near `estimate` that is `enough`, so that rounding of a logarithm does not decide.
 fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
     let mut n = (estimate.floor() as u64).saturating_sub(1).max(1);
@@ -193,7 +174,6 @@ mod tests {
         assert_eq!(runs_for_bound(0.95, 0.95), 59);
         assert_eq!(runs_for_bound(0.05, 0.95), 59);
         assert_eq!(runs_for_interval(0.95, 0.95), 72);
-        assert_eq!(runs_for_tolerance_interval(0.95, 0.95), 93);
         assert_eq!(runs_for_bound(0.9987, 0.9), 1771);
         assert_eq!(upper_rank(59, 0.95, 0.05), Some(59));
         assert_eq!(upper_rank(58, 0.95, 0.05), None);
@@ -225,33 +205,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    /// H0: the interval covers with its binomial probability: 20,000 samples of 40 uniform numbers, fixed seed;
-    /// two-sided at 4 standard errors, alpha = 6e-5. A shift of one rank changes the coverage by 0.08: power 1.
-    #[test]
-    fn coverage_is_the_binomial_probability() {
-        const SAMPLES: u32 = 20_000;
-        let (count, p) = (40, 0.7);
-        let ranks = interval_ranks(count, p, 0.9);
-        let (Some(lower), Some(upper)) = (ranks.lower, ranks.upper) else { panic!("{ranks:?}") };
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut uniform = || {
-            // SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014)
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = state;
-            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        let mut covered = 0;
-        for _ in 0..SAMPLES {
-            let mut values: Vec<f64> = (0..count).map(|_| uniform()).collect();
-            values.sort_by(f64::total_cmp);
-            covered += u32::from(values[lower as usize - 1] <= p && p <= values[upper as usize - 1]);
-        }
-        let (expected, found) = (coverage(count, p, ranks), f64::from(covered) / f64::from(SAMPLES));
-        let error = libm::sqrt(expected * (1.0 - expected) / f64::from(SAMPLES));
-        assert!((found - expected).abs() < 4.0 * error, "{found} {expected}");
     }
 }

@@ -166,35 +166,6 @@ mod tests {
         assert_eq!(kruskal_wallis(&ranks, &[0; 12], 1), None);
     }
 
-    /// H0: each test finds independent columns dependent in at most 5% of 2,000 studies, also with heavy ties and few
-    /// events; 1.4% is three standard deviations of the count.
-    #[test]
-    fn independent_columns_are_seldom_called_dependent() {
-        let mut random = Uniform(11);
-        let mut wrong = [0_u32; 5];
-        for _ in 0..2000 {
-            let x: Vec<f64> = (0..120).map(|_| random.next()).collect();
-            let y: Vec<f64> = (0..120).map(|_| random.next()).collect();
-            let tied: Vec<f64> = y.iter().map(|y| (y * 3.0).floor()).collect();
-            let few: Vec<bool> = y.iter().map(|y| *y < 0.05).collect();
-            let group: Vec<usize> = x.iter().map(|x| (x * 4.0) as usize).collect();
-            let p_values = [
-                mann_whitney(&mid_ranks(&x), &few).map_or(1.0, |found| found.p_value),
-                kruskal_wallis(&mid_ranks(&y), &group, 4).expect("a test"),
-                kruskal_wallis(&mid_ranks(&tied), &group, 4).expect("a test"),
-                spearman_test(&mid_ranks(&x), &mid_ranks(&y))[1],
-            ];
-            for (wrong, p_value) in wrong.iter_mut().zip(p_values) {
-                *wrong += u32::from(p_value <= 0.05);
-            }
-            // a monotonic influence never turns
-            let curve: Vec<f64> = x.iter().zip(&y).map(|(x, y)| libm::exp(3.0 * x) + y).collect();
-            wrong[4] += u32::from(turns(&ascending_order(&x), &x, &curve, 0.05));
-        }
-        assert!(wrong.iter().all(|count| *count <= 128) && wrong[4] <= 4, "{wrong:?}");
-        assert!(wrong[..4].iter().all(|count| *count > 50), "no test is needlessly careful: {wrong:?}");
-    }
-
     /// Law: a V turns if its point is within the middle three quarters of the range; a line, a step and noise do not.
     #[test]
     fn a_v_turns() {

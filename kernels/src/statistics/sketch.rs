@@ -67,7 +67,6 @@ struct Places {
 }
 
 impl Places {
-    /// In a sketch about `reference`.
     fn about(reference: f64) -> Self {
         let sign = if reference == 0.0 { 0.0 } else { reference.signum() };
         Places { reference, sign, half: 0.5 * reference.abs() }
@@ -415,14 +414,6 @@ mod tests {
         assert_eq!(sketch.min(), Some(exact(&values, 1e-9)));
     }
 
-    /// Counter-test: a quantile of the wrong rank breaks the bound.
-    #[test]
-    fn a_wrong_rank_breaks_the_bound() {
-        let values: Vec<f64> = (0..20_000).map(spread).collect();
-        let (got, want) = (sketch(&values).quantile(0.51).unwrap(), exact(&values, 0.5));
-        assert!((got - want).abs() > RELATIVE_ERROR * want.abs());
-    }
-
     /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, quantiles are
     /// within the relative error of their neighbours.
     #[test]
@@ -545,13 +536,6 @@ mod tests {
         }
         // between neighbours of type 7: 99 intervals of 0.1 of 999, a rounding of the interpolation
         assert!((ranks.quantile(0.1).unwrap() - 699.3).abs() <= 699.3 * f64::EPSILON);
-    }
-
-    #[test]
-    fn infinities_keep_their_ranks() {
-        let sketch = sketch(&[f64::NEG_INFINITY, 1.0, f64::INFINITY]);
-        assert_eq!(sketch.quantile(0.3), Some(f64::NEG_INFINITY));
-        assert_eq!(sketch.quantile(1.0), Some(f64::INFINITY));
     }
 
     #[test]

@@ -1,22 +1,42 @@
-//! `changing_effects!`: structs of the effects that change within an arc, generated from the list in the parent module.
+//! `effects!`: the list of effects, and the structs of those that change within an arc.
 
-/// Generates the structs from the list of effect files:
+/// Generates [`super::Effect`] and the structs from the list:
 ///
 /// ```text
-/// series { file: Constants, Series; }
-/// evaluated { file: Constants; }
+/// constant, of_orbit { Effect: form, key, condition; }
+/// series { Effect: file, Series, [begin_arc, set_arc]?, key, condition; }
+/// evaluated { Effect: file, [begin_arc, set_arc]?, key, condition; }
 /// ```
 ///
-/// `Constants<R>`: `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane, &Constants<f64>)`, `torque(&Motion<R>)` in B, N m. The
-/// form `Evaluated` also has `force(&Motion<R>)` in B, N, and branches ([`crate::ode::switches`]): `is_rough(zero)`,
+/// An effect that changes within an arc has a type of its own name in `file`, with `NEEDS_ORBIT`, `none(zero)`,
+/// `set_lane(lane, &Effect<f64>)`, `torque(&Motion<R>)` in B, N m. If it has constants of an arc (the dipole of the
+/// torque rods), `begin_arc(dipole)` sets them and `set_arc(lane, &Effect<f64>)` copies them. The form `Evaluated` also
+/// has `force(&Motion<R>)` in B, N, and branches ([`crate::ode::switches`]): `is_rough(zero)`,
 /// `switches(&[Motion<R>; M], visit)`, `choose_branches(lanes, &Motion<R>)`. `Series<R>`: `new(zero, order)`,
-/// `NEEDS_POSITION`, `begin(&Constants<R>, time, unit)`, `extend(n, &MotionSeries<R>)`, the n-th coefficient of the
+/// `NEEDS_POSITION`, `begin(&Effect<R>, time, unit)`, `extend(n, &MotionSeries<R>)`, the n-th coefficient of the
 /// torque in the unit of time. Functions of the file: `of(zero, scene, c_sb)`, the constants in the frame B (`c_sb`
 /// maps it to F_s), `None` if the effect does not act; `largest_torque(scene)`, an upper bound, N m;
 /// `largest_rate(scene)`, the fastest motion that it causes, rad/s.
-macro_rules! changing_effects {
-    (series { $($series:ident: $Of:ident, $Series:ident;)* } evaluated { $($evaluated:ident: $Evaluated:ident;)* }) => {
-        changing_effects::changing_effects! { all { $($series: $Of;)* $($evaluated: $Evaluated;)* } }
+macro_rules! effects {
+    (
+        constant { $($(#[$constant_doc:meta])* $Constant:ident: $constant_form:ident, $constant_key:literal,
+            $constant_acts:expr;)* }
+        series { $($(#[$series_doc:meta])* $Of:ident: $series:ident, $Series:ident, [$($of_arc:ident),*],
+            $series_key:literal, $series_acts:expr;)* }
+        evaluated { $($(#[$evaluated_doc:meta])* $Evaluated:ident: $evaluated:ident, [$($evaluated_arc:ident),*],
+            $evaluated_key:literal, $evaluated_acts:expr;)* }
+        of_orbit { $($(#[$orbit_doc:meta])* $OfOrbit:ident: $orbit_form:ident, $orbit_key:literal,
+            $orbit_acts:expr;)* }
+    ) => {
+        changing_effects::effects! { enum {
+            $($(#[$constant_doc])* $Constant: $constant_form, $constant_key, $constant_acts;)*
+            $($(#[$series_doc])* $Of: Series, $series_key, $series_acts;)*
+            $($(#[$evaluated_doc])* $Evaluated: Evaluated, $evaluated_key, $evaluated_acts;)*
+            $($(#[$orbit_doc])* $OfOrbit: $orbit_form, $orbit_key, $orbit_acts;)*
+        } }
+        changing_effects::effects! {
+            all { $($series: $Of, [$($of_arc),*];)* $($evaluated: $Evaluated, [$($evaluated_arc),*];)* }
+        }
 
         impl<R: $crate::math::Real> ChangingEffects<R> {
             /// True if an effect with branches acts.
@@ -185,12 +205,39 @@ macro_rules! changing_effects {
             }
         }
     };
-    (all { $($file:ident: $Constants:ident;)* }) => {
+    (enum { $($(#[$doc:meta])* $Effect:ident: $form:ident, $key:literal, $acts:expr;)* }) => {
+        /// An effect.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Effect { $($(#[$doc])* $Effect,)* }
+
+        impl Effect {
+            /// All effects.
+            pub const ALL: [Effect; [$($key),*].len()] = [$(Effect::$Effect),*];
+
+            /// The key that makes it act.
+            pub const fn key(self) -> &'static str {
+                match self { $(Effect::$Effect => $key,)* }
+            }
+
+            /// Its role in an engine.
+            pub const fn form(self) -> Form {
+                match self { $(Effect::$Effect => Form::$form,)* }
+            }
+
+            fn acts(self, facts: &Facts<'_>) -> bool {
+                let acts: fn(&Facts<'_>) -> bool = match self { $(Effect::$Effect => $acts,)* };
+                acts(facts)
+            }
+        }
+    };
+    (all { $($file:ident: $Constants:ident, [$($begin_arc:ident, $set_arc:ident)?];)* }) => {
+        $(pub mod $file;)*
+
         /// Constants of the effects that change within an arc, one run per lane; `None` for inactive effects.
         #[derive(Clone, Copy, Debug)]
         pub struct ChangingEffects<R> {
             $(
-                #[doc = concat!("That of `", stringify!($file), "`.")]
+                #[doc = concat!("The constants of `", stringify!($file), "`.")]
                 pub $file: Option<$file::$Constants<R>>,
             )*
             /// True if their forces move the centre of mass.
@@ -229,6 +276,26 @@ macro_rules! changing_effects {
                 self.is_coupled |= own.is_coupled;
             }
 
+            /// Starts an arc with the dipole `dipole()` of the torque rods, B, A m^2.
+            #[inline(always)]
+            pub fn begin_arc(&mut self, dipole: impl Fn() -> [R; 3]) {
+                $($(
+                    if let Some(effect) = &mut self.$file {
+                        effect.$begin_arc(dipole());
+                    }
+                )?)*
+            }
+
+            /// Copies the constants of the present arc of `own` into lane `lane`.
+            #[inline(always)]
+            pub fn set_arc(&mut self, lane: usize, own: &ChangingEffects<f64>) {
+                $($(
+                    if let (Some(effect), Some(own)) = (&mut self.$file, &own.$file) {
+                        effect.$set_arc(lane, own);
+                    }
+                )?)*
+            }
+
             /// Sum of the torques, B, N m.
             #[inline(always)]
             pub fn torque(&self, motion: &within_arcs::Motion<R>) -> [R; 3] {
@@ -255,4 +322,4 @@ macro_rules! changing_effects {
         }
     };
 }
-pub(super) use changing_effects;
+pub(super) use effects;

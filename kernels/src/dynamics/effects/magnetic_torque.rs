@@ -139,37 +139,3 @@ pub fn largest_rate(scene: &Scene) -> f64 {
     let (moments, _) = principal_axes(scene.mass.inertia);
     (torque / moments[0].min(moments[1]).min(moments[2])).sqrt()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dynamics::orbit_state::OrbitState;
-    use crate::math::vector::{difference, dot};
-    use crate::scene::{Epoch, FieldModel};
-
-    /// Law: two poles of the charge q at +-d/2 feel +-q B, a couple of m x B with m = q d; none along the field; rods
-    /// add to the dipole.
-    #[test]
-    fn a_magnet_turns_towards_the_field() {
-        let field = MagneticField::new(FieldModel::Igrf, Epoch::parse("2026-11-24T00:00:00Z").expect("a date"));
-        let position = [3.1e6, -4.7e6, 4.2e6];
-        let field_e = field.at(10.0, position);
-        for k in 0..10 {
-            let (s, c) = libm::sincos(0.37 * f64::from(k));
-            let attitude = [c * 0.6, s * 0.8, c * 0.8, -s * 0.6];
-            let place = OrbitState { position, velocity: [0.0; 3], distance: norm(position) };
-            let motion = Motion { time: 10.0, attitude, rate: [0.0; 3], place };
-            let residual = [0.3, -0.2, 0.1];
-            let mut torque = MagneticTorque { field, residual, dipole: residual };
-            torque.begin_arc([0.1, 0.2, 0.3]);
-            let c_eb = dcm_from_quaternion(attitude);
-            let pull: [f64; 3] = transposed_product(c_eb, field_e);
-            let arms = [[0.2, 0.0, 0.2], [-0.2, 0.0, -0.2]];
-            let couple = sum(cross(arms[0], pull), cross(arms[1], pull.map(|x| -x)));
-            assert!(norm(difference(torque.torque(&motion), couple)) < 1e-15 * norm(couple));
-            torque.residual = pull;
-            torque.begin_arc([0.0; 3]);
-            assert!(norm(torque.torque(&motion)) < 1e-15 * dot(pull, pull));
-        }
-    }
-}

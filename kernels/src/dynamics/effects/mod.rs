@@ -1,55 +1,25 @@
-//! Effects: what acts on a spacecraft beside its actuators, under a schedule and under any law alike.
+//! Effects: forces and torques on a spacecraft other than its actuators, under a schedule and under any law alike.
 //!
-//! Each effect is one file, and its lines in the list here; its parameters are keys of `[environment]` and `[orbit]`
-//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine says which [`Form`]s
-//! of effects it integrates (`propagation::integrated_effects`); a run is not given to an engine that leaves one out.
-//!
-//! - `constant_torque`: constant in F_s: a part of every arc of constant actuation, so that all methods have it.
-//! - [`gravity_gradient`]: depends on attitude and position.
-//! - [`magnetic_torque`]: depends on attitude, position, date and the torque rods.
-//! - [`drag`], [`solar_pressure`]: act on plates ([`plates`]), which turn on and off.
-//! - [`within_arcs`]: the effects that change within an arc, as the equations of motion have them, and what they depend
-//!   on; `changing_effects` makes them from the list.
+//! An effect is one file and one row of the list below; its parameters are keys of `[environment]` and `[orbit]`
+//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine declares the [`Form`]s
+//! that it integrates (`propagation::integrated_effects`), and refuses a run with any other.
 //!
 //! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only
-//! those that act, and its orbit only where one of them needs it.
+//! those that act, and its orbit only if one of them needs it.
 
 mod changing_effects;
 mod constant_torque;
-pub mod drag;
-pub mod gravity_gradient;
-pub mod magnetic_torque;
 pub mod plates;
-pub mod solar_pressure;
 pub mod within_arcs;
 
 use super::actuation::sum;
 use crate::math::vector::dot;
 use crate::scene::{Actuation, EnvironmentInput, Offsets, Scene, SceneInput};
 
-/// An effect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Effect {
-    /// `environment.body_torque_n_m`.
-    ConstantTorque,
-    /// `environment.gravity_gradient`.
-    GravityGradient,
-    /// `environment.magnetic_dipole_a_m2`, and `[[torque_rods]]`.
-    MagneticTorque,
-    /// `environment.drag`.
-    Drag,
-    /// `environment.solar_pressure`.
-    SolarPressure,
-    /// `[orbit]`: the force of gravity on the centre of mass.
-    Gravity,
-    /// `[orbit]` with thrusters or debris: gravity beside the orbit is another than on it.
-    Tide,
-}
-
-/// What an effect is to an engine.
+/// The role of an effect in an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Form {
-    /// A torque that is constant over an arc, and a part of it.
+    /// A torque that is constant over an arc, and part of it.
     Constant,
     /// A torque that changes within an arc, with recurrences for its Taylor series.
     Series,
@@ -57,70 +27,43 @@ pub enum Form {
     Evaluated,
     /// A motion of the centre of mass in closed form, which turns nothing.
     Translation,
-    /// A force that depends on the offset from that motion, and turns nothing; with recurrences for its Taylor series.
+    /// A force that depends on the offset from that motion and turns nothing, with recurrences for its Taylor series.
     Force,
 }
 
-impl Effect {
-    /// All effects.
-    pub const ALL: [Effect; 7] = [
-        Effect::ConstantTorque,
-        Effect::GravityGradient,
-        Effect::MagneticTorque,
-        Effect::Drag,
-        Effect::SolarPressure,
-        Effect::Gravity,
-        Effect::Tide,
-    ];
-
-    /// The key that makes it act.
-    pub const fn key(self) -> &'static str {
-        match self {
-            Effect::ConstantTorque => "environment.body_torque_n_m",
-            Effect::GravityGradient => "environment.gravity_gradient",
-            Effect::MagneticTorque => "environment.magnetic_dipole_a_m2",
-            Effect::Drag => "environment.drag",
-            Effect::SolarPressure => "environment.solar_pressure",
-            Effect::Gravity | Effect::Tide => "orbit",
-        }
-    }
-
-    /// What it is to an engine.
-    pub const fn form(self) -> Form {
-        match self {
-            Effect::ConstantTorque => Form::Constant,
-            Effect::GravityGradient => Form::Series,
-            Effect::MagneticTorque => Form::Series,
-            Effect::Drag => Form::Evaluated,
-            Effect::SolarPressure => Form::Evaluated,
-            Effect::Gravity => Form::Translation,
-            Effect::Tide => Form::Force,
-        }
-    }
-
-    /// Whether it acts in `environment`: on an orbit or on none, which the bodies may leave or not, with torque rods or
-    /// without.
-    const fn acts_in(self, environment: &EnvironmentInput, [is_on_orbit, may_leave, has_rods]: [bool; 3]) -> bool {
-        match self {
-            Effect::ConstantTorque => environment.body_torque_n_m.is_some(),
-            Effect::GravityGradient => environment.gravity_gradient,
-            Effect::MagneticTorque => environment.magnetic_dipole_a_m2.is_some() || has_rods,
-            Effect::Drag => environment.drag,
-            Effect::SolarPressure => environment.solar_pressure,
-            Effect::Gravity => is_on_orbit,
-            Effect::Tide => may_leave,
-        }
-    }
+/// Properties of a scene that decide which effects act.
+struct Facts<'a> {
+    environment: &'a EnvironmentInput,
+    is_on_orbit: bool,
+    /// True if a body may leave the orbit.
+    may_leave: bool,
+    has_rods: bool,
 }
 
-changing_effects::changing_effects! {
+changing_effects::effects! {
+    constant {
+        /// `environment.body_torque_n_m`.
+        ConstantTorque: Constant, "environment.body_torque_n_m", |facts| facts.environment.body_torque_n_m.is_some();
+    }
     series {
-        gravity_gradient: GravityGradient, GradientSeries;
-        magnetic_torque: MagneticTorque, MagneticSeries;
+        /// `environment.gravity_gradient`.
+        GravityGradient: gravity_gradient, GradientSeries, [], "environment.gravity_gradient",
+            |facts| facts.environment.gravity_gradient;
+        /// `environment.magnetic_dipole_a_m2`, and `[[torque_rods]]`.
+        MagneticTorque: magnetic_torque, MagneticSeries, [begin_arc, set_arc], "environment.magnetic_dipole_a_m2",
+            |facts| facts.environment.magnetic_dipole_a_m2.is_some() || facts.has_rods;
     }
     evaluated {
-        drag: Drag;
-        solar_pressure: SolarPressure;
+        /// `environment.drag`.
+        Drag: drag, [], "environment.drag", |facts| facts.environment.drag;
+        /// `environment.solar_pressure`.
+        SolarPressure: solar_pressure, [], "environment.solar_pressure", |facts| facts.environment.solar_pressure;
+    }
+    of_orbit {
+        /// `[orbit]`: the force of gravity on the centre of mass.
+        Gravity: Translation, "orbit", |facts| facts.is_on_orbit;
+        /// `[orbit]` with thrusters or debris: gravity away from the orbit differs from gravity on it.
+        Tide: Force, "orbit", |facts| facts.may_leave;
     }
 }
 
@@ -134,49 +77,56 @@ impl ForceModel {
 
     /// The effects on `scene`.
     pub fn of(scene: &Scene) -> Self {
-        let facts = [scene.orbit.is_some(), scene.offsets.is_some(), !scene.torque_rods.is_empty()];
-        Self::acting(&scene.environment, facts)
+        Self::acting(&Facts {
+            environment: &scene.environment,
+            is_on_orbit: scene.orbit.is_some(),
+            may_leave: scene.offsets.is_some(),
+            has_rods: !scene.torque_rods.is_empty(),
+        })
     }
 
-    /// Those that act on the scenes of `input`.
+    /// The effects on the scenes of `input`.
     pub fn of_input(input: &SceneInput) -> Self {
-        let facts = [input.orbit.is_some(), Offsets::of(input).is_some(), !input.torque_rods.is_empty()];
-        Self::acting(&input.environment, facts)
+        Self::acting(&Facts {
+            environment: &input.environment,
+            is_on_orbit: input.orbit.is_some(),
+            may_leave: Offsets::of(input).is_some(),
+            has_rods: !input.torque_rods.is_empty(),
+        })
     }
 
-    fn acting(environment: &EnvironmentInput, facts: [bool; 3]) -> Self {
-        let acts = |effect: &Effect| effect.acts_in(environment, facts);
-        Effect::ALL.into_iter().filter(acts).fold(Self::NONE, Self::with)
+    fn acting(facts: &Facts<'_>) -> Self {
+        Effect::ALL.into_iter().filter(|effect| effect.acts(facts)).fold(Self::NONE, Self::with)
     }
 
-    /// These and one more.
+    /// The model with `effect`.
     #[must_use]
     pub const fn with(self, effect: Effect) -> Self {
         ForceModel(self.0 | 1 << effect as u32)
     }
 
-    /// Whether `effect` is among them.
+    /// True if the model has `effect`.
     pub const fn contains(self, effect: Effect) -> bool {
         self.0 & (1 << effect as u32) != 0
     }
 
-    /// The effects.
+    /// The effects, in the order of the list.
     pub fn effects(self) -> impl Iterator<Item = Effect> {
         Effect::ALL.into_iter().filter(move |effect| self.contains(*effect))
     }
 
-    /// Whether every effect has a form that `integrated` says yes to.
+    /// True if every effect has an `integrated` form.
     pub fn is_integrated(self, integrated: impl Fn(Form) -> bool) -> bool {
         self.effects().all(|effect| integrated(effect.form()))
     }
 
-    /// Whether an effect changes within an arc and the kernel has it: all but those in closed form.
+    /// True if an effect changes within an arc and must be in the kernel: all but those in closed form.
     pub fn changes_within_arcs(self) -> bool {
         self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated | Form::Force))
     }
 }
 
-/// Adds the effects on `scene` that are constant over an arc to what is `applied` by the actuators.
+/// Adds the effects on `scene` that are constant over an arc to `applied`, the actuation.
 #[inline]
 pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
     if scene.environment.body_torque_n_m.is_some() {
@@ -184,7 +134,7 @@ pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
     }
 }
 
-/// The environment of a run whose arcs are known to contain the constant effects: that of the run without them.
+/// `environment` without the effects that flown arcs already contain.
 pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
     EnvironmentInput { body_torque_n_m: None, ..environment }
 }

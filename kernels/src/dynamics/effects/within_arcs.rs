@@ -1,7 +1,7 @@
 //! Effects that change within an arc: their arguments ([`Motion`], [`MotionSeries`]) and their interface to the
 //! equations of motion, [`NoEffects`] or [`Acting`].
 //!
-//! `changing_effects!` generates the constants and series of all effects from the list in the parent module.
+//! `effects!` generates the constants and series of all effects from the list in the parent module.
 
 use super::ChangingEffects;
 use super::ChangingSeries;
@@ -320,9 +320,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
 
     #[inline(always)]
     fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>) {
-        if let (Some(torque), Some(own)) = (&mut self.effects.magnetic_torque, &run.effects.magnetic_torque) {
-            torque.set_arc(lane, own);
-        }
+        self.effects.set_arc(lane, &run.effects);
     }
 
     #[inline(always)]

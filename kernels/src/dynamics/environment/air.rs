@@ -201,8 +201,6 @@ impl<R: Real> Air<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Isa;
-    use crate::math::isa::WideWork;
 
     const SCALE_HEIGHTS: [f64; 28] = [
         7.249, 6.349, 6.682, 7.554, 8.382, 7.714, 6.549, 5.799, 5.382, 5.877, 7.263, 9.473, 12.636, 16.149, 22.523,
@@ -228,98 +226,5 @@ mod tests {
 
     fn vallado(index: usize) -> [f64; 2] {
         [AirTable::VALLADO.heights[index] / 1e3, AirTable::VALLADO.densities[index]]
-    }
-
-    /// Law: the density falls with height, without jumps.
-    #[test]
-    fn the_density_is_continuous() {
-        for [height, density] in (0..28).map(vallado) {
-            assert_eq!(AirTable::VALLADO.density(1e3 * height), density);
-            let below = AirTable::VALLADO.density(1e3 * height - 1e-3);
-            assert!(below >= density && below / density - 1.0 < 1e-6, "{height}: {below:e}");
-        }
-    }
-
-    /// Law: a table of two heights is one exponential, everywhere; the outer layers of three heights extend.
-    #[test]
-    fn a_table_of_an_exponential_is_the_exponential() {
-        let (base, scale) = (4e5, 6.1e4);
-        let exact = |height: f64| 3e-12 * libm::exp((base - height) / scale);
-        let densities: [f64; 2] = [exact(3e5), exact(7e5)];
-        let table = AirTable { heights: &[3e5, 7e5], densities: Vec::leak(densities.to_vec()) };
-        let keys = Air::new(1.0, 6.4e6, [3e-12, base, scale], AirTable::VALLADO);
-        for height in [1e5, 3e5, 3.5e5, 6.9e5, 7e5, 2e6] {
-            let found = table.density(height);
-            assert!((found / exact(height) - 1.0).abs() < 1e-14, "{height}: {found:e}");
-            assert!((found / keys.density(6.4e6 + height) - 1.0).abs() < 1e-14, "{height}: {found:e}");
-        }
-        let bent = AirTable { heights: &[2e5, 3e5, 4e5], densities: &[1e-10, 1e-11, 1e-13] };
-        for (height, expected) in [(1e5, 1e-9), (2.5e5, 10f64.powf(-10.5)), (3.5e5, 1e-12), (5e5, 1e-15)] {
-            let found = bent.density(height);
-            assert!((found / expected - 1.0).abs() < 1e-14, "{height}: {found:e}");
-        }
-    }
-
-    /// Law: each lane has the table of its run.
-    #[test]
-    fn every_lane_has_its_table() {
-        struct Lanes([AirTable; 3]);
-        impl WideWork for Lanes {
-            type Output = ();
-            fn run<S: fearless_simd::Simd, R: Real + Send + 'static>(self, _simd: S, zero: R) {
-                let table = |lane: usize| self.0[lane % 3];
-                let height = |lane: usize| 2.2e5 + 3e4 * lane as f64;
-                let (mut air, mut distance) = (Air::none(zero), zero);
-                for lane in 0..R::LANES {
-                    air.set_lane(lane, &Air::new(1.0, 6.4e6, [0.0; 3], table(lane)));
-                    distance.set_lane(lane, 6.4e6 + height(lane));
-                }
-                let free = air.density(distance);
-                air.choose_branches(!distance.never(), distance);
-                let chosen = air.density(distance);
-                for lane in 0..R::LANES {
-                    assert_eq!(free.lane(lane), table(lane).density(height(lane)), "{lane}");
-                    assert_eq!(chosen.lane(lane), table(lane).density(height(lane)), "{lane}");
-                }
-            }
-        }
-        let bent = AirTable { heights: &[2e5, 3e5, 4e5], densities: &[1e-10, 1e-11, 1e-13] };
-        let thin = AirTable { heights: &[1e5, 5e5], densities: &[1e-8, 1e-13] };
-        Isa::best().run_wide(Lanes([bent, AirTable::VALLADO, thin]));
-    }
-
-    /// Law: a chosen layer agrees with the table inside and extends outside; its switch functions vanish at its ends,
-    /// and the last layer has one end.
-    #[test]
-    fn a_layer_that_was_chosen_goes_on() {
-        let surface = 6.4e6;
-        for (height, [base, top], is_last) in [(430e3, [400e3, 450e3], false), (1200e3, [1000e3, 1e9], true)] {
-            let mut air = Air::new(1.0, surface, [0.0; 3], AirTable::VALLADO);
-            let table = air.density(surface + height);
-            air.choose_branches(true, surface + height);
-            assert_eq!(air.density(surface + height), table);
-            let margins = |height: f64| {
-                let mut found = Vec::new();
-                air.switches(&[surface + height], &mut |[margin]| found.push(margin));
-                found
-            };
-            assert!(margins(base + 1.0)[0] > 0.0 && margins(base - 1.0)[0] < 0.0);
-            assert!(margins(top - 1.0)[1] > 0.0 && (is_last || margins(top + 1.0)[1] < 0.0));
-            let [low, high] = [base - 2e4, base - 1e4].map(|height| libm::log(air.density(surface + height)));
-            let [near, far] = [base + 1e4, base + 2e4].map(|height| libm::log(air.density(surface + height)));
-            assert!(((high - low) - (far - near)).abs() < 1e-12, "{low} {high} {near} {far}");
-        }
-    }
-
-    /// Law: air at the equator moves with the ground, 465 m/s, and adds to the speed of a retrograde spacecraft.
-    #[test]
-    fn the_air_turns_with_the_earth() {
-        let place =
-            OrbitState { position: [6_378_137.0, 0.0, 0.0], velocity: [0.0, -7000.0, 10.0], distance: 6_378_137.0 };
-        let relative = Air::relative_velocity(&place);
-        assert!((relative[1] + 7465.101).abs() < 1e-3 && relative[0] == 0.0 && relative[2] == 10.0, "{relative:?}");
-        let exponential = Air::new(2.0, 6e6, [1e-11, 3e5, 5e4], AirTable::VALLADO);
-        let found = exponential.density(6.35e6);
-        assert!((found / (2e-11 * libm::exp(-1.0)) - 1.0).abs() < 1e-15, "{found:e}");
     }
 }

@@ -13,7 +13,6 @@ use crate::math::Real;
 /// Rotation rate of the Earth, rad/s (IERS Conventions 2010, table 1.2: nominal mean).
 pub const EARTH_RATE: f64 = 7.292115e-5;
 
-/// `f` of each lane and its numbers.
 #[inline(always)]
 fn each_lane<R: Real, const K: usize>(numbers: [R; K], f: impl Fn(usize, [f64; K]) -> f64) -> R {
     let mut results = numbers[0];

@@ -159,42 +159,6 @@ mod tests {
         lit(shadow, position, &sun, RADIUS)
     }
 
-    /// Law: the edges are where the share leaves 1 and reaches 0, to rounding of angles; a zone has the share of the
-    /// sky, and extends beyond its edges.
-    #[test]
-    fn the_zones_meet_at_their_edges() {
-        let sun = Sun { direction: [1.0, 0.0, 0.0], distance: 0.99 };
-        let place = |beside: f64| [-7e6, 0.6 * beside, 0.8 * beside];
-        for (shadow, index) in [(Shadow::Cone, 0), (Shadow::Cone, 1), (Shadow::Cylinder, 0)] {
-            let edge = |beside: f64| edges(shadow, place(beside), &sun, RADIUS)[index];
-            let (mut low, mut high) = (0.9 * RADIUS, 1.1 * RADIUS);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if edge(middle) < 0.0 { low = middle } else { high = middle }
-            }
-            // the share near an edge grows with the power 3/2 of the distance: 1 m is 1e-7 of the disc
-            let [inside, outside] = [low - 1.0, high + 1.0].map(|beside| lit(shadow, place(beside), &sun, RADIUS));
-            let expected = if index == 0 && matches!(shadow, Shadow::Cone) { [0, 1] } else { [1, 0] };
-            if matches!(shadow, Shadow::Cone) {
-                assert!([inside, outside][expected[1]] == [1.0, 0.0][index], "{inside} {outside}");
-                let off = ([inside, outside][expected[0]] - [1.0, 0.0][index]).abs();
-                assert!(off > 0.0 && off < 1e-6, "{off:e}");
-            } else {
-                assert_eq!([inside, outside], [0.0, 1.0]);
-            }
-            let mut zone = Zone::none(0.0);
-            for (from, value) in [(low - 10.0, inside), (high + 10.0, outside)] {
-                zone.choose_branches(true, shadow, place(from), &sun, RADIUS);
-                assert!(zone.switches(shadow, place(from), &sun, RADIUS).iter().all(|margin| *margin > 0.0));
-                let own = zone.lit(shadow, place(if value == inside { low - 1.0 } else { high + 1.0 }), &sun, RADIUS);
-                assert_eq!(own, value);
-            }
-            zone.choose_branches(true, shadow, place(high + 10.0), &sun, RADIUS);
-            assert!(zone.switches(shadow, place(low - 10.0), &sun, RADIUS)[index] < 0.0);
-        }
-        assert_eq!(edges(Shadow::Cone, [7e6, 0.0, 0.0], &sun, RADIUS).map(|edge| edge > 0.0), [true; 2]);
-    }
-
     /// Law: the cylinder is as wide as the Earth; umbra and penumbra differ from it by |r| tan(0.2666 deg); half of the
     /// disc is visible near the edge of the cylinder; the share has no jump.
     #[test]

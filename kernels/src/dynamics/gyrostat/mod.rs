@@ -21,11 +21,6 @@
 //! Everything is in the *principal frame* B of K (F_s if J* is diagonal): omega_i' is one product of two rates plus
 //! linear terms. Torques and thrusts are constant between switches, h_i is linear in time and not integrated.
 //!
-//! - [`Gyrostat`]: constants, initial state and arcs of a run. [`wheel`]: rate, momentum and angle of its wheels.
-//! - [`equations`]: the right-hand side in lanes. [`completion`]: physical [`crate::run::StateTable`]. [`observed`]:
-//!   the state shown to a law.
-//! - `time_scale`: the time scale of the motion.
-//!
 //! Not here: Taylor recurrences of the same equations (`propagation::taylor`), the debris (`super::debris`).
 
 pub mod completion;
@@ -274,10 +269,8 @@ impl<R: Real> Gyrostat<R> {
 
     #[inline(always)]
     fn switch_rods(&mut self, arc: &Arc) {
-        if self.effects.magnetic_torque.is_some() {
-            let rods = self.rods_b(arc);
-            self.effects.magnetic_torque.iter_mut().for_each(|torque| torque.begin_arc(rods));
-        }
+        let (c_sb, dipole) = (self.c_sb, constant(self.mass, arc.applied.dipole));
+        self.effects.begin_arc(|| c_sb.map_or(dipole, |c_sb| transposed_product(c_sb, dipole)));
     }
 
     /// Starts the next arc of a run of `scene`.

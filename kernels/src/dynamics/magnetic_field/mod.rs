@@ -132,7 +132,6 @@ impl<R: Real> MagneticField<R> {
         sin_cos_turns(turns - turns.nearest_integer())
     }
 
-    /// Weights of the harmonics of index `index` at the date.
     #[inline(always)]
     fn weights(&self, index: usize) -> [R; 6] {
         let Tables { middle, after, before } = self.tables;
@@ -178,7 +177,6 @@ pub fn largest(distance: f64) -> f64 {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::math::isa::{Isa, WideWork};
     use crate::math::vector::{difference, norm};
 
     /// Dates, times in s, positions in m, and fields in nT in F_e: `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year, 2, r,
@@ -245,46 +243,6 @@ pub(super) mod tests {
             assert!(off(FieldModel::Dipole, dipole) < 0.2, "{date}: {:?} {dipole:?}", found(FieldModel::Dipole));
             assert!(off(FieldModel::Dipole, field) > 0.02 * size, "{date}: a dipole is not the field");
             assert!(1e-9 * size < largest(norm(position)));
-        }
-    }
-
-    /// Law: a lane has the field of its own date and model, bit for bit.
-    #[test]
-    fn lanes_do_not_share_a_field() {
-        let fields: Vec<(MagneticField<f64>, f64, [f64; 3])> = (0..8)
-            .map(|lane| {
-                let (date, time, position, ..) = TRUTH[lane % 5];
-                let model = if lane % 3 == 0 { FieldModel::Dipole } else { FieldModel::Igrf };
-                (MagneticField::new(model, epoch(date)), time + 7.0 * lane as f64, position)
-            })
-            .collect();
-        Isa::best().run_wide(Together(&fields));
-    }
-
-    struct Together<'a>(&'a [(MagneticField<f64>, f64, [f64; 3])]);
-
-    impl WideWork for Together<'_> {
-        type Output = ();
-        fn run<S: fearless_simd::Simd, R: Real + Send + 'static>(self, _simd: S, zero: R) {
-            together(zero, self.0);
-        }
-    }
-
-    fn together<R: Real>(zero: R, fields: &[(MagneticField<f64>, f64, [f64; 3])]) {
-        let (mut all, mut times, mut positions) = (MagneticField::none(zero), zero, [zero; 3]);
-        for (lane, (field, time, position)) in fields.iter().enumerate().take(R::LANES) {
-            all.set_lane(lane, field);
-            times.set_lane(lane, *time);
-            for i in 0..3 {
-                positions[i].set_lane(lane, position[i]);
-            }
-        }
-        let found = all.at(times, positions);
-        for (lane, (field, time, position)) in fields.iter().enumerate().take(R::LANES) {
-            let alone = field.at(*time, *position);
-            for i in 0..3 {
-                assert_eq!(found[i].lane(lane).to_bits(), alone[i].to_bits(), "lane {lane}");
-            }
         }
     }
 }

@@ -16,12 +16,6 @@
 //! nu = Pi nu-hat (58), q-dot = Gamma nu (9), M-hat = Pi^T M Pi (25), and `M-hat nu-hat-dot = Pi^T (-M-dot nu - M
 //! Pi-dot nu-hat - Omega M nu + a_non + B u)` (39).
 //!
-//! - [`state`]: layout of the components, Sigma (59). [`parameters`]: constants of a scene.
-//! - [`kinematics`]: S, Gamma, Pi, Pi-dot. [`mass_matrix`]: M-hat and its Cholesky solution. [`forces`]: M-dot, Omega,
-//!   a_non, B.
-//! - [`kernel`]: the right-hand side. [`mod@residuals`]: constraints (27)-(34). [`energy`]: kinetic energies (36).
-//!   [`completion`]: table of physical states.
-//!
 //! `tests/accuracy/null_space.rs` proves that this block form equals Berdoz's printed matrices. Not here: the fast
 //! reduced form ([`super::gyrostat`]), integration.
 

@@ -218,14 +218,6 @@ mod tests {
     use crate::scene::samples;
 
     #[test]
-    fn components_and_state_are_the_same_thing() {
-        let x: [f64; components(2)] = std::array::from_fn(|i| i as f64 + 0.5);
-        assert_eq!(State::<2>::from_components(&x).components(), x);
-        let y: [f64; components(8)] = std::array::from_fn(|i| i as f64 + 0.5);
-        assert_eq!(State::<8>::from_components(&y).components(), y);
-    }
-
-    #[test]
     fn sigma_turns_wheels_as_the_report_has_it() {
         let mut input = samples::table_two();
         input.wheels[0].angle_rad = 0.3;

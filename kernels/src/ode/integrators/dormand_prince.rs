@@ -184,28 +184,3 @@ impl PointsInside for DormandPrinceRestepped {
         end.state
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::still::Still;
-    use super::*;
-    use crate::ode::tableau::trees::largest_defect;
-
-    /// Round-off of the conditions on the weights; measured 9e-16.
-    const ROUND_OFF: f64 = 8e-15;
-
-    #[test]
-    fn dense_output_of_dormand_prince_has_order_4() {
-        for s in [0.1, 0.3, 0.5, 0.77, 1.0] {
-            let unit: [[f64; 7]; 7] = std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
-            let start = Carried { state: [0.0; 7], carry: [0.0; 7] };
-            let step = Step { time: 0.0, end: 1.0, length: 1.0 };
-            let weights = <DormandPrince as Embedded>::inside(&Still, step, s, &start, &unit);
-            assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 4) < ROUND_OFF);
-            if s < 1.0 {
-                // the next order is not met; measured 5.2e-4 or more
-                assert!(largest_defect(&DormandPrinceTableau::A, &weights, s, 5) > 5e-5);
-            }
-        }
-    }
-}

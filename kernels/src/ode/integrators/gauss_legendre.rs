@@ -29,7 +29,6 @@ pub struct GaussLegendre;
 
 type Stages<R, const N: usize> = [[R; N]; 3];
 
-/// Lagrange polynomial of node `i` among `i`, `j`, `l`, at `x`.
 #[inline(always)]
 fn lagrange<R: Real>(x: R, i: usize, j: usize, l: usize) -> R {
     let c = GaussLegendreTableau::C;

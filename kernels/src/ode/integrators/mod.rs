@@ -57,9 +57,6 @@ integrators! {
 
 pub use dormand_prince::DormandPrinceRestepped;
 
-#[cfg(test)]
-mod still;
-
 impl Integrator {
     /// True if it takes fixed steps (`integrator.step_s`) instead of following the tolerance.
     pub fn has_fixed_step(self) -> bool {

@@ -38,22 +38,10 @@ mod tests {
     }
 
     #[test]
-    fn dormand_prince_has_order_5() {
+    fn tableaus_have_their_orders() {
         orders::<DormandPrinceTableau, 7>(5);
-    }
-
-    #[test]
-    fn dop853_has_order_8() {
         orders::<Dop853Tableau, 16>(8);
-    }
-
-    #[test]
-    fn runge_kutta_4_has_order_4() {
         orders::<RungeKutta4Tableau, 4>(4);
-    }
-
-    #[test]
-    fn gauss_legendre_has_order_6_and_keeps_quadratic_invariants() {
         orders::<GaussLegendreTableau, 3>(6);
         // Cooper 1987: b_i a_ij + b_j a_ji = b_i b_j.
         let (a, b) = (GaussLegendreTableau::A, GaussLegendreTableau::B);
@@ -66,13 +54,10 @@ mod tests {
     }
 
     #[test]
-    fn the_last_stage_is_the_first_of_the_next_step() {
+    fn embedded_solutions_have_their_orders() {
+        // the last stage is the first of the next step
         assert_eq!(DormandPrinceTableau::A[6], DormandPrinceTableau::B);
         assert_eq!(Dop853Tableau::A[12], Dop853Tableau::B);
-    }
-
-    #[test]
-    fn embedded_solutions_have_their_orders() {
         let embedded = std::array::from_fn(|i| DormandPrinceTableau::B[i] - DormandPrinceTableau::E[i]);
         assert!(largest_defect(&DormandPrinceTableau::A, &embedded, 1.0, 4) < ROUND_OFF);
         // measured: 8.1e-4

@@ -43,7 +43,6 @@ pub struct Scratch<R> {
     turned_force: [[R; 4]; MAX_ORDER],
     /// q (x) tau.
     turned_torque: [[R; 4]; MAX_ORDER],
-    /// Force in F_e.
     force_e: [[R; 3]; MAX_ORDER],
 }
 

@@ -73,7 +73,6 @@ impl SeriesLane {
         waiting.since + 2 + (waiting.since - self.begun) / 4
     }
 
-    /// Steps of the run up to step `clock`.
     pub(super) fn steps(&self, clock: usize) -> u64 {
         let until = self.waiting.map_or(clock, |waiting| waiting.since);
         self.steps_before + (until - self.begun) as u64

@@ -44,7 +44,6 @@ pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
 }
 
 impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLanes<'a, S, R, E, N, J> {
-    /// Empty lanes for `runs` with arcs from `arcs`.
     #[inline(always)]
     pub(super) fn new(
         (simd, zero): (S, R),
@@ -118,7 +117,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.detector.set(lane, None);
     }
 
-    /// Begins the next arc in `lane`.
     #[inline(never)]
     pub(super) fn begin_arc(&mut self, lane: usize) {
         self.simd.vectorize(
@@ -186,14 +184,12 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         turn_squared(&alone, self.vectors.omega(lane), length) >= 1.0
     }
 
-    /// Sets the next observation point of the arc in `lane`.
     #[inline(always)]
     pub(super) fn set_next_point(&mut self, lane: usize) {
         let Some(state) = &self.states[lane] else { return };
         self.vectors.next_point.set_lane(lane, state.next_point(self.grid));
     }
 
-    /// Writes a point of the lanes `due`.
     #[inline(always)]
     pub(super) fn write_points(&mut self, rows: &[[f64; WIDEST]; N], due: R::Mask) {
         for lane in 0..R::LANES {
@@ -227,7 +223,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.idle(lane);
     }
 
-    /// Evaluates the kept points of `lane`.
     #[inline(never)]
     pub(super) fn evaluate_kept(&mut self, lane: usize, until: Until) {
         let Some(state) = &mut self.states[lane] else { return };
@@ -254,7 +249,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.pass_on(lane, &state, (Status::Done, self.grid.duration(), self.grid.points()), finish);
     }
 
-    /// Passes on a failed run.
     #[cold]
     pub(super) fn fail(&mut self, lane: usize, status: Status, finish: &mut RunCallback<'_>) {
         self.flush_points(lane);

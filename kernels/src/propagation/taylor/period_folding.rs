@@ -220,7 +220,6 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// State at the end of the arc of `share` with the period `period`.
     #[inline(always)]
     pub(super) fn state_at_end<const N: usize>(&self, share: &FoldedLane, period: &Period) -> [f64; N] {
         let FoldedLane { lane, state, end, .. } = share;
@@ -256,7 +255,6 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
     }
 }
 
-/// Growth of the angle in `lane` over one period, from its first and last series.
 #[inline(always)]
 fn angle_growth<R: Real, const J: usize>(
     first: &Segment<R, J>,

@@ -64,32 +64,3 @@ impl PointRows {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_point_arrives_wherever_an_arc_begins_and_ends() {
-        for first in 0..2 * WIDTH {
-            for end in first..first + 20 {
-                let mut rows = PointRows::new(WIDEST, 3);
-                let mut trajectory = Trajectory::new(3, 40);
-                trajectory.fill_after(0, -1.0);
-                for point in first..end {
-                    let number =
-                        |component: usize| std::array::from_fn(|lane| (1000 * lane + 100 * component + point) as f64);
-                    rows.push(5, point, &[number(0), number(1), number(2)], &mut trajectory);
-                }
-                rows.flush::<3>(5, &mut trajectory);
-                for point in 0..40 {
-                    let expected = |component: usize| match (first..end).contains(&point) {
-                        true => (5000 + 100 * component + point) as f64,
-                        false => -1.0,
-                    };
-                    assert_eq!(trajectory.at(point), [expected(0), expected(1), expected(2)], "{first}..{end} {point}");
-                }
-            }
-        }
-    }
-}

@@ -256,7 +256,6 @@ impl NarrowWork for Integration<'_, '_> {
 }
 
 impl Integration<'_, '_> {
-    /// Starts the arc at `time`, from the components `state` in units of `unit` seconds.
     pub(super) fn begin_arc(&mut self, time: f64, unit: f64, state: &[DoubleDouble; N]) {
         let duration = self.grid.duration();
         let Some(scene) = self.scene else {

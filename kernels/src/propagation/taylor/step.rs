@@ -184,12 +184,6 @@ fn rate_squared<R: Real, const N: usize>(coefficients: &[R; N]) -> R {
 mod tests {
     use super::*;
 
-    #[test]
-    fn order_follows_jorba_and_zou() {
-        assert_eq!([1e-16, 1e-8, 1e-4].map(|tolerance| StepRule::new(tolerance).order), [20, 11, 6]);
-        assert_eq!([1e-16, 1e-8, 1e-4].map(|tolerance| StepRule::in_f64(tolerance).order), [22, 15, 10]);
-    }
-
     /// The majorant (1 - t/rho)^(-s) of the attitude, at the step of the rule with the full share of the radius.
     #[test]
     fn the_first_term_left_out_of_the_attitude_meets_the_tolerance() {

@@ -245,7 +245,6 @@ fn node(m: usize, i: usize) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::gyrostat::WITH_ATTITUDE;
 
     #[test]
     fn rules_integrate_polynomials_of_degree_2m_minus_1() {
@@ -258,64 +257,6 @@ mod tests {
             // but not of the next degree: the test can fail
             let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::pow(x, 2.0 * m as f64)).sum();
             assert!(m > 8 || (sum - 1.0 / (2.0 * m as f64 + 1.0)).abs() > 1e-13, "{m} nodes");
-        }
-    }
-
-    #[test]
-    fn the_error_of_a_turning_vector_is_the_stated_one() {
-        for (m, turn) in [(3, 1.0), (5, 2.0), (6, 3.0)] {
-            let sum: f64 = (0..m).map(|i| node(m, i)).map(|(x, w)| w * libm::cos(turn * (x - 0.5))).sum();
-            let exact = 2.0 / turn * libm::sin(0.5 * turn);
-            let ratio = (sum - exact).abs() / error(m, turn);
-            assert!((0.5..1.1).contains(&ratio), "{m} nodes over {turn}: {ratio}");
-        }
-    }
-
-    #[test]
-    fn nodes_follow_the_tolerance() {
-        for (tolerance, step, half) in [(1e-4, 5, 4), (1e-8, 7, 5), (1e-12, 9, 7), (1e-15, 10, 8), (1e-16, 9, 7)] {
-            let quadrature = Quadrature::new(0.0, &StepRule::in_f64(tolerance), tolerance);
-            assert_eq!([quadrature.step.len(), quadrature.half.len()], [step, half], "{tolerance}");
-        }
-    }
-
-    /// Law: increments until a point are the same from either end of the step.
-    #[test]
-    fn a_point_is_reached_from_the_nearer_end() {
-        let (tolerance, zero) = (1e-14, 0.0_f64);
-        let rule = StepRule::in_f64(tolerance);
-        let mut quadrature = Quadrature::new(zero, &rule, tolerance);
-        let force = [3.0, -1.0, 2.0];
-        let constants = Constants { force, torque: [0.5, 2.0, -1.0], ..Constants::zero(zero) };
-        // rotation about s1 at a constant rate: q = (cos, sin, 0, 0) of half the angle
-        let rate = 3.0;
-        let mut jet = vec![[zero; WITH_ATTITUDE]; rule.order + 1];
-        for (n, coefficients) in jet.iter_mut().enumerate() {
-            let size = libm::pow(0.5 * rate, n as f64) / (1..=n).map(|k| k as f64).product::<f64>();
-            let sign = if n % 4 < 2 { 1.0 } else { -1.0 };
-            coefficients[ATTITUDE + n % 2] = sign * size;
-        }
-        let length = rule.largest_turn() / rate;
-        let whole = quadrature.over_step(&constants, &jet, length);
-        for share in [0.1, 0.4, 0.6, 0.9, 1.0] {
-            let x = share * length;
-            let found = quadrature.until(&constants, &jet, (length, &whole), x);
-            let alone = quadrature.over_step(&constants, &jet, x);
-            // the integral of the rotation about s1 by rate t, and its integral
-            let (sine, cosine) = (libm::sin(rate * x) / rate, (1.0 - libm::cos(rate * x)) / rate);
-            let exact = [force[0] * x, force[1] * sine - force[2] * cosine, force[1] * cosine + force[2] * sine];
-            let again = (x - sine) / rate;
-            let path = [
-                force[0] * x * x / 2.0,
-                force[1] * cosine / rate - force[2] * again,
-                force[1] * again + force[2] * cosine / rate,
-            ];
-            for i in 0..3 {
-                // roundings of sums of some ten terms of size four
-                assert!((found.impulse[i] - exact[i]).abs() < 2e-14, "{share} {i}: {}", found.impulse[i] - exact[i]);
-                assert!((found.path[i] - path[i]).abs() < 2e-14, "{share} {i}: {}", found.path[i] - path[i]);
-                assert!((found.angular[i] - alone.angular[i]).abs() < 2e-14, "{share} {i}");
-            }
         }
     }
 }

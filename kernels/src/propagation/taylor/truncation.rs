@@ -53,7 +53,6 @@ pub(super) struct Truncation<R> {
 }
 
 impl<R: Real> Truncation<R> {
-    /// No steps yet, by `rule`, in the lanes of `zero`.
     pub(super) fn new(zero: R, rule: &StepRule) -> Self {
         let order = rule.order;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
@@ -69,7 +68,6 @@ impl<R: Real> Truncation<R> {
         }
     }
 
-    /// The sums of the run in `lane`.
     pub(super) fn sums(&self, lane: usize) -> TruncationSums {
         let directed = self.farthest.lane(lane).sqrt() + self.squares.lane(lane).sqrt();
         TruncationSums { rate: self.rate.lane(lane) + directed, turn: self.turn.lane(lane) }
@@ -84,7 +82,6 @@ impl<R: Real> Truncation<R> {
         rescale(&mut self.squares, ratio * ratio);
     }
 
-    /// Sets the sums of the run in `lane`.
     pub(super) fn set(&mut self, lane: usize, sums: TruncationSums) {
         self.rate.set_lane(lane, sums.rate);
         self.turn.set_lane(lane, sums.turn);

@@ -240,19 +240,4 @@ mod tests {
         let wrong = Scene::resolve(&scene.with("control.gain_n_m", &[-1.0])).expect_err("below zero");
         assert_eq!(wrong[0].key, "control.gain_n_m");
     }
-
-    /// Law: tables of a list have keys of their own, by the name of the table.
-    #[test]
-    fn parameters_of_sensors_are_found_by_the_name_of_the_sensor() {
-        let sensor = |name: &str| DeclaredTable::of(Name::of(name), &DECLARED[1..]);
-        let control = ControlInput { sensors: vec![sensor("gyro"), sensor("spare")], ..ControlInput::NONE };
-        let mut scene = SceneInput { control, ..SceneInput::default() };
-        scene = scene.with("sensors.spare.bias_rad_s.z", &[0.25]).with("sensors.gyro.ratio", &[2.0]);
-        assert_eq!(scene.control.sensors[0].values, [0.0, 0.0, 0.0, 2.0]);
-        assert_eq!(scene.control.sensors[1].values, [0.0, 0.0, 0.25, 0.7]);
-        let (bias, _) = Parameter::find(&scene, "sensors.spare.bias_rad_s").expect("declared");
-        assert_eq!(bias.column_name(2), "sensors_spare_bias_z_rad_s");
-        let wrong = Scene::resolve(&scene.with("sensors.gyro.ratio", &[-1.0])).expect_err("below zero");
-        assert_eq!(wrong[0].key, "sensors.gyro.ratio");
-    }
 }

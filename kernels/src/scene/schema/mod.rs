@@ -5,12 +5,6 @@
 //! [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the field
 //! where it acts.
 //!
-//! - [`body`], [`part`], [`mass_errors`], [`wheel`], [`thruster`], [`torque_rod`], [`debris`], [`initial`], [`orbit`],
-//!   [`environment`], [`plate`], [`actuators`], [`actuation`], [`failure`]: the rows, table by table; [`control`]:
-//!   those that a control law declares.
-//! - [`row`]: what a row is. [`sizes`]: how many devices there are at most. [`limit`]: what a value must satisfy.
-//!   [`numbers`]: values seen as plain numbers.
-//!
 //! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several
 //! instances.
 //!
