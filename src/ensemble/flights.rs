@@ -14,7 +14,7 @@ use crate::ensemble::surface;
 use crate::math::Isa;
 use crate::math::vector::dot;
 use crate::observables::nominal_attitude::NominalAttitude;
-use crate::observables::{Group, LawSeries, Observer, Request};
+use crate::observables::{FlownRun, Group, LawSeries, Observer, Request};
 use crate::propagation::{CompletedRun, Engine, PropagationSettings};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
@@ -248,7 +248,7 @@ pub fn observe(
 ) -> Status {
     let status = match plan.law {
         None => observer.observe(isa, scene, run.table, run.outcome, row),
-        Some(_) => observer.observe_flown(isa, (scene, run.arcs, of_law), run.table, run.outcome, row),
+        Some(_) => observer.observe_flown(isa, &FlownRun { scene, arcs: run.arcs, of_law }, run.table, run.outcome, row),
     };
     if !scene.failures.is_empty() {
         let request = observer.request();

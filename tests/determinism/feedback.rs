@@ -7,7 +7,7 @@ use crate::support::runs::{Bits, METHODS, everything};
 use crate::support::scenes::{WHEELS, many_wheels, mixed};
 use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
 use spindrift::math::Isa;
-use spindrift::observables::{Groups, Observer};
+use spindrift::observables::{FlownRun, Groups, Observer};
 use spindrift::ode::Control;
 use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
@@ -152,7 +152,7 @@ fn a_torque_on_a_held_wheel_changes_no_bit() {
 type Observe = fn(&mut Observer, Isa, &Scene, &CompletedRun<'_>, &mut [f64]);
 
 fn flown(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {
-    observer.observe_flown(isa, (scene, run.arcs, &[]), run.table, run.outcome, row);
+    observer.observe_flown(isa, &FlownRun { scene, arcs: run.arcs, of_law: &[] }, run.table, run.outcome, row);
 }
 
 fn scheduled(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {

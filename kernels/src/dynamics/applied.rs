@@ -26,7 +26,7 @@ pub fn next_arc(
 ) -> Arc {
     let Some(law) = law else { return scheduled_arc(scene, time, duration) };
     let (body, wheels) = state();
-    law_arc(scene, law, time, (&body, &wheels), duration)
+    law_arc(scene, law, time, &body, &wheels, duration)
 }
 
 /// The arc by `law` at `time` in the state `state`. Motors of missing wheels and of wheels of constant speed take no
@@ -39,7 +39,8 @@ pub fn law_arc(
     scene: &Scene,
     law: &mut dyn ActuationLaw,
     time: f64,
-    (body, wheels): (&BodyState, &WheelState),
+    body: &BodyState,
+    wheels: &WheelState,
     duration: f64,
 ) -> Arc {
     let mut arc = Arc { start: time, applied: law.arc(time, body, wheels) };

@@ -74,7 +74,7 @@ impl<R: Real> OrbitSeries<R> {
             pull[n] = next_of_power(-1.5, n, square, pull);
         }
         if let Some(k) = oblateness {
-            flattened.extend(n, k, (position, square, pull));
+            flattened.extend(n, k, position, square, pull);
         }
         let strength: &[R] = if oblateness.is_some() { &flattened.all } else { pull };
         if n + 2 < position.len() {
@@ -151,7 +151,7 @@ impl<R: Real> OrbitSeries<R> {
 impl<R: Real> Flattened<R> {
     /// Computes the coefficients n for the oblateness `k` (m^2) from those of r, rho and s.
     #[inline(always)]
-    fn extend(&mut self, n: usize, k: R, (position, square, pull): (&[[R; 3]], &[R], &[R])) {
+    fn extend(&mut self, n: usize, k: R, position: &[[R; 3]], square: &[R], pull: &[R]) {
         let zero = k.zero();
         if n == 0 {
             let inverse = zero.splat(1.0) / square[0];

@@ -122,7 +122,7 @@ impl BandSeries {
         let shows = |column: &Column| column.value.of(self.series);
         let otherwise = if LawSeries::place(self.series).is_some() { Group::Control } else { Group::Motion };
         let group = request.columns().into_iter().find(shows).map_or(otherwise, |column| column.group);
-        Window::new((self.series, group, self.is_change), is_highest, times)
+        Window::new(self.series, group, self.is_change, is_highest, times)
     }
 }
 

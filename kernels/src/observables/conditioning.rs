@@ -79,6 +79,17 @@ const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 /// Factor on the rounding of a component if principal axes are computed first.
 const TURNED: f64 = 4.0;
 
+/// The states of a run and the method's estimates of their errors.
+#[derive(Clone, Copy)]
+pub(super) struct ObservedStates<'a> {
+    pub(super) table: &'a StateTable,
+    /// Times of the points of the table, s.
+    pub(super) times: &'a [f64],
+    /// Number of points that have states, at least one.
+    pub(super) filled: usize,
+    pub(super) local: &'a LocalErrors,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ErrorEstimate {
     /// Estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
@@ -146,25 +157,22 @@ impl Conditioning {
         }
     }
 
-    /// The estimate for a run under `acting`; `local` are the method's estimates. `times` are those of the table's
-    /// points, of which the first `filled` >= 1 have states.
+    /// The estimate for a run under `acting`.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
         simd: S,
         acting: Acting<'_>,
-        table: &StateTable,
-        times: &[f64],
-        filled: usize,
-        local: &LocalErrors,
+        states: ObservedStates<'_>,
     ) -> ErrorEstimate {
+        let ObservedStates { table, times, filled, local } = states;
         let body = Body::of(acting, table, times[filled - 1]);
         let Some(growth) = torque_growth::growth(acting.scene(), table, times, filled) else {
-            return self.estimate_of(simd, &body, Some(acting), table, times, filled, local);
+            return self.estimate_of(simd, &body, Some(acting), states);
         };
         let stirred = HALF_ROUNDING * growth.stirred;
         let local = LocalErrors { rounding: local.rounding + stirred, ..*local };
-        let found = self.estimate_of(simd, &body, Some(acting), table, times, filled, &local);
+        let found = self.estimate_of(simd, &body, Some(acting), ObservedStates { local: &local, ..states });
         let Some(followed) = growth.followed else {
             let error = lesser(found.error * growth.beside, LOST);
             return ErrorEstimate { error, amplification: lesser(found.amplification * growth.beside, MOST) };
@@ -175,34 +183,28 @@ impl Conditioning {
         ErrorEstimate { error: lesser(followed * made, LOST).larger(found.error), amplification }
     }
 
-    /// The estimate for the debris of inertia `inertia`; otherwise as [`Conditioning::estimate`].
+    /// The estimate for the debris of inertia `inertia`.
     #[inline(always)]
     pub(super) fn estimate_debris<S: Simd>(
         &mut self,
         simd: S,
         inertia: [[f64; 3]; 3],
-        table: &StateTable,
-        times: &[f64],
-        filled: usize,
-        local: &LocalErrors,
+        states: ObservedStates<'_>,
     ) -> ErrorEstimate {
-        self.estimate_of(simd, &Body::debris(inertia), None, table, times, filled, local)
+        self.estimate_of(simd, &Body::debris(inertia), None, states)
     }
 
-    #[expect(clippy::too_many_arguments, reason = "what both estimates have in common")]
     #[inline(always)]
     fn estimate_of<S: Simd>(
         &mut self,
         simd: S,
         body: &Body<'_>,
         acting: Option<Acting<'_>>,
-        table: &StateTable,
-        times: &[f64],
-        filled: usize,
-        local: &LocalErrors,
+        states: ObservedStates<'_>,
     ) -> ErrorEstimate {
+        let ObservedStates { table, filled, local, .. } = states;
         let last = filled - 1;
-        let [mut stride, mut count] = self.examine(simd, body, (table, times), [POINTS, last]);
+        let [mut stride, mut count] = self.examine(simd, body, states, POINTS);
         let (mut largest, mut widest, mut narrowest) = (0.0_f64, 0.0_f64, f64::INFINITY);
         for k in 0..count {
             largest = largest.larger(self.rate[k]);
@@ -211,7 +213,7 @@ impl Conditioning {
         }
         let is_near = narrowest < NEAR * widest && widest > STILL * largest;
         if is_near && stride > 1 {
-            [stride, count] = self.examine(simd, body, (table, times), [MOST_POINTS, last]);
+            [stride, count] = self.examine(simd, body, states, MOST_POINTS);
         }
         if largest == 0.0 {
             return ErrorEstimate { error: SAFETY * (local.rounding + local.attitude), amplification: 1.0 };
@@ -240,15 +242,11 @@ impl Conditioning {
         }
     }
 
-    /// Fills at most so many entries up to point `last`: the stride between points, and their number.
+    /// Fills at most `most` entries: the stride between points, and their number.
     #[inline(always)]
-    fn examine<S: Simd>(
-        &mut self,
-        simd: S,
-        body: &Body<'_>,
-        (table, times): (&StateTable, &[f64]),
-        [most, last]: [usize; 2],
-    ) -> [usize; 2] {
+    fn examine<S: Simd>(&mut self, simd: S, body: &Body<'_>, states: ObservedStates<'_>, most: usize) -> [usize; 2] {
+        let ObservedStates { table, times, filled, .. } = states;
+        let last = filled - 1;
         let stride = last.div_ceil(most - 1).max(1);
         let count = last.div_ceil(stride) + 1;
         for (k, time) in self.times[..count].iter_mut().enumerate() {
@@ -318,8 +316,7 @@ impl Conditioning {
         rate2.sqrt().store(&mut self.rate[first..]);
         wheels.larger(Lanes::broadcast(simd, body.wheels)).store(&mut self.wheels[first..]);
         // effect of relative errors of the components on H: in the axes of integration, or of any component if these
-        // axes
-        // are computed first
+        // axes are computed first
         let [[x, ..], [_, y, _], [.., z]] = body.inertia;
         let moments = constant(zero, [x, y, z]);
         let magnitudes = if body.is_principal {

@@ -160,7 +160,7 @@ impl<'a, const W: usize> Redundant<'a, W> {
             return None;
         }
         let body = &table.column(StateField::KineticEnergies, 0).as_chunks().0[..vectors];
-        Some(Redundant { body, wheels: of_wheels(table, (StateField::KineticEnergies, 1), vectors) })
+        Some(Redundant { body, wheels: of_wheels(table, StateField::KineticEnergies, 1, vectors) })
     }
 
     #[inline(always)]
@@ -199,7 +199,7 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
     let constants = Constants::<S, W>::of(simd, mass);
     let omega_columns: [_; 3] = needed(table, StateField::Rate, vectors);
     let wheels = count_of_wheels::<W>(mass.wheels.len());
-    let rate_columns: [_; W] = of_wheels(table, (StateField::WheelRates, 0), vectors);
+    let rate_columns: [_; W] = of_wheels(table, StateField::WheelRates, 0, vectors);
     let total = observed.has(Series::EnergyTotal);
     let inertial = [Series::EnergyBody, Series::EnergyWheel, Series::EnergyDebris];
     let inertial = inertial.into_iter().any(|series| observed.has(series));

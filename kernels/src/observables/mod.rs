@@ -10,7 +10,6 @@ mod attitude;
 pub mod band_reader;
 pub mod band_series;
 mod conditioning;
-mod correlation;
 mod energies;
 mod error_sums;
 pub mod exchange;
@@ -42,7 +41,7 @@ pub mod window;
 
 pub use group::{Group, Groups};
 pub use law_columns::{LawColumn, LawColumns, LawSeries};
-pub use observer::Observer;
+pub use observer::{FlownRun, Observer};
 pub use reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, ValueStatistic};
 pub use request::Request;
 pub use rows::ColumnKind;

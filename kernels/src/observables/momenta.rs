@@ -106,7 +106,7 @@ fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mu
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let attitude = Attitude::of(table, vectors);
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rates: [_; W] = of_wheels(table, (StateField::WheelRates, 0), vectors);
+    let rates: [_; W] = of_wheels(table, StateField::WheelRates, 0, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::AngularImpulse, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
     let (mut axes, mut axials) = ([constant(simd, [0.0; 3]); W], [Lanes::broadcast(simd, 0.0); W]);

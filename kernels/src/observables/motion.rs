@@ -55,7 +55,7 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
-    let rates: [_; MAX_WHEELS] = of_wheels(table, (StateField::WheelRates, 0), vectors);
+    let rates: [_; MAX_WHEELS] = of_wheels(table, StateField::WheelRates, 0, vectors);
     let inertia = constant_matrix(simd, mass.inertia);
     let zero = Lanes::broadcast(simd, 0.0);
     let (mut axials, mut axes) = ([zero; MAX_WHEELS], [[zero; 3]; MAX_WHEELS]);

@@ -7,7 +7,7 @@ use fearless_simd::Simd;
 use super::accuracy::Accuracy;
 use super::acting::Acting;
 use super::band_series::BandSeries;
-use super::conditioning::{Conditioning, ErrorEstimate};
+use super::conditioning::{Conditioning, ErrorEstimate, ObservedStates};
 use super::exchange::{BodyEnergy, Exchange, exchange};
 use super::finished_run::{FinishedRun, final_point, principal_moments};
 use super::group::Group;
@@ -30,6 +30,17 @@ use crate::math::Isa;
 use crate::math::isa::Work;
 use crate::run::{Grid, Outcome, StateTable, Status, points_to};
 use crate::scene::Scene;
+
+/// A run under a law.
+#[derive(Clone, Copy, Debug)]
+pub struct FlownRun<'a> {
+    /// Its scene, whose schedule does not count.
+    pub scene: &'a Scene,
+    /// Its arcs.
+    pub arcs: &'a ArcRecord,
+    /// Records of the law at the points, by series ([`super::LawSeries`]), or empty.
+    pub of_law: &'a [f64],
+}
 
 /// Observes runs on one grid; one per worker, without allocation.
 #[derive(Clone, Debug)]
@@ -116,29 +127,29 @@ impl Observer {
         outcome: &Outcome,
         row: &mut [f64],
     ) -> Status {
-        self.observe_acting(isa, (Acting::scheduled(scene), &[]), table, outcome, row)
+        self.observe_acting(isa, Acting::scheduled(scene), &[], table, outcome, row)
     }
 
-    /// As [`Observer::observe`], for a run under a law with the arcs `arcs` in place of the schedule of `scene`.
-    /// `of_law` are the records of the law at the points, by series ([`super::LawSeries`]), or empty.
+    /// As [`Observer::observe`], for a run under a law.
     ///
     /// # Panics
     /// As [`Observer::observe`].
     pub fn observe_flown(
         &mut self,
         isa: Isa,
-        (scene, arcs, of_law): (&Scene, &ArcRecord, &[f64]),
+        run: &FlownRun<'_>,
         table: &StateTable,
         outcome: &Outcome,
         row: &mut [f64],
     ) -> Status {
-        self.observe_acting(isa, (Acting::flown(scene, arcs), of_law), table, outcome, row)
+        self.observe_acting(isa, Acting::flown(run.scene, run.arcs), run.of_law, table, outcome, row)
     }
 
     fn observe_acting(
         &mut self,
         isa: Isa,
-        (acting, of_law): (Acting<'_>, &[f64]),
+        acting: Acting<'_>,
+        of_law: &[f64],
         table: &StateTable,
         outcome: &Outcome,
         row: &mut [f64],
@@ -224,7 +235,7 @@ impl Observer {
         for task in &self.tasks {
             let scale = task.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
             let out = self.statistics.of(task.series);
-            reduce(simd, weights, self.series.column(task.series), (task.passes, task.stored, scale), out);
+            reduce(simd, weights, self.series.column(task.series), task.passes, task.stored, scale, out);
         }
     }
 
@@ -292,12 +303,11 @@ impl Work for Observation<'_> {
             observer.find_exchange(simd);
         }
         if let Some(conditioning) = &mut observer.conditioning {
-            let times = &observer.times;
-            observer.estimate = conditioning.estimate(simd, acting, table, times, points, &outcome.local_errors);
+            let states = ObservedStates { table, times: &observer.times, filled: points, local: &outcome.local_errors };
+            observer.estimate = conditioning.estimate(simd, acting, states);
             if let Some(body) = debris {
-                let errors = &outcome.debris_errors;
-                observer.debris_estimate =
-                    conditioning.estimate_debris(simd, body.inertia, table, times, points, errors);
+                let states = ObservedStates { local: &outcome.debris_errors, ..states };
+                observer.debris_estimate = conditioning.estimate_debris(simd, body.inertia, states);
             }
         }
     }

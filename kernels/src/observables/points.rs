@@ -182,7 +182,8 @@ pub(super) fn columns<const N: usize>(
 #[inline(always)]
 pub(super) fn of_wheels<const W: usize>(
     table: &StateTable,
-    (field, first): (StateField, usize),
+    field: StateField,
+    first: usize,
     vectors: usize,
 ) -> [Column<'_>; W] {
     let mut columns: [Column<'_>; W] = [&[]; W];

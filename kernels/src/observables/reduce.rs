@@ -18,7 +18,9 @@ pub(super) fn reduce<S: Simd>(
     simd: S,
     weights: &Weights,
     column: &[f64],
-    (passes, stored, scale): (Passes, Stored, f64),
+    passes: Passes,
+    stored: Stored,
+    scale: f64,
     out: &mut [f64; Reduction::COUNT],
 ) {
     if passes.order.has_any() {

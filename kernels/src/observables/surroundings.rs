@@ -24,7 +24,7 @@ pub(super) fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Se
     }
     let light = Light::of(zero, run.scene).filter(|_| has([Series::SunHidden, Series::SolarTorqueSquare]));
     if let (Some(light), Some(pressure)) = (light, solar_pressure::of(zero, run.scene, None)) {
-        sunlight(simd, run, (&light, &pressure), out);
+        sunlight(simd, run, &light, &pressure, out);
     }
 }
 
@@ -50,7 +50,8 @@ fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, drag: &Drag<Lanes<S>>, out: &mut
 fn sunlight<S: Simd>(
     simd: S,
     run: &MeasuredRun<'_>,
-    (light, pressure): (&Light<Lanes<S>>, &SolarPressure<Lanes<S>>),
+    light: &Light<Lanes<S>>,
+    pressure: &SolarPressure<Lanes<S>>,
     out: &mut SeriesTable,
 ) {
     let (table, vectors) = (run.table, run.vectors());

@@ -45,7 +45,9 @@ pub struct Window {
 impl Window {
     /// The extreme of a series, or of its change since the start, in columns of `group`, from one time to another, s.
     pub(super) fn new(
-        (series, group, is_change): (Series, Group, bool),
+        series: Series,
+        group: Group,
+        is_change: bool,
         is_highest: bool,
         [from_s, to_s]: [Option<f64>; 2],
     ) -> Self {

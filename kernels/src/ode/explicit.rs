@@ -3,6 +3,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "iterators over lanes are not inlined always, see `each`")]
 
+use core::ops::Range;
+
 use core::marker::PhantomData;
 
 pub use super::step::Step;
@@ -131,7 +133,7 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills the stages `from..to` of `k` (stage zero is given) and writes the end of the step, the argument of stage
+/// Fills the stages `stages` of `k` (stage zero is given) and writes the end of the step, the argument of stage
 /// `closing`, to `end`; a `closing` of `S` leaves the end to the caller.
 #[inline(always)]
 pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
@@ -139,14 +141,15 @@ pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     step: Step<R>,
     start: &Carried<R, N>,
     k: &mut [[R; N]; S],
-    (from, to, closing): (usize, usize, usize),
+    stages: Range<usize>,
+    closing: usize,
     end: &mut Carried<R, N>,
 ) where
     T: Tableau<S>,
     R: Real,
     Q: System<R, N>,
 {
-    for i in from..to {
+    for i in stages {
         let slope = stage_slope::<T, R, N, S>(i, k);
         let argument = if i == closing {
             start.advance_into(step.length, &slope, end);

@@ -34,10 +34,10 @@ where
     let mut slots = LaneSlots::new();
     for lane in 0..R::LANES {
         let loaded = slots.load_lane(lane, runs, recorder);
-        lanes.start(lane, loaded, recorder.next_time(lane), (&mut stepper, control));
+        lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper, control);
     }
     let has_switches = !M::HAS_FIXED_STEP && runs.has_switches();
-    let mut switches = Switches::new(zero);
+    let mut switches = Switches::new(zero, control);
     let rough_weight = M::ERRORS.rough_weight(control.tolerance.relative);
     while slots.any_occupied() {
         if has_switches {
@@ -47,7 +47,7 @@ where
         let step = proposal.step;
         let mut attempt = stepper.attempt(&*runs, step, &mut lanes, &mut end);
         if has_switches {
-            switches.find(&*runs, &mut stepper, &mut lanes, (step, control), &mut attempt, &end.state);
+            switches.find(&*runs, &mut stepper, &mut lanes, step, &mut attempt, &end.state);
         }
         lanes.accepted += zero.indicator(attempt.accepted);
         lanes.rejected += zero.indicator(!attempt.accepted);
@@ -79,7 +79,7 @@ where
                     let time = lanes.time.lane(lane);
                     match runs.next_arc(lane, time, &lanes.state(lane)) {
                         Some(end) => {
-                            lanes.start_arc(lane, time, end, (&mut stepper, control));
+                            lanes.start_arc(lane, time, end, &mut stepper, control);
                             switches.start_arc(lane);
                         }
                         None => ended = Some(Termination::Completed),
@@ -95,7 +95,7 @@ where
                     recorder.finish(&*runs, lane, run, &lanes.completion(lane, termination));
                     slots.clear(lane);
                     let loaded = slots.load_lane(lane, runs, recorder);
-                    lanes.start(lane, loaded, recorder.next_time(lane), (&mut stepper, control));
+                    lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper, control);
                     switches.start_arc(lane);
                 }
             }

@@ -156,7 +156,8 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         lane: usize,
         loaded: Option<LoadedRun<N>>,
         next: f64,
-        (stepper, control): (&mut P, &Control),
+        stepper: &mut P,
+        control: &Control,
     ) {
         self.time.set_lane(lane, 0.0);
         self.accepted.set_lane(lane, 0.0);
@@ -177,7 +178,7 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         self.rejected.set_lane(lane, 0.0);
         self.next.set_lane(lane, next);
         stepper.start_run(lane);
-        self.start_arc(lane, 0.0, run.end, (stepper, control));
+        self.start_arc(lane, 0.0, run.end, stepper, control);
     }
 
     #[inline(always)]
@@ -186,7 +187,8 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         lane: usize,
         start: f64,
         end: f64,
-        (stepper, control): (&mut P, &Control),
+        stepper: &mut P,
+        control: &Control,
     ) {
         let before = self.attempts(lane);
         self.arc_start.set_lane(lane, start);

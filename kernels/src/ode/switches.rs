@@ -62,13 +62,25 @@ pub(super) struct Switches<R: Real> {
     next: R,
     /// Lanes whose present step replaces one.
     landing: R::Mask,
+    /// Smallest switch function at the end of such a step.
+    landed: R,
 }
 
 impl<R: Real> Switches<R> {
     #[inline(always)]
-    pub(super) fn new(zero: R) -> Self {
+    pub(super) fn new(zero: R, control: &Control) -> Self {
         let never = zero.never();
-        Switches { pending: !never, ahead: zero, cut: never, cuts: zero, whole: zero, next: zero, landing: never }
+        let landed = zero.splat(-(LANDED * control.tolerance.relative.sqrt()).max(NOISE));
+        Switches {
+            pending: !never,
+            ahead: zero,
+            cut: never,
+            cuts: zero,
+            whole: zero,
+            next: zero,
+            landing: never,
+            landed,
+        }
     }
 
     #[inline(always)]
@@ -111,7 +123,7 @@ impl<R: Real> Switches<R> {
         runs: &Q,
         stepper: &mut P,
         lanes: &mut StepperLane<R, N>,
-        (step, control): (Step<R>, &Control),
+        step: Step<R>,
         attempt: &mut Attempt<R>,
         end: &[R; N],
     ) where
@@ -121,8 +133,7 @@ impl<R: Real> Switches<R> {
         let (zero, one) = (self.cuts.zero(), self.cuts.splat(1.0));
         let open = attempt.accepted & self.cuts.lt(one.splat(MOST_CUTS));
         let margin = runs.margin(step.end, end);
-        let landed = one.splat(-(LANDED * control.tolerance.relative.sqrt()).max(NOISE));
-        let over = open & margin.lt(R::select(self.landing, landed, one.splat(-NOISE)));
+        let over = open & margin.lt(R::select(self.landing, self.landed, one.splat(-NOISE)));
         let [first, last] = stepper.slopes();
         let mut fraction = runs.dip(step, [[&lanes.now.state, first], [end, last]]);
         let cut = over | (open & fraction.lt(one));

@@ -63,7 +63,7 @@ impl<'a> ArcSource<'a> {
         };
         let wheels = gyrostat.wheels_at(time);
         let (body, rates) = observed_state(gyrostat, time, &components(), &wheels);
-        let arc = law_arc(scene, law, time, (&body, &rates), self.duration);
+        let arc = law_arc(scene, law, time, &body, &rates, self.duration);
         gyrostat.begin_flown_arc(scene, arc, wheels, self.times);
         gyrostat.note_rate();
     }

@@ -112,9 +112,7 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
         _ if settings.changes_within_arcs() => {
             integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> })
         }
-        // Only Dormand-Prince has a kernel without actuation: kernels cost compile time, and the other integrators are
-        // for
-        // comparison.
+        // only Dormand-Prince has a kernel without actuation: the other integrators are for comparison
         Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
             Box::new(RungeKuttaEngine::<S, R, _, NoEffects, WITH_ANGLES>::new(
                 simd,

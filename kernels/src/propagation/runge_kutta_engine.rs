@@ -18,8 +18,8 @@ use crate::dynamics::effects::ForceModel;
 use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::math::Real;
-use crate::ode::{Control, ErrorModel, LaneMethod, integrate};
-use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
+use crate::ode::{ErrorModel, LaneMethod, Tolerance, integrate};
+use crate::run::{LocalErrors, Outcome, Trajectory};
 use crate::scene::Scene;
 
 /// Memory of a worker, for runs under the effects `E`.
@@ -57,22 +57,17 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
     fn run(&mut self, mut laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let Self { simd, zero, method, settings, batch, lanes, remainders, .. } = self;
         settings.check_laws(&laws);
-        let (grid, control) = (&settings.grid, &settings.control);
-        let duration = grid.duration();
-        let threshold = control.tolerance.absolute / control.tolerance.relative;
+        let grid = &settings.grid;
         let mut integrate = |runs: &mut GyrostatRuns<'_, R, E>, finish: &mut RunCallback<'_, R, E>| {
-            integrate_on::<S, R, M, E, N>((*simd, *zero, *method), runs, (grid, control), lanes, finish);
+            integrate_on::<S, R, M, E, N>(*simd, *zero, *method, runs, settings, lanes, finish);
         };
         if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
-            // one kernel for debris (a gyrostat without wheels) and spacecraft compiles faster, although the debris
-            // needs its
-            // attitude only
-            let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(duration));
+            // one kernel for debris and spacecraft compiles faster, although the debris needs its attitude only
+            let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(grid.duration()));
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
                 outcomes[index] = *outcome;
-                outcomes[index].local_errors =
-                    errors_of(remainders, runs.run(index), trajectory, (grid, threshold), outcome);
+                outcomes[index].local_errors = errors_of(remainders, runs.run(index), trajectory, settings, outcome);
             });
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), grid);
@@ -81,25 +76,27 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
         integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
             let run = runs.run(index);
             let mut outcome = *outcome;
-            outcome.local_errors = errors_of(remainders, run, trajectory, (grid, threshold), &outcome);
+            outcome.local_errors = errors_of(remainders, run, trajectory, settings, &outcome);
             completion.complete(*simd, scenes, index, run, trajectory, &outcome, finish);
         });
     }
 }
 
-/// Errors of a run, in units; step control is relative to |omega| or `threshold` times the rate of the time scale.
+/// Errors of a run, in units; step control is relative to |omega|, or to absolute/relative tolerance times the rate of
+/// the time scale.
 fn errors_of(
     remainders: &mut Option<Remainders>,
     run: &Gyrostat<f64>,
     trajectory: &Trajectory,
-    (grid, threshold): (&Grid, f64),
+    settings: &PropagationSettings,
     outcome: &Outcome,
 ) -> LocalErrors {
     if let Some(remainders) = remainders {
-        return remainders.sum(run, trajectory, grid, outcome);
+        return remainders.sum(run, trajectory, &settings.grid, outcome);
     }
+    let Tolerance { absolute, relative } = settings.control.tolerance;
     let rates = (0..outcome.points).map(|point| trajectory.at(point));
-    in_units(outcome.local_errors, rates, threshold / run.time_unit())
+    in_units(outcome.local_errors, rates, absolute / relative / run.time_unit())
 }
 
 /// Receives a completed run: runs, index, components at the observation points, outcome.
@@ -108,16 +105,19 @@ type RunCallback<'a, R, E> = dyn FnMut(&GyrostatRuns<'_, R, E>, usize, &Trajecto
 /// The integration in its instruction set. Not inlined: compiled once for spacecraft and debris.
 #[inline(never)]
 fn integrate_on<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize>(
-    (simd, zero, method): (S, R, M),
+    simd: S,
+    zero: R,
+    method: M,
     runs: &mut GyrostatRuns<'_, R, E>,
-    (grid, control): (&Grid, &Control),
+    settings: &PropagationSettings,
     lanes: &mut [LaneTrajectory],
     finish: &mut RunCallback<'_, R, E>,
 ) {
+    let control = &settings.control;
     let finish = |runs: &GyrostatRuns<'_, R, E>, _, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
         finish(runs, run, trajectory, outcome);
     };
-    let mut recorder = TrajectoryRecorder::new(grid, lanes, M::ERRORS, control.tolerance.relative, finish);
+    let mut recorder = TrajectoryRecorder::new(&settings.grid, lanes, M::ERRORS, control.tolerance.relative, finish);
     simd.vectorize(
         #[inline(always)]
         || integrate::<_, _, _, _, N>(method, zero, runs, &mut recorder, control),

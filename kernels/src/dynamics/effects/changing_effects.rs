@@ -180,7 +180,9 @@ macro_rules! effects {
             pub fn extend(
                 &mut self,
                 n: usize,
-                (attitude, rate, offset): ([R; 4], [R; 3], [R; 3]),
+                attitude: [R; 4],
+                rate: [R; 3],
+                offset: [R; 3],
                 constant: [R; 3],
             ) -> [R; 3] {
                 let mut own = [attitude[0].zero(); 3];

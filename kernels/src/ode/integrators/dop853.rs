@@ -101,7 +101,7 @@ impl Embedded for Dop853 {
         end: &mut Carried<R, N>,
     ) -> PairAttempt<R> {
         let k = &mut stages.k;
-        fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (1, 13, 12), end);
+        fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, 1..13, 12, end);
         let fifth = scaled(step.length, &weighted(k, &Dop853Tableau::E5));
         let third = scaled(step.length, &weighted(k, &Dop853Tableau::E3));
         let e5 = system.error_ratio(&fifth, &start.state, &end.state, tolerance);
@@ -122,7 +122,7 @@ impl Embedded for Dop853 {
     ) {
         let Dop853Stages { k, interpolant } = stages;
         let mut unused = *start;
-        fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, (13, 16, 16), &mut unused);
+        fill_stages::<Dop853Tableau, R, Q, N, 16>(system, step, start, k, 13..16, 16, &mut unused);
         let h = step.length;
         for n in 0..N {
             let difference = end[n] - start.state[n];

@@ -104,7 +104,7 @@ impl<P: PointsInside> Embedded for P {
         stages: &mut [[R; N]; 7],
         end: &mut Carried<R, N>,
     ) -> PairAttempt<R> {
-        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, (1, 7, 6), end);
+        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step, start, stages, 1..7, 6, end);
         let error = scaled(step.length, &weighted(stages, &DormandPrinceTableau::E));
         let ratio = system.error_ratio(&error, &start.state, &end.state, tolerance);
         let poison = poison(&error, poison(&end.state, ratio.zero() * ratio));
@@ -179,7 +179,7 @@ impl PointsInside for DormandPrinceRestepped {
         let mut own = [[s.zero(); N]; 7];
         own[0] = stages[0];
         let mut end = *start;
-        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, part, start, &mut own, (1, 6, 7), &mut end);
+        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, part, start, &mut own, 1..6, 7, &mut end);
         start.advance_into(length, &weighted(&own, &<DormandPrinceTableau as Tableau<7>>::A[6]), &mut end);
         end.state
     }

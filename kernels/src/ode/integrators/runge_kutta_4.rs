@@ -62,7 +62,7 @@ fn finish<R: Real, Q: System<R, N>, const N: usize>(
     k: &mut [[R; N]; 4],
     end: &mut Carried<R, N>,
 ) -> R {
-    fill_stages::<RungeKutta4Tableau, R, Q, N, 4>(system, step, start, k, (1, 4, 4), end);
+    fill_stages::<RungeKutta4Tableau, R, Q, N, 4>(system, step, start, k, 1..4, 4, end);
     start.advance_into(step.length, &weighted(k, &RungeKutta4Tableau::B), end);
     poison(&end.state, step.length.zero())
 }

@@ -56,7 +56,9 @@ impl BriefRule {
         &self,
         constants: &Constants<R>,
         omega: [R; 3],
-        (length, time, may): (R, R, R),
+        length: R,
+        time: R,
+        may: R,
     ) -> Option<Brief<R>> {
         let zero = length.zero();
         let number = |value: f64| length.splat(value);

@@ -29,7 +29,6 @@ impl<R: Real, const J: usize> Segment<R, J> {
 
 /// All components of `jet` at the `U` times `x`, by groups whose sums stay in registers while a loaded coefficient
 /// serves all times.
-/// times.
 #[inline(always)]
 pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
     let mut all = [jet[0]; U];

@@ -29,12 +29,13 @@ use crate::run::{Grid, Status};
 pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
     zero: R,
-    (runs, arcs): (&'a mut [Gyrostat<f64>], ArcSource<'a>),
+    runs: &'a mut [Gyrostat<f64>],
+    arcs: ArcSource<'a>,
     grid: &'a Grid,
     workspace: &'a mut Workspace<R, J>,
     finish: &mut RunCallback<'_>,
 ) {
-    let lanes = RunLanes::new((simd, zero), runs, arcs, grid, workspace);
+    let lanes = RunLanes::new(simd, zero, runs, arcs, grid, workspace);
     let mut driver = Driver::<S, R, E, N, J, FORCED> { lanes };
     for lane in 0..R::LANES {
         driver.lanes.load_lane(lane);
@@ -76,7 +77,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         // the bound of the torque holds for constant torques only
         let brief = if has_begun && !E::ACT {
             let omega = [begin[0], begin[1], begin[2]];
-            work.brief.orders(&constants, omega, (vectors.length, vectors.time, vectors.may_be_brief))
+            work.brief.orders(&constants, omega, vectors.length, vectors.time, vectors.may_be_brief)
         } else {
             None
         };
@@ -231,10 +232,9 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         let time = lanes.vectors.time.lane(lane);
         let left = (state.length - time) - lanes.vectors.time_low.lane(lane);
         let (ring, settings) = (&lanes.work.ring, &lanes.work.settings);
-        let rule = (lanes.work.rule.order, settings.tolerance);
         if state.is_searching
             && left > 0.0
-            && let Some(within) = return_time(&lanes.detector.section(lane), ring, &state, lane, back, length, rule)
+            && let Some(within) = return_time(&lanes.detector.section(lane), lanes.work, &state, lane, back, length)
             && let Some(period) = {
                 let momentum = &lanes.vectors.constants.momentum;
                 let momentum_b = [momentum[0].lane(lane), momentum[1].lane(lane), momentum[2].lane(lane)];

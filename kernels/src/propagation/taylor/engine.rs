@@ -66,7 +66,8 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
             integrate_on::<S, R, NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false>(
                 *simd,
                 *zero,
-                (runs, arcs),
+                runs,
+                arcs,
                 grid,
                 workspace,
                 &mut |index, _, states, outcome| {
@@ -80,7 +81,8 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
         integrate_on::<S, R, E, N, J, FORCED>(
             *simd,
             *zero,
-            (runs, arcs),
+            runs,
+            arcs,
             grid,
             workspace,
             &mut |index, run, states, outcome| {
@@ -96,14 +98,15 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
 fn integrate_on<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
     zero: R,
-    runs: (&'a mut [Gyrostat<f64>], ArcSource<'a>),
+    runs: &'a mut [Gyrostat<f64>],
+    arcs: ArcSource<'a>,
     grid: &'a Grid,
     workspace: &'a mut Workspace<R, J>,
     finish: &mut RunCallback<'_>,
 ) {
     simd.vectorize(
         #[inline(always)]
-        || integrate::<S, R, E, N, J, FORCED>(simd, zero, runs, grid, workspace, finish),
+        || integrate::<S, R, E, N, J, FORCED>(simd, zero, runs, arcs, grid, workspace, finish),
     );
 }
 

@@ -106,7 +106,8 @@ impl FoldBuffer {
     pub(super) fn evaluate<S: Simd, R: Real, const J: usize>(
         &mut self,
         simd: S,
-        (lane, number): (usize, usize),
+        lane: usize,
+        number: usize,
         jet: &[[R; J]],
     ) {
         let first = &self.first[lane * (SERIES + 1)..];

@@ -84,8 +84,8 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
         let sums = cauchy_products(jet, n);
         let mut acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
         if let Some(effects) = &mut effects {
-            let torque =
-                effects.extend(n, (attitude_of(&jet[n]), omega, offset_of(constants, &jet[n])), constants.torque);
+            let (attitude, offset) = (attitude_of(&jet[n]), offset_of(constants, &jet[n]));
+            let torque = effects.extend(n, attitude, omega, offset, constants.torque);
             for i in 0..3 {
                 acceleration[i] = constants.inverse[i].mul_add(torque[i], acceleration[i]);
             }

@@ -46,7 +46,8 @@ pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
 impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLanes<'a, S, R, E, N, J> {
     #[inline(always)]
     pub(super) fn new(
-        (simd, zero): (S, R),
+        simd: S,
+        zero: R,
         runs: &'a mut [Gyrostat<f64>],
         arcs: ArcSource<'a>,
         grid: &'a Grid,
@@ -246,7 +247,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         }
         let state = *state;
         self.work.trajectories[lane].pad();
-        self.pass_on(lane, &state, (Status::Done, self.grid.duration(), self.grid.points()), finish);
+        self.pass_on(lane, &state, Status::Done, self.grid.duration(), self.grid.points(), finish);
     }
 
     #[cold]
@@ -260,14 +261,16 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         }
         let points = self.states[lane].map_or(state.point, |state| state.point);
         self.work.trajectories[lane].fill_after(points, f64::NAN);
-        self.pass_on(lane, &state, (status, reached.mul_add(state.unit, state.start), points), finish);
+        self.pass_on(lane, &state, status, reached.mul_add(state.unit, state.start), points, finish);
     }
 
     fn pass_on(
         &mut self,
         lane: usize,
         state: &SeriesLane,
-        (status, time, points): (Status, f64, usize),
+        status: Status,
+        time: f64,
+        points: usize,
         finish: &mut RunCallback<'_>,
     ) {
         let steps = state.steps(self.work.ring.clock);

@@ -105,7 +105,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
             let jet = &ring.segment(oldest + number).jet;
             for share in folded.iter().flatten() {
                 if (share.state.begun - oldest..share.end - oldest).contains(&number) {
-                    self.folds.evaluate(simd, (share.lane, number), jet);
+                    self.folds.evaluate(simd, share.lane, number, jet);
                 }
             }
         }

@@ -4,6 +4,7 @@ use super::dense::value_at;
 use super::lane_state::SeriesLane;
 use super::period::{Period, PoincareSection};
 use super::series_ring::SeriesRing;
+use super::workspace::Workspace;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::math::vector::{dcm_from_quaternion, product};
@@ -31,21 +32,20 @@ pub(super) fn section(
 #[inline(always)]
 pub(super) fn return_time<R: Real, const J: usize>(
     section: &PoincareSection,
-    ring: &SeriesRing<R, J>,
+    work: &Workspace<R, J>,
     state: &SeriesLane,
     lane: usize,
     crossed: bool,
     length: f64,
-    (order, tolerance): (usize, f64),
 ) -> Option<f64> {
     if section.direction == [0.0; 3] {
         // omega does not move: any time is a period
-        return (ring.clock - state.begun == 1).then_some(length);
+        return (work.ring.clock - state.begun == 1).then_some(length);
     }
     if !crossed {
         return None;
     }
-    section.crossing(&ring.last().jet, lane, order, length, tolerance)
+    section.crossing(&work.ring.last().jet, lane, work.rule.order, length, work.settings.tolerance)
 }
 
 /// Period of the arc, whose last step returns after `within` units; `momentum_b` is that of the wheels, B, per unit.

@@ -50,11 +50,8 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
             for i in 0..3 {
                 turned[i] -= jet[0][ANGLE + i];
             }
-            let push = if N < WITH_THRUST || N == J {
-                *push
-            } else {
-                self.quadrature.until(constants, jet, (*length, push), x)
-            };
+            let push =
+                if N < WITH_THRUST || N == J { *push } else { self.quadrature.until(constants, jet, *length, push, x) };
             let growth = push.growth(constants, begin, turned, x);
             for i in J..N {
                 all[i] = begin[i] + growth[i];

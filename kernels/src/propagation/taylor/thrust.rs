@@ -60,7 +60,7 @@ impl<R: Real> Quadrature<R> {
     /// Increments over a step of length `x` along the series `jet`.
     #[inline(always)]
     pub fn over_step<const J: usize>(&mut self, constants: &Constants<R>, jet: &[[R; J]], x: R) -> Push<R> {
-        push((&self.step, &mut self.attitudes), constants, jet, [x.zero(), x])
+        push(&self.step, &mut self.attitudes, constants, jet, [x.zero(), x])
     }
 
     /// Increments until `x` after the start of a step of length `length` with the increments `whole`.
@@ -69,13 +69,14 @@ impl<R: Real> Quadrature<R> {
         &mut self,
         constants: &Constants<R>,
         jet: &[[R; J]],
-        (length, whole): (R, &Push<R>),
+        length: R,
+        whole: &Push<R>,
         x: R,
     ) -> Push<R> {
         let rest = length - x;
         let late = rest.lt(x);
         let from = R::select(late, x, x.zero());
-        let part = push((&self.half, &mut self.attitudes), constants, jet, [from, R::select(late, rest, x)]);
+        let part = push(&self.half, &mut self.attitudes, constants, jet, [from, R::select(late, rest, x)]);
         let mut until = part;
         for i in 0..3 {
             let impulse = whole.impulse[i] - part.impulse[i];
@@ -128,7 +129,8 @@ impl<R: Real> Push<R> {
 /// Increments over `length` from `from` on, by the quadrature `nodes`.
 #[inline(always)]
 fn push<R: Real, const J: usize>(
-    (nodes, attitudes): (&[(f64, f64)], &mut [[R; 4]]),
+    nodes: &[(f64, f64)],
+    attitudes: &mut [[R; 4]],
     constants: &Constants<R>,
     jet: &[[R; J]],
     [from, length]: [R; 2],
