@@ -5,7 +5,7 @@ use crate::campaign::Plan;
 use crate::statistics::binomial::interval;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::{
-    Ranks as IntervalRanks, interval_ranks, percent, quantile, runs_for_bound, runs_for_interval,
+    OrderStatistics, Ranks as IntervalRanks, interval_ranks, percent, runs_for_bound, runs_for_interval,
 };
 use crate::statistics::replicates::Step;
 use crate::statistics::sketch::Ranks;
@@ -31,15 +31,15 @@ impl QuantileStatistic {
 }
 
 pub enum Order {
-    /// The values; only the places that quantiles need are in order.
-    Exact(Vec<f64>),
+    /// All values.
+    Exact(OrderStatistics),
     Sketched(Ranks),
 }
 
 impl Order {
     pub fn quantile(&self, p: f64) -> Option<f64> {
         match self {
-            Order::Exact(values) => quantile(values, p),
+            Order::Exact(values) => values.quantile(p),
             Order::Sketched(ranks) => ranks.quantile(p),
         }
     }
@@ -47,7 +47,7 @@ impl Order {
     /// Bounds of the value of rank `rank`, from 1.
     pub fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
         match self {
-            Order::Exact(values) => values.get(rank as usize - 1).map(|value| [*value; 2]),
+            Order::Exact(values) => values.at(rank as usize - 1).map(|value| [value; 2]),
             Order::Sketched(ranks) => ranks.bounds(rank),
         }
     }
@@ -55,7 +55,8 @@ impl Order {
     pub fn steps(&self, replicate: usize) -> Vec<Step> {
         match self {
             Order::Exact(values) => {
-                values.iter().map(|value| Step { value: *value, lower: *value, replicate, count: 1 }).collect()
+                let step = |value: &f64| Step { value: *value, lower: *value, replicate, count: 1 };
+                values.values().iter().map(step).collect()
             }
             Order::Sketched(ranks) => {
                 let counts = std::iter::once(0).chain(ranks.buckets.iter().map(|bucket| bucket.up_to));
@@ -207,6 +208,7 @@ fn too_few(p: f64, confidence: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::quantile::quantile;
 
     /// Law: a quantile with missing values, and its interval, are those of all values with the missing ones infinite on
     /// the wrong side of the limit; none at a missing one. The counter-test: among the values alone it differs.
@@ -220,7 +222,7 @@ mod tests {
                 for p in [0.01, 0.05, 0.3, 0.5, 0.8, 0.95] {
                     let ranks = interval_ranks(40 + missing, p, 0.9);
                     let asked = AskedQuantile::new(p, 0.9, Some(ranks)).with_missing(40, missing, limit);
-                    let found = of_quantile(&Order::Exact(values.clone()), &asked);
+                    let found = of_quantile(&Order::Exact(OrderStatistics::new(values.clone(), [])), &asked);
                     let known = quantile(&all, p).filter(|value| value.is_finite());
                     let is_same = match (found.value, known) {
                         (Some(a), Some(b)) => (a - b).abs() < 1e-12,

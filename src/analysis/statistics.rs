@@ -24,7 +24,7 @@ use crate::run::{Quantity, Status};
 use crate::statistics::gate::GateLimit;
 use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
 use crate::statistics::moments::Moments;
-use crate::statistics::quantile::place_order_statistics;
+use crate::statistics::quantile::OrderStatistics;
 use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
@@ -192,8 +192,11 @@ fn described(
             whole.merge(&group.sketch);
         }
         if matches!(population, Population::Replicated(_)) {
-            let order =
-                if is_sketched { Order::Sketched(ranks(&group.sketch)) } else { Order::Exact(group.values.clone()) };
+            let order = if is_sketched {
+                Order::Sketched(ranks(&group.sketch))
+            } else {
+                Order::Exact(OrderStatistics::new(group.values.clone(), []))
+            };
             steps.extend(order.steps(replicate));
         }
         if values.is_empty() {
@@ -235,11 +238,8 @@ fn described(
         Order::Sketched(ranks(&whole))
     } else {
         let count = values.len();
-        place_order_statistics(
-            &mut values,
-            quantiles.iter().chain(required.iter().map(|(_, one)| one)).chain(&ends).flat_map(|one| one.places(count)),
-        );
-        Order::Exact(values)
+        let all = quantiles.iter().chain(required.iter().map(|(_, one)| one)).chain(&ends);
+        Order::Exact(OrderStatistics::new(values, all.flat_map(|one| one.places(count))))
     };
     let one_sided = 0.5 + 0.5 * confidence;
     let range = observed.range(plan);
@@ -310,7 +310,7 @@ fn described(
             _ => Some(with_lost_runs(all_lost, mean_interval)),
         },
         quantiles: quantiles.iter().map(quantile).collect(),
-        spread: order.quantile(SPREAD[1]).zip(order.quantile(SPREAD[0])).filter(|_| is_audited).map(|(b, a)| b - a),
+        spread: is_audited.then(|| Some(order.quantile(SPREAD[1])? - order.quantile(SPREAD[0])?)).flatten(),
         required: required.iter().map(|(one, asked)| ((*one).clone(), quantile(asked))).collect(),
         sketch,
     }

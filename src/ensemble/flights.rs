@@ -248,7 +248,9 @@ pub fn observe(
 ) -> Status {
     let status = match plan.law {
         None => observer.observe(isa, scene, run.table, run.outcome, row),
-        Some(_) => observer.observe_flown(isa, &FlownRun { scene, arcs: run.arcs, of_law }, run.table, run.outcome, row),
+        Some(_) => {
+            observer.observe_flown(isa, &FlownRun { scene, arcs: run.arcs, of_law }, run.table, run.outcome, row)
+        }
     };
     if !scene.failures.is_empty() {
         let request = observer.request();
