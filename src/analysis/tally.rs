@@ -8,6 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::audit_tally::AuditTally;
+use crate::analysis::outcomes::is_worst_when_low;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::statuses::{StatusCounter, StatusPart, Statuses};
 use crate::analysis::worst_runs::WorstRuns;
@@ -24,10 +25,13 @@ use crate::storage::rows_reader::RowsError;
 
 const LISTED: usize = 3;
 
+/// The runs with the worst values of an error, or of an observable that a requirement is about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
-    pub name: &'static str,
-    /// Indices among the observables of a row; the error is their largest magnitude.
+    /// An error in words, or the name of the observable.
+    pub name: String,
+    pub is_error: bool,
+    /// Indices among the observables of a row; an error is the maximum of their magnitudes.
     indices: Vec<usize>,
     pub list: WorstRuns,
 }
@@ -37,6 +41,8 @@ pub struct Tally {
     pub statuses: Statuses,
     /// Whether statistics leave out the nominal sample, which else is the only one.
     pub without_nominal: bool,
+    /// The runs with the greatest errors, where the campaign observes those errors, and with the worst values of the
+    /// observables that requirements are about.
     pub worst: Vec<Worst>,
     pub audits: Option<AuditTally>,
     /// Runs beyond the heights of the table of the air; `None` without such a table in the file, or without observed
@@ -80,12 +86,20 @@ impl TallyColumns {
         let headlines: Vec<usize> = headlines(ensemble.request()).into_iter().filter(|_| is_audited).collect();
         let names: Vec<String> = columns.iter().map(|column| column.quantity.name().to_owned()).collect();
         let index = |id: &ColumnId| ensemble.request().position(*id);
-        let worst = [("conservation error", &BALANCES[..]), ("state error estimate", &STATE_ERRORS[..])].map(
+        let errors = [("conservation error", &BALANCES[..]), ("state error estimate", &STATE_ERRORS[..])].map(
             |(name, columns)| {
                 let indices = columns.iter().filter_map(index).collect();
-                Worst { name, indices, list: WorstRuns::new(LISTED, false) }
+                Worst { name: name.to_owned(), is_error: true, indices, list: WorstRuns::new(LISTED, false) }
             },
         );
+        let plan = ensemble.plan();
+        let required = columns.iter().enumerate().filter_map(|(index, column)| {
+            let name = column.quantity.name();
+            let is_required = plan.analysis.requirements.iter().any(|one| one.observable() == Some(name));
+            let list = WorstRuns::new(LISTED, is_worst_when_low(plan, name));
+            is_required.then(|| Worst { name: name.to_owned(), is_error: false, indices: vec![index], list })
+        });
+        let worst = errors.into_iter().chain(required);
         let statuses = StatusCounter::new(ensemble.plan());
         let air = ends_of_air(ensemble.plan()).map(|[low, high]| [(DISTANCES[0], low), (DISTANCES[1], high)]);
         let air = air.filter(|ends| ends.iter().all(|(name, _)| names.iter().any(|known| known == name)));
@@ -95,7 +109,7 @@ impl TallyColumns {
             audits: is_audited.then(|| AuditTally::new(headlines.len())),
             beyond_air: air.map(|_| 0),
             headlines: headlines.iter().map(|index| names[*index].clone()).collect(),
-            worst: worst.into_iter().filter(|worst| !worst.indices.is_empty()).collect(),
+            worst: worst.filter(|worst| !worst.indices.is_empty()).collect(),
         };
         let mut wanted: Vec<usize> = nothing.worst.iter().flat_map(|worst| worst.indices.clone()).collect();
         wanted.sort_unstable();
@@ -176,10 +190,12 @@ impl Accumulator for TallyColumns {
         for worst in &mut whole.worst {
             let values: Vec<&Vec<f64>> = worst.indices.iter().map(|index| &part.values[index]).collect();
             for (row, (sample, status)) in part.ended.0.iter().zip(&part.ended.1).enumerate() {
-                // runs too inaccurate to count are the worst ones
-                if [Status::Done, Status::Inaccurate].contains(status) && !is_nominal(*sample) {
-                    let magnitudes = values.iter().map(|values| values[row].abs()).filter(|error| error.is_finite());
-                    worst.list.add(*sample, magnitudes.fold(f64::NAN, f64::max));
+                // runs that are too inaccurate to count have the greatest errors
+                let counts = *status == Status::Done || worst.is_error && *status == Status::Inaccurate;
+                if counts && !is_nominal(*sample) {
+                    let values = values.iter().map(|values| values[row]).filter(|value| value.is_finite());
+                    let magnitude = |value: f64| if worst.is_error { value.abs() } else { value };
+                    worst.list.add(*sample, values.map(magnitude).fold(f64::NAN, f64::max));
                 }
             }
         }

@@ -201,7 +201,7 @@ fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<Strin
 }
 
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
-    let Some(first) = ranking.inputs.first() else { return String::new() };
+    let Some(first) = ranking.inputs.first().filter(|first| first.input.rows > 0) else { return String::new() };
     let runs = counted(first.input.rows, "run");
     let direction = |ranked: &Ranked<'_>| match ranked.input.direction {
         Some(Direction::Rises) => " (rises with it)",

@@ -45,14 +45,18 @@ pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findi
     let verdicts = requirement::findings(plan, &analysed.verdicts, &analysed.statistics);
     let order = [Verdict::Fail, Verdict::Undecided, Verdict::Pass];
     let verdict = order.into_iter().find(|one| verdicts.iter().any(|finding| finding.verdict == Some(*one)));
+    let required = requirement::required(plan, &verdicts);
     list.extend(verdicts);
     list.extend(loss::stop(plan, analysed));
     list.extend(loss::losses(analysed));
     list.extend(loss::missions(plan, analysed));
     list.extend(loss::notes(analysed));
+    // said before the campaign on a terminal
+    let of_plan = |said: String| Finding { rank: 2, ..Finding::new(Kind::Note, "plan", "note", said) };
+    list.extend(plan.notes().into_iter().map(of_plan));
     list.extend(outcome::findings(plan, analysed));
     list.extend(drivers::findings(plan, analysed, noise));
-    list.extend(numerics::findings(plan, analysed));
+    list.extend(numerics::findings(plan, analysed, &required));
     fn has_interval(one: &Finding) -> bool {
         one.numbers.iter().any(Number::has_interval) || one.children.iter().any(has_interval)
     }

@@ -48,6 +48,15 @@ pub fn of_quantity(quantity: &Quantity) -> String {
     of_column(quantity.name(), quantity.unit())
 }
 
+/// The worst value of the quantity `name` as words: "largest pointing error" of "highest pointing error".
+pub fn of_extreme(name: &str, is_low: bool) -> String {
+    let (side, said) = match is_low {
+        true => ("smallest", ["lowest ", "minimum ", "smallest "]),
+        false => ("largest", ["highest ", "maximum ", "largest "]),
+    };
+    format!("{side} {}", said.into_iter().find_map(|word| name.strip_prefix(word)).unwrap_or(name))
+}
+
 /// The same of the column `name` in `unit`.
 pub fn of_column(name: &str, unit: &str) -> String {
     let name = without_unit(name, unit);

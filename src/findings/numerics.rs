@@ -4,13 +4,14 @@ use serde::Serialize;
 
 use crate::analysis::analysed::Analysed;
 use crate::analysis::audit_tally::{AuditTally, Coverage, PROMISED_COVERAGE};
-use crate::analysis::tally::Tally;
+use crate::analysis::tally::{Tally, Worst};
 use crate::campaign::{Plan, ShownUnit};
 use crate::ensemble::audit::AuditValue;
 use crate::findings::finding::{Finding, Kind, Number};
 use crate::findings::names;
 use crate::findings::number::{self, counted, short};
 use crate::findings::outcome::shown;
+use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED};
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
@@ -194,11 +195,12 @@ const ERRORS: [(&str, &str); 5] = [
     ("angular_momentum_error_max", "angular momentum"),
     ("linear_momentum_error_max", "linear momentum"),
     ("state_error_estimate", "estimated state error"),
-    ("debris_state_error_estimate", "that of the debris"),
+    ("debris_state_error_estimate", "estimated state error of the debris"),
 ];
 
-/// Largest errors, audits, and the runs to look at: with the greatest errors, and the first that failed in each way.
-pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
+/// Largest errors, audits, and the runs to look at: the worst of each observable in `required`, in this order, those
+/// with the greatest errors, and the first that failed in each way.
+pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) -> Vec<Finding> {
     let statistics = &analysed.statistics;
     let number = |name: &str, value: Option<f64>, runs: u64, unit: &str| {
         let found = (value.unwrap_or(f64::NAN), [f64::NAN; 2]);
@@ -212,7 +214,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let mut found = Vec::new();
     if !errors.is_empty() {
         let said: Vec<String> = errors.iter().map(|one| format!("{} {}", one.name, one.text())).collect();
-        let said = Finding::new(Kind::Numerics, "errors", "largest errors, relative", said.join(", "));
+        let said = Finding::new(Kind::Numerics, "errors", "largest numerical errors, relative", said.join(", "));
         found.push(Finding { numbers: errors, rank: 1, ..said });
     }
     if let Some(audit) = AuditSummary::of(plan, &analysed.tally) {
@@ -220,12 +222,29 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
         found.push(audit.finding(number));
         found.extend(observed(plan, analysed, number));
     }
-    for worst in &analysed.tally.worst {
-        let Some((sample, error)) = worst.list.runs.first() else { continue };
-        let title = format!("worst {} {}", worst.name, short(*error));
-        let numbers = vec![number(worst.name, Some(*error), 1, "")];
+    let mut is_first = true;
+    let order = |worst: &&Worst| required.iter().position(|name| *name == worst.name).unwrap_or(usize::MAX);
+    let mut all: Vec<&Worst> = analysed.tally.worst.iter().collect();
+    all.sort_by_key(order);
+    for worst in all {
+        let Some((sample, value)) = worst.list.runs.first() else { continue };
+        let column = statistics.column(&worst.name).filter(|_| !worst.is_error);
+        let unit = column.map_or("", |column| column.quantity.unit());
+        let title = match column {
+            None => format!("worst {} {}", worst.name, short(*value)),
+            Some(_) if worst.name == LAUNCHED && *value != 0.0 => continue,
+            Some(_) if worst.name == LAUNCHED => NOT_LAUNCHED.to_owned(),
+            Some(column) => {
+                let shown = plan.analysis.display.of(&worst.name, unit).of_time(value.abs(), None);
+                let name = names::of_extreme(&names::of_quantity(&column.quantity), worst.list.is_low);
+                let value = format!("{} {}", short(shown.value(*value)), shown.unit);
+                format!("{name} ({})", value.trim_end())
+            }
+        };
+        let numbers = vec![number(&worst.name, Some(*value), 1, unit)];
         let run = Finding::new(Kind::Runs, "worst", title, "");
-        found.push(Finding { rank: 1, numbers, sample: Some(*sample), ..run });
+        let rank = u8::from(column.is_none() || !core::mem::take(&mut is_first));
+        found.push(Finding { rank, numbers, sample: Some(*sample), ..run });
     }
     for ended in analysed.tally.statuses.failed() {
         let sample = ended.first.first().map(|(sample, _)| *sample);

@@ -63,10 +63,11 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
         let title = if confidence.is_some() { title(one) } else { question(one) };
         let found = Finding::new(Kind::Requirement, id, title, sentence(one, &numbers));
         let verdict = Some(Verdict::of(one.gate.decision));
-        (Finding { verdict, notes: notes(one), numbers, ..found }, rank(one))
+        (Finding { verdict, notes: notes(one), numbers, ..found }, rank(one, statistics))
     };
-    let mut found: Vec<(Finding, (u8, f64))> = verdicts.list.iter().enumerate().map(finding).collect();
-    found.sort_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut found: Vec<(Finding, (u8, [f64; 2]))> = verdicts.list.iter().enumerate().map(finding).collect();
+    let nearer = |a: [f64; 2], b: [f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
+    found.sort_by(|(_, a), (_, b)| a.0.cmp(&b.0).then_with(|| nearer(a.1, b.1)));
     let about = |(place, said): (usize, String)| Finding {
         rank: u8::from(place > 0),
         ..Finding::new(Kind::Verdicts, "together", "", said)
@@ -75,6 +76,27 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
     let needed = runs_needed(plan, verdicts).map(|said| (0, said));
     found.into_iter().map(|(finding, _)| finding).chain(needed.into_iter().chain(together).map(about)).collect()
 }
+
+/// The observables and series that requirements are about, each once: whether missions launched, then those whose
+/// requirement is the nearest to its limit. `found`: the findings on requirements.
+pub fn required<'f>(plan: &Plan, found: impl IntoIterator<Item = &'f Finding>) -> Vec<String> {
+    let place = |one: &Finding| one.id.strip_prefix("requirement_")?.parse::<usize>().ok()?.checked_sub(1);
+    let mut names: Vec<String> = Vec::new();
+    for one in found.into_iter().filter_map(place).filter_map(|place| plan.analysis.requirements.get(place)) {
+        for name in one.observable().into_iter().chain([one.name()]) {
+            if !names.iter().any(|known| known == name) {
+                names.push(name.to_owned());
+            }
+        }
+    }
+    names.sort_by_key(|name| name != LAUNCHED);
+    names
+}
+
+/// The observable that says whether a mission launched.
+pub const LAUNCHED: &str = "launched";
+/// A run whose mission did not launch, in words.
+pub const NOT_LAUNCHED: &str = "mission did not launch";
 
 /// The confidence of all verdicts; `None` where they differ.
 pub fn common_confidence(verdicts: &Verdicts) -> Option<f64> {
@@ -102,8 +124,8 @@ fn runs_needed(plan: &Plan, verdicts: &Verdicts) -> Option<String> {
 const IF: &str = "if the truth is as observed";
 
 /// Verdicts in their order, and how far the estimate is from the limit: in half widths of its interval, so that numbers
-/// of different units compare.
-fn rank(one: &Assessment) -> (u8, f64) {
+/// of different units compare. Of equal shares of runs, the run nearest to the limit decides, as a share of the limit.
+fn rank(one: &Assessment, statistics: &Statistics) -> (u8, [f64; 2]) {
     let class = match one.gate.decision {
         Decision::Fail => 0,
         Decision::Undecided(_) => 1,
@@ -113,7 +135,12 @@ fn rank(one: &Assessment) -> (u8, f64) {
     let distance = (one.gate.estimate - target).abs();
     let half = 0.5 * (one.interval[1] - one.interval[0]);
     let scale = if half > 0.0 { half } else { target.abs().max(one.gate.estimate.abs()).max(f64::MIN_POSITIVE) };
-    (class, if distance.is_finite() { distance / scale } else { f64::MAX })
+    let limit = one.requirement.limit;
+    let moments = one.requirement.observable().and_then(|name| statistics.column(name)).map(|column| &column.moments);
+    let extreme = moments.and_then(|all| if matches!(limit, GateLimit::AtMost(_)) { all.max() } else { all.min() });
+    let margin = extreme.map(|extreme| (limit.value() - extreme).abs() / limit.value().abs());
+    let finite = |distance: f64| if distance.is_finite() { distance } else { f64::MAX };
+    (class, [finite(distance / scale), finite(margin.unwrap_or(f64::MAX))])
 }
 
 /// What the estimate of the gate has to reach: a share of the runs, or the limit of the mean.
@@ -136,12 +163,12 @@ pub fn title(one: &Assessment) -> String {
     };
     match requirement.statement {
         Statement::Quantile(p) if requirement.window().is_some() => {
-            format!("{is} in {}%", percent(requirement.limit.fraction(p)))
+            format!("{is} in {}% of runs", percent(requirement.limit.fraction(p)))
         }
         Statement::Quantile(p) => format!("p{} of {is}", percent(p)),
         Statement::Fraction(fraction) => {
             let never = if requirement.never_meets { ", or never," } else { "" };
-            format!("{is}{never} in {}%", percent(fraction))
+            format!("{is}{never} in {}% of runs", percent(fraction))
         }
         Statement::Mean => {
             let range = requirement.bounded.map(|ends| ends.map(|end| written(shown(one).written(end))));
@@ -245,8 +272,8 @@ fn notes(one: &Assessment) -> Vec<String> {
 pub fn assumed(one: &Assessment) -> Option<String> {
     let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
     Some(format!(
-        "if events rarer than {RARE} in {} runs move the mean by less than {}; with bounded = [lowest, highest] it \
-         would assume nothing",
+        "provided that events rarer than {RARE} in {} runs move the mean by less than {}; with bounded = [lowest, \
+         highest] nothing is assumed",
         one.runs,
         room.trim_end(),
     ))

@@ -41,7 +41,8 @@ pub fn json(plan: &Plan, analysed: &Analysed, findings: &Findings) -> String {
     };
     let reasons: Vec<Value> = statuses.reasons().groups().into_iter().map(reason).collect();
     let runs = |worst: &Worst| -> Vec<Value> {
-        worst.list.runs.iter().map(|(sample, error)| json!({ "sample": sample.0, "error": error })).collect()
+        let key = if worst.is_error { "error" } else { "value" };
+        worst.list.runs.iter().map(|(sample, value)| json!({ "sample": sample.0, key: value })).collect()
     };
     let worst: Map<String, Value> =
         tally.worst.iter().map(|worst| (worst.name.replace(' ', "_"), json!(runs(worst)))).collect();

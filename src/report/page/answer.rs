@@ -2,7 +2,7 @@
 //! with a row a requirement, or a row an outcome where nothing is required.
 
 use crate::analysis::survey::Survey;
-use crate::campaign::Plan;
+use crate::campaign::{Plan, Statement};
 use crate::findings::names::sentence;
 use crate::findings::number::{time, trimmed, typeset};
 use crate::findings::{Finding, Findings, Kind, Verdict};
@@ -145,6 +145,8 @@ struct Row<'f> {
     outcome: Option<&'f Finding>,
     /// The large figure: of its outcome, or over time of what has to hold at each time.
     figure: Option<&'f Figure>,
+    /// Whether no single run meets or misses the requirement.
+    is_of_mean: bool,
     drivers: Vec<&'f Finding>,
 }
 
@@ -152,8 +154,9 @@ impl<'f> Row<'f> {
     fn of(plan: &Plan, found: &'f Findings, finding: &'f Finding, figures: &'f [Figure]) -> Self {
         let place = finding.id.strip_prefix("requirement_").and_then(|place| place.parse::<usize>().ok());
         let requirement = place.and_then(|place| plan.analysis.requirements.get(place - 1));
-        let name = requirement.map_or(finding.id.as_str(), |one| one.name());
-        let called = ["histogram_", "share_", ""].map(|kind| format!("{kind}{name}"));
+        let name = requirement.map_or(finding.id.as_str(), |one| one.observable().unwrap_or(one.name()));
+        let over_time = requirement.map_or(name, |one| one.name());
+        let called = [format!("histogram_{name}"), format!("share_{name}"), name.to_owned(), over_time.to_owned()];
         let ranking = format!("drivers_{name}");
         let is_of_it = |one: &&Finding| {
             one.id.strip_prefix(&ranking).is_some_and(|rest| rest.is_empty() || rest.starts_with("_event"))
@@ -162,6 +165,7 @@ impl<'f> Row<'f> {
             finding,
             outcome: found.of(Kind::Outcome).find(|one| one.id == name),
             figure: called.iter().find_map(|called| figures.iter().find(|figure| figure.name == *called)),
+            is_of_mean: requirement.is_some_and(|one| one.statement == Statement::Mean),
             drivers: found.of(Kind::Driver).filter(is_of_it).filter(|one| !one.title.is_empty()).collect(),
         }
     }
@@ -181,8 +185,10 @@ impl<'f> Row<'f> {
         let (value, rest) =
             said.split_once(" [").map_or((said.as_str(), String::new()), |(value, rest)| (value, format!("[{rest}")));
         let name = text(&number.name);
+        // what a verdict assumes is a part of it
+        let note = self.finding.notes.first().map_or_else(String::new, |note| format!("; {}", text(note)));
         format!(
-            "<b>{}</b> <span class=\"quiet\">{}</span><br><span class=\"quiet\">{name}</span>",
+            "<b>{}</b> <span class=\"quiet\">{}</span><br><span class=\"quiet\">{name}{note}</span>",
             text(value),
             text(&rest)
         )
@@ -193,7 +199,8 @@ impl<'f> Row<'f> {
         let yes = self.outcome.and_then(|one| one.number("yes"));
         let picture = match (yes, self.figure) {
             (Some(yes), _) => pictures::shares(yes),
-            (None, Some(figure)) => pictures::histogram(figure, "at "),
+            (None, Some(figure)) if self.is_of_mean => pictures::histogram(figure, None),
+            (None, Some(figure)) => pictures::histogram(figure, Some("at ")),
             (None, None) => String::new(),
         };
         let below = self.outcome.map_or_else(String::new, pictures::said_of);
@@ -243,7 +250,7 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     let (title, heads, example) = match has_verdicts {
         true => (
             "Requirements, nearest to their limit first",
-            ["required", "found", "limit dashed, what it asks for shaded", "runs, those that miss the limit hatched"],
+            ["required", "found", "dashed: limit; shaded: required side", "runs; hatched: they miss the limit"],
             String::new(),
         ),
         false => (

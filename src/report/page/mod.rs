@@ -46,6 +46,7 @@ use crate::campaign::Plan;
 use crate::ensemble::run_cost::replays;
 use crate::ensemble::{Ensemble, SingleRun};
 use crate::findings::outcome::event_time;
+use crate::findings::requirement::required;
 use crate::findings::{Finding, Findings, Kind, loss, names};
 use crate::report::figure::{Figure, FigureSection, Mark, Scale};
 use crate::report::inputs::DrawnInputs;
@@ -143,7 +144,7 @@ fn figures(
     let has_intervals = is_independent(plan) && !statistics.loss().is_big();
     let wheels = ensemble.request().wheels.to_vec();
     let curves = Curves::of_page(plan, nominal, bands, &wheels);
-    let curves = curves.among(flown).ordered_by(&runs::asked(plan, found));
+    let curves = curves.among(flown).ordered_by(&required(plan, found.of(Kind::Requirement)));
     let events = event_times(plan, &statistics.columns);
     let marked = |mut figure: Figure| {
         // rows of names, as of phases, have no place for more words

@@ -125,10 +125,10 @@ fn of_number(number: &Number, span: Span) -> String {
 }
 
 /// A histogram as a small picture, with the vertical lines on its axis whose names begin with `lines`, the runs that
-/// miss a limit in another colour, and what is expected as a curve; empty of another figure.
-pub fn histogram(figure: &Figure, lines: &str) -> String {
+/// miss a limit in another colour, and what is expected as a curve; without `lines` bars alone. Empty of another figure.
+pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
-        Mark::Limit { label, at, vertical: true } if label.starts_with(lines) => Some(*at),
+        Mark::Limit { label, at, vertical: true } if lines.is_some_and(|start| label.starts_with(start)) => Some(*at),
         _ => None,
     });
     let limits: Vec<f64> = limits.collect();
@@ -149,7 +149,7 @@ pub fn histogram(figure: &Figure, lines: &str) -> String {
     let at = |value: f64| WIDTH * span.part(value).clamp(0.0, 1.0);
     let mut inside = String::new();
     for (hue, edges, heights) in &bars {
-        let class = if *hue == Hue::Failed { " class=\"missed\"" } else { "" };
+        let class = if *hue == Hue::Failed && lines.is_some() { " class=\"missed\"" } else { "" };
         for (ends, count) in edges.windows(2).zip(*heights).filter(|(_, count)| **count > 0.0) {
             let (from, to) = (at(ends[0]), at(ends[1]));
             // one run among many is still seen
@@ -222,5 +222,7 @@ pub fn said_of(outcome: &Finding) -> String {
     let said = known.map(|number| (number, format!("{} {}", number.name, number.alone())));
     let (numbers, said): (Vec<&Number>, Vec<String>) = said.unzip();
     let unit = numbers.last().map_or("", |number| &number.shown.unit);
-    typeset(format!("{} {unit}", said.join(", ")).trim_end())
+    // how many runs have it is in the title
+    let of = outcome.title.split_once(" (").map_or_else(String::new, |(_, of)| format!(" ({of}"));
+    typeset(format!("{} {unit}{of}", said.join(", ")).trim_end())
 }

@@ -7,7 +7,8 @@ use crate::campaign::Plan;
 use crate::ensemble::single::SingleRuns;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::findings::loss::{readable, status_words};
-use crate::findings::{Finding, Findings, Kind, names};
+use crate::findings::names;
+use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED};
 use crate::math::Isa;
 use crate::observables::Group;
 use crate::report::page::readable::with_unit;
@@ -77,26 +78,18 @@ impl ShownRun {
     }
 }
 
-/// What the requirements are about, the nearest to its limit first, each once.
-pub fn asked(plan: &Plan, found: &Findings) -> Vec<String> {
-    let place = |one: &Finding| one.id.strip_prefix("requirement_")?.parse::<usize>().ok()?.checked_sub(1);
-    let requirements = found.of(Kind::Requirement).filter_map(place);
-    let mut names: Vec<String> = Vec::new();
-    for one in requirements.filter_map(|place| plan.analysis.requirements.get(place)) {
-        if !names.iter().any(|name| name == one.name()) {
-            names.push(one.name().to_owned());
-        }
-    }
-    names
-}
-
 /// The nominal run and the worst ones, in the order in which they are shown, each with why it is: the worst of the
-/// requirement that is nearest to its limit first. `asked`: what the requirements are about ([`asked`]).
+/// requirement that is nearest to its limit first. `asked`: the observables that requirements are about.
 pub fn listed(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
     for (sample, why) in worst(plan, survey, asked) {
-        if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
-            list.push((sample, why));
+        match list.iter().position(|(other, _)| *other == sample) {
+            // a run that is the worst of several outcomes is listed once
+            Some(place) if ["largest ", "smallest "].iter().any(|side| why.starts_with(side)) => {
+                list[place].1 += &format!("; {why}");
+            }
+            None if list.len() <= WORST => list.push((sample, why)),
+            _ => {}
         }
     }
     list
@@ -181,37 +174,27 @@ fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, Strin
     let errors: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error && !outcome.is_outcome).collect();
     let outcomes = if outcomes.is_empty() { errors } else { outcomes };
     let lost = list.len();
+    let launched = outcomes.iter().filter(|outcome| outcome.quantity.name() == LAUNCHED);
+    let not_launched = launched.flat_map(|outcome| &outcome.worst.runs).filter(|(_, value)| *value == 0.0);
+    list.extend(not_launched.take(MOST_FAILED).map(|(sample, _)| (*sample, NOT_LAUNCHED.to_owned())));
     let deepest = outcomes.iter().map(|outcome| outcome.worst.runs.len()).max().unwrap_or(0);
     for place in 0..deepest {
         for outcome in &outcomes {
             let is_low = outcome.worst.is_low;
             if let Some((sample, value)) = outcome.worst.runs.get(place).filter(|(_, value)| is_low || *value != 0.0) {
-                if outcome.quantity.name() == "launched" {
-                    // the others are no worse than each other
-                    if *value == 0.0 {
-                        list.push((*sample, "mission did not launch".to_owned()));
-                    }
+                // missions that did not launch are no worse than each other, and come first
+                if outcome.quantity.name() == LAUNCHED {
                     continue;
                 }
                 let (first, tie) = tied(&outcome.worst, *value);
-                let side = if is_low { "smallest" } else { "largest" };
-                let rank = match first.checked_sub(1) {
-                    None => side.to_owned(),
-                    Some(before) => {
-                        let which =
-                            PLACES.get(before).map_or_else(|| format!("{}th", first + 1), |word| (*word).to_owned());
-                        format!("{which} {side}")
-                    }
-                };
+                let rank = first.checked_sub(1).map_or_else(String::new, |before| {
+                    PLACES.get(before).map_or_else(|| format!("{}th ", first + 1), |word| format!("{word} "))
+                });
                 let quantity = &outcome.quantity;
                 let shown = plan.analysis.display.of(quantity.name(), quantity.unit());
                 let value = with_unit(shown.value(*value), &shown.unit);
-                let name = names::of_quantity(quantity);
-                // "largest highest pointing error" is one word too many
-                let said =
-                    if is_low { ["lowest ", "minimum ", "smallest "] } else { ["highest ", "maximum ", "largest "] };
-                let name = said.into_iter().find_map(|word| name.strip_prefix(word)).unwrap_or(&name);
-                list.push((*sample, format!("{rank} {name} ({value}{tie})")));
+                let name = names::of_extreme(&names::of_quantity(quantity), is_low);
+                list.push((*sample, format!("{rank}{name} ({value}{tie})")));
             }
         }
     }
