@@ -1,24 +1,45 @@
-//! Drift as a distribution: the conservation errors of shipped campaigns under every method, held to bounds.
+//! Drift as a distribution: the conservation errors of every shipped campaign under every method, held to bounds and to
+//! a baseline.
 //!
-//! - The upper 99% confidence limit (order statistic) of the median, and the largest of n runs, the upper 99.4% limit
-//!   of the 99th percentile for n = 512 (1 - 0.99^512).
-//! - The median error falls in proportion to the tolerance. (`value_hashes` holds the bits of each run.)
+//! - Bounds: the upper 99% confidence limit (order statistic) of the median, and the largest of n runs, which is the
+//!   upper 99.4% confidence limit of the 99th percentile for n = 512 (1 - 0.99^512).
+//! - Baseline: `tests/golden/drift_bounds.json` holds 33 quantiles of each distribution. H0: the runs of today come
+//!   from the same distribution. Two-sample Kolmogorov-Smirnov, n = m = 512, alpha = 1e-4 (critical distance 0.139),
+//!   seeds fixed, 84 comparisons; a distribution whose median lies at the 75th percentile of the baseline is seen with
+//!   a power above 0.999.
+//! - Scaling: the median error falls in proportion to the tolerance.
+//!
+//! A change of a kernel that changes these distributions on purpose writes the baseline again:
+//! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test accuracy drift_bounds`.
 
 use crate::support::claims::hold;
 use crate::support::plans::{rows, shipped};
+use serde_json::{Value, json};
 use spindrift::campaign::Plan;
+use spindrift::ensemble::{Ensemble, SingleRun};
+use spindrift::math::Isa;
+use spindrift::observables::Observer;
 use spindrift::ode::{Integrator, Tolerance};
-use spindrift::propagation::Method;
+use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::{Grid, Status};
+use spindrift::sampling::SampleId;
+use spindrift::scene::Scene;
 
 const SECTION: &str = "drift_bounds";
+/// Set, the baseline is written and not compared.
+const WRITE: &str = "SPINDRIFT_WRITE_BASELINE";
 /// The shipped campaigns whose runs are compared.
 const CAMPAIGNS: [&str; 5] = ["burn", "no_debris", "report_1e-6", "report_1e-8", "spin_sweep"];
 /// Runs of a cell, and of one of the slow null-space kernel.
 const RUNS: u64 = 512;
 const REFERENCE_RUNS: u64 = 48;
 /// What is compared.
-const COLUMNS: [&str; 2] = ["energy_error_max", "energy_error_rate_per_s"];
+const COLUMNS: [&str; 4] =
+    ["energy_error_max", "energy_error_rate_per_s", "angular_momentum_error_max", "angular_momentum_error_rate_per_s"];
+/// Quantiles of a stored distribution: k/32.
+const QUANTILES: usize = 33;
+/// Kolmogorov's constant for alpha = 1e-4: sqrt(-ln(alpha/2)/2).
+const KOLMOGOROV: f64 = 2.225;
 
 /// How a method is set, and the largest relative error of energy that is allowed over the cell's horizon: (median,
 /// largest). The bounds are 1.6 to 4 times the measured values, which `docs/accuracy.md` lists.
@@ -31,6 +52,7 @@ struct Setting {
     energy: [f64; 2],
 }
 
+/// Every method at a setting of everyday use, and both Taylor methods at their best.
 fn settings() -> [Setting; 7] {
     let adaptive = |method, tolerance, horizon, energy| Setting { method, tolerance, step: None, horizon, energy };
     let fixed = |method, step, energy| Setting { method, tolerance: 1e-14, step: Some(step), horizon: 2.0, energy };
@@ -45,6 +67,7 @@ fn settings() -> [Setting; 7] {
     ]
 }
 
+/// The campaign under a method; campaigns of one run stay so.
 fn plan(campaign: &str, setting: &Setting) -> Plan {
     let samples = shipped(campaign, None).samples;
     let most = if setting.method == Method::NullSpace { REFERENCE_RUNS } else { RUNS };
@@ -56,6 +79,7 @@ fn plan(campaign: &str, setting: &Setting) -> Plan {
     plan
 }
 
+/// The sizes of a column's values, ascending.
 fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
     for (sample, size) in sizes.iter().enumerate() {
@@ -73,8 +97,56 @@ fn median_limit(sorted: &[f64]) -> f64 {
     sorted[rank.min(sorted.len() - 1)]
 }
 
+fn quantiles(sorted: &[f64]) -> Vec<f64> {
+    let last = (sorted.len() - 1) as f64;
+    (0..QUANTILES).map(|k| sorted[(last * k as f64 / (QUANTILES - 1) as f64).round() as usize]).collect()
+}
+
+/// Kolmogorov-Smirnov distance between a sample and a baseline that is known by its quantiles.
+fn distance(sorted: &[f64], baseline: &[f64]) -> f64 {
+    let n = sorted.len() as f64;
+    let at = |k: usize| {
+        let share = k as f64 / (QUANTILES - 1) as f64;
+        // among ties the baseline's share is a range, and so is the sample's
+        let below = baseline.partition_point(|q| *q < baseline[k]) as f64 / (QUANTILES - 1) as f64;
+        let up_to = (baseline.partition_point(|q| *q <= baseline[k]) as f64 - 1.0) / (QUANTILES - 1) as f64;
+        let (low, high) = (
+            sorted.partition_point(|x| *x < baseline[k]) as f64 / n,
+            sorted.partition_point(|x| *x <= baseline[k]) as f64 / n,
+        );
+        let gap = (low - up_to).max(below - high).max(0.0);
+        if below == up_to { gap.max((low - share).max(share - high)) } else { gap }
+    };
+    (0..QUANTILES).map(at).fold(0.0, f64::max)
+}
+
+/// The distance at which H0 is rejected for samples of `n` each.
+fn critical(n: usize) -> f64 {
+    KOLMOGOROV * (2.0 / n as f64).sqrt()
+}
+
+fn golden() -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/drift_bounds.json")
+}
+
+fn key(campaign: &str, method: Method, column: &str) -> String {
+    format!("{campaign} {} {column}", method.name())
+}
+
+/// The stored quantiles of a cell.
+fn baseline(file: &Value, key: &str) -> Vec<f64> {
+    let list = file[key].as_array().unwrap_or_else(|| panic!("drift_bounds.json has no {key}: {WRITE}=1 writes it"));
+    list.iter().map(|value| value.as_str().expect("digits").parse().expect("a number")).collect()
+}
+
+/// Law: errors of shipped campaigns stay within their bounds, and their distributions stay what they were.
 #[test]
-fn shipped_campaigns_drift_within_bounds() {
+fn shipped_campaigns_drift_as_before() {
+    let write = std::env::var_os(WRITE).is_some();
+    let file: Value =
+        std::fs::read_to_string(golden()).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(json!({}));
+    let mut written = serde_json::Map::new();
+    let mut wrong = Vec::new();
     for setting in settings() {
         let (mut middle, mut largest, mut secular) = (0.0_f64, 0.0_f64, 0.0_f64);
         for campaign in CAMPAIGNS {
@@ -84,12 +156,28 @@ fn shipped_campaigns_drift_within_bounds() {
             }
             for column in COLUMNS {
                 let found = sorted(table.column(column));
+                let key = key(campaign, setting.method, column);
                 if column == COLUMNS[0] {
                     middle = middle.max(median_limit(&found));
                     largest = largest.max(found[found.len() - 1]);
                 }
                 if column == COLUMNS[1] {
                     secular = secular.max(setting.horizon * found[found.len() - 1]);
+                }
+                if write {
+                    let digits = quantiles(&found).into_iter().map(|q| json!(format!("{q:.6e}"))).collect();
+                    written.insert(key, Value::Array(digits));
+                } else if found.len() == 1 {
+                    // a campaign of one run has no distribution: its error may change with the roundings, not in size
+                    let ratio = (found[0] + 1e-16) / (baseline(&file, &key)[0] + 1e-16);
+                    if !(0.1..10.0).contains(&ratio) {
+                        wrong.push(format!("{key}: {:e}, {ratio:.2} times the baseline", found[0]));
+                    }
+                } else {
+                    let (off, limit) = (distance(&found, &baseline(&file, &key)), critical(found.len()));
+                    if off > limit {
+                        wrong.push(format!("{key}: KS distance {off:.3} > {limit:.3}"));
+                    }
                 }
             }
         }
@@ -109,12 +197,18 @@ fn shipped_campaigns_drift_within_bounds() {
         // the slope of a straight drift to the largest error, and half as much again for one that is bent
         hold(SECTION, &claim("largest secular rate times the time"), 1.5 * setting.energy[1], secular);
     }
+    if write {
+        let text = serde_json::to_string_pretty(&Value::Object(written)).expect("JSON");
+        std::fs::write(golden(), text + "\n").expect("the baseline can be written");
+    }
+    assert!(wrong.is_empty(), "distributions have changed ({WRITE}=1 writes the baseline again): {wrong:#?}");
 }
 
 /// How far the log-log slope of the median error over the tolerance may be off one: a factor of 2.5 over four decades.
 /// Measured: 0.015.
 const PROPORTIONAL: f64 = 0.1;
 
+/// Law: the median error of energy falls in proportion to the tolerance.
 #[test]
 fn drift_scales_with_the_tolerance() {
     for method in [Method::Gyrostat(Integrator::DormandPrince), Method::Gyrostat(Integrator::Dop853), Method::NullSpace]
@@ -133,4 +227,66 @@ fn drift_scales_with_the_tolerance() {
         );
         hold(SECTION, &regime, PROPORTIONAL, (slope - 1.0).abs());
     }
+}
+
+/// The energy errors of the first `count` runs of `plan` when the kernel integrates what `fault` makes of each scene,
+/// and the observer knows nothing of it.
+fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] {
+    let isa = Isa::best();
+    let campaign = Ensemble::new(plan, isa);
+    let columns = campaign.request().columns();
+    let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
+    let place = |name: &str| names.iter().position(|known| *known == name).expect("the column is there");
+    let propagator: &PropagationSettings = campaign.propagator();
+    let (mut engine, mut observer) = (propagator.engine(isa), Observer::new(*campaign.request(), &plan.grid));
+    let mut row = vec![0.0; names.len()];
+    let mut errors = [Vec::new(), Vec::new()];
+    for sample in 0..count {
+        let drawn =
+            SingleRun::new(plan, SampleId(sample), Grid::uniform(1e-3, 2), isa).expect("a physical sample").scene;
+        let mut wrong = drawn.clone();
+        fault(&mut wrong);
+        engine.propagate(std::slice::from_ref(&wrong), &mut |CompletedRun { table, outcome, .. }| {
+            observer.observe(isa, &drawn, table, outcome, &mut row);
+            for (errors, column) in errors.iter_mut().zip([COLUMNS[0], COLUMNS[2]]) {
+                errors.push(row[place(column)]);
+            }
+        });
+    }
+    errors.map(|errors| sorted(&errors))
+}
+
+/// Counter-tests: a coefficient that is off by 1e-12 and a dropped term are seen by bounds and baseline; no fault is
+/// not.
+#[test]
+fn faults_are_seen() {
+    if std::env::var_os(WRITE).is_some() {
+        return;
+    }
+    let text = std::fs::read_to_string(golden()).expect("the baseline");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let setting = &settings()[0];
+    let plan = plan("no_debris", setting);
+    let seen = |fault: &dyn Fn(&mut Scene)| {
+        let errors = faulty(&plan, 128, fault);
+        let off = |i: usize, column| distance(&errors[i], &baseline(&file, &key("no_debris", setting.method, column)));
+        let bound = errors[0][errors[0].len() - 1] > setting.energy[1];
+        (off(0, COLUMNS[0]).max(off(1, COLUMNS[2])), bound)
+    };
+    let (sound, beyond) = seen(&|_| {});
+    println!("no fault: {sound:.3}");
+    assert!(sound < critical(128) && !beyond);
+    for axis in 0..3 {
+        let (off, _) = seen(&|scene| scene.mass.inertia_free[axis][axis] *= 1.0 + 1e-12);
+        println!("moment {axis} off by 1e-12: {off:.3}");
+        assert!(off > critical(128), "moment {axis}: {off}");
+    }
+    // a term is omitted: J instead of J* = J - J_1 a1 a1^T - J_2 a2 a2^T
+    let (off, beyond) = seen(&|scene| scene.mass.inertia_free = scene.mass.inertia);
+    // measured: 1, no faulty run is within the range of the baseline
+    assert!(off > 0.99 && beyond, "{off}");
+    // a wrong sign: wheel 1 couples as if it turned about -s2
+    let (off, beyond) = seen(&|scene| scene.mass.wheels[0].axis = scene.mass.wheels[0].axis.map(|x| -x));
+    // measured: 1, no faulty run is within the range of the baseline
+    assert!(off > 0.99 && beyond, "{off}");
 }
