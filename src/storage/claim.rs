@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::campaign::Plan;
 use crate::ensemble::{PartId, Parts};
 use crate::storage::atomic::explained;
-use crate::storage::dataset::{Dataset, Head, MOST, PartRecord, unfinish};
+use crate::storage::dataset::{Dataset, Head, PartRecord, unfinish};
 use crate::storage::folder_error::{FolderError, all_differences, occupied, other_questions};
 use crate::storage::found::{Contents, Found, MISSING, contents};
 use crate::storage::identity::{Identity, sealed};
@@ -255,7 +255,7 @@ fn begin(
         return Ok(head);
     }
     store.put_if_absent(HEAD, &bytes).map_err(store.at(HEAD))?;
-    let there = store.read(HEAD, MOST)?.map_err(store.at(HEAD))?;
+    let there = store.read(HEAD)?.map_err(store.at(HEAD))?;
     let other: Option<Head> = sealed(&there).and_then(|_| serde_json::from_slice(&there).ok());
     match other {
         Some(other) if other.identity == *identity => Ok(other),
@@ -266,7 +266,7 @@ fn begin(
 
 /// The text of the summary; `None` where it cannot be one.
 fn summary(store: &dyn Store) -> Result<Option<String>, StoreError> {
-    let text = store.read(SUMMARY, MOST)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let text = store.read(SUMMARY)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let is_summary = |text: &String| {
         serde_json::from_str::<serde_json::Value>(text).is_ok_and(|value| value.get("statuses").is_some())
     };

@@ -24,9 +24,6 @@ use crate::storage::names::{DATA, MANIFEST, PLAN, SUCCESS, SUMMARY, bands_of, is
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::store::{Store, StoreError};
 
-/// Most bytes of a file that is made of rows or lists them.
-pub const MOST: u64 = 1 << 36;
-
 /// A file with its checksum.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
@@ -263,7 +260,7 @@ impl Dataset {
     pub fn keep(&self, copies: &[(String, Vec<u8>)]) -> Result<(), StoreError> {
         let copies = copies.iter().map(|(name, bytes)| (format!("{DATA}/{name}"), &**bytes));
         for (name, bytes) in copies.chain([(PLAN.to_owned(), self.plan.as_bytes())]) {
-            match self.store.read(&name, bytes.len() as u64)? {
+            match self.store.read(&name)? {
                 Ok(there) if there == bytes => self.list(FileRecord::of(&name, bytes)),
                 _ => self.put(&name, bytes)?,
             }
@@ -314,7 +311,7 @@ impl Dataset {
         };
         // bands before rows
         for name in for_now {
-            let bytes = self.store.read(&name, MOST)?.map_err(self.store.at(&name))?;
+            let bytes = self.store.read(&name)?.map_err(self.store.at(&name))?;
             self.store.put(&name, &bytes).map_err(self.store.at(&name))?;
         }
         put_end(&*self.store, &manifest)

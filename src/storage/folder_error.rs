@@ -108,7 +108,7 @@ pub(super) fn occupied(
     there: &Identity,
     (plan, identity): (&Plan, &Identity),
 ) -> FolderError {
-    let text = store.read(PLAN, super::dataset::MOST).ok().and_then(|read| String::from_utf8(read.ok()?).ok());
+    let text = store.read(PLAN).ok().and_then(|read| String::from_utf8(read.ok()?).ok());
     let text = if found.plan.is_empty() { text.unwrap_or_default() } else { found.plan.clone() };
     let folder = store.root().display().to_string();
     if !store.replaces() {

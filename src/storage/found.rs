@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 
 use crate::campaign::Plan;
 use crate::ensemble::{Part, PartId, Parts};
-use crate::storage::dataset::{FileRecord, Head, MOST, Manifest, PartRecord};
+use crate::storage::dataset::{FileRecord, Head, Manifest, PartRecord};
 use crate::storage::identity::{Identity, RowsMetadata, sealed, sha256};
 use crate::storage::names::{
     DATA, FOLDERS, HEAD, MANIFEST, PART_BANDS, PLAN, REPORT, RUNS, SUCCESS, UNFINISHED, bands_of, is_of_part, is_ours,
@@ -163,7 +163,7 @@ impl Examined {
 
 /// The content of a file; what is wrong with it where it is not what was written.
 fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, String>, StoreError> {
-    Ok(match store.read(&file.name, file.bytes)? {
+    Ok(match store.read(&file.name)? {
         Err(error) => Err(reason(&error)),
         Ok(bytes) if bytes.len() as u64 != file.bytes => {
             Err(format!("{} bytes instead of {}", bytes.len(), file.bytes))
@@ -190,7 +190,7 @@ fn part_there(
     let name = rows_of(id);
     let wrong = |what: String| Ok(Err(format!("{name}: {what}")));
     let changed = "its content has changed";
-    let bytes = match store.read(&name, MOST)? {
+    let bytes = match store.read(&name)? {
         Ok(bytes) => bytes,
         Err(error) => return wrong(reason(&error)),
     };
@@ -214,7 +214,7 @@ fn part_there(
     if let Some(sha256_of_bands) = there.bands {
         let name = bands_of(id);
         let wrong = |what: String| Ok(Err(format!("{name}: {what}")));
-        match store.read(&name, MOST)? {
+        match store.read(&name)? {
             Ok(bytes) if sha256(&bytes) == sha256_of_bands => {
                 files.push(FileRecord { name, bytes: bytes.len() as u64, sha256: sha256_of_bands });
             }
@@ -248,7 +248,7 @@ pub fn contents(store: &dyn Store) -> Result<Contents, StoreError> {
             found.add(name.clone(), entry.is_file);
         }
     }
-    let read = |name: &str| found.files.contains(name).then(|| store.read(name, MOST)).transpose();
+    let read = |name: &str| found.files.contains(name).then(|| store.read(name)).transpose();
     let bytes =
         |read: &Option<Result<Vec<u8>, std::io::Error>>| read.as_ref().and_then(|read| read.as_ref().ok().cloned());
     let (head, manifest) = (read(HEAD)?, read(MANIFEST)?);
@@ -286,7 +286,7 @@ pub fn contents(store: &dyn Store) -> Result<Contents, StoreError> {
         found.damage.push(format!("{MANIFEST}: lists other rows than those of {HEAD}"));
         (found.manifest, found.is_finished) = (None, false);
     }
-    let plan = store.read(PLAN, MOST)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let plan = store.read(PLAN)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
     found.plan = plan.clone().unwrap_or_default();
     if let Some(manifest) = found.manifest.as_ref().filter(|manifest| plan.as_ref() != Some(&manifest.plan)) {
         found.damage.push(damage(PLAN, found.files.contains(PLAN)));
@@ -309,7 +309,7 @@ impl Found {
     /// The identity that the first sealed file of rows records.
     fn identity_of_rows(&self, store: &dyn Store) -> Result<Option<Identity>, StoreError> {
         for name in self.files.iter().filter(|name| part_of(name).is_some()) {
-            if let Ok(bytes) = store.read(name, MOST)?
+            if let Ok(bytes) = store.read(name)?
                 && sealed(&bytes).is_some()
                 && let Some(rows) = RowsMetadata::of(bytes.into())
             {

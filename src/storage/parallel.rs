@@ -1,6 +1,7 @@
 //! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come.
 //! Threads that the system does not start are done without.
 
+use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::Builder;
@@ -11,24 +12,19 @@ pub fn in_parallel<T: Send, U: Send>(
     threads: Option<NonZeroUsize>,
     each: impl Fn(T) -> U + Sync,
 ) -> Vec<U> {
-    let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = threads.map_or_else(cores, NonZeroUsize::get).min(items.len());
-    if threads <= 1 {
-        return items.into_iter().map(each).collect();
+    let waiting: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
+    let read = |index: usize| {
+        let item = waiting[index].lock().unwrap_or_else(PoisonError::into_inner).take();
+        Ok::<_, Infallible>(item.map(&each))
+    };
+    let mut done = Vec::with_capacity(waiting.len());
+    let merge = |found: Option<U>| {
+        done.extend(found);
+        Ok(())
+    };
+    match in_order(waiting.len(), threads, read, merge) {
+        Ok(()) => done,
     }
-    let waiting = Mutex::new(items.into_iter().enumerate());
-    let done = Mutex::new(Vec::new());
-    on_threads(threads, &|| {
-        loop {
-            let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((index, item)) = next else { return };
-            let found = each(item);
-            done.lock().unwrap_or_else(PoisonError::into_inner).push((index, found));
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, found)| found).collect()
 }
 
 /// Does `work`, which several threads can share, on `threads` threads: this one, and as many more as can be started.

@@ -38,7 +38,7 @@ fn digits(head: &[u8]) -> String {
 
 /// The digits of the dataset in `store`, where its `dataset.json` can be read.
 fn digits_of(store: &dyn Store) -> Result<Option<String>, StoreError> {
-    Ok(store.read(HEAD, 1 << 16)?.ok().map(|head| digits(&head)))
+    Ok(store.read(HEAD)?.ok().map(|head| digits(&head)))
 }
 
 /// The datasets beside `root` that were made to replace it, each with its digits.

@@ -2,28 +2,26 @@
 //!
 //! By Parquet's typed column reader: a column comes from the decoder as a list of numbers, without Arrow's arrays
 //! between. Memory is that of the parts under way and does not depend on the number of rows. The Parquet reader panics
-//! on some damaged files; here that is an error that names the file. A file that cannot be read is told apart from one
-//! that is damaged.
+//! on some damaged files; here that is an error that names the file.
 
 use std::borrow::Cow;
-use std::io::{self, BufReader, Read};
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use bytes::Bytes;
 use parquet::basic::Type;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
-use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use thiserror::Error;
 
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::parallel::in_order;
 use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
-use crate::storage::store::{Store, StoredFile, read_some};
+use crate::storage::store::Store;
 use crate::table::Values;
 
 /// Why rows could not be read.
@@ -44,11 +42,10 @@ pub struct RowsReader {
     bands: Vec<String>,
 }
 
-/// One file of rows, open. It belongs to one thread: others open the same file for themselves.
+/// One file of rows, in memory.
 pub struct PartReader {
     path: String,
-    source: ParquetSource,
-    reader: SerializedFileReader<ParquetSource>,
+    reader: SerializedFileReader<Bytes>,
     rows: usize,
 }
 
@@ -105,20 +102,12 @@ impl RowsReader {
     }
 }
 
-/// What `read` returns; a panic of the Parquet reader is an error too. Where the file could not be read, that is the
-/// error.
-fn caught<T>(
-    path: &str,
-    source: &ParquetSource,
-    read: impl FnOnce() -> Result<T, ParquetError>,
-) -> Result<T, RowsError> {
-    let found = catch_unwind(AssertUnwindSafe(read));
-    let damaged = || "the file is damaged: the Parquet reader cannot decode it".to_owned();
-    let what = match (found, source.failure()) {
-        (_, Some(failure)) => failure.to_string(),
-        (Ok(Ok(found)), None) => return Ok(found),
-        (Ok(Err(error)), None) => error.to_string(),
-        (Err(_), None) => damaged(),
+/// What `read` returns; a panic of the Parquet reader is an error too.
+fn caught<T>(path: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, RowsError> {
+    let what = match catch_unwind(AssertUnwindSafe(read)) {
+        Ok(Ok(found)) => return Ok(found),
+        Ok(Err(error)) => error.to_string(),
+        Err(_) => "the file is damaged: the Parquet reader cannot decode it".to_owned(),
     };
     Err(RowsError { path: path.to_owned(), what })
 }
@@ -128,16 +117,16 @@ fn general(what: impl Into<String>) -> ParquetError {
 }
 
 impl PartReader {
-    /// Opens the file `name`.
+    /// Reads the file `name`.
     ///
     /// # Errors
     /// Where it cannot be opened or is no Parquet file.
     pub fn open(store: &dyn Store, name: &str) -> Result<Self, RowsError> {
         let shown = store.path(name).display().to_string();
-        let source = ParquetSource::open(store, name)
-            .map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
-        let (reader, rows) = caught(&shown, &source, || {
-            let reader = SerializedFileReader::new(source.clone())?;
+        let bytes = store.get(name);
+        let bytes = bytes.map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
+        let (reader, rows) = caught(&shown, || {
+            let reader = SerializedFileReader::new(Bytes::from(bytes))?;
             // thousands of groups of a few rows would take minutes to read
             let rows = match reader.metadata().row_groups() {
                 [] => 0,
@@ -148,7 +137,7 @@ impl PartReader {
             };
             Ok((reader, rows))
         })?;
-        Ok(PartReader { path: shown, source, reader, rows })
+        Ok(PartReader { path: shown, reader, rows })
     }
 
     /// The file, for messages.
@@ -252,7 +241,7 @@ impl PartReader {
     /// # Errors
     /// Where the column is missing or damaged.
     fn cells(&self, name: &str) -> Result<DecodedColumn, RowsError> {
-        caught(&self.path, &self.source, || {
+        caught(&self.path, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
             let index = schema.columns().iter().position(|column| column.name() == name);
             let Some(index) = index else { return Err(general(format!("there is no column `{name}`"))) };
@@ -331,79 +320,6 @@ fn column_values<T: DataType>(
 /// One number for each row: the next of `values` where there is one, else NaN.
 fn spread(mut values: impl Iterator<Item = f64>, present: &[i16]) -> Cow<'static, [f64]> {
     present.iter().map(|present| if *present == 1 { values.next().unwrap_or(f64::NAN) } else { f64::NAN }).collect()
-}
-
-/// An open file, and the first error of reading it: the Parquet reader makes texts of its own of errors, and may panic
-/// where a read has failed.
-#[derive(Clone, Debug)]
-struct ParquetSource {
-    file: Arc<dyn StoredFile>,
-    length: u64,
-    failure: Arc<Mutex<Option<io::Error>>>,
-}
-
-impl ParquetSource {
-    fn open(store: &dyn Store, name: &str) -> io::Result<Self> {
-        let file: Arc<dyn StoredFile> = store.get(name)?.into();
-        let length = file.length()?;
-        Ok(ParquetSource { file, length, failure: Arc::default() })
-    }
-
-    /// What the first read said that failed; the next call has nothing to say.
-    fn failure(&self) -> Option<io::Error> {
-        self.failure.lock().unwrap_or_else(PoisonError::into_inner).take()
-    }
-}
-
-impl Length for ParquetSource {
-    fn len(&self) -> u64 {
-        self.length
-    }
-}
-
-impl ChunkReader for ParquetSource {
-    type T = BufReader<FileRest>;
-
-    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
-        Ok(BufReader::new(FileRest { source: self.clone(), offset: start }))
-    }
-
-    fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes, ParquetError> {
-        // what a damaged file claims is not allocated
-        if start.checked_add(length as u64).is_none_or(|end| end > self.length) {
-            return Err(ParquetError::EOF(format!(
-                "{length} bytes from byte {start} on, where the file has {}",
-                self.length
-            )));
-        }
-        let mut bytes = vec![0; length];
-        FileRest { source: self.clone(), offset: start }.read_exact(&mut bytes)?;
-        Ok(bytes.into())
-    }
-}
-
-/// The rest of a file, from an offset on.
-#[derive(Debug)]
-struct FileRest {
-    source: ParquetSource,
-    offset: u64,
-}
-
-impl Read for FileRest {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let source = &self.source;
-        match read_some(&*source.file, (self.offset, source.length), bytes) {
-            Ok(count) => {
-                self.offset += count as u64;
-                Ok(count)
-            }
-            Err(error) => {
-                let told = io::Error::new(error.kind(), error.to_string());
-                source.failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-                Err(told)
-            }
-        }
-    }
 }
 
 #[cfg(test)]

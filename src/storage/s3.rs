@@ -22,7 +22,7 @@ use tokio::runtime::{Builder, Runtime};
 
 use super::address::Address;
 use super::identity::sha256;
-use super::store::{Entry, Store, StoredFile};
+use super::store::{Entry, Store};
 
 /// How often a request is tried again: with pauses up to 15 s, some minute in all.
 const RETRIES: usize = 10;
@@ -64,23 +64,6 @@ struct S3 {
     store: AmazonS3,
     /// Files of which a later version may come.
     for_now: Mutex<BTreeMap<String, Bytes>>,
-}
-
-/// An object that was got as a whole: a part is read column by column, and a request takes longer than its bytes.
-#[derive(Debug)]
-struct Object(Bytes);
-
-impl StoredFile for Object {
-    fn length(&self) -> io::Result<u64> {
-        Ok(self.0.len() as u64)
-    }
-
-    fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
-        let rest = usize::try_from(offset).ok().and_then(|offset| self.0.get(offset..)).unwrap_or_default();
-        let count = rest.len().min(bytes.len());
-        bytes[..count].copy_from_slice(&rest[..count]);
-        Ok(count)
-    }
 }
 
 /// The store at `address`.
@@ -169,10 +152,10 @@ impl Store for S3 {
         self.create(name, bytes).map(|_| ())
     }
 
-    fn get(&self, name: &str) -> io::Result<Box<dyn StoredFile>> {
+    fn get(&self, name: &str) -> io::Result<Vec<u8>> {
         let for_now = self.for_now.lock().unwrap_or_else(PoisonError::into_inner).get(name).cloned();
         let found = for_now.map_or_else(|| self.object(name), |bytes| Ok(Some(bytes)))?;
-        found.map(|bytes| Box::new(Object(bytes)) as _).ok_or_else(|| ErrorKind::NotFound.into())
+        Ok(found.ok_or(ErrorKind::NotFound)?.into())
     }
 
     fn list(&self, folder: &str) -> io::Result<Vec<Entry>> {

@@ -6,11 +6,14 @@
 
 use std::fmt::Debug;
 use std::fs::{File, TryLockError};
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
+
+/// Most bytes of a file.
+const MOST: u64 = 1 << 36;
 
 /// The files of one dataset, each by its name below [`Store::root`], with `/` between folder and file.
 pub trait Store: Debug + Send + Sync {
@@ -30,11 +33,11 @@ pub trait Store: Debug + Send + Sync {
     /// Where no file of this name is known to be there.
     fn put_if_absent(&self, name: &str, bytes: &[u8]) -> io::Result<()>;
 
-    /// Opens a file for reading: no link, no folder, no pipe.
+    /// The content of a file: no link, no folder, no pipe.
     ///
     /// # Errors
-    /// Where it cannot be opened, or is [`Unfit`].
-    fn get(&self, name: &str) -> io::Result<Box<dyn StoredFile>>;
+    /// Where it cannot be read as far as its length, or is [`Unfit`].
+    fn get(&self, name: &str) -> io::Result<Vec<u8>>;
 
     /// The entries of a folder, ascending by name; of the whole dataset where `folder` is empty.
     ///
@@ -89,19 +92,18 @@ impl dyn Store + '_ {
         at(&self.path(name))
     }
 
-    /// The content of the file `name` of at most `most` bytes; what is wrong with it where it is absent or unfit.
+    /// The content of the file `name`; what is wrong with it where it is absent or unfit.
     ///
     /// # Errors
     /// Where it cannot be read now.
-    pub fn read(&self, name: &str, most: u64) -> Result<Result<Vec<u8>, io::Error>, StoreError> {
-        let get = || self.get(name).and_then(|file| content(&*file, most));
-        let mut got = get();
+    pub fn read(&self, name: &str) -> Result<Result<Vec<u8>, io::Error>, StoreError> {
+        let mut got = self.get(name);
         if let Err(error) = &got
             && error.kind() == ErrorKind::NotFound
             && !self.is_absent(name, error)?
         {
             // another process has put it since
-            got = get();
+            got = self.get(name);
         }
         match got {
             Ok(bytes) => Ok(Ok(bytes)),
@@ -165,36 +167,21 @@ pub fn at(path: &Path) -> impl FnOnce(io::Error) -> StoreError + use<> {
     move |source| StoreError { path, source }
 }
 
-/// An open file. Reads do not change its state on Unix; elsewhere one thread at a time reads it.
-pub trait StoredFile: Debug + Send + Sync {
-    /// Its length, bytes.
-    ///
-    /// # Errors
-    /// Where it cannot be found out.
-    fn length(&self) -> io::Result<u64>;
-
-    /// Reads bytes from `offset` on into `bytes` and returns their number, which is zero at the end only.
-    ///
-    /// # Errors
-    /// Where they cannot be read.
-    fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize>;
-}
-
 /// What is not a file of a dataset, whatever is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Unfit {
     /// A folder, a link, a pipe or a device.
     #[error("not a regular file")]
     Kind,
-    #[error("{length} bytes, where at most {most} are expected")]
-    Length { length: u64, most: u64 },
+    #[error("{0} bytes, more than any file of a result has")]
+    Length(u64),
 }
 
 impl From<Unfit> for io::Error {
     fn from(unfit: Unfit) -> Self {
         let kind = match unfit {
             Unfit::Kind => ErrorKind::InvalidInput,
-            Unfit::Length { .. } => ErrorKind::FileTooLarge,
+            Unfit::Length(_) => ErrorKind::FileTooLarge,
         };
         io::Error::new(kind, unfit)
     }
@@ -204,60 +191,37 @@ fn is_unfit(error: &io::Error) -> bool {
     error.get_ref().is_some_and(|source| source.is::<Unfit>())
 }
 
-/// [`StoredFile::read_at`]; an interrupted read is repeated.
+/// The content of `file`, which has `length` bytes.
 ///
 /// # Errors
-/// Where the file cannot be read, or ends at `offset` although its length is more.
-pub fn read_some(file: &dyn StoredFile, (offset, length): (u64, u64), bytes: &mut [u8]) -> io::Result<usize> {
-    loop {
-        match file.read_at(offset, bytes) {
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Ok(0) if !bytes.is_empty() && offset < length => {
-                let why = format!("the file ends after {offset} bytes, before the length that it has");
-                return Err(io::Error::new(ErrorKind::UnexpectedEof, why));
-            }
-            read => return read,
-        }
+/// Where it is too large, or cannot be read as far as its length.
+pub fn content(file: impl Read, length: u64) -> io::Result<Vec<u8>> {
+    let size = usize::try_from(length).ok().filter(|_| length <= MOST);
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(size.ok_or(Unfit::Length(length))?)?;
+    file.take(length).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 == length {
+        return Ok(bytes);
     }
-}
-
-/// The content of a file of at most `most` bytes.
-///
-/// # Errors
-/// Where it is larger, or cannot be read as far as its length.
-pub fn content(file: &dyn StoredFile, most: u64) -> io::Result<Vec<u8>> {
-    let length = file.length()?;
-    let size = usize::try_from(length).ok().filter(|_| length <= most);
-    let mut bytes = vec![0; size.ok_or(Unfit::Length { length, most })?];
-    let mut done = 0;
-    while done < bytes.len() {
-        done += read_some(file, (done as u64, length), &mut bytes[done..])?;
-    }
-    Ok(bytes)
+    let why = format!("the file ends after {} bytes, before the length that it has", bytes.len());
+    Err(io::Error::new(ErrorKind::UnexpectedEof, why))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::atomic::{AtomicUsize, Ordering};
 
     /// Memory that is read in pieces of some bytes; every other read is interrupted.
-    #[derive(Debug)]
-    struct Pieces(Vec<u8>, u64, AtomicUsize);
+    struct Pieces<'a>(&'a [u8], usize);
 
-    impl StoredFile for Pieces {
-        fn length(&self) -> io::Result<u64> {
-            Ok(self.1)
-        }
-
-        fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
-            if self.2.fetch_add(1, Ordering::Relaxed).is_multiple_of(2) {
+    impl Read for Pieces<'_> {
+        fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+            self.1 += 1;
+            if self.1.is_multiple_of(2) {
                 return Err(ErrorKind::Interrupted.into());
             }
-            let rest = self.0.get(offset as usize..).unwrap_or_default();
-            let count = rest.len().min(bytes.len()).min(7);
-            bytes[..count].copy_from_slice(&rest[..count]);
-            Ok(count)
+            let count = bytes.len().min(7);
+            self.0.read(&mut bytes[..count])
         }
     }
 
@@ -266,10 +230,10 @@ mod tests {
     #[test]
     fn a_short_file_is_an_error_of_reading() {
         let bytes: Vec<u8> = (0..255).collect();
-        let file = |length| Pieces(bytes.clone(), length, AtomicUsize::new(0));
-        assert_eq!(content(&file(255), 255).unwrap(), bytes);
-        assert!(is_unfit(&content(&file(255), 254).unwrap_err()));
-        let short = content(&file(256), 300).unwrap_err();
+        let read = |length| content(Pieces(&bytes, 0), length);
+        assert_eq!(read(255).unwrap(), bytes);
+        assert!(is_unfit(&read(MOST + 1).unwrap_err()));
+        let short = read(256).unwrap_err();
         assert!(short.kind() == ErrorKind::UnexpectedEof && !is_unfit(&short), "{short}");
         assert!(short.to_string().contains("ends after 255 bytes"), "{short}");
     }

@@ -10,7 +10,7 @@ use crate::analysis::trajectories::file_name;
 use crate::campaign::{FilesRead, data};
 use crate::ensemble::Ensemble;
 use crate::sampling::SampleId;
-use crate::storage::dataset::{FileRecord, MOST, Manifest, PartRecord, rows};
+use crate::storage::dataset::{FileRecord, Manifest, PartRecord, rows};
 use crate::storage::names::{DATA, HEAD, PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::storage::store::{Store, StoreError};
 use crate::workflow::derived::{Derivation, Destination, PageKind, derive};
@@ -91,8 +91,8 @@ pub(super) fn derived_problems(
     let made_again = chosen(&retained);
     let page = match files.listed.get(REPORT) {
         None => PageKind::Without,
-        Some(page) => {
-            let html = store.read(REPORT, page.bytes).map_err(WorkflowError::files)?.unwrap_or_default();
+        Some(_) => {
+            let html = store.read(REPORT).map_err(WorkflowError::files)?.unwrap_or_default();
             noise_scenes(&html).map_or(PageKind::OfRows, PageKind::WithNoise)
         }
     };
@@ -129,7 +129,7 @@ const THIS: &str = env!("CARGO_PKG_VERSION");
 
 /// The version that the summary names, where it is not this one.
 fn other_version(store: &dyn Store) -> Result<Option<String>, WorkflowError> {
-    let bytes = store.read(SUMMARY, MOST).map_err(WorkflowError::files)?.unwrap_or_default();
+    let bytes = store.read(SUMMARY).map_err(WorkflowError::files)?.unwrap_or_default();
     let summary: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
     let version = summary.get("version").and_then(serde_json::Value::as_str);
     Ok(version.filter(|version| *version != THIS).map(str::to_owned))

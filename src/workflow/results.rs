@@ -11,7 +11,7 @@ use crate::ensemble::{Bands, Ensemble, SingleRun};
 use crate::findings::end::SummaryEnd;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
-use crate::storage::dataset::{MOST, PartRecord, rows};
+use crate::storage::dataset::{PartRecord, rows};
 use crate::storage::lock::Lock;
 use crate::storage::names::{SUMMARY, TRAJECTORIES};
 use crate::storage::rows_reader::RowsReader;
@@ -138,7 +138,7 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where it cannot be read.
     pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>, WorkflowError> {
-        Ok(self.reader.store().read(name, MOST).map_err(WorkflowError::files)?.ok())
+        Ok(self.reader.store().read(name).map_err(WorkflowError::files)?.ok())
     }
 
     /// The run of a sample again, with its states over time: bit for bit that of its row.

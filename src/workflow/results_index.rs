@@ -13,7 +13,6 @@ use crate::findings::end::SummaryEnd;
 use crate::findings::results_index::{IndexEntry, Unreadable};
 use crate::report::summary;
 use crate::scene::epoch::date_of;
-use crate::storage::dataset::MOST;
 use crate::storage::names::{HEAD, PLAN, REPORT, SUMMARY};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
@@ -99,7 +98,7 @@ fn visit(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
 fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, String> {
     let path = folder.join(SUMMARY);
     let store = (session.folders)(folder);
-    let read = |name: &str| store.read(name, MOST).map_err(|error| error.to_string());
+    let read = |name: &str| store.read(name).map_err(|error| error.to_string());
     let bytes = read(SUMMARY)?.map_err(|_| format!("not finished: no {SUMMARY}"))?;
     let value: Value = serde_json::from_slice(&bytes).map_err(|error| format!("{SUMMARY}: {error}"))?;
     let end = summary::read(&bytes).ok_or_else(|| format!("{SUMMARY} is none of spindrift"))?;

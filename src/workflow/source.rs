@@ -10,7 +10,7 @@ use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::storage::atomic::{make_folder, write_bytes};
 use crate::storage::claim::{Claim, ClaimOptions, Shard, Wanted, claim};
-use crate::storage::dataset::{Head, MOST, PartRecord};
+use crate::storage::dataset::{Head, PartRecord};
 use crate::storage::disk::above;
 use crate::storage::found::Found;
 use crate::storage::identity::{Identity, sha256};
@@ -84,7 +84,7 @@ fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf, WorkflowE
     for name in found.files.iter().filter(|name| name.starts_with(DATA)) {
         let path = folder.join(name);
         if !path.exists() {
-            let bytes = store.read(name, MOST).map_err(WorkflowError::files)?.unwrap_or_default();
+            let bytes = store.read(name).map_err(WorkflowError::files)?.unwrap_or_default();
             make_folder(above(&path))?;
             write_bytes(&path, &bytes)?;
         }

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 
 use spindrift::storage::disk::folder;
 use spindrift::storage::identity::{RowsMetadata, sealed, sha256};
-use spindrift::storage::store::{Entry, Store, StoredFile};
+use spindrift::storage::store::{Entry, Store};
 use spindrift::workflow::{Campaign, Outputs, Quiet, Session, WorkflowError as Failure};
 
 use crate::small_campaign::campaign_without_debris;
@@ -36,9 +36,6 @@ pub fn whole_parts(root: &Path) -> usize {
 pub enum Operation {
     /// It is put, removed or renamed.
     Write,
-    Open,
-    Length,
-    /// A piece of it is read.
     Read,
     List,
     Lock,
@@ -53,19 +50,13 @@ pub enum Fault {
     Late(io::ErrorKind),
     /// The error of the operating system with this number.
     System(i32),
-    /// Of a read: there is nothing more.
-    End,
-    /// Of a read: it is interrupted, or has some of the bytes only. No error.
-    Piecewise,
 }
 
 impl Fault {
-    /// The error; none where it shows otherwise.
-    pub fn error(self) -> Option<io::Error> {
+    pub fn error(self) -> io::Error {
         match self {
-            Fault::Kind(kind) | Fault::Late(kind) => Some(kind.into()),
-            Fault::System(number) => Some(io::Error::from_raw_os_error(number)),
-            Fault::End | Fault::Piecewise => None,
+            Fault::Kind(kind) | Fault::Late(kind) => kind.into(),
+            Fault::System(number) => io::Error::from_raw_os_error(number),
         }
     }
 }
@@ -93,12 +84,12 @@ impl Plot {
 
     /// No operation fails.
     pub fn harmless(is_counted: fn(Operation) -> bool) -> Arc<Self> {
-        Plot::new(is_counted, u64::MAX, false, Fault::End)
+        Plot::new(is_counted, u64::MAX, false, Fault::System(5))
     }
 
     /// No operation fails, and at each the parts of the dataset in `root` are whole.
     pub fn watched(root: &Path) -> Arc<Self> {
-        let (fault, watched) = (Fault::End, Some(root.to_owned()));
+        let (fault, watched) = (Fault::System(5), Some(root.to_owned()));
         let is_counted = |operation| operation == Operation::Write;
         Arc::new(Plot { is_counted, fails: u64::MAX, persists: false, fault, watched, done: Mutex::default() })
     }
@@ -123,7 +114,7 @@ impl Plot {
 
     fn check(&self, operation: Operation, path: &Path) -> io::Result<()> {
         let is_due = self.is_due(operation, path);
-        self.fault.error().filter(|_| is_due).map_or(Ok(()), Err)
+        if is_due { Err(self.fault.error()) } else { Ok(()) }
     }
 }
 
@@ -170,10 +161,9 @@ impl Store for Failing {
         self.change(name, || self.disk.put_if_absent(name, bytes), || self.half(name, bytes))
     }
 
-    fn get(&self, name: &str) -> io::Result<Box<dyn StoredFile>> {
-        let path = self.disk.path(name);
-        self.plot.check(Operation::Open, &path)?;
-        Ok(Box::new(FailingFile { plot: self.plot.clone(), path, file: self.disk.get(name)? }))
+    fn get(&self, name: &str) -> io::Result<Vec<u8>> {
+        self.plot.check(Operation::Read, &self.disk.path(name))?;
+        self.disk.get(name)
     }
 
     fn list(&self, folder: &str) -> io::Result<Vec<Entry>> {
@@ -192,38 +182,6 @@ impl Store for Failing {
 
     fn rename(&self, to: &Path) -> io::Result<()> {
         self.change("", || self.disk.rename(to), || Ok(()))
-    }
-}
-
-/// An open file of a [`Failing`] folder.
-#[derive(Debug)]
-struct FailingFile {
-    plot: Arc<Plot>,
-    path: PathBuf,
-    file: Box<dyn StoredFile>,
-}
-
-impl StoredFile for FailingFile {
-    fn length(&self) -> io::Result<u64> {
-        self.plot.check(Operation::Length, &self.path)?;
-        self.file.length()
-    }
-
-    fn read_at(&self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
-        if !self.plot.is_due(Operation::Read, &self.path) {
-            return self.file.read_at(offset, bytes);
-        }
-        match self.plot.fault {
-            Fault::End => Ok(0),
-            Fault::Piecewise if self.plot.done.lock().unwrap().len().is_multiple_of(2) => {
-                Err(io::ErrorKind::Interrupted.into())
-            }
-            Fault::Piecewise => {
-                let some = bytes.len().div_ceil(2);
-                self.file.read_at(offset, &mut bytes[..some])
-            }
-            Fault::Kind(_) | Fault::Late(_) | Fault::System(_) => self.plot.fault.error().map_or(Ok(0), Err),
-        }
     }
 }
 

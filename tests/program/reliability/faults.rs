@@ -5,13 +5,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::{fs, io};
 
-use crate::reliability::failing_store::{Fault, Making, Operation, Plot, contents, made, reason, whole_parts};
+use crate::reliability::failing_store::{Fault, Making, Plot, contents, made, reason, whole_parts};
 use crate::support::scratch_folder::ScratchFolder;
-
-/// What changes files, and what lists and opens them; reads one by one are those of `read_faults`.
-fn is_counted(operation: Operation) -> bool {
-    !matches!(operation, Operation::Length | Operation::Read)
-}
 
 /// Three parts.
 const SAMPLES: u64 = 520;
@@ -20,7 +15,7 @@ const SAMPLES: u64 = 520;
 /// what the next attempt makes of it. Returns the number of errors and of operations.
 fn fail_everywhere(scratch: &ScratchFolder, has_page: bool, persists: bool, faults: &[Fault]) -> [usize; 2] {
     let making = Making { has_page, ..Making::of(SAMPLES) };
-    let counted = Plot::harmless(is_counted);
+    let counted = Plot::harmless(|_| true);
     making.make(&counted, &scratch.path("whole")).unwrap();
     let whole = contents(&scratch.path("whole"));
     fs::remove_dir_all(scratch.path("whole")).unwrap();
@@ -38,7 +33,7 @@ fn fail_everywhere(scratch: &ScratchFolder, has_page: bool, persists: bool, faul
         let root = scratch.path("r");
         let _ = fs::remove_dir_all(&root);
         let what = format!("operation {fails} {:?} ({fault:?}, persists: {persists})", operations[fails]);
-        if let Err(failure) = making.make(&Plot::new(is_counted, fails as u64, persists, *fault), &root) {
+        if let Err(failure) = making.make(&Plot::new(|_| true, fails as u64, persists, *fault), &root) {
             errors += 1;
             assert!(reason(&failure).contains("spindrift-"), "{what}: no path in {failure:?}");
         }
@@ -109,13 +104,13 @@ fn what_is_extended_is_not_marked_complete() {
         let ended = Making::of(SAMPLES).make(plot, &root);
         (ended.is_ok(), before, contents(&root))
     };
-    let counted = Plot::harmless(is_counted);
+    let counted = Plot::harmless(|_| true);
     let (_, before, whole) = extended(&counted);
     assert!(before != whole && before.contains_key("_SUCCESS") && whole.contains_key("_SUCCESS"));
     let (mut without, operations) = (0, counted.done().len());
     for fails in (0..operations).step_by(2) {
         let fault = Fault::Kind(io::ErrorKind::StorageFull);
-        let (is_done, _, now) = extended(&Plot::new(is_counted, fails as u64, true, fault));
+        let (is_done, _, now) = extended(&Plot::new(|_| true, fails as u64, true, fault));
         assert!(!is_done, "operation {fails}");
         let without_tmp: BTreeMap<_, _> = now.into_iter().filter(|(name, _)| !name.ends_with(".tmp")).collect();
         let is_marked = without_tmp.contains_key("_SUCCESS");
@@ -177,7 +172,7 @@ fn a_small_disk_fills_up() {
     loop {
         fs::remove_dir_all(&root).unwrap();
         disk.resize(kilobytes);
-        let Err(failure) = making.make(&Plot::harmless(is_counted), &root) else { break };
+        let Err(failure) = making.make(&Plot::harmless(|_| true), &root) else { break };
         let message = reason(&failure);
         full += 1;
         assert!(
