@@ -116,7 +116,6 @@ impl Analysis {
         }
     }
 
-    /// Checks what needs other tables: the rows have the `dispersed` columns, and `samples` samples of `design`.
     pub(super) fn check(
         &self,
         document: &mut Document<'_>,

@@ -83,7 +83,6 @@ impl Plan {
         digest(&self.text())
     }
 
-    /// Tables of settings: `whole`, or without the keys that do not change rows.
     fn write_settings(&self, tables: &[(&str, &[Row])], whole: bool, lines: &mut Lines) {
         for (header, rows) in tables {
             let value = |row: &Row| {
@@ -100,7 +99,6 @@ impl Plan {
         }
     }
 
-    /// The value of a setting, if canonical text has it.
     fn setting(&self, path: &str) -> Option<Value> {
         Some(match path {
             "campaign.name" => self.name.as_str().into(),
@@ -130,7 +128,6 @@ impl Plan {
         })
     }
 
-    /// The tables of the nominal scene.
     fn write_scene(&self, lines: &mut Lines) {
         scene::write(&self.nominal, lines, |lines| {
             if let Some(spec) = self.loop_spec() {

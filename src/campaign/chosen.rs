@@ -22,7 +22,6 @@ impl Chosen {
         is_allowed.then(|| Chosen(samples.into()))
     }
 
-    /// The samples that `campaign`, the table of that name, says.
     pub(super) fn of_written(campaign: &Written) -> Option<Self> {
         match campaign.get("only")? {
             Value::Counts(Counts::Each(samples)) => Chosen::of(samples.clone()),

@@ -251,7 +251,6 @@ fn check_rods(
     }
 }
 
-/// Notes which thrusters cannot be driven as `modulation` says.
 fn check_valves(
     section: &mut Section<'_, '_>,
     scene: &SceneInput,
@@ -310,7 +309,6 @@ fn impossible(inertia: [[f64; 3]; 3]) -> Option<SceneError> {
         .find(|error| error.key.ends_with("inertia_kg_m2"))
 }
 
-/// The loop `spec` as canonical text; `scene` has its numbers.
 pub(super) fn write(spec: &LoopSpec, scene: &SceneInput, lines: &mut Lines) {
     lines.rows("[control]", &spec.written);
     lines.keys(Table::Control, 0, scene);

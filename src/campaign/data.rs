@@ -178,32 +178,6 @@ mod tests {
     use parquet::schema::parser::parse_message_type;
     use std::sync::Arc;
 
-    /// Law: a small file of many equal values is refused before it is read, with the limit and its size.
-    #[test]
-    fn a_file_of_too_many_numbers_is_refused() {
-        let path = std::env::temp_dir().join(format!("spindrift-{}-many.parquet", std::process::id()));
-        let schema = Arc::new(parse_message_type("message m { required double x; }").expect("a schema"));
-        let file = std::fs::File::create(&path).expect("a file");
-        let properties = Arc::new(WriterProperties::builder().build());
-        let mut writer = SerializedFileWriter::new(file, schema, properties).expect("a writer");
-        let mut group = writer.next_row_group().expect("a group");
-        let mut column = group.next_column().expect("a column").expect("one");
-        let values = vec![1.5; 100_000];
-        for _ in 0..MOST_NUMBERS / 100_000 {
-            column.typed::<DoubleType>().write_batch(&values, None, None).expect("written");
-        }
-        column.typed::<DoubleType>().write_batch(&[1.5], None, None).expect("written");
-        column.close().expect("closed");
-        group.close().expect("closed");
-        writer.close().expect("closed");
-        let size = std::fs::metadata(&path).expect("a file").len();
-        let refused = DataFile::read(&path, MOST_NUMBERS, &|_| true).expect_err("too many").refusal;
-        std::fs::remove_file(&path).expect("removed");
-        assert!(size < 1_000_000, "{size} bytes");
-        assert!(refused.1.contains("at most 20000000 numbers (this one has 20000001"), "{refused:?}");
-    }
-
-    /// A file of the column x with the values 1.5 and 2.5.
     fn small(compression: Compression) -> Vec<u8> {
         file("required", None, compression)
     }
@@ -223,7 +197,6 @@ mod tests {
         bytes
     }
 
-    /// What is read of a Parquet file with these bytes.
     fn read(name: &str, bytes: &[u8]) -> Result<Vec<f64>, Refusal> {
         let path = std::env::temp_dir().join(format!("spindrift-{}-{name}.parquet", std::process::id()));
         std::fs::write(&path, bytes).expect("written");

@@ -26,7 +26,6 @@ pub const COLUMNS: [Row; 3] = [
     Row::new("columns", Kind::Names, "Their columns; default: the names of the parameters"),
 ];
 
-/// The column `column` of the file `file`.
 pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
     let column = table.right_rows(&COLUMN[1..]).text("column").map(str::to_owned);
     let wanted = column.clone();
@@ -50,7 +49,6 @@ pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
 /// Most characters of a column's name in a message.
 const LONGEST_SHOWN: usize = 60;
 
-/// The message about a column that a file does not have.
 fn absent_column(column: &str, data: &DataFile) -> (String, String) {
     let short = |name: &String| name.chars().take(LONGEST_SHOWN).collect::<String>();
     let shown: Vec<String> = data.names.iter().map(short).take(12).collect();
@@ -194,7 +192,6 @@ fn refuse_without_effect(table: &mut Section<'_, '_>, name: &str, parameter: Par
     }
 }
 
-/// The names that columns of a parameter, or of a component, may have.
 fn names_of(scene: &SceneInput, name: &str) -> Vec<String> {
     let (parameter, components) = match (Parameter::find(scene, name), named(scene, name)) {
         (Some((parameter, None)), _) => (parameter, 0..parameter.width()),

@@ -58,7 +58,6 @@ impl Variable {
     }
 }
 
-/// What `name` means in an expression.
 fn variable(name: &str, scene: &SceneInput, known: &KnownColumns) -> Option<Variable> {
     if known.observable(name).is_some() {
         return Some(Variable::Observable(name.to_owned()));
@@ -146,7 +145,6 @@ fn nominal_value(expression: &Expression, scene: &SceneInput, known: &KnownColum
     values.iter().all(|value| value.is_finite()).then(|| expression.value(|index| values[index]))
 }
 
-/// A name that no column has.
 fn name(table: &mut Section<'_, '_>, name: &str) -> Option<String> {
     let scene = &table.document.scene;
     let of = |parameter: Parameter| (0..parameter.width()).map(move |c| parameter_quantity(parameter, c));

@@ -33,7 +33,6 @@ pub(super) fn of_sources(sources: &Sources, written: Option<String>) -> Option<S
     files.map(|source| &sources.text[source.range.clone()]).find_map(|text| of_key(text).or_else(|| of_comment(text)))
 }
 
-/// The value of `campaign.description` in a text.
 fn of_key(text: &str) -> Option<String> {
     let (table, _) = DeTable::parse_recoverable(text);
     let campaign = table.get_ref().get("campaign")?.get_ref().as_table()?;

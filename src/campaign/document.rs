@@ -30,7 +30,6 @@ const NO_CAMPAIGN_FILE: &str = "there is no [campaign] table: is this a campaign
 /// `false`, `nan` or `inf`.
 const WORDS: [&str; 4] = ["must be quoted", "invalid boolean", "expected `nan`", "expected `inf`"];
 
-/// What to do about the syntax error `message`.
 fn syntax_remedy(message: &str) -> &'static str {
     if message.contains("array") {
         "fix this line, or close with ] the array that begins here or above"
@@ -87,7 +86,6 @@ pub(super) struct Spans {
 }
 
 impl<'a> Document<'a> {
-    /// A document before anything has been read.
     pub(super) fn new(sources: &'a Sources) -> Self {
         let text = &sources.text;
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset + 1);
@@ -202,7 +200,6 @@ impl<'a> Document<'a> {
         self.note(key, value, allowed.into(), remedy.into(), false);
     }
 
-    /// Notes that there is no key `key` in the table `place`.
     pub(super) fn add_unknown(&mut self, key: &str, value: Option<String>, place: String, remedy: String) {
         self.note(key, value, place, remedy, true);
     }
@@ -240,7 +237,6 @@ impl<'a> Document<'a> {
         near(rest).or_else(|| near(written)).filter(|meant| meant.name != written)
     }
 
-    /// Number of problems that are noted.
     pub(super) fn noted(&self) -> usize {
         self.problems.len()
     }
@@ -250,7 +246,6 @@ impl<'a> Document<'a> {
         self.problems.truncate(noted);
     }
 
-    /// Keeps a table as it was read, for canonical text; nothing where it has no key.
     pub(super) fn keep(&mut self, header: &'static str, written: Written) {
         if written != Written::NONE {
             self.tables.push((header, written));
@@ -262,7 +257,6 @@ impl<'a> Document<'a> {
         self.is_loop_unknown && ["control.", "sensors.", "guidance."].iter().any(|table| name.starts_with(table))
     }
 
-    /// Whether so many problems are noted that further ones are counted only.
     pub(super) fn is_full(&self) -> bool {
         self.problems.len() >= NOTED
     }
@@ -318,7 +312,6 @@ impl<'a> Document<'a> {
         self.starts.partition_point(|start| *start <= offset)
     }
 
-    /// The text of the line `number`, from 1.
     fn line(&self, number: usize) -> &'a str {
         let end = self.starts.get(number).copied().unwrap_or(self.text.len());
         self.text.get(self.starts[number - 1]..end).unwrap_or("").trim_end()
@@ -338,7 +331,6 @@ const LONGEST_KEY: usize = 300;
 /// Most characters of a value in a message.
 const LONGEST_VALUE: usize = 60;
 
-/// At most [`LONGEST_VALUE`] characters of one line.
 fn shortened(text: &str) -> String {
     let (mut line, mut left) = (String::new(), LONGEST_VALUE);
     for word in text.split_whitespace() {

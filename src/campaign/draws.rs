@@ -142,7 +142,6 @@ impl DrawTables {
         DrawTables { dispersed: indexed(disperse), correlated: indexed(correlate), derived: indexed(derive) }
     }
 
-    /// The dotted path of a key in the file.
     pub(super) fn path(&self, table: Table, key: &str) -> String {
         let table = match table {
             Table::Disperse(index) => Table::Disperse(self.dispersed.0[index]),
@@ -154,7 +153,6 @@ impl DrawTables {
     }
 }
 
-/// Writes one `[[disperse]]` table.
 pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
     lines.table("[[disperse]]");
     match dispersion.component {
@@ -166,7 +164,6 @@ pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
     lines.written("disperse", &dispersion.distribution.written);
 }
 
-/// Writes the `[design]` table, if it is not the default.
 pub(super) fn design_lines(design: &Design, lines: &mut Lines) {
     if *design != Design::DEFAULT {
         lines.table("[design]");
@@ -175,7 +172,6 @@ pub(super) fn design_lines(design: &Design, lines: &mut Lines) {
     }
 }
 
-/// Writes one `[[correlate]]` table.
 pub(super) fn correlation_lines(correlation: &Correlation, lines: &mut Lines) {
     lines.table("[[correlate]]");
     let name = |(parameter, component): &(Parameter, Option<usize>)| match component {
@@ -192,7 +188,6 @@ pub(super) fn correlation_lines(correlation: &Correlation, lines: &mut Lines) {
     }
 }
 
-/// Writes one `[[derive]]` table.
 pub(super) fn derivation_lines(derivation: &Derivation, lines: &mut Lines) {
     lines.table("[[derive]]");
     match derivation.component {

@@ -199,7 +199,6 @@ impl Event {
     }
 }
 
-/// What the word of `key` means.
 fn named<T: Copy>(all: &[(&'static str, T)], written: &Written, key: &str) -> Option<T> {
     all.iter().find(|(name, _)| written.text(key) == Some(name)).map(|(_, value)| *value)
 }

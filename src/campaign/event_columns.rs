@@ -9,7 +9,6 @@ use crate::scene::SceneInput;
 /// How many columns each failure has, and each event.
 pub const EACH: usize = 2;
 
-/// The columns of the failures of `scene`, [`EACH`] of each.
 pub(super) fn of_failures(scene: &SceneInput) -> Vec<LawColumn> {
     let of = |failure: &crate::scene::FailureInput| {
         let name = failure.name;

@@ -106,7 +106,6 @@ impl Extreme {
         watched_quantity::parsed(&self.quantity, series)
     }
 
-    /// From when on it is taken, in words.
     fn since(&self) -> String {
         match (&self.after, self.delay_s > 0.0) {
             (None, false) => String::new(),
@@ -126,7 +125,6 @@ impl Extreme {
         )
     }
 
-    /// Its column.
     pub(super) fn column(&self) -> LawColumn {
         let word = if self.is_highest { "Largest" } else { "Smallest" };
         let meaning = format!(

@@ -52,7 +52,6 @@ pub static TABLE: SceneTable = SceneTable::list(&[Table::Failure], MOST_FAILURES
     },
 ], &[]);
 
-/// Reads which device fails, and notes what it cannot do.
 fn check(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     let has_loop = section.document.law.is_some() || section.document.is_loop_unknown;
     if let Some((kind, device)) = read_device(section, scene, has_loop) {
@@ -105,7 +104,6 @@ fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool
     Some((kind, [Device::Wheel, Device::Thruster, Device::Rod, Device::Sensor][kind](place)))
 }
 
-/// Notes keys of other devices, and where no key says what becomes of this one.
 fn check_keys(section: &mut Section<'_, '_>, kind: usize) {
     for other in (0..KEYS.len()).filter(|other| *other != kind) {
         for key in KEYS[other].iter().filter(|key| section.has(key)).collect::<Vec<_>>() {
@@ -170,7 +168,6 @@ fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, device: Devic
     }
 }
 
-/// The name of the key of a device, and that of the device, in `scene`.
 fn named(scene: &SceneInput, device: Device) -> Option<(&'static str, Name)> {
     let mut turning = scene.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
     Some(match device {

@@ -28,7 +28,6 @@ pub fn is_unreadable(error: &io::Error) -> bool {
     ![NotFound, NotADirectory, InvalidInput, InvalidFilename].contains(&error.kind())
 }
 
-/// What a file is that is not regular, in words.
 fn kind(file: FileType) -> &'static str {
     #[cfg(unix)]
     {

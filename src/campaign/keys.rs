@@ -162,7 +162,6 @@ impl Section<'_, '_> {
         }
     }
 
-    /// The quantity that `key` names, which the table is about from now on.
     fn quantity(
         &mut self,
         key: &str,
@@ -219,7 +218,6 @@ impl Section<'_, '_> {
         Some(Value::Numbers(Values::Each(list)))
     }
 
-    /// A text within a limit.
     fn limited_text(&mut self, key: &str, limit: TextLimit) -> Option<&str> {
         let text = self.text(key)?;
         if !(limit.test)(text) {
@@ -312,14 +310,12 @@ impl Section<'_, '_> {
         self.word(key, words)
     }
 
-    /// The one of `words` that `key` gives, if it was written.
     fn word(&mut self, key: &str, words: &'static [&'static str]) -> Option<&'static str> {
         self.name(key, words, |word| words.iter().copied().find(|known| *known == word))
     }
 }
 
 impl Lines {
-    /// A table with these keys.
     pub(super) fn rows(&mut self, header: &str, written: &Written) {
         self.table(header);
         self.written(header, written);

@@ -22,7 +22,6 @@ impl Lines {
         self.0.push_str(&format!("{key} = {value:?}\n"));
     }
 
-    /// A key with its value as TOML has it.
     pub(super) fn raw(&mut self, key: &str, value: &str) {
         self.0.push_str(&format!("{key} = {value}\n"));
     }
@@ -32,12 +31,10 @@ impl Lines {
         self.0.push_str(&format!("{key} = {}\n", toml::Value::from(text)));
     }
 
-    /// A comment on a line of its own.
     pub(super) fn note(&mut self, text: &str) {
         self.0.push_str(&format!("# {text}\n"));
     }
 
-    /// Every key of a table that `scene` has.
     pub(super) fn keys(&mut self, table: Table, instance: usize, scene: &SceneInput) {
         for key in table.keys_in(scene, instance) {
             if let Some(numbers) = key.read(scene, instance) {

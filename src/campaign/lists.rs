@@ -73,7 +73,6 @@ impl Section<'_, '_> {
         counts
     }
 
-    /// Numbers of samples, ascending and different, at most `most`, if they were written.
     pub(super) fn samples(&mut self, key: &str, most: usize) -> Option<Vec<u64>> {
         let list = self.take(key)?.get_ref().as_array();
         let number = |item: &Spanned<DeValue<'_>>| {

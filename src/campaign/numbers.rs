@@ -25,7 +25,6 @@ pub const NOT_NEGATIVE: NumberLimit = NumberLimit {
 };
 
 impl Section<'_, '_> {
-    /// Says that every number of this table is in `unit`.
     pub(super) fn measures(&mut self, unit: &'static str) {
         self.every = Some(unit);
     }
@@ -84,7 +83,6 @@ impl Section<'_, '_> {
         }
     }
 
-    /// Notes that `key`, of `count` numbers, is missing, unless it was written.
     pub(super) fn require_numbers(&mut self, key: &str, count: usize, example: &str) {
         self.require(key, &numbers_in_words(count), example);
     }
@@ -188,13 +186,11 @@ fn list(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(|item| number(item.get_ref(), unit)).collect()
 }
 
-/// Three lists of three numbers, one after the other.
 fn rows_of_three(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
     let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref(), unit)).collect();
     rows.filter(|rows| rows.len() == 3 && rows.iter().all(|row| row.len() == 3)).map(|rows| rows.concat())
 }
 
-/// What a value of `count` numbers must be.
 fn numbers_in_words(count: usize) -> String {
     match count {
         1 => FINITE.allowed.to_owned(),

@@ -9,7 +9,6 @@ use crate::scene::{EnvironmentInput, LawParameter, Parameter, SceneInput};
 pub const PARAMETER: Row = Row::new("parameter", Kind::Text(ANY_TEXT), "A number of the scene or of the control loop")
     .required_as("a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
 
-/// The parameter, and the component if one is meant, that `key` names.
 pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
     if let Presence::Required { allowed, example } = PARAMETER.presence {
         table.require(key, allowed, example);

@@ -75,7 +75,6 @@ fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &Modul
     }
 }
 
-/// What the word of `key` means in `list`; `None` where it is wrong.
 fn meaning<T: Copy>(list: &[(&str, T)], written: &Written, key: &str) -> Option<T> {
     list.iter().find(|(word, _)| written.text(key) == Some(word)).map(|(_, meaning)| *meaning)
 }

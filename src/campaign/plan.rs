@@ -229,7 +229,6 @@ impl Plan {
     }
 }
 
-/// The plan of a text, and the files that the text names.
 fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
     let sources = Sources::read(folder, file, text, &overrides.settings)?;
     let mut document = Document::new(&sources).under(overrides.law.clone(), overrides.attitude_law);
@@ -405,7 +404,6 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     })
 }
 
-/// A fixed step where the method has one, and none elsewhere.
 fn check_step(method: Method, [step_s, duration_s]: [Option<f64>; 2], document: &mut Document<'_>) {
     const KEY: &str = "integrator.step_s";
     if document.is_reported(KEY) {

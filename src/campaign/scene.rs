@@ -126,7 +126,6 @@ pub static TABLES: [SceneTable; 12] = [
     }),
 ];
 
-/// Reads every table of the scene. A number that is missing or wrong is NaN, and noted in the document.
 pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     let mut scene = SceneInput::blank();
     if !root.has("body") {
@@ -143,7 +142,6 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
     scene
 }
 
-/// Writes the tables of the scene as canonical text; `write_law` those of the control loop.
 pub(super) fn write(scene: &SceneInput, lines: &mut Lines, write_law: impl FnOnce(&mut Lines)) {
     TABLES.iter().for_each(|table| table.write(scene, lines));
     write_law(lines);
@@ -172,7 +170,6 @@ fn ignore_idle(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: us
     }
 }
 
-/// Reads the parameters of the control law that the program brings, or the control loop of the file.
 fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     let Some(law) = root.document.law.clone() else {
         return read_loop(root, scene);
@@ -308,7 +305,6 @@ fn check_part(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usiz
     }
 }
 
-/// The thrusts and torques of an arc, by the names of thrusters and wheels.
 fn read_commands(section: &mut Section<'_, '_>, scene: &mut SceneInput, arc: usize) {
     let thrusters: Vec<Name> = scene.thrusters.iter().map(|thruster| thruster.name).collect();
     let wheels: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
@@ -366,7 +362,6 @@ fn exclude_inertias(section: &mut Section<'_, '_>) {
     }
 }
 
-/// Debris is a cube, a box, or an irregular body given by mass and inertia.
 fn exclude_shapes(section: &mut Section<'_, '_>, _scene: &mut SceneInput, _place: usize) {
     exclude_inertias(section);
     let inertias = [TENSOR, MOMENTS, SECOND];
@@ -385,7 +380,6 @@ fn exclude_shapes(section: &mut Section<'_, '_>, _scene: &mut SceneInput, _place
     }
 }
 
-/// What belongs to debris that the scene does not have.
 fn refuse_states_of_absent_debris(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usize) {
     let absent = |key: &&str| section.has(key);
     let keys: Vec<&str> = Table::Initial

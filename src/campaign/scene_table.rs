@@ -65,7 +65,6 @@ impl SceneTable {
         SceneTable { check, ..self }
     }
 
-    /// Reads the tables of this kind from `root`.
     pub(super) fn read(&self, root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         let header = self.numbers[0].header();
         match (header.split_once('.'), self.most, self.add) {
@@ -106,7 +105,6 @@ impl SceneTable {
         section.finish();
     }
 
-    /// Writes the tables of this kind that `scene` has.
     pub(super) fn write(&self, scene: &SceneInput, lines: &mut Lines) {
         let header = self.numbers[0].header();
         let header = if self.most.is_some() { format!("[[{header}]]") } else { format!("[{header}]") };

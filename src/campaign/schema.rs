@@ -1,7 +1,7 @@
 //! [`schema`]: the JSON Schema of campaign files, by which editors complete and check them, within draft 4.
 //!
-//! It is generated from the declared keys. It does not hold rules for several keys together, names of other tables and
-//! units in texts, which `spindrift check` checks.
+//! It is generated from the declared keys. It does not hold which keys must be written, rules for several keys
+//! together, names of other tables and units in texts: `spindrift check` checks those.
 
 use std::ops::Bound;
 
@@ -21,15 +21,11 @@ use crate::control::{estimators, laws, net_launch, parameters};
 use crate::sampling::keys::{ANY, Kind, Presence, Range, Row, above, at_least};
 use crate::sampling::{Design, DistributionKind};
 use crate::scene::schema::{Facts, Limit, Shape};
-use crate::scene::table::Table;
-use crate::scene::{LawParameter, Name, schema};
+use crate::scene::{LawParameter, Name};
 
-/// The keys of one table, and which of them must be written.
-#[derive(Clone, Default)]
-struct Keys {
-    properties: Map<String, Json>,
-    required: Vec<String>,
-}
+/// The keys of one table, each with what its value may be.
+#[derive(Default)]
+struct Keys(Map<String, Json>);
 
 impl Keys {
     fn of(rows: &[Row]) -> Self {
@@ -38,11 +34,8 @@ impl Keys {
         keys
     }
 
-    fn add(&mut self, key: &str, is_required: bool, value: Json) {
-        self.properties.entry(key).or_insert(value);
-        if is_required {
-            self.required.push(key.to_owned());
-        }
+    fn add(&mut self, key: &str, value: Json) {
+        self.0.entry(key).or_insert(value);
     }
 
     fn add_row(&mut self, row: &Row) {
@@ -57,7 +50,7 @@ impl Keys {
         if let Presence::Or(number) = row.presence {
             value["default"] = number.into();
         }
-        self.add(row.key, matches!(row.presence, Presence::Required { .. }), value);
+        self.add(row.key, value);
     }
 
     fn add_number(&mut self, facts: &Facts, default: Option<Json>) {
@@ -67,7 +60,7 @@ impl Keys {
         if let Some(default) = default {
             value["default"] = default;
         }
-        self.add(facts.key, matches!(facts.presence, schema::Presence::Required(_)), value);
+        self.add(facts.key, value);
     }
 
     fn add_parameters(&mut self, list: &[LawParameter]) {
@@ -80,7 +73,6 @@ impl Keys {
         }
     }
 
-    /// A table of the scene.
     fn of_scene(table: &SceneTable) -> Self {
         let mut keys = Keys::default();
         for field in table.fields.into_iter().flatten() {
@@ -89,109 +81,68 @@ impl Keys {
         for key in table.numbers.iter().flat_map(|table| table.keys()) {
             keys.add_number(key.facts(), key.default_text().and_then(|text| serde_json::from_str(&text).ok()));
         }
-        if table.numbers[0] == Table::Debris {
-            // its ways to be described exclude each other
-            keys.required.clear();
-        }
         if table.most.is_some() {
-            let is_named = table.numbers[0] != Table::Actuation;
-            keys.add(
-                "name",
-                is_named,
-                json!({"type": "string", "description": format!("Its name: {}", Name::ALLOWED)}),
-            );
+            keys.add("name", json!({"type": "string", "description": format!("Its name: {}", Name::ALLOWED)}));
         }
         keys
     }
 
-    /// A table with these keys and no others, and which of them a whole file has.
-    fn table(self) -> Declared {
-        let whole = if self.required.is_empty() { json!({}) } else { json!({"required": self.required}) };
-        let value = json!({"type": "object", "properties": self.properties, "additionalProperties": false});
-        Declared { value, whole }
+    /// A table with these keys and no others.
+    fn table(self) -> Json {
+        json!({"type": "object", "properties": self.0, "additionalProperties": false})
     }
-}
-
-/// What a value may be, and what it must have besides in a file that does not extend another one.
-struct Declared {
-    value: Json,
-    whole: Json,
 }
 
 /// A table for each kind, which `key` names.
-fn one_of<'k>(key: &str, kinds: impl Iterator<Item = (&'k str, Keys)>) -> Declared {
-    let (mut values, mut whole) = (Vec::new(), Vec::new());
-    for (name, mut keys) in kinds {
-        let named = json!({"enum": [name]});
-        keys.required.push(key.to_owned());
-        keys.properties.insert(key.to_owned(), named.clone());
-        whole.push(json!({"properties": {key: named}, "required": keys.required}));
-        values.push(keys.table().value);
-    }
-    Declared { value: json!({"anyOf": values}), whole: json!({"anyOf": whole}) }
-}
-
-/// The tables of a file while they are collected.
-#[derive(Default)]
-struct File {
-    tables: Map<String, Json>,
-    whole: Map<String, Json>,
-}
-
-impl File {
-    /// Adds the table `header`, or a list of at most `most` tables, where its dotted name leads.
-    fn add(&mut self, header: &str, most: Option<usize>, table: Declared) {
-        let Declared { mut value, mut whole } = table;
-        if let Some(most) = most {
-            (value, whole) = (json!({"type": "array", "items": value}), json!({"items": whole}));
-            if most < usize::MAX {
-                value["maxItems"] = most.into();
-            }
-        }
-        match header.split_once('.') {
-            Some((outer, inner)) => {
-                self.tables[outer]["properties"][inner] = value;
-                self.whole[outer]["properties"][inner] = whole;
-            }
-            None => {
-                self.tables.insert(header.to_owned(), value);
-                self.whole.insert(header.to_owned(), whole);
-            }
-        }
-    }
+fn one_of<'k>(key: &str, kinds: impl Iterator<Item = (&'k str, Keys)>) -> Json {
+    let table = |(name, mut keys): (&str, Keys)| {
+        keys.0.insert(key.to_owned(), json!({"enum": [name]}));
+        keys.table()
+    };
+    json!({"anyOf": kinds.map(table).collect::<Vec<_>>()})
 }
 
 /// The JSON Schema of campaign files.
 pub fn schema() -> Json {
-    let mut file = File::default();
+    let mut file = Keys::default();
+    file.add("extends", json!({"type": "string", "description": "The file that this one changes"}));
+    // a table, or a list of at most so many, where its dotted header leads
+    let mut add = |header: &str, most: Option<usize>, table: Json| {
+        let value = match most {
+            Some(usize::MAX) => json!({"type": "array", "items": table}),
+            Some(most) => json!({"type": "array", "items": table, "maxItems": most}),
+            None => table,
+        };
+        match header.split_once('.') {
+            Some((outer, inner)) => file.0[outer]["properties"][inner] = value,
+            None => file.add(header, value),
+        }
+    };
     for (header, rows) in settings::HEAD.iter().chain(&settings::TAIL) {
-        file.add(header, None, Keys::of(rows).table());
+        add(header, None, Keys::of(rows).table());
     }
     for table in scene::TABLES.iter().chain([&failure_tables::TABLE]) {
-        file.add(table.numbers[0].header(), table.most, Keys::of_scene(table).table());
+        add(table.numbers[0].header(), table.most, Keys::of_scene(table).table());
     }
-    file.add("control", None, control().table());
-    file.add("control.model", None, Keys::of(&MODEL).table());
-    file.add("sensors", Some(MOST_TABLES), one_of("kind", sensors::KINDS.iter().map(|kind| (kind.name, sensor(kind)))));
-    file.add("guidance", Some(MOST_PHASES), guidance());
-    file.add("design", None, one_of("kind", Design::NAMES.iter().map(|name| (*name, design(name)))));
-    file.add("disperse", Some(MOST_TABLES), one_of("distribution", dispersions()));
-    file.add("correlate", Some(MOST_TABLES), Keys::of(&draws::CORRELATE).table());
-    file.add("derive", Some(MOST_TABLES), Keys::of(&draws::DERIVE).table());
+    add("control", None, control().table());
+    add("control.model", None, Keys::of(&MODEL).table());
+    add("sensors", Some(MOST_TABLES), one_of("kind", sensors::KINDS.iter().map(|kind| (kind.name, sensor(kind)))));
+    add("guidance", Some(MOST_PHASES), guidance());
+    add("design", None, one_of("kind", Design::NAMES.iter().map(|name| (*name, design(name)))));
+    add("disperse", Some(MOST_TABLES), one_of("distribution", dispersions()));
+    add("correlate", Some(MOST_TABLES), Keys::of(&draws::CORRELATE).table());
+    add("derive", Some(MOST_TABLES), Keys::of(&draws::DERIVE).table());
     for (header, rows, _) in &settings::ANALYSIS {
         let most = header.starts_with("[[").then_some(MOST_TABLES);
-        file.add(header.trim_matches(['[', ']']), most, Keys::of(rows).table());
+        add(header.trim_matches(['[', ']']), most, Keys::of(rows).table());
     }
-    let extends = json!({"type": "string", "description": "The file that this one changes"});
-    file.tables.insert("extends".to_owned(), extends);
-    json!({
-        "$schema": "http://json-schema.org/draft-04/schema#",
-        "title": "A spindrift campaign",
-        "type": "object",
-        "properties": file.tables,
-        "additionalProperties": false,
-        "anyOf": [{"required": ["extends"]}, {"required": ["campaign"], "properties": file.whole}],
-    })
+    let of_one = distributions(DistributionKind::is_of_one_number);
+    let distribution = one_of("distribution", of_one.map(|(kind, keys)| (kind.name(), keys)));
+    let mut schema = file.table();
+    schema["$schema"] = "http://json-schema.org/draft-04/schema#".into();
+    schema["title"] = "A spindrift campaign".into();
+    schema["definitions"] = json!({"distribution": distribution});
+    schema
 }
 
 fn control() -> Keys {
@@ -200,21 +151,17 @@ fn control() -> Keys {
     let modulations = (0..modulation::NAMES.len()).map(modulation::parameters);
     let others = [&parameters::LOOP[..], &parameters::THRUSTERS, &net_launch::parameters::DEBRIS];
     estimators.chain(modulations).chain(others).for_each(|list| keys.add_parameters(list));
-    // each of them is a key of some loops alone
-    keys.required.retain(|key| control::ROWS.iter().any(|row| row.key == key));
     keys
 }
 
 fn sensor(kind: &SensorKind) -> Keys {
     let mut keys = Keys::of(&sensor_tables::ROWS);
-    keys.required.retain(|key| key != "kind");
     keys.add_parameters(kind.parameters);
-    keys.required.retain(|key| !kind.replaced_by_epoch.is_some_and(|replaced| replaced == key));
     keys
 }
 
 /// A phase: with a law of this program, or with a law that a module or a program brings, whose keys are not known.
-fn guidance() -> Declared {
+fn guidance() -> Json {
     let mut keys = Keys::of(&phase_tables::ROWS);
     for (_, target) in TARGETS {
         parameters::of_phase(target, Maneuver::Transfer, [true, true])
@@ -223,11 +170,9 @@ fn guidance() -> Declared {
     }
     ROD_USES.iter().for_each(|(_, rods)| keys.add_parameters(rods.parameters()));
     laws::KINDS.iter().for_each(|kind| keys.add_parameters(kind.parameters));
-    keys.required.retain(|key| phase_tables::ROWS.iter().any(|row| row.key == key));
-    let laws = keys.properties["law"].clone();
+    let laws = keys.0["law"].clone();
     let of_others = json!({"required": ["law"], "properties": {"law": {"type": "string", "not": laws}}});
-    let Declared { value, whole } = keys.table();
-    Declared { value: json!({"anyOf": [value, of_others]}), whole }
+    json!({"anyOf": [keys.table(), of_others]})
 }
 
 fn design(name: &str) -> Keys {
@@ -240,7 +185,6 @@ fn distributions(are_meant: fn(DistributionKind) -> bool) -> impl Iterator<Item 
     kinds.map(|kind| (kind, Keys::of(kind.keys())))
 }
 
-/// The keys of `[[disperse]]` with each distribution.
 fn dispersions() -> impl Iterator<Item = (&'static str, Keys)> {
     distributions(|_| true).map(|(kind, mut keys)| {
         if !kind.names_parameters() {
@@ -267,7 +211,6 @@ fn number(range: Range) -> Json {
     value
 }
 
-/// An array of values, of this length where it is given.
 fn list(items: Json, length: Option<usize>) -> Json {
     let mut value = json!({"type": "array", "items": items});
     if let Some(length) = length {
@@ -277,7 +220,6 @@ fn list(items: Json, length: Option<usize>) -> Json {
     value
 }
 
-/// One value or an array of them.
 fn one_or_several(mut one: Json, types: &[&str]) -> Json {
     let items = one.clone();
     one["type"] = json!([types, &["array"]].concat());
@@ -285,7 +227,6 @@ fn one_or_several(mut one: Json, types: &[&str]) -> Json {
     one
 }
 
-/// What the value of a row may be.
 fn of_kind(row: &Row) -> Json {
     let text = || json!({"type": "string"});
     let of_row = || number(row.limit.map_or(ANY, |limit| limit.range));
@@ -320,14 +261,10 @@ fn of_kind(row: &Row) -> Json {
             json!({"type": "array", "items": {"enum": words}, "minItems": 1, "uniqueItems": true})
         }
         Kind::WordOrDirection(words) => json!({"anyOf": [{"enum": words}, list(number(ANY), Some(3))]}),
-        Kind::Distribution => {
-            let of_one = distributions(DistributionKind::is_of_one_number);
-            one_of("distribution", of_one.map(|(kind, keys)| (kind.name(), keys))).value
-        }
+        Kind::Distribution => json!({"$ref": "#/definitions/distribution"}),
     }
 }
 
-/// What the numbers of a parameter may be.
 fn of_facts(facts: &Facts) -> Json {
     let one = number(match facts.limit {
         Limit::Positive | Limit::PrincipalMoments => above(0.0),

@@ -57,17 +57,14 @@ impl<'d, 'a> Section<'d, 'a> {
         self.value(key)
     }
 
-    /// The value of `key` if it was written, without making it a key of this table.
     pub(super) fn value(&self, key: &str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.table?.get(key)
     }
 
-    /// Whether `key` is a key of this table.
     pub(super) fn knows(&self, key: &str) -> bool {
         self.known.iter().any(|known| known == key)
     }
 
-    /// Makes `key` a key of this table.
     pub(super) fn know(&mut self, key: &str) {
         if !self.knows(key) {
             self.known.push(key.to_owned());
@@ -75,7 +72,6 @@ impl<'d, 'a> Section<'d, 'a> {
         self.note_line(key);
     }
 
-    /// Remembers the line of `key`, if it was written.
     fn note_line(&mut self, key: &str) {
         if let Some((name, value)) = self.table.and_then(|table| table.get_key_value(key)) {
             let value = if value.get_ref().is_table() { 0..0 } else { value.span() };
@@ -98,7 +94,6 @@ impl<'d, 'a> Section<'d, 'a> {
         self.document.add(&path, value, allowed, remedy);
     }
 
-    /// Notes that the table should not be there.
     pub(super) fn refuse_table(&mut self, allowed: &str, remedy: &str) {
         let (path, header) = (self.path.clone(), format!("[{}]", self.path));
         self.document.add(&path, Some(header), allowed, remedy);
@@ -172,12 +167,10 @@ impl<'d, 'a> Section<'d, 'a> {
         units::written(value.as_str().or(first)?)
     }
 
-    /// Whether `key` was written as a table.
     pub(super) fn is_table(&self, key: &str) -> bool {
         self.value(key).is_some_and(|value| value.get_ref().as_table().is_some())
     }
 
-    /// The keys of the table `key` and their values as written.
     pub(super) fn entries(&self, key: &str) -> Vec<(String, String)> {
         let table = self.value(key).and_then(|value| value.get_ref().as_table());
         let entries = table.into_iter().flat_map(DeTable::iter);

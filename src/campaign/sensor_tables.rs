@@ -25,7 +25,6 @@ pub const ROWS: [Row; 4] = [
 /// Most control periods from one measurement to the next.
 const MOST_PERIODS: f64 = 1e9;
 
-/// One table of `[[sensors]]`.
 pub(super) fn read_sensor(
     section: &mut Section<'_, '_>,
     scene: &mut SceneInput,

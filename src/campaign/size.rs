@@ -16,7 +16,6 @@ pub const MOST_TABLES: usize = 1000;
 /// Most levels of tables and arrays within one another, which the TOML parser has.
 const MOST_LEVELS: usize = 80;
 
-/// The refusal of a file of `bytes` bytes.
 pub(super) fn too_large(file: &str, bytes: u64) -> Problem {
     Problem {
         file: file.to_owned(),
@@ -32,7 +31,6 @@ pub(super) fn too_large(file: &str, bytes: u64) -> Problem {
     }
 }
 
-/// The text of the campaign file `path`, called `file` in messages.
 pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
     let problem = |value: String, allowed: &str, remedy: &str| {
         CampaignError::of(Problem {
@@ -62,13 +60,11 @@ pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
     })
 }
 
-/// Refuses a text that is too large.
 pub(super) fn of_text(file: &str, text: &str) -> Option<Problem> {
     let bytes = text.len() as u64;
     (bytes > MOST_BYTES).then(|| too_large(file, bytes))
 }
 
-/// Refuses a table of too many keys.
 pub(super) fn of_table(file: &str, table: &DeTable<'_>) -> Option<Problem> {
     let keys = keys_of(table);
     (keys > MOST_KEYS).then(|| Problem {

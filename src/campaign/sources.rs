@@ -127,7 +127,6 @@ fn moved<'a>(value: Spanned<DeValue<'a>>, by: usize) -> Spanned<DeValue<'a>> {
     Spanned::new(span.start + by..span.end + by, inner)
 }
 
-/// The same of a table.
 pub(super) fn moved_table<'a>(table: DeTable<'a>, by: usize) -> DeTable<'a> {
     let entry = |(key, value): (Spanned<Cow<'a, str>>, _)| {
         let span = key.span();

@@ -7,7 +7,6 @@ use super::section::Section;
 use crate::scene::table::Table;
 use crate::scene::{LawParameter, Name, SceneInput};
 
-/// Reads the keys of one table into the scene.
 pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
     // a key that is written may be another way to describe a body
     for key in table.keys_in(scene, instance).filter(|key| section.has(key.facts().key)) {

@@ -72,7 +72,6 @@ pub(super) struct Unit {
     pub size: [f64; 2],
 }
 
-/// The unit called `name`, where texts know it.
 pub(super) fn named(name: &str) -> Option<Unit> {
     let listed = UNITS.iter().find(|(unit, ..)| *unit == name);
     let listed = listed.map(|(name, of, numerator, denominator)| Unit { name, of, size: [*numerator, *denominator] });
@@ -80,7 +79,6 @@ pub(super) fn named(name: &str) -> Option<Unit> {
     listed.or_else(si)
 }
 
-/// The names of all units.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let si = UNITS.iter().enumerate().filter(|(at, unit)| UNITS[..*at].iter().all(|other| other.1 != unit.1));
     let si = si.map(|(_, unit)| unit.1).filter(|name| *name != "1");
@@ -176,7 +174,6 @@ fn factors(text: &str) -> (&str, Vec<(bool, f64)>) {
     (head, found)
 }
 
-/// Number and unit of a text.
 fn split(text: &str) -> (&str, &str) {
     let end = text.char_indices().find(|(at, c)| !is_of_number(text, *at, *c)).map_or(text.len(), |(at, _)| at);
     (&text[..end], text[end..].trim())
@@ -227,7 +224,6 @@ fn units(unit: &str) -> Vec<&str> {
     own.into_iter().chain(UNITS.iter().filter(|(_, of, ..)| *of == unit).map(|(name, ..)| *name)).collect()
 }
 
-/// What is allowed of a value of the SI unit `unit`.
 fn allowed(unit: &str) -> String {
     match units(unit)[..] {
         [] => "a finite number".to_owned(),

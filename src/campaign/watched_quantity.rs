@@ -37,7 +37,6 @@ pub(super) fn variables(
     Some(found)
 }
 
-/// What is allowed in place of `name`, which is no quantity over time of `series`, and what to do.
 fn refusal(name: &str, series: &[BandSeries], observed: &Request) -> (String, String) {
     let names = || series.iter().map(|band| band.quantity.name());
     let allowed = "made of quantities over time that are observed".to_owned();
