@@ -53,3 +53,29 @@ fn keys_without_effect_are_not_in_the_plan() {
     let misspelt = LOOP.replacen("initial_attitude_sigma_rad", "initial_attitude_sigma", 1);
     assert!(Plan::from_text("loop.toml", &misspelt, Overrides::default()).is_err());
 }
+
+/// Law: a key of `[environment]` whose effect does not act is noted and changes neither plan nor columns; a dispersion
+/// on it is refused, naming the setting that it needs.
+#[test]
+fn keys_of_effects_that_do_not_act_change_nothing() {
+    let orbit = "[orbit]\nsemi_major_axis_m = 7e6\n[initial]";
+    let without = plan(&LOOP.replacen("[initial]", orbit, 1));
+    for (key, value, setting) in [
+        ("density_scale", "2.0", "environment.drag = true"),
+        ("solar_pressure_n_m2", "1e-5", "environment.solar_pressure = true"),
+        ("shadow", "\"cylinder\"", "environment.solar_pressure = true"),
+        ("area_scale", "3.0", "environment.drag = true or solar_pressure = true"),
+    ] {
+        let text = LOOP.replacen("[initial]", &format!("[environment]\n{key} = {value}\n{orbit}"), 1);
+        let found = plan(&text);
+        assert_eq!((found.text(), found.request()), (without.text(), without.request()), "{key}");
+        let notes = found.notes();
+        assert!(notes.len() == 1 && notes[0].contains(key) && notes[0].ends_with(setting), "{notes:?}");
+        if key != "shadow" {
+            let table = format!("[[disperse]]\nparameter = \"environment.{key}\"\ndistribution = \"normal\"\n");
+            let dispersed = format!("{text}\n{table}relative_std = 0.1\n");
+            let error = Plan::from_text("loop.toml", &dispersed, Overrides::default()).expect_err(key);
+            assert!(error.to_string().contains(setting), "{error}");
+        }
+    }
+}
