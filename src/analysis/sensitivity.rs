@@ -17,7 +17,7 @@ use crate::statistics::correlation::{
     Estimate, ascending_order, correlation, matrix, mid_ranks, mid_ranks_in_order, standardised,
 };
 use crate::statistics::regression::{Regressors, independent_inputs};
-use crate::statistics::sensitivity::{Samples, first_order_index_in_order, has_tails, share_of_parabola};
+use crate::statistics::sensitivity::{Samples, first_order_index, has_tails, share_of_parabola};
 use crate::storage::parallel::in_parallel;
 
 /// Least rank correlation of two inputs that is noted, if above chance.
@@ -177,7 +177,7 @@ impl Prepared {
     /// input with tails may make the shares of others as small as can be, unless the outcome is bounded.
     fn first_order(&self, plan: &Plan, index: usize, y: &[f64], is_bounded: bool) -> Option<Estimate> {
         let (order, x) = (&self.orders[index], &self.values[index]);
-        let found = first_order_index_in_order(order, x, y, samples(plan), plan.analysis.confidence)?;
+        let found = first_order_index(order, x, y, samples(plan), plan.analysis.confidence)?;
         let all_vary = self.tested.iter().all(Option::is_some);
         let is_hidden = |(other, has_tails): (usize, &bool)| other != index && *has_tails;
         let has_hidden = !is_bounded && self.with_tails.iter().enumerate().any(is_hidden);

@@ -155,8 +155,8 @@ impl Real for DoubleDouble {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
-    /// That of the value rounded to `f64`: a sum with a large number, which rounds one `f64`, keeps the fraction of
-    /// two.
+    /// The nearest integer to the value rounded to `f64`: a sum with a large number, which rounds one `f64`, keeps the
+    /// fraction of two.
     #[inline(always)]
     fn nearest_integer(self) -> Self {
         DoubleDouble::exact(self.high.nearest_integer())

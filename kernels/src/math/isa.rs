@@ -25,7 +25,7 @@ pub struct Isa {
 /// A trait, since closures cannot be generic over the token. `run` and all hot callees should be `#[inline(always)]`,
 /// or they are compiled without the instruction set.
 pub trait Work {
-    /// What the work returns.
+    /// Result of the work.
     type Output;
     /// Does the work with vectors of the instruction set `S`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
@@ -34,7 +34,7 @@ pub trait Work {
 /// Work compiled for lanes on AVX2, otherwise for one number at a time, for [`Isa::run_narrow`]: methods that need not
 /// be the fastest, since every instruction set costs compile time.
 pub trait NarrowWork {
-    /// What the work returns.
+    /// Result of the work.
     type Output;
     /// Does the work in lanes.
     fn in_lanes<S: Simd>(self, simd: S) -> Self::Output;
@@ -48,7 +48,7 @@ pub trait NarrowWork {
 /// takes one number at a time: nearly all its time is the fused operation, a library call per number, and lanes would
 /// cost several times the machine code.
 pub trait WideWork {
-    /// What the work returns.
+    /// Result of the work.
     type Output;
     /// Does the work; `zero` determines the number of lanes.
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output;

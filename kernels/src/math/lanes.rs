@@ -20,7 +20,7 @@ pub const WIDEST: usize = 2 * WIDTH;
 pub struct Lanes<S: Simd>(pub f64x8<S>);
 
 impl<S: Simd> Lanes<S> {
-    /// The same value in all lanes.
+    /// `value` in all lanes.
     #[inline(always)]
     pub fn broadcast(simd: S, value: f64) -> Self {
         Lanes(f64x8::simd_from(simd, value))

@@ -254,7 +254,7 @@ pub(super) struct SeriesRow {
     pub(super) stored: Stored,
     /// Series and statistic by which its values are divided.
     pub(super) scale: Option<(Series, Reduction)>,
-    /// What it is computed from.
+    /// Source of its values.
     pub(super) needs: &'static [&'static [Need]],
     /// Its column in a time series, if any.
     pub(super) shown: Option<Quantity>,
@@ -754,44 +754,26 @@ mod tests {
 
     use super::*;
 
+    /// Laws: names and handles are unique, a name ends with its unit, a meaning is a sentence, columns are ordered by
+    /// group.
     #[test]
-    fn names_and_handles_are_unique() {
-        let (mut names, mut ids) = (HashSet::new(), HashSet::new());
+    fn columns_follow_the_rules() {
+        let (mut names, mut ids, mut groups) = (HashSet::new(), HashSet::new(), Vec::new());
         for column in all() {
-            assert!(names.insert(column.quantity.name()), "{} appears twice", column.quantity.name());
-            assert!(
-                ids.insert(format!("{:?}", column.id())),
-                "two columns of a group show the same number: {column:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn the_name_of_a_column_ends_with_its_unit() {
-        for column in all() {
-            let suffix = match column.quantity.unit() {
-                "" => continue,
+            let Column { quantity, group, .. } = &column;
+            let (name, meaning) = (quantity.name(), quantity.meaning());
+            assert!(ids.insert(format!("{:?}", column.id())), "two columns of a group show one number: {column:?}");
+            let suffix = match quantity.unit() {
+                "" => String::new(),
                 "1/s" => "_per_s".to_owned(),
                 unit => format!("_{}", unit.to_lowercase().replace([' ', '/'], "_").replace('^', "")),
             };
-            assert!(column.quantity.name().ends_with(&suffix), "{column:?}");
-        }
-    }
-
-    #[test]
-    fn every_column_is_explained_by_a_sentence() {
-        for column in all() {
-            let meaning = column.quantity.meaning();
+            assert!(name.ends_with(&suffix), "{column:?}");
             assert!(meaning.len() > 10 && meaning.ends_with('.') && !meaning.ends_with(".."), "{column:?}");
+            assert!(names.insert(name.to_owned()), "{name} appears twice");
+            groups.push(*group as usize);
         }
-    }
-
-    #[test]
-    fn columns_are_ordered_by_group() {
-        let order: Vec<usize> = all().map(|column| column.group as usize).collect();
-        assert!(order.is_sorted());
-        for group in Group::ALL {
-            assert!(all().any(|column| column.group == group));
-        }
+        assert!(groups.is_sorted());
+        assert!(Group::ALL.into_iter().all(|group| groups.contains(&(group as usize))));
     }
 }

@@ -84,7 +84,7 @@ where
 pub struct Carried<R, const N: usize> {
     /// The state.
     pub state: [R; N],
-    /// What has to be added to the state to get its exact value.
+    /// Rounding error of the state: exact value minus state.
     pub carry: [R; N],
 }
 

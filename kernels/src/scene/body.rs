@@ -66,7 +66,7 @@ impl<R: Real> Body<R> {
         Body { mass: one, center: [one.zero(); 3], inertia: [[one.zero(); 3]; 3] }
     }
 
-    /// The same shape with the mass `mass`.
+    /// This shape with the mass `mass`.
     fn of_mass(self, mass: R) -> Self {
         let ratio = mass / self.mass;
         Body { mass, inertia: self.inertia.map(|row| scaled(ratio, row)), ..self }

@@ -12,7 +12,7 @@ pub struct SceneError {
     pub value: String,
     /// Allowed values, with bounds.
     pub allowed: String,
-    /// What to change.
+    /// A change that would help.
     pub remedy: &'static str,
 }
 

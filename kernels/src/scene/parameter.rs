@@ -206,101 +206,45 @@ impl SceneInput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{
-        ActuationInput, DebrisInput, OrbitInput, PrincipalInertia, PrincipalMoments, TorqueRodInput, WheelMode,
-    };
+    use crate::scene::{ActuationInput, DebrisInput, OrbitInput, TorqueRodInput, WheelMode};
 
-    const IDENTITY: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
-
-    /// Scenes of equal tables: every key exists in at least one.
-    fn variants() -> Vec<SceneInput> {
-        let second = PrincipalMoments::Second([1.0, 2.0, 3.0]);
-        let debris = [
-            DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 1.0 },
-            DebrisInput::Tensor { mass_kg: 1.0, inertia_kg_m2: [[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]] },
-            DebrisInput::Principal { mass_kg: 1.0, principal: full().body.principal.expect("full") },
-            DebrisInput::Principal { mass_kg: 1.0, principal: PrincipalInertia { moments: second, axes: IDENTITY } },
-        ];
-        let mut list = vec![full()];
-        list.extend(debris.map(|debris| SceneInput { debris: Some(debris), ..full() }));
-        let mut other = full();
-        other.body.principal = Some(PrincipalInertia { moments: second, axes: IDENTITY });
-        list.push(other);
-        let mut inertial = full();
-        inertial.initial.debris_attitude_inertial = Some(IDENTITY);
-        inertial.initial.attitude_orbital = Some(IDENTITY);
-        inertial.initial.angular_velocity_orbital_rad_s = Some([0.0; 3]);
-        inertial.initial.debris_angular_velocity_rad_s = Some([0.0; 3]);
-        list.push(inertial);
-        let mut driven = full();
-        for wheel in &mut driven.wheels {
-            (wheel.torque_limit_n_m, wheel.speed_limit_rad_s) = (Some(1.0), Some(1.0));
-            (wheel.coulomb_friction_n_m, wheel.viscous_friction_n_m_s) = (Some(1.0), Some(1.0));
-        }
-        for thruster in &mut driven.thrusters {
-            (thruster.max_thrust_n, thruster.min_on_time_s) = (Some(1.0), Some(1.0));
-        }
-        list.push(driven);
-        list
-    }
-
-    /// A scene with most keys: a part and a wheel with every size and mass.
+    /// A scene with all tables, and all keys that exclude no other.
     fn full() -> SceneInput {
-        let principal = PrincipalInertia { moments: PrincipalMoments::Inertia([2.0, 3.0, 4.0]), axes: IDENTITY };
-        let mut scene = SceneInput::report().with_debris(DebrisInput::Cube { side_m: 0.2, density_kg_m3: 2700.0 });
-        let part = &mut scene.parts[0];
-        (part.radius_m, part.mass_kg, part.size_m) = (Some(1.0), Some(1.0), Some([1.0; 3]));
-        for wheel in &mut scene.wheels {
-            (wheel.mass_kg, wheel.axial_inertia_kg_m2, wheel.transverse_inertia_kg_m2) =
-                (Some(1.0), Some(1.0), Some(1.0));
+        let rod = TorqueRodInput { name: Name::of("m1"), ..TorqueRodInput::DEFAULT };
+        let scene = SceneInput { torque_rods: vec![rod], orbit: Some(OrbitInput::DEFAULT), ..SceneInput::report() };
+        let mut scene = scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::idle(0.0, 1.0));
+        for parameter in Parameter::all(&scene.clone()) {
+            parameter.open(&mut scene);
         }
-        scene.body.mass_kg = Some(2000.0);
-        scene.body.center_of_mass_m = Some([0.0, 0.0, 1.5]);
-        scene.body.inertia_kg_m2 = Some([[3.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 3.0]]);
-        scene.body.principal = Some(principal);
-        scene.environment.body_torque_n_m = Some([0.0; 3]);
-        scene.environment.magnetic_dipole_a_m2 = Some([0.0; 3]);
-        let air = &mut scene.environment;
-        (air.base_density_kg_m3, air.base_height_m, air.scale_height_m) = (Some(0.0), Some(0.0), Some(1.0));
-        scene.torque_rods =
-            vec![TorqueRodInput { name: Name::of("m1"), max_dipole_a_m2: 1.0, ..TorqueRodInput::DEFAULT }];
-        scene.orbit = Some(OrbitInput {
-            j2: Some(0.0),
-            position_m: Some([0.0; 3]),
-            velocity_m_s: Some([0.0; 3]),
-            semi_major_axis_m: Some(0.0),
-            eccentricity: Some(0.0),
-            inclination_rad: Some(0.0),
-            ascending_node_rad: Some(0.0),
-            argument_of_periapsis_rad: Some(0.0),
-            true_anomaly_rad: Some(0.0),
-            ..OrbitInput::DEFAULT
-        });
-        scene.with_actuation(ActuationInput::idle(0.0, 1.0).with_thrust(&[1.0; 3]).with_torque(&[1.0; 2]))
+        scene
     }
 
     #[test]
     fn every_component_is_its_own_number_and_found_by_name() {
-        let variants = variants();
+        let mut other_moments = full();
+        other_moments.body.principal = None;
+        let variants = [full(), full().with_debris(DebrisInput::BLANK), other_moments];
         let mut columns = std::collections::BTreeSet::new();
         for parameter in Parameter::all(&full()) {
-            let nominal = variants
-                .iter()
-                .find(|scene| parameter.exists(scene))
-                .unwrap_or_else(|| panic!("{} exists nowhere", parameter.name()));
+            let mut opened = variants.iter().cloned().map(|mut scene| {
+                parameter.open(&mut scene);
+                scene
+            });
+            let nominal = opened.find(|scene| parameter.exists(scene));
+            let nominal = &nominal.unwrap_or_else(|| panic!("{} exists nowhere", parameter.name()));
+            let bits = |other: Parameter, scene: &SceneInput, index| other.value(scene, index).map(f64::to_bits);
             assert_eq!(Parameter::find(&full(), &parameter.name()), Some((parameter, None)));
             for component in 0..parameter.width() {
-                assert!(parameter.exists(nominal), "{}", parameter.name());
                 let mut scene = nominal.clone();
                 parameter.set(&mut scene, component, 42.5);
                 for other in Parameter::all(&full()) {
                     for index in 0..other.width() {
                         let expected = if (other, index) == (parameter, component) {
-                            Some(42.5)
+                            Some(42.5_f64.to_bits())
                         } else {
-                            other.value(nominal, index)
+                            bits(other, nominal, index)
                         };
-                        assert_eq!(other.value(&scene, index), expected, "{} {component}", parameter.name());
+                        assert_eq!(bits(other, &scene, index), expected, "{} {component}", parameter.name());
                     }
                 }
                 assert!(columns.insert(parameter.column_name(component)));

@@ -258,7 +258,7 @@ impl Table {
 }
 
 impl Key {
-    /// What is known of the key.
+    /// Facts about the key.
     #[inline(always)]
     pub const fn facts(self) -> &'static Facts {
         self.facts

@@ -48,7 +48,7 @@ impl GateLimit {
 /// A decision and its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gate {
-    /// What is decided.
+    /// The decision.
     pub decision: Decision,
     /// The estimate: a fraction, or a mean.
     pub estimate: f64,

@@ -9,7 +9,7 @@ use super::quantile::{interval_ranks, quantile};
 /// Condition for stopping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// Which quantile, in (0, 1).
+    /// Level of the quantile, in (0, 1).
     pub quantile: f64,
     /// Sufficient half width of its interval.
     pub half_width: f64,

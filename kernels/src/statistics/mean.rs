@@ -176,8 +176,8 @@ mod tests {
     }
 
     /// Known: 101 numbers, half 0 and half 1 but for one 1/2, of variance 1/4, have the bounds 1/2 -+ half,
-    /// half = 1/2 sqrt(4/101) + 14/300, at 1 - 2/e^2; bounds are within the range, which few numbers have instead; without spread the range
-    /// alone decides.
+    /// half = 1/2 sqrt(4/101) + 14/300, at 1 - 2/e^2; bounds are within the range, which few numbers have instead;
+    /// without spread the range alone decides.
     #[test]
     fn the_bounds_of_bounded_numbers_are_bernsteins() {
         let values = [0.0, 1.0].repeat(50).into_iter().chain([0.5]);

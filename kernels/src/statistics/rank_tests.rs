@@ -96,14 +96,15 @@ pub fn turns(order: &[usize], x: &[f64], y: &[f64], alpha: f64) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::statistics::correlation::ascending_order;
 
-    struct Uniform(u64);
+    /// Uniform numbers in [0, 1) by SplitMix64.
+    pub(in crate::statistics) struct Uniform(pub u64);
 
     impl Uniform {
-        fn next(&mut self) -> f64 {
+        pub(in crate::statistics) fn next(&mut self) -> f64 {
             self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
             let mut z = self.0;
             z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

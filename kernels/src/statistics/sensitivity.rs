@@ -13,7 +13,7 @@
 //! steeper than the lines (`ALMOST_ALL`, `Rest::noise`), and tails (`MOST_KURTOSIS`). An interval from 0 to 1 means an
 //! unknown share. Shares of correlated inputs overlap.
 
-use super::correlation::{Estimate, ascending_order};
+use super::correlation::Estimate;
 use super::jackknife::{ends, of_whole, ratio, spaced_rows};
 use super::mean::one_sided;
 use super::moments::Moments;
@@ -79,19 +79,8 @@ pub enum Samples {
 }
 
 /// First-order index of an input `x` for an observable `y` from cells of ascending `x`, equal values in one cell;
-/// `None` if one does not vary, or for fewer than [`MIN_ROWS`] rows.
-pub fn first_order_index(x: &[f64], y: &[f64], samples: Samples, confidence: f64) -> Option<Estimate> {
-    first_order_index_in_order(&ascending_order(x), x, y, samples, confidence)
-}
-
-/// As [`first_order_index`], for the [`ascending_order`] of `x`.
-pub fn first_order_index_in_order(
-    order: &[usize],
-    x: &[f64],
-    y: &[f64],
-    samples: Samples,
-    confidence: f64,
-) -> Option<Estimate> {
+/// `order` lists the rows by ascending `x`. `None` if one does not vary, or for fewer than [`MIN_ROWS`] rows.
+pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples, confidence: f64) -> Option<Estimate> {
     let (rows, n) = (x.len(), x.len() as f64);
     if rows < MIN_ROWS || x[order[0]] == x[order[rows - 1]] {
         return None;
@@ -206,7 +195,7 @@ pub(super) fn cells<'a>(order: &'a [usize], x: &'a [f64]) -> impl Iterator<Item 
     })
 }
 
-/// Residuals of `y` after lines through the cells of `x`, by row; `order` is the [`ascending_order`] of `x`.
+/// Residuals of `y` after lines through the cells of `x`, by row; `order` lists the rows by ascending `x`.
 pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
     let mut left = vec![0.0; y.len()];
     for cell in cells(order, x) {
@@ -258,17 +247,11 @@ mod tests {
     use core::f64::consts::PI;
 
     use super::*;
+    use crate::statistics::correlation::ascending_order;
+    use crate::statistics::rank_tests::tests::Uniform;
 
-    struct Uniform(u64);
-
-    impl Uniform {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
-        }
+    fn index(x: &[f64], y: &[f64], confidence: f64) -> Option<Estimate> {
+        first_order_index(&ascending_order(x), x, y, Samples::Independent, confidence)
     }
 
     /// Ishigami's function (T. Ishigami & T. Homma 1990) of three numbers uniform in (-pi, pi), a = 7, b = 0.1.
@@ -299,7 +282,7 @@ mod tests {
         let y: Vec<f64> = points.iter().map(|x| ishigami(*x)).collect();
         for (input, [expected, _]) in exact().into_iter().enumerate() {
             let x: Vec<f64> = points.iter().map(|point| point[input]).collect();
-            let found = first_order_index(&x, &y, Samples::Independent, 0.99).expect("it varies");
+            let found = index(&x, &y, 0.99).expect("it varies");
             assert!((found.value - expected).abs() < 0.04 && found.upper - found.lower < 0.3, "{input}: {found:?}");
             assert!(found.lower <= expected && expected <= found.upper, "{input}: {found:?} {expected}");
         }
@@ -313,10 +296,10 @@ mod tests {
         for levels in [2.0, 3.0, 7.0] {
             let x: Vec<f64> = (0..700).map(|_| (random.next() * levels).floor()).collect();
             let y: Vec<f64> = x.iter().map(|x| x * (x - 0.7)).collect();
-            let found = first_order_index(&x, &y, Samples::Independent, 0.95).expect("it varies");
+            let found = index(&x, &y, 0.95).expect("it varies");
             assert!(found.value > 1.0 - 1e-12 && found.upper >= 1.0 - 1e-12, "{levels}: {found:?}");
             let noisy: Vec<f64> = y.iter().map(|y| y + random.next()).collect();
-            let index = |x: &[f64], y: &[f64]| first_order_index(x, y, Samples::Independent, 0.95).expect("it varies");
+            let index = |x: &[f64], y: &[f64]| index(x, y, 0.95).expect("it varies");
             let turned = |values: &[f64]| values.iter().rev().copied().collect::<Vec<_>>();
             let (found, other) = (index(&x, &noisy), index(&turned(&x), &turned(&noisy)));
             assert!((found.value - other.value).abs() < 1e-12 && found.value < 1.0, "{levels}: {found:?} {other:?}");
@@ -338,9 +321,9 @@ mod tests {
     #[test]
     fn what_does_not_vary_has_no_index() {
         assert_eq!(saltelli_indices(&[Block { a: 1.0, b: 1.0, mixed: 1.0 }; 8], 0.95), None);
-        assert_eq!(first_order_index(&[1.0; 100], &[2.0; 100], Samples::Independent, 0.95), None);
+        assert_eq!(index(&[1.0; 100], &[2.0; 100], 0.95), None);
         let rising: Vec<f64> = (0..100).map(f64::from).collect();
-        let index = |x: &[f64], y: &[f64]| first_order_index(x, y, Samples::Independent, 0.95);
+        let index = |x: &[f64], y: &[f64]| index(x, y, 0.95);
         assert_eq!(index(&[1.0; 100], &rising), None, "an input that does not vary");
         assert_eq!(index(&rising, &[2.0; 100]), None, "an observable that does not vary");
         assert_eq!(index(&rising[..63], &rising[..63]), None);

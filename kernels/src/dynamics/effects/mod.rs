@@ -1,8 +1,8 @@
 //! Effects: forces and torques on a spacecraft other than its actuators, under a schedule and under any law alike.
 //!
 //! An effect is one file and one row of the list below; its parameters are keys of `[environment]` and `[orbit]`
-//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine declares the [`Form`]s
-//! that it integrates (`propagation::integrated_effects`), and refuses a run with any other.
+//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine declares the
+//! [`Form`]s that it integrates (`propagation::integrated_effects`), and refuses a run with any other.
 //!
 //! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only
 //! those that act, and its orbit only if one of them needs it.

@@ -1,8 +1,6 @@
 //! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed, and
 //! how the arc differs from them, which is.
 
-use super::components::SCALAR;
-use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
 use super::sizes::{MAX_THRUSTERS, MAX_WHEELS};
@@ -11,8 +9,8 @@ use crate::scene::name::Name;
 rows! {
     /// An arc of constant thrust and torque, as commanded.
     pub struct ActuationInput in ActuationInput [table => table] {
-    start_s: f64 = 0.0, "s", "Start of the arc", SCALAR, Plain, Limit::Finite, (required "0.0");
-    end_s: f64 = 1.0, "s", "End of the arc", SCALAR, Plain, Limit::Finite, (required "1.0");
+    start_s: f64 = 0.0, "s", "Start of the arc", Finite, required "0.0";
+    end_s: f64 = 1.0, "s", "End of the arc", Finite, required "1.0";
     } others {
         /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name,
         /// `thrust_n = { p1 = 100.0 }`.
@@ -22,25 +20,22 @@ rows! {
         torque_n_m: [f64; MAX_WHEELS] = [0.0; MAX_WHEELS],
         /// The name; of an arc without one its number is used, from 0.
         name: Name = Name::NONE,
-        /// How the arc differs from its command.
+        /// Errors of the arc.
         errors: ArcErrors = ArcErrors::NONE,
     }
 }
 
 rows! {
-    /// How an arc differs from its command, beyond what thrusters, wheels and `[actuators]` have in all arcs: factors
-    /// multiply theirs, delays add to theirs.
+    /// Errors of an arc relative to its command, beyond the errors that thrusters, wheels and `[actuators]` have in all
+    /// arcs: factors multiply theirs, delays add to theirs.
     pub struct ArcErrors in ActuationInput [table => table.errors] {
-    thrust_scale: f64 = 1.0, "1", "Scale factor for the commanded thrusts of this arc", SCALAR, Plain,
-        Limit::Thrust("write zero for an arc that does not ignite"), (optional);
-    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torques of this arc", SCALAR, Plain,
-        Limit::Finite, (optional);
-    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of the actuators", SCALAR,
-        Plain, Limit::Finite, (optional);
+    thrust_scale: f64 = 1.0, "1",
+        "Scale factor for the commanded thrusts of this arc", Thrust("write zero for an arc that does not ignite");
+    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torques of this arc", Finite;
+    switch_on_delay_s: f64 = 0.0, "s", "Delay of the start of this arc, added to that of the actuators", Finite;
     switch_off_delay_s: f64 = 0.0, "s",
         "Delay of the end of this arc, added to that of the actuators; no effect if the next arc starts as this one \
-        ends", SCALAR, Plain,
-        Limit::Finite, (optional);
+        ends", Finite;
     } others {}
 }
 
@@ -55,20 +50,20 @@ impl ActuationInput {
         ActuationInput { start_s, end_s, ..ActuationInput::DEFAULT }
     }
 
-    /// The same with `thrust_n` for the first thrusters.
+    /// This arc with `thrust_n` for the first thrusters.
     ///
     /// # Panics
-    /// Where there are more than a spacecraft may have.
+    /// If there are more than a spacecraft may have.
     #[must_use]
     pub fn with_thrust(mut self, thrust_n: &[f64]) -> Self {
         self.thrust_n[..thrust_n.len()].copy_from_slice(thrust_n);
         self
     }
 
-    /// The same with `torque_n_m` for the first wheels.
+    /// This arc with `torque_n_m` for the first wheels.
     ///
     /// # Panics
-    /// Where there are more than a spacecraft may have.
+    /// If there are more than a spacecraft may have.
     #[must_use]
     pub fn with_torque(mut self, torque_n_m: &[f64]) -> Self {
         self.torque_n_m[..torque_n_m.len()].copy_from_slice(torque_n_m);

@@ -1,8 +1,7 @@
 //! `[body]`: the body's mass properties, given directly or in place of what its parts give, and errors of the true
 //! ones.
 
-use super::components::{AXES, SCALAR, SYMMETRIC, WXYZ, XYZ};
-use super::limit::Limit;
+use super::components::{AXES, WXYZ};
 use super::mass_errors::MassErrors;
 use super::numbers::Numbers;
 use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
@@ -13,37 +12,35 @@ use crate::scene::error::Problems;
 rows! {
     /// The body: everything of the spacecraft but the wheels that turn.
     ///
-    /// Where there are parts ([`super::PartInput`]), a mass that is given scales their inertia, a centre of mass moves
+    /// With parts ([`super::PartInput`]), a mass that is given scales their inertia, a centre of mass moves
     /// it as it is, and a tensor or principal moments replace it. The errors are applied last.
     pub struct BodyInput in BodyInput [table => table] {
-    mass_kg: Option<f64> = None, "kg", "Mass, in place of that of the parts", SCALAR, Plain, Limit::Positive,
-        (optional);
-    center_of_mass_m: Option<[f64; 3]> = None, "m", "Centre of mass from p in F_s, in place of that of the parts",
-        XYZ, Plain, Limit::Finite, (optional);
+    mass_kg: Option<f64> = None, "kg", "Mass, in place of that of the parts", Positive;
+    center_of_mass_m: Option<[f64; 3]> = None, "m",
+        "Centre of mass from p in F_s, in place of that of the parts", Finite;
     inertia_kg_m2: Option<[[f64; 3]; 3]> = None, "kg m^2",
-        "Inertia tensor about the centre of mass in F_s, by rows, in place of that of the parts", SYMMETRIC, Symmetric,
-        Limit::Inertia, (optional);
+        "Inertia tensor about the centre of mass in F_s, by rows, in place of that of the parts", Inertia;
     } others {
-        /// The same inertia by principal moments and axes; at most one of the two is given.
+        /// That inertia by principal moments and axes; at most one of the two is given.
         principal: Option<PrincipalInertia> = None,
-        /// Whether these mass properties are those of the whole spacecraft with its wheels, at rest relative to it.
+        /// The mass properties are given for the whole spacecraft with its wheels, at rest relative to it.
         includes_wheels: bool = false,
-        /// How the true distribution of mass differs from all of the above.
+        /// Errors of this distribution of mass.
         errors: MassErrors = MassErrors::NONE,
     }
 }
 
 const PRINCIPAL: &[Row<BodyInput>] = &[
     row!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain,
-        Limit::PrincipalMoments, (optional),
+        PrincipalMoments,
         |body| { body.principal.get_or_insert(PrincipalInertia::BLANK); },
         BodyInput { principal: Some(PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. }), .. } => value),
     row!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain,
-        Limit::Positive, (optional),
+        Positive,
         |body| { body.principal.get_or_insert(PrincipalInertia::BLANK_SECOND); },
         BodyInput { principal: Some(PrincipalInertia { moments: PrincipalMoments::Second(value), .. }), .. } => value),
     row!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion,
-        Limit::UnitQuaternion, (optional),
+        UnitQuaternion,
         |_| {},
         BodyInput { principal: Some(PrincipalInertia { axes: value, .. }), .. } => value),
 ];

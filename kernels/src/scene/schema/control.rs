@@ -14,7 +14,7 @@ use crate::scene::name::Name;
 /// A parameter that a control law declares.
 #[derive(Clone, Debug)]
 pub struct LawParameter {
-    /// What is known of its key in `[control]`.
+    /// Facts about its key in `[control]`.
     pub facts: Facts,
     /// Its components where the file does not give them; `None` where it must.
     pub default: Option<&'static [f64]>,
@@ -37,7 +37,7 @@ impl LawParameter {
         LawParameter { facts, default: None }
     }
 
-    /// The same of several components with these names.
+    /// A required parameter of several components with these names.
     #[must_use]
     pub const fn with_components(mut self, components: &'static [&'static str]) -> Self {
         self.facts.components = components;
@@ -45,7 +45,7 @@ impl LawParameter {
         self
     }
 
-    /// The same where a campaign file may leave it out: `default` has one number for each component.
+    /// A parameter that a campaign file may leave out: `default` has one number for each component.
     #[must_use]
     pub const fn or(mut self, default: &'static [f64]) -> Self {
         self.facts.presence = Presence::Optional;
@@ -88,7 +88,7 @@ impl PartialEq for LawParameters {
 pub struct DeclaredTable {
     /// The name of the table among others of its kind; [`Name::NONE`] where there is one.
     pub name: Name,
-    /// What is declared.
+    /// The declarations.
     pub declared: LawParameters,
     /// The numbers of all parameters, one after the other.
     pub values: Vec<f64>,
@@ -108,7 +108,7 @@ impl DeclaredTable {
         DeclaredTable { name, declared: LawParameters(declared), values: declared.iter().flat_map(default).collect() }
     }
 
-    /// Where the numbers of parameter `index` are.
+    /// Range of the numbers of parameter `index`.
     fn place(&self, index: usize) -> std::ops::Range<usize> {
         let width = |parameter: &LawParameter| parameter.facts.components.len();
         let start = self.declared.0[..index].iter().map(width).sum();
@@ -120,7 +120,7 @@ impl DeclaredTable {
         self.values.get(self.place(index))
     }
 
-    /// The same, to be changed.
+    /// The numbers, to be changed.
     pub fn numbers_mut(&mut self, index: usize) -> Option<&mut [f64]> {
         let place = self.place(index);
         self.values.get_mut(place)
@@ -173,7 +173,7 @@ impl ControlInput {
         ControlInput { law: DeclaredTable::of(Name::NONE, declared), ..Self::NONE }
     }
 
-    /// Whether this is the loop of a campaign file, which has phases and models of its motors; the law of a program has
+    /// This is the loop of a campaign file, which has phases and models of its motors; the law of a program has
     /// neither.
     pub fn has_loop(&self) -> bool {
         !self.guidance.is_empty()

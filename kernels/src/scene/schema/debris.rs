@@ -1,7 +1,6 @@
 //! `[debris]`: a cube, a box, or any rigid body by mass and inertia.
 
 use super::components::{AXES, SCALAR, SYMMETRIC, WXYZ, XYZ};
-use super::limit::Limit;
 use super::numbers::Numbers;
 use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
 use super::row::{Row, check_rows};
@@ -49,41 +48,33 @@ fn is_irregular(debris: &DebrisInput) -> bool {
     matches!(debris, DebrisInput::Tensor { .. } | DebrisInput::Principal { .. })
 }
 
-macro_rules! debris {
-    ($key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+),
-    $open:expr,
-        $pattern:pat => $value:ident) => {
-        row!($key, $unit, $meaning, $components, $shape, $limit, ($($presence)+), $open, $pattern => $value)
-    };
-}
-
 /// The rows of `[debris]`.
 const ROWS: &[Row<DebrisInput>] = &[
-    debris!(side_m, "m", "Side of a cube", SCALAR, Plain, Limit::Positive, (required "0.2"),
+    row!(side_m, "m", "Side of a cube", SCALAR, Plain, Positive required "0.2",
         |debris| *debris = DebrisInput::BLANK,
         DebrisInput::Cube { side_m: value, .. } => value),
-    debris!(size_m, "m", "Sides of a box along d1, d2, d3", XYZ, Plain, Limit::Positive, (optional),
+    row!(size_m, "m", "Sides of a box along d1, d2, d3", XYZ, Plain, Positive,
         |debris| *debris = BOX,
         DebrisInput::Box { size_m: value, .. } => value),
-    debris!(density_kg_m3, "kg/m^3", "Density of a cube or box", SCALAR, Plain, Limit::Positive, (required "2700.0"),
+    row!(density_kg_m3, "kg/m^3", "Density of a cube or box", SCALAR, Plain, Positive required "2700.0",
         |_| {},
         DebrisInput::Cube { density_kg_m3: value, .. } | DebrisInput::Box { density_kg_m3: value, .. } => value),
-    debris!(mass_kg, "kg", "Mass of an irregular body", SCALAR, Plain, Limit::Positive, (required "21.6"),
+    row!(mass_kg, "kg", "Mass of an irregular body", SCALAR, Plain, Positive required "21.6",
         |debris| if !is_irregular(debris) { *debris = TENSOR },
         DebrisInput::Tensor { mass_kg: value, .. } | DebrisInput::Principal { mass_kg: value, .. } => value),
-    debris!(inertia_kg_m2, "kg m^2", "Inertia tensor about the centre of mass in F_d, by rows", SYMMETRIC, Symmetric,
-        Limit::Inertia, (optional),
+    row!(inertia_kg_m2, "kg m^2", "Inertia tensor about the centre of mass in F_d, by rows", SYMMETRIC, Symmetric,
+        Inertia,
         |debris| *debris = TENSOR,
         DebrisInput::Tensor { inertia_kg_m2: value, .. } => value),
-    debris!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain, Limit::PrincipalMoments, (optional),
+    row!(principal_moments_kg_m2, "kg m^2", MOMENTS, AXES, Plain, PrincipalMoments,
         |debris| *debris = DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK },
         DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Inertia(value), .. },
             .. } => value),
-    debris!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain, Limit::Positive, (optional),
+    row!(principal_second_moments_kg_m2, "kg m^2", SECOND, AXES, Plain, Positive,
         |debris| *debris = DebrisInput::Principal { mass_kg: NAN, principal: PrincipalInertia::BLANK_SECOND },
         DebrisInput::Principal { principal: PrincipalInertia { moments: PrincipalMoments::Second(value), .. },
             .. } => value),
-    debris!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion, Limit::UnitQuaternion, (optional), |_| {},
+    row!(principal_axes, "1", AXES_MEANING, WXYZ, Quaternion, UnitQuaternion, |_| {},
         DebrisInput::Principal { principal: PrincipalInertia { axes: value, .. }, .. } => value),
 ];
 

@@ -4,7 +4,7 @@ use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::scene::error::Problems;
 use std::borrow::Cow;
 
-/// How far the norm of a written attitude quaternion may be from one: six written digits make 1e-6; it is then
+/// Largest deviation from one of the norm of a written attitude quaternion: six written digits make 1e-6; it is then
 /// normalised.
 pub const UNIT_NORM_TOLERANCE: f64 = 1e-6;
 
@@ -12,7 +12,7 @@ pub const UNIT_NORM_TOLERANCE: f64 = 1e-6;
 /// elsewhere (rotated, shifted to another centre), and no more.
 pub const INERTIA_SLACK: f64 = 16.0 * f64::EPSILON;
 
-/// What the numbers of a key must satisfy; all must be finite.
+/// A condition on the numbers of a key; all must be finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// Nothing else.

@@ -1,14 +1,20 @@
 //! `Numbers`: a field of an input structure seen as plain numbers. [`kept`]: lists of them, of any length.
 
+use super::components::{ACROSS, SCALAR, SYMMETRIC, WXYZ, XYZ};
+use super::row::Shape;
 use std::sync::{Mutex, PoisonError};
 
 /// A value made of numbers, present or not.
 pub(in crate::scene) trait Numbers {
+    /// Names of its components.
+    const COMPONENTS: &'static [&'static str];
+    /// Arrangement of its numbers.
+    const SHAPE: Shape = Shape::Plain;
     /// The value of a key that was announced and not read yet: not a number.
     const BLANK: Self;
     /// The numbers; `None` where there is no value.
     fn numbers(&self) -> Option<&[f64]>;
-    /// The same, to be changed.
+    /// The numbers, to be changed.
     fn numbers_mut(&mut self) -> Option<&mut [f64]>;
     /// Makes a value that may be absent present.
     fn open(&mut self) {}
@@ -29,6 +35,7 @@ pub fn kept(numbers: &[f64]) -> &'static [f64] {
 }
 
 impl Numbers for f64 {
+    const COMPONENTS: &'static [&'static str] = SCALAR;
     const BLANK: Self = f64::NAN;
     #[inline(always)]
     fn numbers(&self) -> Option<&[f64]> {
@@ -40,19 +47,29 @@ impl Numbers for f64 {
     }
 }
 
-impl<const N: usize> Numbers for [f64; N] {
-    const BLANK: Self = [f64::NAN; N];
-    #[inline(always)]
-    fn numbers(&self) -> Option<&[f64]> {
-        Some(self)
-    }
-    #[inline(always)]
-    fn numbers_mut(&mut self) -> Option<&mut [f64]> {
-        Some(self)
-    }
+macro_rules! arrays {
+    ($($n:literal $components:ident $shape:ident)*) => { $(
+        impl Numbers for [f64; $n] {
+            const COMPONENTS: &'static [&'static str] = $components;
+            const SHAPE: Shape = Shape::$shape;
+            const BLANK: Self = [f64::NAN; $n];
+            #[inline(always)]
+            fn numbers(&self) -> Option<&[f64]> {
+                Some(self)
+            }
+            #[inline(always)]
+            fn numbers_mut(&mut self) -> Option<&mut [f64]> {
+                Some(self)
+            }
+        }
+    )* };
 }
 
+arrays! { 2 ACROSS Plain 3 XYZ Plain 4 WXYZ Quaternion }
+
 impl Numbers for [[f64; 3]; 3] {
+    const COMPONENTS: &'static [&'static str] = SYMMETRIC;
+    const SHAPE: Shape = Shape::Symmetric;
     const BLANK: Self = [[f64::NAN; 3]; 3];
     #[inline(always)]
     fn numbers(&self) -> Option<&[f64]> {
@@ -65,6 +82,8 @@ impl Numbers for [[f64; 3]; 3] {
 }
 
 impl<T: Numbers> Numbers for Option<T> {
+    const COMPONENTS: &'static [&'static str] = T::COMPONENTS;
+    const SHAPE: Shape = T::SHAPE;
     const BLANK: Self = Some(T::BLANK);
     #[inline(always)]
     fn numbers(&self) -> Option<&[f64]> {

@@ -9,7 +9,7 @@ pub struct PrincipalInertia {
     pub axes: [f64; 4],
 }
 
-/// How principal moments were written.
+/// Principal moments, as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PrincipalMoments {
     /// Moments of inertia J_1, J_2, J_3, kg m^2: none above the sum of the other two.
@@ -23,7 +23,7 @@ impl PrincipalInertia {
     /// Along the body's axes, with moments of inertia that are not numbers yet.
     pub(in crate::scene) const BLANK: PrincipalInertia =
         PrincipalInertia { moments: PrincipalMoments::Inertia([f64::NAN; 3]), axes: [1.0, 0.0, 0.0, 0.0] };
-    /// The same with second moments.
+    /// [`PrincipalInertia::BLANK`] with second moments.
     pub(in crate::scene) const BLANK_SECOND: PrincipalInertia =
         PrincipalInertia { moments: PrincipalMoments::Second([f64::NAN; 3]), ..Self::BLANK };
 }

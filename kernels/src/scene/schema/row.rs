@@ -4,7 +4,7 @@ use super::limit::Limit;
 use crate::scene::error::Problems;
 use std::borrow::Cow;
 
-/// How the components of a value belong together.
+/// Relation between the components of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Independent numbers.
@@ -16,7 +16,7 @@ pub enum Shape {
     Symmetric,
 }
 
-/// Whether a key must be written.
+/// Required or optional.
 #[derive(Clone, Copy, Debug)]
 pub enum Presence {
     /// Always; a message shows this example.
@@ -25,7 +25,7 @@ pub enum Presence {
     Optional,
 }
 
-/// What a scene must have for a key to exist, beside its table.
+/// Part of a scene that a key needs to exist, beside its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
     /// Nothing else.
@@ -35,7 +35,7 @@ pub enum Needs {
 }
 
 impl Needs {
-    /// Whether a scene has it.
+    /// True if a scene has it.
     #[inline(always)]
     pub const fn are_met(self, has_debris: bool) -> bool {
         match self {
@@ -45,35 +45,35 @@ impl Needs {
     }
 }
 
-/// What is known of a key, whatever its table is.
+/// Facts about a key, whatever its table is.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
     /// The key within its table.
     pub key: &'static str,
     /// The unit, as people write it; `1` for a pure number.
     pub unit: &'static str,
-    /// What it is, without the unit.
+    /// Meaning, without the unit.
     pub meaning: &'static str,
     /// The names of the components; one empty name for a scalar.
     pub components: &'static [&'static str],
-    /// How the components belong together.
+    /// Relation between the components.
     pub shape: Shape,
-    /// Whether it must be written.
+    /// Required, or optional.
     pub presence: Presence,
-    /// What a scene must have for the key to exist, beside its table.
+    /// Part of a scene that the key needs, beside its table.
     pub needs: Needs,
-    /// What its value must satisfy.
+    /// Condition on its value.
     pub limit: Limit,
 }
 
 /// A row of the schema: one numeric key of the table `T`.
 #[derive(Debug)]
 pub struct Row<T: 'static> {
-    /// What is known of the key.
+    /// Facts about the key.
     pub facts: Facts,
     /// The numbers; `None` where the table has no such key. A symmetric tensor has nine.
     pub read: fn(&T) -> Option<&[f64]>,
-    /// The same, to be changed.
+    /// The numbers, to be changed.
     pub write: fn(&mut T) -> Option<&mut [f64]>,
     /// Makes the table have the key: an optional value, a way to describe a body.
     pub open: fn(&mut T),

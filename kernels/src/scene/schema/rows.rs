@@ -1,48 +1,40 @@
 //! The macros that turn rows of the schema into an input structure, its defaults, its checks and its
 //! [`super::row::Row`]s.
 
-/// Whether a key must be written, as in a row.
+/// [`super::row::Presence`] as in a row: the example of a key that must be written.
 macro_rules! presence {
-    (optional $($gate:tt)*) => {
+    () => {
         $crate::scene::schema::row::Presence::Optional
     };
-    (required $example:literal) => {
+    ($example:literal) => {
         $crate::scene::schema::row::Presence::Required($example)
     };
 }
 
-/// What else the scene must have for the key to exist, as in a row.
-macro_rules! gate {
-    (optional with debris) => {
-        $crate::scene::schema::row::Needs::Debris
-    };
-    ($($presence:tt)+) => {
+/// [`super::row::Needs`] as in a row.
+macro_rules! needs {
+    () => {
         $crate::scene::schema::row::Needs::Nothing
+    };
+    (debris) => {
+        $crate::scene::schema::row::Needs::Debris
     };
 }
 
-/// What a row says of its key, apart from where the value is.
-macro_rules! facts {
-    (
-        $key:ident, $unit:expr, $meaning:expr, $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+)
-    ) => {
-        $crate::scene::schema::row::Facts {
-            key: stringify!($key),
-            unit: $unit,
-            meaning: $meaning,
-            components: $components,
-            shape: $crate::scene::schema::row::Shape::$shape,
-            presence: $crate::scene::schema::rows::presence!($($presence)+),
-            needs: $crate::scene::schema::rows::gate!($($presence)+),
-            limit: $limit,
-        }
+/// Names of the components of a type, unless a row names them.
+macro_rules! components {
+    ($type:ty,) => {
+        <$type as Numbers>::COMPONENTS
+    };
+    ($type:ty, $components:ident) => {
+        $components
     };
 }
 
 /// An input structure from its rows. A row reads
 ///
 /// ```text
-/// key: type = default, "unit", "meaning", components, shape, limit, (presence);
+/// key: type = default, "unit", "meaning", Limit [of COMPONENTS] [, required "example"] [, with debris];
 /// ```
 ///
 /// `in Table [table => table.part]` says where in the structure of the whole table this one is; `others` lists fields
@@ -53,7 +45,8 @@ macro_rules! rows {
         pub struct $Struct:ident in $Table:ident [$table:ident => $get:expr] {
         $(
             $key:ident: $type:ty = $default:expr, $unit:literal, $meaning:literal,
-            $components:expr, $shape:ident, $limit:expr, ($($presence:tt)+);
+            $limit:ident $(($remedy:literal))? $(of $components:ident)?
+            $(, required $example:literal)? $(, with $needs:ident)?;
         )*
         } others { $( $(#[$field_doc:meta])* $field:ident: $field_type:ty = $field_default:expr, )* }
     ) => {
@@ -74,9 +67,16 @@ macro_rules! rows {
             /// The rows of the schema.
             pub const ROWS: &'static [$crate::scene::schema::row::Row<$Table>] = &[ $(
                 $crate::scene::schema::row::Row {
-                    facts: $crate::scene::schema::rows::facts!(
-                        $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+)
-                    ),
+                    facts: $crate::scene::schema::row::Facts {
+                        key: stringify!($key),
+                        unit: $unit,
+                        meaning: $meaning,
+                        components: $crate::scene::schema::rows::components!($type, $($components)?),
+                        shape: <$type as Numbers>::SHAPE,
+                        presence: $crate::scene::schema::rows::presence!($($example)?),
+                        needs: $crate::scene::schema::rows::needs!($($needs)?),
+                        limit: $crate::scene::schema::limit::Limit::$limit $(($remedy))?,
+                    },
                     read: |$table| Numbers::numbers(&$get.$key),
                     write: |$table| Numbers::numbers_mut(&mut $get.$key),
                     open: |$table| Numbers::open(&mut $get.$key),
@@ -92,10 +92,11 @@ macro_rules! rows {
                 problems: &mut $crate::scene::error::Problems,
                 name: impl Fn(&'static str) -> std::borrow::Cow<'static, str>,
             ) {
-                $( if $crate::scene::schema::rows::gate!($($presence)+).are_met(has_debris)
+                $( if $crate::scene::schema::rows::needs!($($needs)?).are_met(has_debris)
                     && let Some(numbers) = Numbers::numbers(&self.$key)
                 {
-                    const LIMIT: $crate::scene::schema::limit::Limit = $limit;
+                    const LIMIT: $crate::scene::schema::limit::Limit =
+                        $crate::scene::schema::limit::Limit::$limit $(($remedy))?;
                     LIMIT.check(|| name(stringify!($key)), numbers, problems);
                 } )*
             }
@@ -112,13 +113,20 @@ macro_rules! rows {
 /// A row whose value a pattern finds in its table, by shared or by mutable reference; `open` makes the table match it.
 macro_rules! row {
     (
-        $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:expr,
-        ($($presence:tt)+), $open:expr, $pattern:pat => $value:ident
+        $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:ident
+        $(required $example:literal)?, $open:expr, $pattern:pat => $value:ident
     ) => {
         $crate::scene::schema::row::Row {
-            facts: $crate::scene::schema::rows::facts!(
-                $key, $unit, $meaning, $components, $shape, $limit, ($($presence)+)
-            ),
+            facts: $crate::scene::schema::row::Facts {
+                key: stringify!($key),
+                unit: $unit,
+                meaning: $meaning,
+                components: $components,
+                shape: $crate::scene::schema::row::Shape::$shape,
+                presence: $crate::scene::schema::rows::presence!($($example)?),
+                needs: $crate::scene::schema::row::Needs::Nothing,
+                limit: $crate::scene::schema::limit::Limit::$limit,
+            },
             read: |table| match table {
                 $pattern => Numbers::numbers($value),
                 _ => None,
@@ -132,4 +140,4 @@ macro_rules! row {
     };
 }
 
-pub(super) use {facts, gate, presence, row, rows};
+pub(super) use {components, needs, presence, row, rows};

@@ -1,4 +1,4 @@
-//! How many devices a spacecraft has at most: scenes are arrays of these sizes, without allocation.
+//! Largest numbers of devices of a spacecraft: scenes are arrays of these sizes, without allocation.
 
 /// Largest number of wheels of a spacecraft.
 pub const MAX_WHEELS: usize = 8;

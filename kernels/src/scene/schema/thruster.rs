@@ -1,7 +1,5 @@
 //! `[[thrusters]]`: a thruster.
 
-use super::components::{ACROSS, SCALAR, XYZ};
-use super::limit::Limit;
 use super::numbers::Numbers;
 use super::rows::rows;
 use crate::scene::name::Name;
@@ -9,23 +7,17 @@ use crate::scene::name::Name;
 rows! {
     /// A thruster, fixed in the body; its thrust is never negative.
     pub struct ThrusterInput in ThrusterInput [table => table] {
-    position_m: [f64; 3] = [0.0; 3], "m", "Point of application from p, in F_s", XYZ, Plain, Limit::Finite,
-        (required "[0, 0, 0]");
-    direction: [f64; 3] = [0.0, 0.0, 1.0], "1", "Direction of the force on the spacecraft, in F_s; need not have \
-        length one",
-        XYZ, Plain, Limit::Direction, (required "[0, 0, 1]");
+    position_m: [f64; 3] = [0.0; 3], "m", "Point of application from p, in F_s", Finite, required "[0, 0, 0]";
+    direction: [f64; 3] = [0.0, 0.0, 1.0], "1",
+        "Direction of the force on the spacecraft, in F_s; need not have length one", Direction, required "[0, 0, 1]";
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
         "Alignment error: components of the rotation vector that turns the nominal direction into the true one, along \
-        the two axes of F_s perpendicular to it (oblique directions: docs/campaign-files.md)",
-        ACROSS, Plain, Limit::Finite, (optional);
-    thrust_scale: f64 = 1.0, "1", "Scale factor for the commanded thrust", SCALAR, Plain,
-        Limit::Thrust("write zero for a thruster that does not work"), (optional);
-    max_thrust_n: Option<f64> = None, "N", "Largest thrust that a control loop commands; for an on-off thruster, its \
-        thrust", SCALAR,
-        Plain, Limit::Positive, (optional);
-    min_on_time_s: Option<f64> = None, "s", "Shortest firing of an on-off thruster, under a control loop", SCALAR,
-        Plain,
-        Limit::NotNegative, (optional);
+        the two axes of F_s perpendicular to it (oblique directions: docs/campaign-files.md)", Finite;
+    thrust_scale: f64 = 1.0, "1",
+        "Scale factor for the commanded thrust", Thrust("write zero for a thruster that does not work");
+    max_thrust_n: Option<f64> = None, "N",
+        "Largest thrust that a control loop commands; for an on-off thruster, its thrust", Positive;
+    min_on_time_s: Option<f64> = None, "s", "Shortest firing of an on-off thruster, under a control loop", NotNegative;
     } others {
         /// The name.
         name: Name = Name::NONE,
@@ -39,7 +31,7 @@ impl ThrusterInput {
     /// The ideal thruster called `name` at `position_m` that pushes along `direction`.
     ///
     /// # Panics
-    /// Where `name` is no name.
+    /// If `name` is no name.
     pub fn named(name: &str, position_m: [f64; 3], direction: [f64; 3]) -> Self {
         ThrusterInput { name: Name::of(name), position_m, direction, ..ThrusterInput::DEFAULT }
     }

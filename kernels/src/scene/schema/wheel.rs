@@ -1,7 +1,6 @@
 //! `[[wheels]]`: a wheel.
 
-use super::components::{ACROSS, SCALAR, XYZ};
-use super::limit::Limit;
+use super::named::named;
 use super::numbers::Numbers;
 use super::rows::rows;
 use crate::scene::name::Name;
@@ -11,44 +10,36 @@ rows! {
     ///
     /// By radius, length and density it is a solid cylinder; otherwise mass and inertias are given.
     pub struct WheelInput in WheelInput [table => table] {
-    axis: [f64; 3] = [0.0, 0.0, 1.0], "1", "Spin axis in F_s; need not have length one", XYZ, Plain, Limit::Direction,
-        (required "[0, 0, 1]");
-    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the wheel from p, in F_s", XYZ, Plain, Limit::Finite, (optional);
-    radius_m: Option<f64> = None, "m", "Radius", SCALAR, Plain, Limit::Positive, (optional);
-    length_m: Option<f64> = None, "m", "Length along the spin axis", SCALAR, Plain, Limit::Positive, (optional);
-    density_kg_m3: Option<f64> = None, "kg/m^3", "Density", SCALAR, Plain, Limit::Positive, (optional);
-    mass_kg: Option<f64> = None, "kg", "Mass", SCALAR, Plain, Limit::Positive, (optional);
-    axial_inertia_kg_m2: Option<f64> = None, "kg m^2", "Moment of inertia about the spin axis", SCALAR, Plain,
-        Limit::Positive, (optional);
+    axis: [f64; 3] = [0.0, 0.0, 1.0], "1",
+        "Spin axis in F_s; need not have length one", Direction, required "[0, 0, 1]";
+    position_m: [f64; 3] = [0.0; 3], "m", "Centre of the wheel from p, in F_s", Finite;
+    radius_m: Option<f64> = None, "m", "Radius", Positive;
+    length_m: Option<f64> = None, "m", "Length along the spin axis", Positive;
+    density_kg_m3: Option<f64> = None, "kg/m^3", "Density", Positive;
+    mass_kg: Option<f64> = None, "kg", "Mass", Positive;
+    axial_inertia_kg_m2: Option<f64> = None, "kg m^2", "Moment of inertia about the spin axis", Positive;
     transverse_inertia_kg_m2: Option<f64> = None, "kg m^2",
-        "Moment of inertia about any axis through the centre perpendicular to the spin axis", SCALAR, Plain,
-            Limit::Positive, (optional);
+        "Moment of inertia about any axis through the centre perpendicular to the spin axis", Positive;
     tilt_rad: [f64; 2] = [0.0; 2], "rad",
-        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the true \
-        one, along the two axes of F_s perpendicular to it (oblique axes: docs/campaign-files.md)",
-        ACROSS, Plain, Limit::Finite, (optional);
-    rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
-    angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", SCALAR, Plain, Limit::Finite, (optional);
-    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torque", SCALAR, Plain, Limit::Finite,
-        (optional);
-    torque_bias_n_m: f64 = 0.0, "N m", "Torque added to the scaled torque whenever the commanded torque is not zero",
-        SCALAR, Plain, Limit::Finite, (optional);
-    torque_limit_n_m: Option<f64> = None, "N m", "Largest motor torque in either direction, under a control loop",
-        SCALAR, Plain,
-        Limit::Positive, (optional);
+        "Alignment error of the spin axis: components of the rotation vector that turns the nominal axis into the \
+        true one, along the two axes of F_s perpendicular to it (oblique axes: docs/campaign-files.md)", Finite;
+    rate_rad_s: f64 = 0.0, "rad/s", "Rate relative to the body at the start", Finite;
+    angle_rad: f64 = 0.0, "rad", "Angle relative to the body at the start", Finite;
+    torque_scale: f64 = 1.0, "1", "Scale factor for the commanded motor torque", Finite;
+    torque_bias_n_m: f64 = 0.0, "N m",
+        "Torque added to the scaled torque whenever the commanded torque is not zero", Finite;
+    torque_limit_n_m: Option<f64> = None, "N m",
+        "Largest motor torque in either direction, under a control loop", Positive;
     speed_limit_rad_s: Option<f64> = None, "rad/s",
-        "Largest rate relative to the body, in either direction, to which a control loop drives the wheel",
-        SCALAR, Plain, Limit::Positive, (optional);
+        "Largest rate relative to the body, in either direction, to which a control loop drives the wheel", Positive;
     coulomb_friction_n_m: Option<f64> = None, "N m",
-        "Bearing friction that does not depend on the rate, under a control loop",
-        SCALAR, Plain, Limit::NotNegative, (optional);
+        "Bearing friction that does not depend on the rate, under a control loop", NotNegative;
     viscous_friction_n_m_s: Option<f64> = None, "N m s",
-        "Bearing friction proportional to the rate, under a control loop",
-        SCALAR, Plain, Limit::NotNegative, (optional);
+        "Bearing friction proportional to the rate, under a control loop", NotNegative;
     } others {
         /// The name.
         name: Name = Name::NONE,
-        /// What the wheel does when no torque is scheduled for it.
+        /// Motion of the wheel when no torque is scheduled for it.
         mode: WheelMode = WheelMode::Free,
     }
 }
@@ -67,7 +58,7 @@ impl WheelInput {
     /// `position_m`.
     ///
     /// # Panics
-    /// Where `name` is no name.
+    /// If `name` is no name.
     pub fn named(name: &str, axis: [f64; 3], position_m: [f64; 3]) -> Self {
         WheelInput {
             name: Name::of(name),
@@ -81,34 +72,19 @@ impl WheelInput {
     }
 }
 
-/// What a wheel does when no torque is scheduled for it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum WheelMode {
-    /// It turns freely in its bearing: its absolute axial momentum h_i is constant, and J* resists a change of omega.
-    #[default]
-    Free,
-    /// Its motor keeps its rate relative to the body at the initial value with whatever torque that takes: its momentum
-    /// relative to the body, J_i Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
-    SpeedHeld,
-    /// It does not turn relative to the body: a part of it.
-    Locked,
-}
-
-impl WheelMode {
-    /// All values.
-    pub const ALL: [WheelMode; 3] = [WheelMode::Free, WheelMode::SpeedHeld, WheelMode::Locked];
-
-    /// The name in campaign files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            WheelMode::Free => "free",
-            WheelMode::SpeedHeld => "speed_held",
-            WheelMode::Locked => "locked",
-        }
-    }
-
-    /// The mode called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|mode| mode.name() == name)
+named! {
+    /// Motion of a wheel when no torque is scheduled for it.
+    #[derive(Default)]
+    pub enum WheelMode {
+        /// It turns freely in its bearing: its absolute axial momentum h_i is constant, and J* resists a change of
+        /// omega.
+        #[default]
+        Free = "free",
+        /// Its motor keeps its rate relative to the body at the initial value with whatever torque that takes: its
+        /// momentum relative to the body, J_i Omega_i, is constant, and its axial inertia resists a change of omega
+        /// with the rest.
+        SpeedHeld = "speed_held",
+        /// It does not turn relative to the body: a part of it.
+        Locked = "locked",
     }
 }
