@@ -10,36 +10,26 @@ use crate::workflow::threads::usable;
 const MOST_SHARDS: u64 = 1_000_000;
 
 /// The method of that name; otherwise the list of names.
-///
-/// # Errors
-/// Where it is none.
 pub fn method(name: &str) -> Result<Method, String> {
     let names = || Method::ALL.map(Method::name).join(", ");
     Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
 }
 
-/// A tolerance; otherwise the allowed range.
-///
-/// # Errors
-/// Where it is none.
-pub fn tolerance(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number from 1e-16 to 0.1".to_owned();
-    text.parse().ok().filter(|value| (1e-16..=0.1).contains(value)).ok_or_else(allowed)
+/// A number for which `is` holds; otherwise what is `allowed`.
+fn number(text: &str, is: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
+    let found = text.parse().ok().filter(|value: &f64| value.is_finite() && is(*value));
+    found.ok_or_else(|| format!("must be a number {allowed}"))
 }
 
-/// A fraction from 0 to 1; otherwise the allowed range.
-///
-/// # Errors
-/// Where it is none.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    number(text, |value| (1e-16..=0.1).contains(&value), "from 1e-16 to 0.1")
+}
+
 pub fn fraction(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number from 0 to 1".to_owned();
-    text.parse().ok().filter(|value| (0.0..=1.0).contains(value)).ok_or_else(allowed)
+    number(text, |value| (0.0..=1.0).contains(&value), "from 0 to 1")
 }
 
 /// A dotted key and its value, `campaign.duration_s=20`; otherwise the allowed form.
-///
-/// # Errors
-/// Where it is none.
 pub fn setting(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
     parts
@@ -48,9 +38,6 @@ pub fn setting(text: &str) -> Result<(String, String), String> {
 }
 
 /// A shard, for instance 3/8; otherwise the allowed form.
-///
-/// # Errors
-/// Where it is none.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
     let shard = numbers.map(|(number, of)| Shard { number, of });
@@ -59,26 +46,15 @@ pub fn shard(text: &str) -> Result<Shard, String> {
 }
 
 /// A number of threads that this machine can use; otherwise the allowed range.
-///
-/// # Errors
-/// Where it is none.
 pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
     usable(text.parse().unwrap_or(0))
 }
 
-/// A shift, zero or above; otherwise the allowed range.
-///
-/// # Errors
-/// Where it is none.
 pub fn shift(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number of at least 0".to_owned();
-    text.parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0).ok_or_else(allowed)
+    number(text, |value| value >= 0.0, "of at least 0")
 }
 
 /// A number of samples; otherwise the allowed form.
-///
-/// # Errors
-/// Where it is none.
 pub fn count(text: &str) -> Result<u64, String> {
     let whole = |number: &f64| (0.0..=9e15).contains(number) && libm::floor(*number) == *number;
     text.parse().map_err(|_| match text.parse().ok().filter(whole) {
@@ -87,13 +63,8 @@ pub fn count(text: &str) -> Result<u64, String> {
     })
 }
 
-/// A positive time in seconds; otherwise the allowed range.
-///
-/// # Errors
-/// Where it is none.
 pub fn seconds(text: &str) -> Result<f64, String> {
-    let allowed = || "must be a number of seconds above 0".to_owned();
-    text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0).ok_or_else(allowed)
+    number(text, |value| value > 0.0, "of seconds above 0")
 }
 
 #[cfg(test)]

@@ -130,29 +130,6 @@ fn words(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// `text` without what a terminal obeys.
-    fn plain(text: &str) -> String {
-        [RED, GREEN, YELLOW, BOLD, DIM, RESET].iter().fold(text.to_owned(), |text, code| text.replace(code, ""))
-    }
-
-    /// Law: each verdict has its colour, as a whole word only; the words of a text stay as they are, and whatever
-    /// begins ends in its line.
-    #[test]
-    fn words_stay_and_verdicts_are_coloured() {
-        let text = "3 PASS, 1 FAIL -> results/x/report.html\n  UNDECIDED  p95 of PASSED_s\n\nUsage: spindrift check\n";
-        let found = coloured(text, Kind::Result);
-        assert_eq!(plain(&found), text);
-        for (word, colour) in [("PASS", GREEN), ("FAIL", RED), ("UNDECIDED", YELLOW)] {
-            assert!(found.contains(&format!("{colour}{BOLD}{word}{RESET}")), "{found:?}");
-        }
-        assert_eq!(found.matches(GREEN).count(), 1, "{found:?}");
-        assert!(found.contains(&format!("{BOLD}Usage:{RESET} spindrift")), "{found:?}");
-        assert!(found.lines().all(|line| line.matches('\x1b').count() % 3 != 1), "{found:?}");
-        let error = coloured("error: nothing here\nnor there\n", Kind::Note);
-        assert_eq!(error, format!("{RED}{BOLD}error:{RESET} nothing here\nnor there\n"));
-        assert_eq!(coloured("a note\n", Kind::Note), format!("{DIM}a note{RESET}\n"));
-    }
-
     /// Law: with `auto` a terminal has colour and a pipe has none; NO_COLOR and a dumb terminal take it away, an empty
     /// NO_COLOR does not; `always` and `never` are stronger than both.
     #[test]

@@ -2,12 +2,12 @@
 
 use crate::cli::arguments::CompareOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::terminal::Terminal;
 use crate::findings::comparison::findings;
 use crate::report::screen::{LINES, list};
 use crate::workflow::compared::{ComparisonFormat, compared};
+use crate::workflow::outputs::refuse_within;
 use crate::workflow::{Results, Session};
 
 pub fn run(options: &CompareOptions) -> Result<CommandOutcome, Failure> {

@@ -2,13 +2,13 @@
 
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::terminal::Terminal;
 use crate::cli::{completed_text, screen};
 use crate::findings::shell_word::quoted_path;
 use crate::storage::names::PLAN;
 use crate::table::wrapped::wrapped;
 use crate::workflow::finishing::finish;
+use crate::workflow::outputs::{refuse_inputs, refuse_within};
 use crate::workflow::{Finished, Session};
 
 pub fn run(options: &FinishOptions) -> Result<CommandOutcome, Failure> {

@@ -2,7 +2,6 @@
 //!
 //! - [`program`]: the program as a whole.
 //! - [`arguments`]: commands and options; [`argument_values`]: their values; [`help`]: what their help texts end with.
-//! - [`outputs`]: which files a command may write.
 //! - [`run_campaign`], [`finish_campaign`], [`verify`], [`check`], [`columns`], [`compare`], [`index`], [`new`],
 //!   [`precision`], [`report`], [`sample`], [`show`], [`simulate`]: one command each; [`completed_text`]: what is
 //!   printed of a result.
@@ -12,7 +11,7 @@
 //!
 //! Not here: physics, sampling, file formats, and what campaigns and results are (`workflow`).
 
-pub mod argument_values;
+mod argument_values;
 pub mod arguments;
 mod check;
 mod colour;
@@ -24,7 +23,6 @@ mod finish_campaign;
 mod help;
 mod index;
 mod new;
-mod outputs;
 mod precision;
 pub mod program;
 mod report;

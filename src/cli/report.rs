@@ -2,12 +2,12 @@
 
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
-use crate::cli::outputs::refuse_within;
 use crate::cli::screen;
 use crate::cli::terminal::Terminal;
 use crate::findings::number::bytes;
 use crate::table::wrapped::wrapped;
 use crate::workflow::Session;
+use crate::workflow::outputs::refuse_within;
 use crate::workflow::page::{Remade, remade};
 
 pub fn run(options: &ReportOptions) -> Result<CommandOutcome, Failure> {

@@ -5,7 +5,6 @@ use std::path::Path;
 use crate::cli::arguments::CampaignOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::completed_text;
-use crate::cli::outputs::{refuse_inputs, refuse_within};
 use crate::cli::screen;
 use crate::cli::signals;
 use crate::cli::terminal::Terminal;
@@ -16,6 +15,7 @@ use crate::storage::claim::Shard;
 use crate::storage::names::PLAN;
 use crate::table::wrapped::wrapped;
 use crate::workflow::failed_samples::FailedRun;
+use crate::workflow::outputs::{refuse_inputs, refuse_within};
 use crate::workflow::{Campaign, CampaignOutcome, Made, PreparedCampaign, Session};
 
 pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {

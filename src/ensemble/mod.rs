@@ -23,6 +23,7 @@ pub mod percentiles;
 pub mod plausibility;
 pub mod precision;
 pub mod probe;
+pub mod replays;
 pub mod rows;
 pub mod run_cost;
 pub mod runner;
@@ -31,6 +32,7 @@ mod sightings;
 pub mod single;
 pub mod supervision;
 mod surface;
+pub mod surroundings;
 pub mod undefined;
 pub mod worker;
 

@@ -148,34 +148,25 @@ fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
 /// Digits of a number that a sample applies: what is measured has no more.
 const SHOWN_DIGITS: usize = 6;
 
-/// The numbers that sample `sample` applies beside the nominal ones, in the units in which they are shown.
-pub fn shown(plan: &Plan, sample: SampleId) -> Table<'static> {
+/// The numbers that sample `sample` applies beside the nominal ones: as they are shown, or, if `is_exact`, in all
+/// digits of SI units, with the mass properties that follow from them, where they are physical.
+pub fn applied(plan: &Plan, sample: SampleId, is_exact: bool) -> Table<'static> {
     let mut draws = SceneDraws::new(plan);
     // a sample that is not physical applies its numbers too
-    let _ = draws.scene(sample);
-    let mut table = Table::with([Align::Left, Align::Whole, Align::Whole].map(|align| ("", align)));
+    let scene = draws.scene(sample);
+    let number = if is_exact { Align::Right } else { Align::Whole };
+    let mut table = Table::with([Align::Left, number, Align::Whole].map(|align| ("", align)));
     for (index, (column, value)) in plan.dispersions.columns().iter().zip(draws.applied()).enumerate() {
         let shown = unit_of_input(plan, index);
-        let number =
-            |value: f64| format!("{} {}", trimmed(shown.value(value), SHOWN_DIGITS), shown.unit).trim_end().to_owned();
+        let number = |value: f64| match is_exact {
+            true => format!("{value:?}"),
+            false => format!("{} {}", trimmed(shown.value(value), SHOWN_DIGITS), shown.unit).trim_end().to_owned(),
+        };
         let nominal = format!("nominal {}", number(column.nominal));
         table.row([column.parameter.component_name(column.component), number(*value), nominal]);
     }
-    table
-}
-
-/// The same in all digits, with the mass properties that follow from them, where they are physical.
-pub fn applied(plan: &Plan, sample: SampleId) -> Table<'static> {
-    let mut draws = SceneDraws::new(plan);
-    let scene = draws.scene(sample);
-    let mut table = Table::with([("", Align::Left), ("", Align::Right), ("", Align::Whole)]);
-    for (column, value) in plan.dispersions.columns().iter().zip(draws.applied()) {
-        let nominal = format!("nominal {:?}", column.nominal);
-        table.row([column.parameter.component_name(column.component), format!("{value:?}"), nominal]);
-    }
-    for ([name, ..], value) in MASS_COLUMNS.iter().zip(scene.iter().flat_map(mass_properties)) {
-        table.row([(*name).to_owned(), format!("{value:?}")]);
-    }
+    let masses = scene.iter().filter(|_| is_exact).flat_map(mass_properties);
+    MASS_COLUMNS.iter().zip(masses).for_each(|([name, ..], value)| table.row([name.to_string(), format!("{value:?}")]));
     table
 }
 

@@ -243,15 +243,18 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
         format!("{}{share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
     };
     let said = drivers.iter().map(of).collect::<Vec<_>>().join(", ");
-    if is_said {
-        return said + &rest;
-    }
-    if drivers.iter().any(|driver| driver.share.is_some_and(|share| share.lower.is_nan())) {
-        // chosen samples have no population
-        return said;
-    }
-    let it = if drivers.len() == 1 { "it explains" } else { "each explains" };
-    format!("{said}; {runs} are too few to say how much of the variance {it}")
+    if is_said { said + &rest } else { said }
+}
+
+/// The number of runs that are too few for the shares of the drivers of a spread; `None` where one is known, or none
+/// can be: chosen samples have no population.
+fn too_few(ranking: &Ranking<'_>) -> Option<u64> {
+    let input = ranking.drivers().next()?.input;
+    let is_said = |ranked: &Ranked<'_>| {
+        ranked.share.is_some_and(|share| share.lower.is_nan() || is_known(&share) && share.value > 0.0)
+    };
+    let is_open = input.total.is_none() && !ranking.drivers().take(NAMED).any(is_said);
+    (ranking.question == Question::Spread && is_open).then_some(input.rows)
 }
 
 /// What the rest of the variance is, if the drivers explain less than half of it.
@@ -320,8 +323,10 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
     let share = |one: &Finding| one.children.first().and_then(|driver| driver.numbers.first()).map(|share| share.value);
     let strength = |one: &Finding| share(one).filter(|share| share.is_finite()).unwrap_or(0.0);
     let mut found: Vec<(Finding, [bool; 3])> = Vec::new();
+    let mut few: Vec<u64> = Vec::new();
     for outcome in outcomes(plan, all) {
         for ranking in &ranked(plan, all, outcome) {
+            few.extend(too_few(ranking));
             let one = finding(plan, analysed, outcome, ranking);
             let order = [one.children.is_empty(), is_met(verdicts, outcome), is_settled(verdicts, ranking)];
             found.push((one, order));
@@ -359,6 +364,10 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
         found = vec![about("untold", "", 0, why)];
     } else if let Some(first) = found.first_mut().filter(|_| seen.is_empty() && !analysed.statistics.loss().is_big()) {
         first.rank = 0;
+    }
+    if let Some(runs) = few.iter().max() {
+        let said = format!("{} are too few to say how much of the variance an input explains", counted(*runs, "run"));
+        found.push(about("few", "", 0, said));
     }
     let has_rest = found.iter().any(|one| one.sentence.contains("; the rest is "));
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
@@ -455,47 +464,9 @@ pub fn noise_sentence(one: &NoiseShare) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::effects::OnEvent;
     use crate::campaign::Overrides;
-    use crate::statistics::contingency::Occurrence;
     use crate::statistics::correlation::Estimate;
 
-    /// Law: each kind of dependence is said as it is: on which side the runs with the event are, their median before
-    /// that of the others, the level that differs most
-    /// first, each with its counts.
-    #[test]
-    fn dependences_are_said_as_they_are() {
-        let text = include_str!("../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let level = |value: f64, events, runs| Level { value: Some(value), of: Occurrence { events, runs } };
-        let levels = vec![level(0.0, 1, 95), level(1.0, 4, 5)];
-        let ratio = Estimate { value: 76.0, lower: 10.0, upper: 300.0 };
-        for (dependence, said) in [
-            (
-                Dependence::Shift { chance: 0.9, medians: [3.0, 1.0] },
-                "x is larger in the runs that miss the limit (median 3, others 1)",
-            ),
-            (
-                Dependence::Shift { chance: 0.1, medians: [-3.0, 1.5] },
-                "x is smaller in the runs that miss the limit (median -3, others 1.500)",
-            ),
-            (Dependence::Distance { chance: 0.9 }, "x is farther from its median in the runs that miss the limit"),
-            (Dependence::Distance { chance: 0.1 }, "x is nearer to its median in the runs that miss the limit"),
-            (
-                Dependence::Levels { levels, most: 1, ratio },
-                "x = 1: 4 of 5 miss the limit; = 0: 1 of 95 misses the limit (risk ratio 76 [10, 300])",
-            ),
-        ] {
-            let of = Occurrence { events: 5, runs: 100 };
-            let occurs = Occurs::Missed { requirement: 0, is_only: true };
-            let event = Event { occurs, of, has_few_values: false };
-            let effect = OnEvent { event, share: None, p_value: 1e-6, dependence, instead: None };
-            let input = InputSensitivity { input: "x".to_owned(), ..InputSensitivity::default() };
-            let inputs = vec![Ranked { input: &input, effect: Some(&effect), share: None, is_driver: true }];
-            let ranking = Ranking { question: Question::Event(event), inputs };
-            assert_eq!(sentence(&plan, "y", &ranking), said);
-        }
-    }
     /// Law: a share is said with its interval, and only if that is known: not of too few runs for one, not if it is
     /// nearly everything from 0 to 1, and not of chosen samples. That no input explains more than a share is said only
     /// if the upper ends of all are known. Drivers are named in any case.
@@ -525,21 +496,6 @@ mod tests {
                 assert_eq!(said.contains('%'), is_known, "{said}");
             }
         }
-    }
-
-    /// Law: the ends of a share are between 0 and 1, and an estimate that is not above zero is no share.
-    #[test]
-    fn shares_are_not_negative() {
-        let text = include_str!("../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let input = InputSensitivity { input: "first_one".to_owned(), rows: 77, ..Default::default() };
-        let said = |value: f64| {
-            let share = Some(Estimate { value, lower: -0.05, upper: 0.4 });
-            let of = Ranked { input: &input, effect: None, share, is_driver: true };
-            sentence(&plan, "y", &Ranking { question: Question::Spread, inputs: vec![of] })
-        };
-        assert!(said(0.2).contains("explains 20% [0, 40] of the variance"), "{}", said(0.2));
-        assert!(said(-0.01).contains("first") && !said(-0.01).contains('%'), "{}", said(-0.01));
     }
 
     /// Law: that two inputs are correlated is said once, with whether the rows tell them apart.

@@ -18,6 +18,8 @@ const MOST_MAIN: usize = 6;
 /// Those observables after those of the motion.
 const MAIN: [&str; 4] =
     ["angular_momentum_error_max", "linear_momentum_error_max", "state_error_estimate", "dcm_orthonormality_max"];
+/// Most digits that keep the median apart from the extremes: what differs beyond is rounding.
+const MOST_DIGITS: usize = 8;
 /// The quantiles of a spread.
 const SPREAD: [f64; 2] = [0.05, 0.95];
 
@@ -136,7 +138,13 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
     numbers.push(number("mean", known(column.moments.mean()), [low, high].map(known)));
     numbers.extend([number("min", min, [f64::NAN; 2]), number("max", max, [f64::NAN; 2])]);
     let texts = apart([known(numbers.first().map(|one| one.value)), min, max].map(|one| shown.value(one)));
-    let digits = texts.iter().map(|text| text.trim_start_matches(['0', '.', '-'])).map(digits).max().unwrap_or(3);
+    let digits = texts
+        .iter()
+        .map(|text| text.trim_start_matches(['0', '.', '-']))
+        .map(digits)
+        .max()
+        .unwrap_or(3)
+        .min(MOST_DIGITS);
     numbers.iter_mut().for_each(|one| one.digits = one.digits.max(digits));
     let what = names::of_quantity(&column.quantity);
     let of_mean = column.note.as_ref().map(|note| format!("mean of {what}: {note}"));

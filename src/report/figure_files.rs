@@ -159,11 +159,11 @@ impl FigureSheet {
         }
         let all = across as f64 * (width + GAP) - GAP;
         let mut text = String::new();
-        let _ = write!(
+        let _ = writeln!(
             text,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{all}\" height=\"{top}\" viewBox=\"0 0 {all} {top}\">\
              <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/><text x=\"14\" y=\"28\" font-family=\"sans-serif\" \
-             font-size=\"18\">{}</text>{body}</svg>\n",
+             font-size=\"18\">{}</text>{body}</svg>",
             escaped(&self.title)
         );
         Ok(text)

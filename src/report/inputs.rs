@@ -2,12 +2,13 @@
 
 use core::f64::consts::PI;
 
+use crate::analysis::bins::{bins, counts, ends, linear_bins};
+use crate::analysis::expected::Expected;
 use crate::campaign::Plan;
 use crate::findings::names;
+use crate::findings::number::short;
 use crate::findings::origin::origin;
-use crate::report::expected::Expected;
-use crate::report::figure::{Axis, Figure, FigureSection, Mark};
-use crate::report::histogram;
+use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
@@ -15,6 +16,11 @@ use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 const MOST_INPUTS: usize = 36;
 /// Inputs in a matrix of correlations.
 const MOST_CORRELATED: usize = 24;
+/// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two
+/// thirds of the axis.
+const FAR: f64 = 0.5;
+/// Values whose median is below this fraction of the largest are those of a distribution over decades.
+const OVER_DECADES: f64 = 0.05;
 
 /// Dispersed samples: the values of each dispersed number, and of how many samples they are some.
 #[derive(Clone, Debug)]
@@ -48,7 +54,7 @@ impl DrawnInputs {
             shown if shown == self.all => shown.to_string(),
             shown => format!("{shown} of {}", self.all),
         };
-        let histogram = histogram::of_input(&name, unit, &values, column.nominal, expected.as_ref());
+        let histogram = of_input(&name, unit, &values, column.nominal, expected.as_ref());
         Figure {
             name: format!("input_{}", column.parameter.column_name(column.component)),
             section: FigureSection::Inputs,
@@ -145,4 +151,101 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
         }
     }
     found
+}
+
+/// The histogram of drawn samples of an input, with its unit; samples that are not finite are left out.
+fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option<&Expected>) -> Figure {
+    let values: Vec<f64> = samples.iter().copied().filter(|value| value.is_finite()).collect();
+    let count = values.len();
+    let discrete = asked.and_then(Expected::values);
+    // the axis contains each value of a discrete distribution that one sample or more is expected to have
+    let frequent = discrete.iter().flatten().filter(|(_, probability)| count as f64 * probability >= 1.0);
+    let shown: Vec<f64> = values.iter().copied().chain(frequent.map(|(value, _)| *value)).collect();
+    let mut sorted = shown.clone();
+    sorted.sort_by(f64::total_cmp);
+    let is_by_decades = sorted.get(sorted.len() / 2).is_some_and(|median| *median < OVER_DECADES * ends(&shown).1);
+    let (edges, is_log) = if is_by_decades { bins(&shown, &[]) } else { (linear_bins(&shown, &[]), false) };
+    let mut marks = vec![Mark::Bars {
+        label: "samples".to_owned(),
+        hue: Hue::Body,
+        heights: counts(&values, &edges),
+        edges: edges.clone(),
+    }];
+    if let Some(asked) = asked {
+        let bars = asked.bars(&edges, count);
+        let middle = |ends: &[f64]| if is_log { libm::sqrt(ends[0] * ends[1]) } else { 0.5 * ends[0] + 0.5 * ends[1] };
+        marks.push(match discrete {
+            // a stem for each bar that contains a value, at the mean of those that share it
+            Some(_) => {
+                let (x, y) = bars.iter().filter(|bar| bar[1] > 0.0).map(|[mean, count]| (mean, count)).unzip();
+                Mark::points("expected count of a discrete value", (Hue::Nominal, PointShape::Stem), x, y)
+            }
+            None => {
+                let (x, y) = (edges.windows(2).map(middle).collect(), bars.iter().map(|bar| bar[1]).collect());
+                Mark::line("expected counts", Hue::Nominal, Dash::Solid, x, y)
+            }
+        });
+    }
+    let scale = if is_log { Scale::Log } else { Scale::Linear };
+    let mut x = Axis { scale, ..Axis::linear("", unit) };
+    let label = match (edges.first(), edges.last()) {
+        (Some(low), Some(high)) if is_far(nominal, ends(&shown)) || (is_log && nominal <= 0.0) => {
+            x = x.within(*low, *high);
+            format!("nominal {}", short(nominal))
+        }
+        _ => "nominal".to_owned(),
+    };
+    if nominal.is_finite() {
+        marks.push(Mark::Limit { label, at: nominal, vertical: true });
+    }
+    Figure { columns: 3, ..Figure::new(name, x, Axis::linear("samples", ""), marks) }
+}
+
+/// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of
+/// its own.
+fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
+    let reach = FAR * (high - low);
+    high > low && (low - nominal > reach || nominal - high > reach)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a
+    /// bar one of their sum; a continuous one has a curve whose sum is the number of samples, at the middle of each bar
+    /// as the axis shows it.
+    #[test]
+    fn what_is_expected_is_drawn() {
+        let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
+        let of = |values: &[f64; 3]| Expected::of_quantile(|u| values[(3.0 * u) as usize]);
+        let stems = |values: &[f64; 3]| match of_input("x", "", &drawn, 0.01, Some(&of(values))).marks.swap_remove(1) {
+            Mark::Points { shape: PointShape::Stem, x, y, .. } => (x, y),
+            other => panic!("{other:?}"),
+        };
+        let (x, y) = stems(&[0.01, 0.02, 0.05]);
+        assert!(x.iter().zip([0.01, 0.02, 0.05]).all(|(x, known)| (x - known).abs() < 1e-12), "{x:?}");
+        assert!(y.len() == 3 && y.iter().all(|y| (y - 100.0).abs() < 0.05), "{y:?}");
+        let (x, y) = stems(&[0.01, 0.0101, 0.05]);
+        assert!(x.len() == 2 && (y[0] - 200.0).abs() < 0.05, "{x:?} {y:?}");
+        // a value that was not drawn although samples are expected there is on the axis
+        assert_eq!(stems(&[0.01, 0.02, 9.0]).0.last(), Some(&9.0));
+        let decades: Vec<f64> = (0..300).map(|k| 1e-3 * libm::pow(1e4, f64::from(k) / 299.0)).collect();
+        for (samples, scale, [min, max]) in
+            [(&drawn, Scale::Linear, [0.01, 0.05]), (&decades, Scale::Log, [1e-3, 10.0])]
+        {
+            let uniform = Expected::of_quantile(|u| min + u * (max - min));
+            let figure = of_input("x", "", samples, min, Some(&uniform));
+            let [Mark::Bars { edges, .. }, Mark::Line { x, y, .. }, ..] = &figure.marks[..] else {
+                panic!("{figure:?}")
+            };
+            assert!((y.iter().sum::<f64>() - 300.0).abs() < 1e-6, "{y:?}");
+            assert_eq!((&figure.x.scale, x.len()), (&scale, edges.len() - 1));
+            let place = |value: f64| if scale == Scale::Log { libm::log(value) } else { value };
+            for (x, ends) in x.iter().zip(edges.windows(2)) {
+                let part = (place(*x) - place(ends[0])) / (place(ends[1]) - place(ends[0]));
+                assert!((part - 0.5).abs() < 1e-9, "{x} in {ends:?}");
+            }
+        }
+    }
 }

@@ -5,19 +5,16 @@
 //! - [`figure`]: what a figure shows.
 //! - [`figure_files`]: figures as files.
 //! - `escaped`: text within markup.
-//! - [`simulation_figure`], [`precision_figure`]: figures of commands. [`inputs`] (in [`histogram`]s, with
-//!   [`expected`] counts), [`over_time`]: those of the page too.
-//! - `surroundings`: Sun, shadow, field and the place below on an orbit.
+//! - [`simulation_figure`], [`precision_figure`]: figures of commands. [`inputs`], [`over_time`]: those of
+//!   the page too.
 //! - [`comparison_json`]: two results compared, for programs.
 //! - [`time_table`]: one run over time on a terminal.
 //! - [`index_page`]: all results of a folder.
 
 pub mod comparison_json;
 mod escaped;
-pub mod expected;
 pub mod figure;
 pub mod figure_files;
-pub mod histogram;
 pub mod index_page;
 pub mod inputs;
 pub mod junit;
@@ -27,5 +24,4 @@ pub mod precision_figure;
 pub mod screen;
 pub mod simulation_figure;
 pub mod summary;
-mod surroundings;
 pub mod time_table;

@@ -1,5 +1,4 @@
-//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`read`] reads from it how a campaign
-//! ended.
+//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`read`] reads how a campaign ended.
 
 use serde_json::{Map, Value, json};
 

@@ -70,7 +70,7 @@ fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<Listed> {
         Shows::One(Series::RateSquare) | Shows::State(StateField::Rate, _) => name.starts_with("omega_se_s_"),
         Shows::State(StateField::Attitude, _) => name.starts_with("q_es_"),
         Shows::One(series) | Shows::Estimated(series, _) => is_of(series, name),
-        Shows::Balances => is_of(Series::EnergyError, name) || is_of(Series::AngularMomentumError, name),
+        Shows::Drift => is_of(Series::EnergyError, name) || is_of(Series::AngularMomentumError, name),
         _ => false,
     };
     let all: Vec<&'static ListedFigure> = figures_of(&traits, Place::Plot).collect();

@@ -7,10 +7,12 @@
 //! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`.
 //! - `ending`: how a finished campaign ended.
 //! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
-//! - [`results_index`]: all results below a folder.
+//! - [`results_index`]: all results below a folder. [`sampling`]: draws without runs. [`precision`]:
+//!   time against error.
 //! - [`failed_samples`]: samples that failed, again or as the end.
 //! - [`source`]: where plans come from.
 //! - [`session`]: disk, threads, control law, and who is told.
+//! - [`outputs`]: files that are not written.
 //! - [`columns`]: the columns that rows may have. [`threads`]: how many are allowed. [`error`].
 //! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left
 //!   of memory and disk.
@@ -30,10 +32,13 @@ pub mod failed_samples;
 pub mod finishing;
 pub mod machine;
 pub mod outcome;
+pub mod outputs;
 pub mod page;
+pub mod precision;
 pub mod results;
 pub mod results_index;
 mod running;
+pub mod sampling;
 pub mod session;
 pub mod simulated;
 pub mod source;

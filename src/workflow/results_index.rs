@@ -1,4 +1,4 @@
-//! [`indexed`]: all results below a folder, what each says, and what changed since the last run of the same campaign.
+//! [`written`]: all results below a folder, what each says, and what changed since the last run of the same campaign.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,9 @@ use crate::campaign::difference::text_differences;
 use crate::findings::changed_keys;
 use crate::findings::end::SummaryEnd;
 use crate::findings::results_index::{IndexEntry, Unreadable};
-use crate::report::summary;
+use crate::report::{index_page, summary};
 use crate::scene::epoch::date_of;
+use crate::storage::atomic;
 use crate::storage::names::{HEAD, PLAN, REPORT, SUMMARY};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
@@ -40,11 +41,38 @@ struct Found {
     plan: String,
 }
 
+/// The name of the page.
+const PAGE: &str = "index.html";
+
+/// All results below `root`, and the page with them that is written there.
+///
+/// # Errors
+/// Where there are none, the folder is a result itself, or it cannot be read or written.
+pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, PathBuf), WorkflowError> {
+    let index = indexed(session, root)?;
+    let shown = root.display();
+    if index.entries.is_empty() && index.unreadable.is_empty() {
+        return Err(WorkflowError::Input(format!("there is no result of spindrift in `{shown}` or below it")));
+    }
+    let unreadable = index.unreadable.iter().map(|one| &one.folder);
+    if index.entries.iter().map(|one| &one.folder).chain(unreadable).any(|folder| folder.as_os_str().is_empty()) {
+        return Err(WorkflowError::Input(format!(
+            "`{shown}` is itself a result, in which nothing else is written; name the folder above it"
+        )));
+    }
+    let name = root.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let html = index_page::html(&name.unwrap_or_else(|| "results".to_owned()), &index.entries, &index.unreadable);
+    let path = root.join(PAGE);
+    atomic::write_bytes(&path, html.as_bytes())
+        .map_err(|error| WorkflowError::Files(format!("{}: {error}", path.display())))?;
+    Ok((index, path))
+}
+
 /// All results in `root` and below it. They are read, not verified: `spindrift verify` compares checksums.
 ///
 /// # Errors
 /// Where the folder itself cannot be read.
-pub fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowError> {
+fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowError> {
     std::fs::read_dir(root).map_err(|error| {
         let why = match error.kind() {
             ErrorKind::NotFound => "there is no such folder".to_owned(),

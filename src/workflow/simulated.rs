@@ -1,9 +1,15 @@
-//! [`simulated`]: one sample of a plan again, as a table over time.
+//! [`simulated`]: one sample of a plan again, as a table over time; [`plotted`]: as figures.
+
+use std::path::Path;
 
 use crate::campaign::Plan;
 use crate::control::laws::callback;
 use crate::ensemble::SingleRun;
+use crate::ensemble::replays::GROUPS;
+use crate::findings::number::counted;
 use crate::math::Isa;
+use crate::report::figure_files::instead;
+use crate::report::simulation_figure::{left_out, simulation_figure};
 use crate::run::Grid;
 use crate::sampling::SampleId;
 use crate::scene::SceneError;
@@ -41,6 +47,39 @@ pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> R
     let shown = |time: f64| times.as_deref().is_none_or(|times| times.contains(&time));
     let series = time_series(SampleId(sample), &run, shown);
     Ok(Simulated { run, series, late })
+}
+
+/// A plot of a run without times of its own has at least so many intervals: two per pixel.
+const SMOOTH: usize = 1200;
+
+/// Draws sample `sample` of `plan` on `grid`, without one on that of the campaign with divided intervals, to the file
+/// `path`; what to know of that.
+///
+/// # Errors
+/// Where the scene is not physical, or the file cannot be written.
+pub fn plotted(
+    plan: &Plan,
+    sample: u64,
+    grid: Option<Grid>,
+    path: &Path,
+    isa: Isa,
+) -> Result<Vec<String>, WorkflowError> {
+    let intervals = plan.grid.points().saturating_sub(1).max(1);
+    let refined = || Grid::uniform(plan.grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1);
+    let run = SingleRun::with_series(plan, SampleId(sample), grid.unwrap_or_else(refined), isa, &GROUPS)
+        .map_err(|errors| not_physical(sample, &errors))?;
+    let which = if sample == 0 { "nominal".to_owned() } else { format!("sample {sample}") };
+    let figure = simulation_figure(format!("{}, {which}", plan.name), plan, &run).in_units(&plan.analysis.display);
+    let written = figure.save(path).map_err(|error| WorkflowError::Files(format!("{}: {error}", path.display())))?;
+    let without = match &left_out(plan, &run)[..] {
+        [] => String::new(),
+        empty => format!("; left out, zero or absent throughout: {}", empty.join(", ")),
+    };
+    let points = counted(run.outcome.points.min(run.grid.points()), "point");
+    let figures = counted(figure.figures.len(), "figure");
+    let said = format!("{}: {figures} of {points}{without}", written.display());
+    let other = (written != path && !path.ends_with(".html")).then(|| instead(&written));
+    Ok([said].into_iter().chain(other).collect())
 }
 
 /// The requested times, ascending, without duplicates.

@@ -1,12 +1,14 @@
 //! What a control loop does over time: errors of its estimates, phases, wheels, thrusters, the way to the debris.
 
 use crate::control::STANDARD_GRAVITY;
+use crate::ensemble::SingleRun;
 use crate::observables::Series;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, Scale};
 use crate::report::over_time::curves::{Curves, areas, lines, over_time};
-use crate::report::over_time::figure_list::{ListedFigure, Shows, WheelLimit};
+use crate::report::over_time::figure_list::{ListedFigure, WheelLimit};
 use crate::report::over_time::limits;
 use crate::report::page::readable::with_unit;
+use crate::scene::Arc;
 
 /// How many times the error that a filter expects is drawn beside the errors.
 const SIGMAS: f64 = 3.0;
@@ -108,19 +110,9 @@ impl Curves<'_> {
     /// The impulses of the thrusters up to the points of the run, N s: thruster by thruster.
     fn impulses(&self) -> Option<Vec<(String, Vec<f64>)>> {
         let (run, spec) = (self.run?, self.plan.law.as_ref()?.spec()?);
-        let times = self.times();
         let of = |place: &usize| {
-            let (mut sum, mut next) = (0.0, 0);
-            let at = |time: &f64| {
-                while let Some(arc) = run.arcs.get(next).filter(|arc| arc.applied.until <= *time) {
-                    sum += arc.applied.thrust[*place] * (arc.applied.until - arc.start);
-                    next += 1;
-                }
-                // the arc that has not ended
-                let part = run.arcs.get(next).filter(|arc| arc.start < *time && !arc.applied.ends_run);
-                sum + part.map_or(0.0, |arc| arc.applied.thrust[*place] * (time - arc.start))
-            };
-            (spec.thruster_names[*place].to_string(), times.iter().map(at).collect())
+            let impulse = impulse(run, &self.times(), |arc| arc.applied.thrust[*place]);
+            (spec.thruster_names[*place].to_string(), impulse)
         };
         Some(spec.thrusters.iter().map(of).collect())
     }
@@ -179,7 +171,7 @@ impl Curves<'_> {
         let mass =
             total(&self.impulses()?).iter().map(|impulse| impulse / (STANDARD_GRAVITY * isp)).collect::<Vec<_>>();
         let marks = if mass.iter().any(|mass| *mass > 0.0) {
-            self.of_run("nominal run", (listed.hue, Dash::Solid), &mass)
+            self.of_run(if self.is_plot() { "" } else { "nominal run" }, (listed.hue, Dash::Solid), &mass)
         } else {
             Vec::new()
         };
@@ -192,24 +184,33 @@ impl Curves<'_> {
         self.plan.nominal.control.law.named(key).and_then(|numbers| numbers.first().copied())
     }
 
-    /// The distance to the debris with keep-out sphere and station, or the speed relative to it.
-    pub(super) fn relative(&self, listed: &ListedFigure) -> Option<Figure> {
-        let is_distance = listed.shows == Shows::Distance;
-        let series = if is_distance { Series::DebrisDistance } else { Series::DebrisSpeed };
-        let (name, unit) = self.name(series);
-        let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
-        if is_distance {
-            let launches = self.plan.law.as_ref()?.spec()?.launches();
-            let station = self.constant("launch_distance_m").filter(|_| launches);
-            let shown = self.plan.analysis.display.of(&name, &unit);
-            for (label, at) in [("keep-out", self.constant("keep_out_m")), ("station", station)] {
-                let value = |at| with_unit(shown.written(at), &shown.unit);
-                let limit = |at| Mark::Limit { label: format!("{label} {}", value(at)), at, vertical: false };
-                marks.extend(at.filter(|at| *at > 0.0).map(limit));
-            }
-        }
-        Some(self.judged(listed, (&name, &unit), (listed.title, self.caption(&name)), marks))
+    /// The limits of the way to the debris: keep-out sphere and station.
+    pub(super) fn distances(&self, name: &str, unit: &str) -> Vec<Mark> {
+        let launches = self.plan.law.as_ref().and_then(|law| law.spec()).is_some_and(|spec| spec.launches());
+        let station = self.constant("launch_distance_m").filter(|_| launches);
+        let shown = self.plan.analysis.display.of(name, unit);
+        let limit = |(what, at): (&str, Option<f64>)| {
+            let at = at.filter(|at| *at > 0.0)?;
+            let label = format!("{what} {}", with_unit(shown.written(at), &shown.unit));
+            Some(Mark::Limit { label, at, vertical: false })
+        };
+        [("keep-out", self.constant("keep_out_m")), ("station", station)].into_iter().filter_map(limit).collect()
     }
+}
+
+/// The impulse of a `force` up to each of `times` in a run, N s.
+pub fn impulse(run: &SingleRun, times: &[f64], force: impl Fn(&Arc) -> f64) -> Vec<f64> {
+    let (mut sum, mut next) = (0.0, 0);
+    let at = |time: &f64| {
+        while let Some(arc) = run.arcs.get(next).filter(|arc| arc.applied.until <= *time) {
+            sum += force(arc) * (arc.applied.until - arc.start);
+            next += 1;
+        }
+        // the arc that has not ended
+        let part = run.arcs.get(next).filter(|arc| arc.start < *time && !arc.applied.ends_run);
+        sum + part.map_or(0.0, |arc| force(arc) * (time - arc.start))
+    };
+    times.iter().map(at).collect()
 }
 
 /// The name of a thruster with the curve `values`: one that gives nothing, as a dead one does, may be what decides the

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
+use crate::analysis::envelope::{envelope, swing, turns, within};
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
 use crate::observables::Series;
 use crate::observables::request::NutationAxis;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
-use crate::report::over_time::envelope::{envelope, swing, turns, within};
 use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, figures_of};
 use crate::report::over_time::limits;
 use crate::scene::Name;
@@ -120,7 +120,8 @@ impl<'a> Curves<'a> {
         let floor = if name.ends_with("_rad") { NO_ANGLE_RAD } else { 0.0 };
         if nominal.iter().any(|value| value.abs() > floor) {
             let (hue, dash) = if marks.is_empty() { (hue, Dash::Solid) } else { (Hue::Nominal, Dash::Dashed) };
-            marks.extend(self.of_run(&label("nominal run"), (hue, dash), &nominal));
+            let name = if self.is_plot() { of.to_owned() } else { label("nominal run") };
+            marks.extend(self.of_run(&name, (hue, dash), &nominal));
         }
         marks
     }
@@ -168,12 +169,11 @@ impl<'a> Curves<'a> {
     /// The values of the run; on the page those that turn too often to be seen as their envelope.
     pub(super) fn of_run(&self, label: &str, (hue, dash): (Hue, Dash), values: &[f64]) -> Vec<Mark> {
         let times = self.times();
-        let name = if self.place == Place::Plot { "" } else { label };
         let piece = |piece: Range<usize>| {
             let (x, y) = (times[piece.clone()].to_vec(), values[piece].to_vec());
             match envelope(&x, &y).filter(|_| self.place == Place::Page) {
-                Some([x, low, high]) => Mark::area(format!("{name}, its envelope"), (hue, 0.4), x, [low, high]),
-                None => Mark::line(name, hue, dash, x, y),
+                Some([x, low, high]) => Mark::area(format!("{label}, its envelope"), (hue, 0.4), x, [low, high]),
+                None => Mark::line(label, hue, dash, x, y),
             }
         };
         pieces(times.len().min(values.len()), |point| values[point].is_finite()).into_iter().map(piece).collect()
@@ -279,19 +279,17 @@ impl<'a> Curves<'a> {
             Shows::One(series) => self.single(listed, series).into_iter().collect(),
             Shows::Estimated(series, expected) => self.estimated(listed, series, expected).into_iter().collect(),
             Shows::Wheels(series, limit) if self.traits.has_loop => vec![self.all_wheels(listed, series, limit)],
-            Shows::Wheels(series, _) => self.each_wheel(listed, series),
+            Shows::Wheels(series, _) => self.each(listed, self.each_wheel(series), ""),
             Shows::State(field, components) => vec![self.state(listed, field, components)],
             Shows::GroundTrack => self.ground_track(listed).into_iter().collect(),
             Shows::Phases => self.phases(listed).into_iter().collect(),
             Shows::Thrust => self.thrust(listed).into_iter().collect(),
             Shows::Impulse => self.impulse(listed).into_iter().collect(),
             Shows::Propellant => self.propellant(listed).into_iter().collect(),
-            Shows::Distance | Shows::RelativeSpeed => self.relative(listed).into_iter().collect(),
             Shows::Energies => self.energies(listed),
-            Shows::TotalEnergy => self.total_energy(listed).into_iter().collect(),
             Shows::Changes => self.changes(listed),
             Shows::Transfer => self.transfer(listed),
-            Shows::Balances => vec![self.balances(listed)],
+            Shows::Drift => self.drift(),
         }
     }
 
@@ -305,6 +303,9 @@ impl<'a> Curves<'a> {
         if unit == "rad" && marks.iter().all(|mark| mark.largest() < NO_ANGLE_RAD) {
             // an angle below rounding is none
             marks.clear();
+        }
+        if series == Series::DebrisDistance {
+            marks.extend(self.distances(&name, &unit));
         }
         let axis = self.run.map(|run| run.request.nutation_axis).filter(|_| series == Series::Nutation);
         let title = match axis {
@@ -352,15 +353,27 @@ impl<'a> Curves<'a> {
         asked.unwrap_or_else(|| name.to_owned())
     }
 
-    /// The figure of `series` for each wheel.
-    fn each_wheel(&self, listed: &ListedFigure, series: Series) -> Vec<Figure> {
-        let figure = |(index, wheel): (usize, &Name)| {
-            let (name, unit) = self.name(series.of_wheel(index));
-            let marks = self.marks(&name, self.nominal(series.of_wheel(index)), Hue::Wheel(index), "");
-            let title = format!("{} of wheel {wheel}", listed.title);
-            over_time(&name, &title, self.caption(&name), Axis::linear(listed.quantity, &unit).showing(&name), marks)
+    /// A figure of its own for each of the `bodies`: its series, its name, its colour. `lead`: what the caption begins
+    /// with.
+    pub(super) fn each(
+        &self,
+        listed: &ListedFigure,
+        bodies: impl Iterator<Item = (Series, String, Hue)>,
+        lead: &str,
+    ) -> Vec<Figure> {
+        let figure = |(series, of, hue): (Series, String, Hue)| {
+            let (name, unit) = self.name(series);
+            let marks = self.marks(&name, self.nominal(series), hue, "");
+            let (title, caption) = (format!("{} of {of}", listed.title), lead.to_owned() + &self.caption(&name));
+            over_time(&name, &title, caption, Axis::linear(listed.quantity, &unit).showing(&name), marks)
         };
-        self.wheels.iter().enumerate().map(figure).collect()
+        bodies.map(figure).collect()
+    }
+
+    /// Each wheel, with its place in `series`.
+    pub(super) fn each_wheel(&self, series: Series) -> impl Iterator<Item = (Series, String, Hue)> {
+        let wheels = self.wheels.iter().enumerate();
+        wheels.map(move |(index, name)| (series.of_wheel(index), format!("wheel {name}"), Hue::Wheel(index)))
     }
 }
 
@@ -407,9 +420,9 @@ pub(super) fn over_time(name: &str, title: &str, caption: String, y: Axis, marks
 mod tests {
     use super::*;
     use crate::campaign::Overrides;
+    use crate::ensemble::replays::GROUPS;
     use crate::ensemble::single::SingleRuns;
     use crate::math::Isa;
-    use crate::report::page::runs::GROUPS;
     use crate::run::Grid;
     use crate::sampling::SampleId;
 

@@ -1,35 +1,15 @@
-//! The relative errors of the balances over time: on the page with bands, in plots together.
+//! The relative errors of the balances over time.
 
-use crate::findings::number::short;
 use crate::observables::Series;
-use crate::report::figure::Dash;
-use crate::report::figure::{Figure, FigureSection, Hue, Mark};
+use crate::report::figure::{Axis, Figure, FigureSection, Hue, Mark};
 use crate::report::over_time::curves::{Curves, over_time};
-use crate::report::over_time::figure_list::ListedFigure;
-use crate::report::over_time::relative_errors;
 
-/// Relative errors of the balances, in one figure.
-const ERRORS: [(Series, &str); 3] = [
-    (Series::EnergyError, "energy minus work"),
-    (Series::LinearMomentumError, "linear momentum"),
-    (Series::AngularMomentumError, "angular momentum"),
-];
+/// The axis is not shorter: the rounding of some operations does not look like a drift.
+const ROUNDING: f64 = 10.0 * f64::EPSILON;
+/// A limit that is larger than the errors by this factor is outside of the axis, and named at its edge.
+const FAR: f64 = 3.0;
 
 impl Curves<'_> {
-    /// The errors of one run.
-    pub(super) fn balances(&self, listed: &ListedFigure) -> Figure {
-        let curve = |(index, (series, label)): (usize, &(Series, &str))| {
-            let values = self.nominal(*series);
-            let is_there = values.iter().any(|value| *value != 0.0);
-            is_there.then(|| Mark::line(*label, Hue::Curve(index), Dash::of_curve(index), self.times(), values))
-        };
-        let mut marks: Vec<Mark> = ERRORS.iter().enumerate().filter_map(curve).collect();
-        let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
-        let title = format!("{} (maximum {})", listed.title, short(largest));
-        let axis = relative_errors::limited(&mut marks, self.tolerance(), true);
-        over_time("balances", &title, String::new(), axis, marks)
-    }
-
     /// The relative tolerance of a step, of a method that follows one.
     fn tolerance(&self) -> Option<f64> {
         (!self.plan.method.has_fixed_step()).then_some(self.plan.tolerance.relative)
@@ -54,7 +34,7 @@ impl Curves<'_> {
             };
             let mut marks: Vec<Mark> = list.iter().flat_map(of).collect();
             let is_signed = list.iter().all(|(series, ..)| *series == Series::EnergyError);
-            let axis = relative_errors::limited(&mut marks, tolerance, is_signed);
+            let axis = limited(&mut marks, tolerance, is_signed);
             let of_step = tolerance.map_or(String::new(), |tolerance| format!("Tolerance of a step: {tolerance:e}; "));
             let caption = format!(
                 "{what}, relative to the largest. {} {of_step}rounding of a double: 1.1e-16.",
@@ -79,4 +59,23 @@ impl Curves<'_> {
             ),
         ]
     }
+}
+
+/// Adds the limits of the errors `marks` of a run to them; the axis of both. `is_signed`: whether errors may be
+/// negative.
+fn limited(marks: &mut Vec<Mark>, tolerance: Option<f64>, is_signed: bool) -> Axis {
+    let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
+    let own = largest.max(ROUNDING);
+    let shown = tolerance.filter(|tolerance| *tolerance <= FAR * own).map_or(own, |tolerance| tolerance.max(own));
+    let tolerance = tolerance.map(|tolerance| (format!("tolerance {tolerance:e}"), tolerance));
+    // among larger errors nobody sees it
+    let rounding = (shown <= FAR * f64::EPSILON).then(|| ("rounding of a double".to_owned(), f64::EPSILON / 2.0));
+    for (label, at) in tolerance.into_iter().chain(rounding) {
+        marks.push(Mark::Limit { label, at, vertical: false });
+        if is_signed {
+            marks.push(Mark::Limit { label: String::new(), at: -at, vertical: false });
+        }
+    }
+    let axis = Axis::linear("relative error", "");
+    if largest > 0.0 { axis.within(if is_signed { -1.1 * shown } else { 0.0 }, 1.1 * shown) } else { axis }
 }

@@ -1,11 +1,11 @@
-//! Energies over time: of each body, all of them, and what goes from one to another.
+//! Energies over time: of each body, and what goes from one to another.
 
+use crate::analysis::spectrum::{amplitudes, dominant};
 use crate::findings::number::short;
 use crate::observables::Series;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
 use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
-use crate::report::over_time::spectrum::{amplitudes, dominant};
 
 /// A change by less than this fraction of a variable's magnitude is what rounding makes of a constant in some thousands
 /// of operations.
@@ -13,38 +13,15 @@ const ROUNDING: f64 = 1e-12;
 
 impl Curves<'_> {
     /// The place of each body among `series`, that of the body and that of wheels; its name and its colour.
-    fn bodies(&self, series: [Series; 2]) -> Vec<(Series, String, Hue)> {
-        let wheels = self.wheels.iter().enumerate();
-        let wheels =
-            wheels.map(|(index, name)| (series[1].of_wheel(index), format!("wheel {name}"), Hue::Wheel(index)));
-        std::iter::once((series[0], "the body".to_owned(), Hue::Body)).chain(wheels).collect()
+    fn bodies(&self, series: [Series; 2]) -> impl Iterator<Item = (Series, String, Hue)> {
+        core::iter::once((series[0], "the body".to_owned(), Hue::Body)).chain(self.each_wheel(series[1]))
     }
 
     /// The energy of each body and of the debris.
     pub(super) fn energies(&self, listed: &ListedFigure) -> Vec<Figure> {
         let debris = (Series::EnergyDebris, "the debris".to_owned(), Hue::Debris);
-        let figure = |(series, of, hue): (Series, String, Hue)| {
-            let (name, unit) = self.name(series);
-            let marks = self.marks(&name, self.nominal(series), hue, "");
-            let caption = format!("Kinetic energy in F_e. {}", self.caption(&name));
-            over_time(&name, &format!("{} {of}", listed.title), caption, Axis::linear(listed.quantity, &unit), marks)
-        };
-        self.bodies([Series::EnergyBody, Series::EnergyWheel]).into_iter().chain([debris]).map(figure).collect()
-    }
-
-    /// The sum of the energies of the run, where there are several bodies.
-    pub(super) fn total_energy(&self, listed: &ListedFigure) -> Option<Figure> {
-        let bodies = self.bodies([Series::EnergyBody, Series::EnergyWheel]);
-        let energies: Vec<Vec<f64>> = bodies
-            .iter()
-            .map(|(series, ..)| self.nominal(*series))
-            .chain([self.nominal(Series::EnergyDebris)])
-            .filter(|values| values.iter().any(|value| *value != 0.0))
-            .collect();
-        let points = energies.iter().map(Vec::len).min().filter(|_| energies.len() > 1)?;
-        let total = (0..points).map(|point| energies.iter().map(|values| values[point]).sum()).collect();
-        let marks = vec![Mark::line("", listed.hue, Dash::Solid, self.times(), total)];
-        Some(over_time("energy_total_j", listed.title, String::new(), Axis::linear(listed.quantity, "J"), marks))
+        let bodies = self.bodies([Series::EnergyBody, Series::EnergyWheel]).chain([debris]);
+        self.each(listed, bodies, "Kinetic energy in F_e. ")
     }
 
     /// The change of the energy of each body; without bands the figure of all bodies together shows as much.
@@ -60,9 +37,9 @@ impl Curves<'_> {
             );
             let marks = self.marks(&name, nominal, hue, "");
             let axis = Axis::linear(listed.quantity, &unit);
-            Some(over_time(&name, &format!("{} {of}", listed.title), caption, axis, marks))
+            Some(over_time(&name, &format!("{} of {of}", listed.title), caption, axis, marks))
         };
-        self.bodies([Series::ComBody, Series::ComWheel]).into_iter().filter_map(figure).collect()
+        self.bodies([Series::ComBody, Series::ComWheel]).filter_map(figure).collect()
     }
 
     /// Energy transfer between body and wheels in the nominal run: over time, and its spectrum.

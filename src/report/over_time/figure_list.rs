@@ -124,20 +124,14 @@ pub enum Shows {
     /// The impulses of the thrusters.
     Impulse,
     Propellant,
-    /// The distance to the debris.
-    Distance,
-    /// The speed relative to the debris.
-    RelativeSpeed,
     /// The energies of the bodies, a figure for each.
     Energies,
-    /// The sum of the energies.
-    TotalEnergy,
     /// The changes of the energies of the bodies, a figure for each with bands.
     Changes,
     /// The energy transfer between body and wheels: over time, against each other, and its spectrum.
     Transfer,
-    /// The relative errors of the balances.
-    Balances,
+    /// The drift of the balances, in several figures.
+    Drift,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -226,10 +220,10 @@ pub const FIGURES: &[ListedFigure] = {
         figure(Estimated(Series::VelocityEstimateError, "relative_velocity_expected_error_m_s"),
             ("Error of the estimated velocity relative to the debris", "speed", Hue::Debris),
             ESTIMATED_DEBRIS, &["relative_velocity_estimate_error_m_s", "relative_velocity_estimate_error_final_m_s"]),
-        figure(Distance, ("Distance to the debris", "distance", Hue::Debris), |scene, _| scene.approaches,
-            &["debris_distance_m", "debris_distance_min_m"]),
-        figure(RelativeSpeed, ("Speed relative to the debris", "speed", Hue::Debris), |scene, _| scene.approaches,
-            &["debris_relative_speed_m_s", "relative_speed_launch_m_s"]),
+        figure(One(Series::DebrisDistance), ("Distance to the debris", "distance", Hue::Debris),
+            |scene, _| scene.approaches, &["debris_distance_m", "debris_distance_min_m"]),
+        figure(One(Series::DebrisSpeed), ("Speed relative to the debris", "speed", Hue::Debris),
+            |scene, _| scene.approaches, &["debris_relative_speed_m_s", "relative_speed_launch_m_s"]),
         // the motion
         figure(One(Series::DebrisDirection), ("Angle between s3 and the line to the debris", "angle", Hue::Debris),
             |scene, place| scene.debris && (scene.has_loop || place == Place::Page),
@@ -281,13 +275,13 @@ pub const FIGURES: &[ListedFigure] = {
         figure(One(Series::AngularMomentumSquare), ("Angular momentum about the centre of mass", "momentum",
             Hue::Body), FREE_IN_PLOT, &[]),
         figure(One(Series::LinearMomentumSquare), ("Linear momentum in F_e", "momentum", Hue::Body), FREE_IN_PLOT, &[]),
-        figure(Energies, ("Kinetic energy of", "energy", Hue::Body), FREE, ENERGIES),
-        figure(TotalEnergy, ("Kinetic energy, total", "energy", Hue::Curve(0)), FREE_IN_PLOT, &[]),
-        figure(Changes, ("Energy transfer of", "change of energy", Hue::Body), |scene, place| FREE_ON_PAGE(scene,
+        figure(One(Series::EnergyTotal), ("Kinetic energy, total", "energy", Hue::Curve(0)), FREE_IN_PLOT, &[]),
+        figure(Energies, ("Kinetic energy", "energy", Hue::Body), FREE, ENERGIES),
+        figure(Changes, ("Energy transfer", "change of energy", Hue::Body), |scene, place| FREE_ON_PAGE(scene,
             place) && scene.wheels, CHANGES),
         figure(Transfer, ("Energy transfer between wheels and body", "change of energy", Hue::Body),
             |scene, _| !scene.has_loop && scene.wheels, CHANGES),
-        figure(Balances, ("Relative errors of the balances", "", Hue::Curve(0)), |_, place| place == Place::Plot, &[]),
+        figure(Drift, ("Drift", "relative error", Hue::Body), |_, place| place == Place::Plot, &[]),
     ]
 };
 

@@ -1,9 +1,9 @@
 //! The ground track: where on the Earth the run passes, in light and in shadow.
 
+use crate::ensemble::surroundings::{self, Surroundings};
 use crate::report::figure::{Axis, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::over_time::curves::Curves;
 use crate::report::over_time::figure_list::ListedFigure;
-use crate::report::surroundings::{self, Surroundings};
 use crate::run::StateField;
 
 /// Coordinates are rounded to multiples of this, deg: they take less space on a page.
@@ -27,8 +27,8 @@ impl Curves<'_> {
             dots("in shadow", Hue::Reference, part(true)),
             dots("start", Hue::Nominal, vec![0]),
         ];
-        let caption = "Nominal run: the place below each of its points, by geocentric latitude; in shadow, the Earth hides a \
-             part of the Sun.";
+        let caption = "Nominal run: the place below each of its points, by geocentric latitude; in shadow, the Earth \
+             hides a part of the Sun.";
         let axes = [Axis::of_globe("longitude", 180.0), Axis::of_globe(listed.quantity, 90.0)];
         Some(Figure::of(FigureSection::Time, ["ground_track", listed.title, caption], axes, marks))
     }

@@ -1,11 +1,11 @@
 //! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
 
+use crate::analysis::bins::{bins, counts};
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::Plan;
 use crate::findings::names;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
-use crate::report::histogram::{bins, counts};
 use crate::run::Status;
 use crate::statistics::quantile::percent;
 use crate::statistics::sketch::{Sketch, middle};

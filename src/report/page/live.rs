@@ -5,13 +5,14 @@ use serde_json::{Value, json};
 use crate::campaign::Plan;
 use crate::campaign::event::Event;
 use crate::ensemble::SingleRun;
+use crate::ensemble::surroundings;
 use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
+use crate::report::over_time::control::impulse;
 use crate::report::page::payload::Payload;
-use crate::report::surroundings;
 use crate::run::StateField;
 
 /// What is smaller than this share of the largest value of a number over the run is round-off.
@@ -113,27 +114,11 @@ fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
 fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Option<LiveNumber> {
     let ratio = of_row(row, "propellant_kg").zip(of_row(row, "impulse_total_n_s"));
     let ratio = ratio.filter(|(_, impulse)| *impulse > 0.0).map(|(mass, impulse)| mass / impulse);
-    let force = |arc: &crate::scene::Arc| arc.applied.thrust.iter().sum::<f64>();
-    let firing: Vec<(f64, f64, f64)> = run
-        .arcs
-        .iter()
-        .map(|arc| (arc.start, arc.applied.until, force(arc)))
-        .filter(|(start, until, force)| *force > 0.0 && until > start)
-        .collect();
-    if firing.is_empty() {
+    let mut used = impulse(run, &run.grid.times()[..points], |arc| arc.applied.thrust.iter().sum());
+    if used.iter().all(|used| *used <= 0.0) {
         return None;
     }
-    let mut used = Vec::with_capacity(points);
-    // the impulse of the arcs that are over, and the first that is not
-    let (mut before, mut next) = (0.0, 0);
-    for time in &run.grid.times()[..points] {
-        while let Some((start, until, force)) = firing.get(next).filter(|(_, until, _)| until <= time) {
-            before += force * (until - start);
-            next += 1;
-        }
-        let running = firing.get(next).map_or(0.0, |(start, _, force)| force * (time - start).max(0.0));
-        used.push((before + running) * ratio.unwrap_or(1.0));
-    }
+    used.iter_mut().for_each(|used| *used *= ratio.unwrap_or(1.0));
     let (name, column, unit) = match ratio {
         Some(_) => ("Propellant used", "propellant_kg", "kg"),
         None => ("Impulse of the thrusters", "impulse_total_n_s", "N s"),

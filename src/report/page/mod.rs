@@ -255,7 +255,7 @@ fn sections(
 fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
     let is_drawn = |name: &String| drawn.iter().any(|figure| figure.name == *name);
     let mut placed: Vec<String> = Vec::new();
-    let mut entry = |one: &Finding| {
+    let entry = |one: &Finding| {
         let of_inputs = one.children.iter().filter_map(|child| child.figures.small.as_ref());
         let of_inputs = of_inputs.flat_map(|name| [name.replacen("scatter_", "shares_", 1), name.clone()]);
         let mut names: Vec<String> = of_inputs.chain(one.figures.large.clone()).filter(is_drawn).collect();
@@ -279,7 +279,7 @@ fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
     }
     // those with figures first; what was found of others, as of the same runs, follows in a line each, folded away
     let (with, without): (Vec<String>, Vec<String>) =
-        all.into_iter().map(|one| entry(one)).partition(|said| said.starts_with("<article"));
+        all.into_iter().map(entry).partition(|said| said.starts_with("<article"));
     let others = match with.is_empty() || without.is_empty() {
         true => without.concat(),
         false => {

@@ -1,6 +1,7 @@
 //! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and
 //! their intervals.
 
+use crate::analysis::bins::counts;
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
@@ -10,7 +11,6 @@ use crate::findings::names::sentence;
 use crate::findings::number::typeset;
 use crate::findings::requirement::limit_text;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
-use crate::report::histogram::counts;
 use crate::report::page::errors::{Curve, NO_INTERVAL, all_having, curve, histogram, magnitude, shown_rows, with_band};
 use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::number;

@@ -4,15 +4,14 @@
 use crate::analysis::survey::Survey;
 use crate::analysis::worst_runs::WorstRuns;
 use crate::campaign::Plan;
-use crate::ensemble::single::SingleRuns;
+use crate::ensemble::replays::replayed;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::findings::loss::{readable, status_words};
 use crate::findings::names;
 use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED};
 use crate::math::Isa;
-use crate::observables::Group;
 use crate::report::page::readable::with_unit;
-use crate::run::{Grid, Status, points_before, points_to};
+use crate::run::Status;
 use crate::sampling::SampleId;
 
 /// Places of a list of worst runs after the first, in words.
@@ -22,26 +21,6 @@ const PLACES: [&str; 9] = ["second", "third", "fourth", "fifth", "sixth", "seven
 pub const WORST: usize = 10;
 /// Failed runs among them, at most.
 const MOST_FAILED: usize = 5;
-/// Intervals of a run in the page, at least where the campaign's grid is coarser.
-const FEWEST: usize = 240;
-/// Intervals of a run in the page, at most.
-const MOST: usize = 600;
-/// Runs that are flown side by side: as many as the widest vectors hold.
-const BESIDE: usize = 8;
-/// A turn between two pictures, rad: enough pictures that a motion is seen as such.
-const TURN: f64 = 0.6;
-
-/// The groups whose series the page and plots show.
-pub const GROUPS: [Group; 8] = [
-    Group::EnergyConservation,
-    Group::MomentumConservation,
-    Group::Attitude,
-    Group::Energies,
-    Group::EnergiesCom,
-    Group::Constraints,
-    Group::Motion,
-    Group::Orbit,
-];
 
 /// The row of a run, as the result has it.
 #[derive(Clone, Debug)]
@@ -106,7 +85,9 @@ pub fn shown_runs(
     // a run that ended in a panic would do so again
     let is_flown = |sample: &SampleId| row(*sample).is_none_or(|row| row.status != Status::InternalError);
     let samples: Vec<SampleId> = list.iter().map(|(sample, _)| *sample).filter(is_flown).take(flown).collect();
-    let mut runs = flights(plan, &samples, rows, isa);
+    let numbers = rows.iter().filter(|row| samples.contains(&row.sample)).flat_map(|row| &row.numbers);
+    let ends = numbers.filter(|(name, end)| name == "end_time_s" && end.is_finite()).map(|(_, end)| *end);
+    let mut runs = replayed(plan, &samples, ends, isa);
     let one = |(sample, why): &(SampleId, String)| {
         let known = row(*sample);
         let run = runs.iter().position(|(other, _)| other == sample).map(|place| runs.swap_remove(place).1);
@@ -135,20 +116,6 @@ pub fn left_out(runs: &[ShownRun]) -> Option<String> {
         runs.len(),
         first.sample
     ))
-}
-
-/// Flies `samples` side by side, on the grid of the page with the times at which their missions end; those that are
-/// physical.
-fn flights(plan: &Plan, samples: &[SampleId], rows: &[KnownRow], isa: Isa) -> Vec<(SampleId, SingleRun)> {
-    if samples.is_empty() {
-        return Vec::new();
-    }
-    let numbers = rows.iter().filter(|row| samples.contains(&row.sample)).flat_map(|row| &row.numbers);
-    let ends = numbers.filter(|(name, end)| name == "end_time_s" && end.is_finite());
-    let grid = ends.fold(grid(plan, isa), |grid, (_, end)| with_time(&grid, *end).unwrap_or(grid));
-    let mut runs = SingleRuns::replays(plan, grid, isa, &GROUPS);
-    let flown = samples.chunks(BESIDE).flat_map(|some| some.iter().copied().zip(runs.run_all(some)));
-    flown.filter_map(|(sample, run)| Some((sample, run.ok()?))).collect()
 }
 
 /// The inputs of a sample as applied.
@@ -215,37 +182,6 @@ fn tied(worst: &WorstRuns, value: f64) -> (usize, String) {
     // others that are not kept may be as bad
     let more = if worst.is_full() && first + count == worst.runs.len() { " or more" } else { "" };
     (first, if count > 1 { format!("; {count}{more} runs tie") } else { String::new() })
-}
-
-/// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
-fn grid(plan: &Plan, isa: Isa) -> Grid {
-    let given = plan.grid.points().saturating_sub(1).max(1);
-    // of a mission, whose phases are shorter than its longest duration, as many as there are
-    if plan.law.is_some() {
-        return Grid::uniform(plan.grid.duration(), given.min(MOST) * (MOST / given).max(1) + 1);
-    }
-    // the memory of the page does not depend on the campaign's grid
-    let looked_at = Grid::uniform(plan.grid.duration(), given.min(MOST) + 1);
-    let nominal = || SingleRuns::replays(plan, looked_at, isa, &[]).run(SampleId(0));
-    let fastest = nominal().map_or(0.0, |run| {
-        let points = run.outcome.points.min(run.grid.points());
-        let rate = |point: usize| crate::math::vector::norm(run.table.at(crate::run::StateField::Rate, point));
-        (0..points).map(rate).filter(|rate| rate.is_finite()).fold(0.0, f64::max)
-    });
-    let wanted = (fastest * plan.grid.duration() / TURN).clamp(FEWEST as f64, MOST as f64) as usize;
-    let intervals = if given >= wanted { given.min(MOST) } else { given * (wanted / given).max(1) };
-    Grid::uniform(plan.grid.duration(), intervals + 1)
-}
-
-/// `grid` with one more time; `None` where it has this one, or ends before it.
-fn with_time(grid: &Grid, time: f64) -> Option<Grid> {
-    let place = points_before(grid.times(), time);
-    if place == grid.points() || points_to(grid.times(), time) > place {
-        return None;
-    }
-    let mut times = grid.times().to_vec();
-    times.insert(place, time);
-    Some(Grid::at(times))
 }
 
 #[cfg(test)]

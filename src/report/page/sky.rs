@@ -4,9 +4,9 @@
 use serde_json::{Value, json};
 
 use crate::ensemble::SingleRun;
+use crate::ensemble::surroundings::{Surroundings, hidden, turning_rate};
 use crate::math::vector::{norm, scaled};
 use crate::report::page::payload::Payload;
-use crate::report::surroundings::{Surroundings, hidden, turning_rate};
 use crate::run::StateField;
 
 /// Between two points that are drawn the orbit turns by this angle at most, rad, unless the run has fewer.

@@ -128,7 +128,7 @@ fn plots_and_tables_are_made() {
     assert!(page.contains("<h1>small, nominal</h1>"));
     let titles = |page: &str| Found::shown_on(page).into_iter().map(|(title, _)| title).collect::<Vec<_>>().join("; ");
     let shown = titles(&page);
-    for title in ["wheel w1", "debris", "Angular velocity", "quaternion", "Relative errors of the balances"] {
+    for title in ["wheel w1", "debris", "Angular velocity", "quaternion", "Drift of energy"] {
         assert!(shown.contains(title), "{title}: {shown}");
     }
     assert!(shown.contains("Energy transfer"), "its wheels turn");

@@ -126,7 +126,7 @@ fn answers_are_the_summary() {
             let within = "runs within the limit";
             match one["statement"].as_str() {
                 Some("mean") => {
-                    answer_shows(row, "mean", &one["estimate"], &one["interval"], Some((&one[side], is_most)))
+                    answer_shows(row, "mean", &one["estimate"], &one["interval"], Some((&one[side], is_most)));
                 }
                 Some("quantile") if !one["value"].is_null() => {
                     let quantile = found.quantile(one["observable"].as_str().expect("a name"), &one["target"]);

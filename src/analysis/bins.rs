@@ -1,18 +1,9 @@
-//! Histograms: bars of equal width, by decades where values span many; of drawn samples with their nominal value and
-//! with what is expected of the distribution that was asked for.
-
-use crate::findings::number::short;
-use crate::report::expected::Expected;
-use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape, Scale};
+//! Bins of histograms: of equal width, by decades where values span many, of whole steps where values are on a lattice;
+//! and how many values are in each.
 
 /// Fewest and most bars; between them as many as the square root of the number of values, so that few values are no
 /// comb.
 const BARS: [usize; 2] = [10, 40];
-/// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two
-/// thirds of the axis.
-const FAR: f64 = 0.5;
-/// Values whose median is below this fraction of the largest are those of a distribution over decades.
-const OVER_DECADES: f64 = 0.05;
 
 /// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100. The
 /// first of `limits` among the values is an edge, so that no bar stands on both sides of it.
@@ -62,7 +53,8 @@ fn moved(
     found
 }
 
-fn ends(values: &[f64]) -> (f64, f64) {
+/// The smallest and the largest of `values`.
+pub fn ends(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
@@ -72,7 +64,7 @@ fn part(k: usize, bars: usize) -> f64 {
 
 /// Edges of equally wide bars; values on a lattice, as counts and times of control periods are, have bars of whole
 /// steps of it, each with as many places.
-fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
+pub fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let (low, high) = ends(values);
     if let Some(step) = lattice(values) {
         let steps = libm::round((high - low) / step) as usize;
@@ -130,76 +122,6 @@ pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
     counts
 }
 
-/// The histogram of drawn samples of an input, with its unit; samples that are not finite are left out.
-pub fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option<&Expected>) -> Figure {
-    let values: Vec<f64> = samples.iter().copied().filter(|value| value.is_finite()).collect();
-    let count = values.len();
-    let discrete = asked.and_then(Expected::values);
-    // the axis contains each value of a discrete distribution that one sample or more is expected to have
-    let frequent = discrete.iter().flatten().filter(|(_, probability)| count as f64 * probability >= 1.0);
-    let shown: Vec<f64> = values.iter().copied().chain(frequent.map(|(value, _)| *value)).collect();
-    let mut sorted = shown.clone();
-    sorted.sort_by(f64::total_cmp);
-    let is_by_decades = sorted.get(sorted.len() / 2).is_some_and(|median| *median < OVER_DECADES * ends(&shown).1);
-    let (edges, is_log) = if is_by_decades { bins(&shown, &[]) } else { (linear_bins(&shown, &[]), false) };
-    let mut marks = vec![Mark::Bars {
-        label: "samples".to_owned(),
-        hue: Hue::Body,
-        heights: counts(&values, &edges),
-        edges: edges.clone(),
-    }];
-    match (discrete, asked) {
-        (Some(values), _) => marks.push(stems(&values, count, &edges)),
-        (None, Some(asked)) => {
-            let middle = |ends: &[f64]| {
-                if is_log { libm::sqrt(ends[0] * ends[1]) } else { 0.5 * ends[0] + 0.5 * ends[1] }
-            };
-            let x = edges.windows(2).map(middle).collect();
-            let expected = asked.counts(&edges, count);
-            marks.push(Mark::line("expected counts", Hue::Nominal, Dash::Solid, x, expected));
-        }
-        (None, None) => {}
-    }
-    let scale = if is_log { Scale::Log } else { Scale::Linear };
-    let mut x = Axis { scale, ..Axis::linear("", unit) };
-    let label = match (edges.first(), edges.last()) {
-        (Some(low), Some(high)) if is_far(nominal, ends(&shown)) || (is_log && nominal <= 0.0) => {
-            x = x.within(*low, *high);
-            format!("nominal {}", short(nominal))
-        }
-        _ => "nominal".to_owned(),
-    };
-    if nominal.is_finite() {
-        marks.push(Mark::Limit { label, at: nominal, vertical: true });
-    }
-    Figure { columns: 3, ..Figure::new(name, x, Axis::linear("samples", ""), marks) }
-}
-
-/// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of
-/// its own.
-fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
-    let reach = FAR * (high - low);
-    high > low && (low - nominal > reach || nominal - high > reach)
-}
-
-/// The probabilities of a discrete distribution as samples that are expected: one stem for each bar that contains a
-/// value, at this value, or at the mean of those that share the bar.
-fn stems(values: &[(f64, f64)], count: usize, edges: &[f64]) -> Mark {
-    let (mut x, mut y) = (Vec::new(), Vec::new());
-    for ends in edges.windows(2) {
-        let is_last = Some(&ends[1]) == edges.last();
-        let inside =
-            values.iter().filter(|(value, _)| *value >= ends[0] && (*value < ends[1] || is_last && *value == ends[1]));
-        let (sum, probability) = inside.fold((0.0, 0.0), |(sum, all), (value, p)| (sum + p * value, all + p));
-        if probability > 0.0 {
-            x.push(sum / probability);
-            y.push(count as f64 * probability);
-        }
-    }
-    let label = "expected count of a discrete value".to_owned();
-    Mark::points(label, (Hue::Nominal, PointShape::Stem), x, y)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -251,43 +173,6 @@ mod tests {
                     assert_eq!(counts(&values, &edges).iter().sum::<f64>(), f64::from(count), "{limit}");
                 }
                 assert_eq!(bins(&values, &[high + 1.0]).0, edges);
-            }
-        }
-    }
-
-    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a
-    /// bar one of their sum; a continuous one has a curve whose sum is the number of samples, at the middle of each bar
-    /// as the axis shows it.
-    #[test]
-    fn what_is_expected_is_drawn() {
-        let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
-        let of = |values: &[f64; 3]| Expected::of_quantile(|u| values[(3.0 * u) as usize]);
-        let stems = |values: &[f64; 3]| match of_input("x", "", &drawn, 0.01, Some(&of(values))).marks.swap_remove(1) {
-            Mark::Points { shape: PointShape::Stem, x, y, .. } => (x, y),
-            other => panic!("{other:?}"),
-        };
-        let (x, y) = stems(&[0.01, 0.02, 0.05]);
-        assert!(x.iter().zip([0.01, 0.02, 0.05]).all(|(x, known)| (x - known).abs() < 1e-12), "{x:?}");
-        assert!(y.len() == 3 && y.iter().all(|y| (y - 100.0).abs() < 0.05), "{y:?}");
-        let (x, y) = stems(&[0.01, 0.0101, 0.05]);
-        assert!(x.len() == 2 && (y[0] - 200.0).abs() < 0.05, "{x:?} {y:?}");
-        // a value that was not drawn although samples are expected there is on the axis
-        assert_eq!(stems(&[0.01, 0.02, 9.0]).0.last(), Some(&9.0));
-        let decades: Vec<f64> = (0..300).map(|k| 1e-3 * libm::pow(1e4, f64::from(k) / 299.0)).collect();
-        for (samples, scale, [min, max]) in
-            [(&drawn, Scale::Linear, [0.01, 0.05]), (&decades, Scale::Log, [1e-3, 10.0])]
-        {
-            let uniform = Expected::of_quantile(|u| min + u * (max - min));
-            let figure = of_input("x", "", samples, min, Some(&uniform));
-            let [Mark::Bars { edges, .. }, Mark::Line { x, y, .. }, ..] = &figure.marks[..] else {
-                panic!("{figure:?}")
-            };
-            assert!((y.iter().sum::<f64>() - 300.0).abs() < 1e-6, "{y:?}");
-            assert_eq!((&figure.x.scale, x.len()), (&scale, edges.len() - 1));
-            let place = |value: f64| if scale == Scale::Log { libm::log(value) } else { value };
-            for (x, ends) in x.iter().zip(edges.windows(2)) {
-                let part = (place(*x) - place(ends[0])) / (place(ends[1]) - place(ends[0]));
-                assert!((part - 0.5).abs() < 1e-9, "{x} in {ends:?}");
             }
         }
     }

@@ -56,16 +56,21 @@ impl Expected {
         Expected(draws)
     }
 
-    /// How many of `count` values are expected between neighbouring `edges`, ascending; a value at an edge counts in
-    /// the bar above, one at the last edge in the last bar, as in the histograms.
-    pub fn counts(&self, edges: &[f64], count: usize) -> Vec<f64> {
+    /// Between neighbouring `edges`, ascending, the mean of the expected values (NaN without one), and how many of
+    /// `count` there are; a value at an edge counts in the bar above, one at the last edge in the last bar, as in the
+    /// histograms.
+    pub fn bars(&self, edges: &[f64], count: usize) -> Vec<[f64; 2]> {
         let below = |edge: &f64| self.0.partition_point(|draw| draw < edge);
         let mut below: Vec<usize> = edges.iter().map(below).collect();
         if let (Some(last), Some(edge)) = (below.last_mut(), edges.last()) {
             *last = self.0.partition_point(|draw| draw <= edge);
         }
         let each = count as f64 / self.0.len().max(1) as f64;
-        below.windows(2).map(|pair| each * (pair[1] - pair[0]) as f64).collect()
+        let bar = |pair: &[usize]| {
+            let draws = &self.0[pair[0]..pair[1]];
+            [draws.iter().sum::<f64>() / draws.len() as f64, each * draws.len() as f64]
+        };
+        below.windows(2).map(bar).collect()
     }
 
     /// The values of a discrete distribution with their probabilities, ascending; `None` of a continuous one.
@@ -87,6 +92,10 @@ mod tests {
         Plan::from_text("x.toml", &format!("{nominal}\n[[disperse]]\n{dispersion}\n"), Overrides::default()).unwrap()
     }
 
+    fn counts(expected: &Expected, edges: &[f64], count: usize) -> Vec<f64> {
+        expected.bars(edges, count).into_iter().map(|[_, count]| count).collect()
+    }
+
     /// Known: a component of a direction that is uniform over the sphere is uniform (Archimedes); so is the component
     /// along the axis of a cone, from the cosine of its half-angle to 1. Each value of a discrete distribution counts
     /// in its bar, the first and the last at the ends of the axis too, and one beyond the axis in none.
@@ -103,15 +112,15 @@ mod tests {
         for (plan, component, low, high) in of_sphere.into_iter().chain([(&cone, 2, cosine, length)]) {
             let edges: Vec<f64> = (0..=10).map(|k| low + 0.1 * f64::from(k) * (high - low)).collect();
             let expected = Expected::of_column(plan, component).unwrap();
-            let found = expected.counts(&edges, 1000);
+            let found = counts(&expected, &edges, 1000);
             // 65,536 even draws: 0.6 of 100 is measured
             assert!(found.iter().all(|count| (count - 100.0).abs() < 2.0), "{component}: {found:?}");
             assert_eq!(expected.values(), None);
         }
         let choice = ChoiceQuantile::new(&[0.05, 0.01, 0.02, 7.0], &[1.0, 2.0, 1.0, 0.0]);
         let expected = Expected::of_quantile(|u| choice.quantile(u));
-        assert_eq!(expected.counts(&[0.01, 0.02, 0.03, 0.04, 0.05], 100), [50.0, 25.0, 0.0, 25.0]);
-        assert_eq!(expected.counts(&[0.015, 0.03], 100), [25.0]);
+        assert_eq!(counts(&expected, &[0.01, 0.02, 0.03, 0.04, 0.05], 100), [50.0, 25.0, 0.0, 25.0]);
+        assert_eq!(counts(&expected, &[0.015, 0.03], 100), [25.0]);
         assert_eq!(expected.values(), Some(vec![(0.01, 0.5), (0.02, 0.25), (0.05, 0.25)]));
     }
 }

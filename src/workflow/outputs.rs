@@ -3,18 +3,31 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::command_outcome::Failure;
+use crate::report::figure_files::check_format;
+use crate::storage::table_file::TableFormat;
+use crate::workflow::error::WorkflowError;
+
+/// Refuses a table or a plot whose extension has no format, before any work.
+///
+/// # Errors
+/// The first such file.
+pub fn check_formats(table: Option<&Path>, plot: Option<&Path>) -> Result<(), WorkflowError> {
+    if let Some(path) = table {
+        TableFormat::of(path).map_err(|error| WorkflowError::Input(error.to_string()))?;
+    }
+    plot.map_or(Ok(()), |path| check_format(path).map_err(|error| WorkflowError::Input(error.to_string())))
+}
 
 /// Refuses those of `outputs`, each with the option that names it, that are one of the files `inputs`: by the same
 /// path, through a link, or by another name of the same file.
 ///
 /// # Errors
 /// The first such output.
-pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
+pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<(), WorkflowError> {
     for (option, output) in outputs {
         let Some(output) = output else { continue };
         if let Some(input) = inputs.iter().find(|input| is_same(input, output)) {
-            return Err(Failure::Input(format!(
+            return Err(WorkflowError::Input(format!(
                 "{option} {}: must be a file that this command does not read, and `{}` is the same file; choose \
                 another name",
                 output.display(),
@@ -43,11 +56,11 @@ fn is_same(one: &Path, other: &Path) -> bool {
 ///
 /// # Errors
 /// The first such output.
-pub fn refuse_within(root: &Path, outputs: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
+pub fn refuse_within(root: &Path, outputs: &[(&str, Option<&Path>)]) -> Result<(), WorkflowError> {
     let folder = resolved(root);
     for (option, output) in outputs {
         if let Some(output) = output.filter(|output| resolved(output).starts_with(&folder)) {
-            return Err(Failure::Input(format!(
+            return Err(WorkflowError::Input(format!(
                 "{option} {}: must be outside of the result in `{}`, which has its own files only; choose another path",
                 output.display(),
                 root.display()

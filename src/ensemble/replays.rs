@@ -1,0 +1,79 @@
+//! [`replayed`]: runs again, with their states and series, for the page.
+
+use crate::campaign::Plan;
+use crate::ensemble::SingleRun;
+use crate::ensemble::single::SingleRuns;
+use crate::math::Isa;
+use crate::math::vector::norm;
+use crate::observables::Group;
+use crate::run::{Grid, StateField, points_before, points_to};
+use crate::sampling::SampleId;
+
+/// Intervals of a run in the page, at least where the campaign's grid is coarser.
+const FEWEST: usize = 240;
+/// Intervals of a run in the page, at most.
+const MOST: usize = 600;
+/// Runs that are flown side by side: as many as the widest vectors hold.
+const BESIDE: usize = 8;
+/// A turn between two pictures, rad: enough pictures that a motion is seen as such.
+const TURN: f64 = 0.6;
+
+/// The groups whose series the page and plots show.
+pub const GROUPS: [Group; 8] = [
+    Group::EnergyConservation,
+    Group::MomentumConservation,
+    Group::Attitude,
+    Group::Energies,
+    Group::EnergiesCom,
+    Group::Constraints,
+    Group::Motion,
+    Group::Orbit,
+];
+
+/// Flies `samples` side by side, on the grid of the page with the times `ends` at which their missions end; those that
+/// are physical.
+pub fn replayed(
+    plan: &Plan,
+    samples: &[SampleId],
+    ends: impl Iterator<Item = f64>,
+    isa: Isa,
+) -> Vec<(SampleId, SingleRun)> {
+    if samples.is_empty() {
+        return Vec::new();
+    }
+    let grid = ends.fold(grid(plan, isa), |grid, end| with_time(&grid, end).unwrap_or(grid));
+    let mut runs = SingleRuns::replays(plan, grid, isa, &GROUPS);
+    let flown = samples.chunks(BESIDE).flat_map(|some| some.iter().copied().zip(runs.run_all(some)));
+    flown.filter_map(|(sample, run)| Some((sample, run.ok()?))).collect()
+}
+
+/// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
+fn grid(plan: &Plan, isa: Isa) -> Grid {
+    let given = plan.grid.points().saturating_sub(1).max(1);
+    // of a mission, whose phases are shorter than its longest duration, as many as there are
+    if plan.law.is_some() {
+        return Grid::uniform(plan.grid.duration(), given.min(MOST) * (MOST / given).max(1) + 1);
+    }
+    // the memory of the page does not depend on the campaign's grid
+    let looked_at = Grid::uniform(plan.grid.duration(), given.min(MOST) + 1);
+    let nominal = || SingleRuns::replays(plan, looked_at, isa, &[]).run(SampleId(0));
+    let fastest = nominal().map_or(0.0, |run| {
+        let points = run.outcome.points.min(run.grid.points());
+        let rate = |point: usize| norm(run.table.at(StateField::Rate, point));
+        (0..points).map(rate).filter(|rate| rate.is_finite()).fold(0.0, f64::max)
+    });
+    let wanted = (fastest * plan.grid.duration() / TURN).clamp(FEWEST as f64, MOST as f64) as usize;
+    let intervals = if given >= wanted { given.min(MOST) } else { given * (wanted / given).max(1) };
+    Grid::uniform(plan.grid.duration(), intervals + 1)
+}
+
+/// `grid` with one more time; `None` where it has this one, or ends before it.
+fn with_time(grid: &Grid, time: f64) -> Option<Grid> {
+    let place = points_before(grid.times(), time);
+    if place == grid.points() || points_to(grid.times(), time) > place {
+        return None;
+    }
+    let mut times = grid.times().to_vec();
+    times.insert(place, time);
+    Some(Grid::at(times))
+}
