@@ -163,12 +163,12 @@ pub fn title(one: &Assessment) -> String {
     };
     match requirement.statement {
         Statement::Quantile(p) if requirement.window().is_some() => {
-            format!("{is} in {}% of runs", percent(requirement.limit.fraction(p)))
+            format!("{is} in {}%", percent(requirement.limit.fraction(p)))
         }
         Statement::Quantile(p) => format!("p{} of {is}", percent(p)),
         Statement::Fraction(fraction) => {
             let never = if requirement.never_meets { ", or never," } else { "" };
-            format!("{is}{never} in {}% of runs", percent(fraction))
+            format!("{is}{never} in {}%", percent(fraction))
         }
         Statement::Mean => {
             let range = requirement.bounded.map(|ends| ends.map(|end| written(shown(one).written(end))));

@@ -1,7 +1,7 @@
 //! [`Derivation`]: a `[[derive]]` table as written; [`Derived`]: a column computed from others.
 
+use super::columns::Columns;
 use super::correlation::components_of;
-use super::dispersions::Columns;
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error_of};
 use super::expression::Expression;
 use crate::scene::parameter::Shape;

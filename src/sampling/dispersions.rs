@@ -1,6 +1,7 @@
 //! [`Dispersions`]: the dispersions of a campaign, checked against the nominal scene and ready for a
 //! [`super::Sampler`].
 
+use super::columns::{Column, Columns};
 use super::copula::Copula;
 use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
@@ -337,34 +338,5 @@ impl Transform {
             Transform::Scalar(distribution) => distribution.text(words),
             Transform::Joint(joint) => joint.text(words),
         }
-    }
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    pub parameter: Parameter,
-    pub component: usize,
-    pub nominal: f64,
-}
-
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Columns(Vec<Column>);
-
-impl Columns {
-    pub fn list(&self) -> &[Column] {
-        &self.0
-    }
-
-    pub fn find(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
-        self.0.iter().position(|column| (column.parameter, column.component) == (parameter, component))
-    }
-
-    /// The index of a component, which is added if it is not there.
-    pub fn add(&mut self, parameter: Parameter, component: usize, nominal: &SceneInput) -> usize {
-        self.find((parameter, component)).unwrap_or_else(|| {
-            let nominal = parameter.value(nominal, component).unwrap_or(f64::NAN);
-            self.0.push(Column { parameter, component, nominal });
-            self.0.len() - 1
-        })
     }
 }

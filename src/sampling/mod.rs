@@ -9,6 +9,7 @@
 //! 5. [`dispersions`]: distributions assigned to columns and checked against the nominal scene;
 //!    [`sampler`]: values written into the scene, and read back as applied.
 
+pub mod columns;
 pub mod copula;
 pub mod correlation;
 pub mod derivation;
@@ -22,10 +23,11 @@ pub mod rank;
 pub mod sampler;
 pub mod stream;
 
+pub use columns::Column;
 pub use correlation::{Correlation, Measure, Numbers, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
-pub use dispersions::{Column, Dispersion, Dispersions, Draws, Transform};
+pub use dispersions::{Dispersion, Dispersions, Draws, Transform};
 pub use distribution::{Distribution, DistributionKind, Joint, NumberWords, WrittenDistribution};
 pub use error::{DispersionError, Table};
 pub use keys::{DataColumn, Values, Written};

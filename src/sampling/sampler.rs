@@ -3,8 +3,9 @@
 //! Recorded values are applied values: written into the scene, made valid as a whole (a quaternion is renormalised) and
 //! read back. A physically impossible draw is not repeated: the scene refuses it later.
 
+use super::columns::Column;
 use super::design::{BLOCK, PointSource, Points};
-use super::dispersions::{Assigned, Column, Dispersions, Transform};
+use super::dispersions::{Assigned, Dispersions, Transform};
 use super::distribution::traits::MAX_DIMENSIONS;
 use super::distribution::{Joint, Map, Quantile};
 use super::stream::SampleId;

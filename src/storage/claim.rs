@@ -130,7 +130,14 @@ pub fn claim(store: &Arc<dyn Store>, wanted: Wanted<'_>, options: ClaimOptions<'
         return Err(FolderError::Foreign { folder: shown(&**store), entry: entry.to_owned() });
     }
     let new = replacement::begin(options.folders, root, &wanted.head(found_size(&found, wanted)))?;
-    let (lock, found) = locked(&*new, options)?;
+    let (mut lock, mut found) = locked(&*new, options)?;
+    // what an interrupted replacement by more samples has left is no result of anybody
+    let head = wanted.head(found.largest_part);
+    if found.examine(&*new, (wanted.plan, &head), &|_| true, options.threads)?.extent() > wanted.most() {
+        drop(lock);
+        replacement::remove(&*new)?;
+        (lock, found) = locked(&*new, options)?;
+    }
     match fill(&new, wanted, options, (found, vec![own, lock]))? {
         Claim::Ready(ready) => Ok(Claim::Ready(Box::new(Ready { replaces: Some(root.to_owned()), ..*ready }))),
         // it was complete and only not yet in its place

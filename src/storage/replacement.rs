@@ -92,7 +92,7 @@ fn check_movable(root: &Path) -> io::Result<()> {
 
 /// Removes the files of a dataset, and its folders where nothing else is in them: first the marks, so that a partly
 /// removed dataset is never taken for a whole one; its head last.
-fn remove(store: &dyn Store) -> Result<(), StoreError> {
+pub(super) fn remove(store: &dyn Store) -> Result<(), StoreError> {
     let found = match contents(store)? {
         Contents::Dataset(found) => *found,
         Contents::Old | Contents::Foreign(_) => return Ok(()),

@@ -185,10 +185,8 @@ impl<'f> Row<'f> {
         let (value, rest) =
             said.split_once(" [").map_or((said.as_str(), String::new()), |(value, rest)| (value, format!("[{rest}")));
         let name = text(&number.name);
-        // what a verdict assumes is a part of it
-        let note = self.finding.notes.first().map_or_else(String::new, |note| format!("; {}", text(note)));
         format!(
-            "<b>{}</b> <span class=\"quiet\">{}</span><br><span class=\"quiet\">{name}{note}</span>",
+            "<b>{}</b> <span class=\"quiet\">{}</span><br><span class=\"quiet\">{name}</span>",
             text(value),
             text(&rest)
         )

@@ -125,7 +125,7 @@ fn of_number(number: &Number, span: Span) -> String {
 }
 
 /// A histogram as a small picture, with the vertical lines on its axis whose names begin with `lines`, the runs that
-/// miss a limit in another colour, and what is expected as a curve; without `lines` bars alone. Empty of another figure.
+/// miss a limit in another colour, and what is expected as a curve; without `lines` bars alone. Empty without bars.
 pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
         Mark::Limit { label, at, vertical: true } if lines.is_some_and(|start| label.starts_with(start)) => Some(*at),

@@ -62,13 +62,8 @@ impl ShownRun {
 pub fn listed(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
     for (sample, why) in worst(plan, survey, asked) {
-        match list.iter().position(|(other, _)| *other == sample) {
-            // a run that is the worst of several outcomes is listed once
-            Some(place) if ["largest ", "smallest "].iter().any(|side| why.starts_with(side)) => {
-                list[place].1 += &format!("; {why}");
-            }
-            None if list.len() <= WORST => list.push((sample, why)),
-            _ => {}
+        if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
+            list.push((sample, why));
         }
     }
     list

@@ -77,8 +77,9 @@ pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Disp
     }
     format!(
         "<div class=\"table\" tabindex=\"0\"><table class=\"sortable \
-        searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th>{heads}</tr></thead><tbody>\n{body}</tbody></table></div><p \
-        class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
+        searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th>{heads}</tr></thead><tbody>\n\
+        {body}</tbody></table></div>\
+        <p class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
     )
 }
 

@@ -340,7 +340,7 @@ fn static_numbers_are_those_of_the_rows() {
     let page = found.scratch.text("r/report.html");
     let visible = page.split_once("<script").expect("scripts").0;
     assert!(visible.contains(">2100 deg/s</text>"), "the limit on the scale");
-    let sentence = visible.split_once("Largest errors, relative: energy ").expect("a sentence").1;
+    let sentence = visible.split_once("Largest numerical errors, relative: energy ").expect("a sentence").1;
     let largest = found.column("energy_error_max").into_iter().fold(0.0, f64::max);
     let shown = read_number(sentence.split(", angular").next().unwrap());
     assert!((shown / largest - 1.0).abs() < 0.02, "{shown} for {largest}");
