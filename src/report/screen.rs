@@ -36,7 +36,8 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
     let others = findings.of(Kind::Driver).filter(|one| one.rank == 1 && !one.children.is_empty()).count();
     end += &left_out(others, ["outcome with drivers", "outcomes with drivers"], width);
     end += &sentences(&of(Kind::Numerics), width);
-    end += &commands(&of(Kind::Runs), file, width);
+    let (worst, others): (Vec<&Finding>, Vec<&Finding>) = of(Kind::Runs).into_iter().partition(|one| one.id == "worst");
+    end += &commands(&others, file, width);
     let gap = if text.is_empty() { "" } else { "\n" };
     let room = most.saturating_sub([&text, gap, &end].map(|part| part.matches('\n').count()).iter().sum::<usize>());
     let all = of(Kind::Outcome);
@@ -50,7 +51,10 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
         outcomes += &left_out(numbers.len() - most, ["outcome", "outcomes"], width);
         outcomes += &self::outcomes(&about, width, false);
     }
-    if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end }
+    let said = if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end };
+    // the worst run has the lines that are left
+    let worst = commands(&worst, file, width);
+    if said.lines().count() + worst.lines().count() <= most { said + &worst } else { said }
 }
 
 /// All that is known, but what is in files only.

@@ -1,6 +1,6 @@
 //! [`Accuracy`]: limits of accuracy beyond which a completed run is of no use.
 
-use super::Group;
+use super::group::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use super::reduction::ErrorStatistic;
 use super::request::Request;
