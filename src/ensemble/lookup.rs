@@ -116,6 +116,9 @@ impl PointValues<'_> {
     }
 }
 
+/// Takes a search with times of its interval and the values there, and gives an interval for another look, if any.
+pub type Narrow<'n, T> = dyn FnMut(Search<T>, &[f64], &[f64]) -> Option<[f64; 2]> + 'n;
+
 impl<'p> Lookup<'p> {
     pub fn new(
         plan: &'p Plan,
@@ -189,7 +192,7 @@ impl<'p> Lookup<'p> {
         mut searches: Vec<Search<T>>,
         runs: Runs<'_>,
         most_ticks: f64,
-        narrow: &mut dyn FnMut(Search<T>, &[f64], &[f64]) -> Option<[f64; 2]>,
+        narrow: &mut Narrow<'_, T>,
     ) -> Vec<Search<T>> {
         for _ in 0..MOST_FLIGHTS {
             if searches.is_empty() {

@@ -41,8 +41,11 @@ fn digits_of(store: &dyn Store) -> Result<Option<String>, StoreError> {
     Ok(store.read(HEAD)?.ok().map(|head| digits(&head)))
 }
 
+/// A dataset beside another, with the digits of its name.
+type Begun = (String, Arc<dyn Store>);
+
 /// The datasets beside `root` that were made to replace it, each with its digits.
-fn begun(folders: &OpenFolder<'_>, root: &Path) -> Result<Vec<(String, Arc<dyn Store>)>, StoreError> {
+fn begun(folders: &OpenFolder<'_>, root: &Path) -> Result<Vec<Begun>, StoreError> {
     let start = format!(".{}.", root.file_name().unwrap_or_default().to_string_lossy());
     let parent = folders(above(root));
     let mut found = Vec::new();
