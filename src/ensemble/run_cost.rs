@@ -83,7 +83,7 @@ const PAGE_S: f64 = 0.15;
 const EVALUATION_BESIDE_OTHERS_S: f64 = 1e-5;
 
 /// Number of runs that may be flown again for the page of a campaign of `rows` runs with this mean number of
-/// `evaluations`: a tenth of them, and those of [`PAGE_S`]. Counted work makes the page a function of the result.
+/// `evaluations`: a tenth of them, and those of `PAGE_S`. Counted work makes the page a function of the result.
 pub fn replays(rows: u64, evaluations: f64) -> usize {
     let each = evaluations.max(1.0) * EVALUATION_BESIDE_OTHERS_S;
     (0.1 * rows as f64 + PAGE_S / each) as usize

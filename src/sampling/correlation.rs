@@ -1,4 +1,4 @@
-//! [`Correlation`]: a `[[correlate]]` table as written; [`copulas`]: the dependence that all of them specify.
+//! [`Correlation`]: a `[[correlate]]` table as written; `copulas`: the dependence that all of them specify.
 //!
 //! A table correlates all pairs of components of its parameters (a square matrix), or each component of one parameter
 //! with each of another (a block; one number for two components). Tables with a common component make one matrix; other

@@ -1,5 +1,5 @@
 //! Exchange of kinetic energy between body and wheels about the spacecraft's centre of mass: correlations and dominant
-//! frequency, in a fixed order of operations (see [`super::reduce`]).
+//! frequency, in a fixed order of operations (see `reduce`).
 
 use fearless_simd::Simd;
 
