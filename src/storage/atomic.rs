@@ -1,5 +1,5 @@
 //! [`write()`]: files that are either whole or absent, outside of datasets: tables, plots and reports that a command is
-//! told to write. The files of a dataset are written by `super::folder`.
+//! told to write. The files of a dataset are written by `storage::disk`.
 //!
 //! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the
 //! disk, and then renamed. Its temporary name is one that nothing else has; what a crash leaves is recognised by it.
