@@ -36,3 +36,4 @@ mod report_figures;
 mod round_off;
 mod stress;
 mod tolerance;
+mod wheels;

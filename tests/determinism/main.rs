@@ -5,6 +5,8 @@
 
 #[path = "../support/mod.rs"]
 mod support;
+#[path = "../textbook/mod.rs"]
+mod textbook;
 
 #[cfg(feature = "wasm")]
 mod assembled_module;
@@ -20,6 +22,7 @@ mod flight_code_fuzz;
 #[cfg(feature = "wasm")]
 mod flight_code_interface;
 mod lanes;
+mod lanes_runge_kutta;
 #[cfg(feature = "cloud")]
 mod object_store;
 mod panics;

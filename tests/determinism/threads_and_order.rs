@@ -7,8 +7,10 @@ use crate::support::plans::{RowBits, SOMETIMES_IMPOSSIBLE, row_bits, seen, shipp
 use spindrift::campaign::Plan;
 use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, Supervision, run};
 use spindrift::math::Isa;
+use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
+/// The shipped campaign of that name, with a wheel that is sometimes impossible where `with_failures`.
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
     shipped_with(name, Some(samples), if with_failures { SOMETIMES_IMPOSSIBLE } else { "" })
 }
@@ -33,6 +35,19 @@ fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, RowBits)> {
     seen(campaign, Some(threads), row_bits)
 }
 
+#[test]
+fn rows_do_not_depend_on_threads() {
+    for (name, failures) in [("spin_sweep", true), ("burn", false), ("no_debris", false), ("pyramid", false)] {
+        let plan = plan(name, 1000, failures);
+        let campaign = Ensemble::new(&plan, Isa::best());
+        let one = whole(&campaign, 1);
+        assert_eq!(one.len(), 1000);
+        assert_eq!(one.iter().any(|(_, (status, _))| *status == Status::InvalidSample), failures, "{name}");
+        assert!(one == whole(&campaign, 2), "{name}, 2 threads");
+        assert!(one == whole(&campaign, 7), "{name}, 7 threads");
+    }
+}
+
 /// Law: a sample that is run alone, by a worker that has run other samples before, in a part with other bounds, gives
 /// the same row.
 #[test]
@@ -49,7 +64,21 @@ fn rows_do_not_depend_on_company() {
     }
 }
 
-/// Law: after an error of the sink no further part is started, and the error is reported.
+/// Counter-test: the comparison sees a single changed bit of a scene.
+#[test]
+fn the_comparison_can_fail() {
+    let plan = plan("spin_sweep", 64, false);
+    let rows = |plan: &Plan| whole(&Ensemble::new(plan, Isa::best()), 1);
+    let mut other = plan.clone();
+    let side = other.nominal.wheels[1].length_m.as_mut().unwrap();
+    *side = f64::from_bits(side.to_bits() + 1);
+    assert!(rows(&plan) == rows(&plan));
+    assert!(rows(&plan) != rows(&other));
+}
+
+/// Law: after an error of the sink no further part is started, and the error is reported. With one thread nothing
+/// follows the refused part. With more threads, where every part is refused, each thread offers one at most, however
+/// they are scheduled.
 #[test]
 fn a_full_sink_stops_the_campaign() {
     let plan = plan("no_debris", 4096, false);
@@ -69,6 +98,7 @@ fn a_full_sink_stops_the_campaign() {
     }
 }
 
+/// Law: progress counts every sample once.
 #[test]
 fn progress_counts_every_sample() {
     let plan = plan("no_debris", 777, false);

@@ -3,7 +3,7 @@
 
 use spindrift::campaign::{Overrides, Plan, SceneDraws};
 use spindrift::propagation::Method;
-use spindrift::run::Grid;
+use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Arc, Scene, SceneInput};
 
@@ -16,6 +16,8 @@ const HORIZON: f64 = 4.0;
 /// Random schedules of each law.
 const CASES: u64 = 40;
 
+/// A scene of three arcs, where the second starts as the first ends; with errors of every thruster and wheel, which are
+/// not those of an arc.
 fn scene(seed: u64) -> SceneInput {
     let kind = Kind { wheels: [true; 2], debris: 1, products: true, offset: true, forced: true };
     let mut input = random(kind, seed, HORIZON);
@@ -34,6 +36,7 @@ fn schedule(input: &SceneInput) -> Vec<Arc> {
     Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0])).schedule
 }
 
+/// Every number of an arc as it is applied, as bits.
 fn bits(arc: &Arc) -> Vec<u64> {
     let applied = &arc.applied;
     let numbers = [arc.start, applied.until].into_iter().chain(applied.thrust).chain(applied.motor_torque);
@@ -49,6 +52,8 @@ fn runs(scenes: &[SceneInput]) -> Vec<Run> {
     propagate(Method::Taylor, adaptive(1e-12), &Grid::uniform(HORIZON, 41), &scenes)
 }
 
+/// Law: a scale s of arc k is the schedule whose command k is multiplied by s; delays of arc k are the schedule whose
+/// arc starts and ends as much later. Of the applied arcs and of the motion, bit for bit.
 #[test]
 fn an_error_of_an_arc_is_another_command() {
     for seed in 0..CASES {
@@ -82,6 +87,62 @@ fn an_error_of_an_arc_is_another_command() {
     }
 }
 
+/// Law: the same errors of all arcs are those of all thrusters, wheels and delays, bit for bit, where these are ideal.
+/// Counter-test: of all arcs but one they are not.
+#[test]
+fn the_same_error_of_all_arcs_is_that_of_the_actuators() {
+    for seed in 0..CASES {
+        let (mut of_arcs, mut u) = (scene(seed), Uniform::new(2000 + seed));
+        of_arcs.thrusters.iter_mut().for_each(|thruster| thruster.thrust_scale = 1.0);
+        of_arcs.wheels.iter_mut().for_each(|wheel| wheel.torque_scale = 1.0);
+        let mut of_all = of_arcs.clone();
+        let (thrust, torque, delay) = (u.between(0.5, 1.5), u.between(0.5, 1.5), u.between(0.0, 0.1));
+        for arc in &mut of_arcs.actuation {
+            (arc.errors.thrust_scale, arc.errors.torque_scale) = (thrust, torque);
+            (arc.errors.switch_on_delay_s, arc.errors.switch_off_delay_s) = (delay, 2.0 * delay);
+        }
+        of_all.thrusters.iter_mut().for_each(|thruster| thruster.thrust_scale = thrust);
+        of_all.wheels.iter_mut().for_each(|wheel| wheel.torque_scale = torque);
+        (of_all.actuators.switch_on_delay_s, of_all.actuators.switch_off_delay_s) = (delay, 2.0 * delay);
+        assert_eq!(all_bits(&schedule(&of_arcs)), all_bits(&schedule(&of_all)), "{seed}");
+        of_arcs.actuation[1].errors.thrust_scale = 1.0;
+        assert_ne!(all_bits(&schedule(&of_arcs)), all_bits(&schedule(&of_all)), "{seed}");
+    }
+}
+
+/// Law: an error of an arc changes no bit of another arc, and no bit of the motion before that arc; after it the motion
+/// differs.
+#[test]
+fn an_error_changes_its_arc_only() {
+    for (k, (key, value)) in
+        [("thrust_scale", 1.1), ("torque_scale", 0.9), ("switch_on_delay_s", 0.05)].iter().enumerate()
+    {
+        let nominal = scene(k as u64);
+        let changed = nominal.clone().with(&format!("actuation.2.{key}"), &[*value]);
+        let (before, after) = (schedule(&nominal), schedule(&changed));
+        assert_eq!(all_bits(&before[..2]), all_bits(&after[..2]), "{key}");
+        assert_ne!(bits(&before[2]), bits(&after[2]), "{key}");
+        let grid = Grid::uniform(HORIZON, 41);
+        let found = runs(&[nominal.clone(), changed]);
+        let mut seen = [0, 0];
+        for (point, time) in grid.times().iter().enumerate() {
+            let at = |run: &Run| -> Vec<u64> {
+                let column = |component| run.table.column(StateField::Rate, component)[point].to_bits();
+                (0..3).map(column).collect()
+            };
+            let is_same = at(&found[0]) == at(&found[1]);
+            if *time <= nominal.actuation[2].start_s {
+                assert!(is_same, "{key} at {time}");
+                seen[0] += 1;
+            } else if *time > nominal.actuation[2].start_s + 0.1 {
+                assert!(!is_same, "{key} at {time}");
+                seen[1] += 1;
+            }
+        }
+        assert!(seen[0] > 20 && seen[1] > 3, "{seen:?}");
+    }
+}
+
 /// Thrust, an arc that meets it with a torque, one that does nothing, one with a name, one after the end.
 const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 = 10 }\n\
     [[actuation]]\nstart_s = 1.0\nend_s = 2.0\ntorque_n_m = { w1 = 1 }\n\
@@ -90,10 +151,12 @@ const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 =
     }\n\
     [[actuation]]\nname = \"late\"\nstart_s = 6.0\nend_s = 7.0\nthrust_n = { p1 = 10 }\n";
 
+/// A plan of six seconds.
 fn plan(text: &str) -> Result<Plan, String> {
     plan_over(6.0, text)
 }
 
+/// Law: what an arc does not have is not dispersed, with a remedy.
 #[test]
 fn what_arcs_do_not_have_is_refused() {
     for (refused, says) in [
@@ -112,17 +175,27 @@ fn wrong_names_and_numbers_are_refused() {
     for (was, is, says) in [
         ("name = \"late\"", "name = \"trim\"", "actuation[4].name = \"trim\": must be another name"),
         (
+            "name = \"late\"",
+            "name = \"4th\"",
+            "actuation[4].name = \"4th\": must be a name of at most 23 lower-case letters",
+        ),
+        ("end_s = 4.0", "end_s = 4.0\nthrust_scale = -1", "actuation[2].thrust_scale = -1.0: must be zero or above"),
+        ("end_s = 4.0", "end_s = 4.0\ntorque_scale = inf", "actuation[2].torque_scale = inf: must be a finite number"),
+        (
             "end_s = 4.0",
             "end_s = 4.0\nswitch_on_delay_s = 1.5",
             "actuation[2], commanded from 3.0 to 4.0, ends after it starts",
         ),
         ("end_s = 4.0", "end_s = 4.0\nswitch_off_delay_s = 0.6", "actuation[2].switch_off_delay_s = (0.0, 0.6)"),
+        ("end_s = 4.0", "end_s = 4.0\ntorqe_scale = 2", "did you mean torque_scale?"),
     ] {
         let error = plan(&ARCS.replace(was, is)).expect_err(is);
         assert!(error.contains(says), "{is}: {error}");
     }
 }
 
+/// Law: names and errors read back; without them the plan has no word of them. What is recorded is applied, to that
+/// arc.
 #[test]
 fn errors_are_drawn_recorded_and_written() {
     let ideal = plan(ARCS).unwrap_or_else(|error| panic!("{error}"));

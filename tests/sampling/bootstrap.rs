@@ -1,4 +1,5 @@
-//! Rows of a file drawn together (`distribution = "bootstrap"`).
+//! Rows of a file drawn together (`distribution = "bootstrap"`): every draw is a row of the file, bit for bit, each as
+//! often as the others, in every design; the joint distribution is that of the file.
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
 use crate::support::draws;
@@ -19,6 +20,9 @@ const DRAWS: u64 = 4096;
 /// 99.9% quantile of chi-squared with 31 degrees of freedom (scipy.stats.chi2.ppf(0.999, 31)).
 const CHI_SQUARED: f64 = 61.098;
 
+/// What a user measured: lateral rates on an arc of a circle (dependent without being normal) and a position that
+/// follows them; with a column that is no number. Third digits from the row's number make every cell of a column
+/// another number.
 fn measured() -> Vec<[f64; 3]> {
     let row = |k: usize| {
         let angle = 0.05 * k as f64;
@@ -38,6 +42,17 @@ const BOOTSTRAP: &str = "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"in
     \"initial.position_m.x\"]\n\
     columns = [\"wx\", \"wy\", \"x\"]\n";
 
+/// The three columns, each with a distribution of its own.
+fn apart() -> String {
+    let one = |(parameter, column)| {
+        format!(
+            "[[disperse]]\nparameter = \"initial.{parameter}\"\ndistribution = \"empirical\"\nfile = \
+            \"insertion.csv\"\ncolumn = \"{column}\"\n"
+        )
+    };
+    [("angular_velocity_rad_s.x", "wx"), ("angular_velocity_rad_s.y", "wy"), ("position_m.x", "x")].map(one).concat()
+}
+
 fn plan_of(scratch: &ScratchFolder, text: &str) -> Result<Plan, String> {
     let text = [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, text].concat();
     Plan::from_text_in(&scratch.0, "rows.toml", &text, Overrides::default()).map_err(|error| error.to_string())
@@ -47,6 +62,7 @@ fn plan(scratch: &ScratchFolder, text: &str) -> Plan {
     plan_of(scratch, text).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// What `samples` apply to the columns called `names`.
 fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range<u64>) -> Vec<[f64; N]> {
     let known = draws::names(plan);
     let place =
@@ -58,6 +74,7 @@ fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range
 const NAMES: [&str; 3] =
     ["initial.angular_velocity_rad_s.x", "initial.angular_velocity_rad_s.y", "initial.position_m.x"];
 
+/// How often each row of the file was drawn, and how many draws are no row of it.
 fn counts(rows: &[[f64; 3]], drawn: &[[f64; 3]]) -> (Vec<u64>, usize) {
     let bits = |row: &[f64; 3]| row.map(f64::to_bits);
     let index: BTreeMap<[u64; 3], usize> = rows.iter().enumerate().map(|(k, row)| (bits(row), k)).collect();
@@ -118,6 +135,26 @@ fn every_draw_is_a_row_of_the_file_in_every_design() {
     }
 }
 
+/// Counter-test: columns that are drawn one by one keep their distributions and lose their rows and their correlation;
+/// and the test of frequencies sees that one row is twice as likely.
+#[test]
+fn columns_that_are_drawn_apart_are_no_rows() {
+    let scratch = ScratchFolder::new("bootstrap-apart");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    let drawn = drawn(&plan(&scratch, &apart()), NAMES, 1..DRAWS + 1);
+    let (_, others) = counts(&rows, &drawn);
+    assert!(others > 4000, "{others}");
+    assert!(correlation(&drawn, 0, 1).abs() < 0.1 && correlation(&rows, 0, 1).abs() > 0.8);
+    let mut twice = rows.clone();
+    twice[1] = twice[0];
+    scratch.file("insertion.csv", &csv(&twice));
+    let (counts, _) = counts(&rows, &self::drawn(&plan(&scratch, BOOTSTRAP), NAMES, 1..DRAWS + 1));
+    assert!(chi_squared(&counts, DRAWS) > CHI_SQUARED, "{counts:?}");
+}
+
+/// Law: with the random design and a Latin hypercube the rows do not depend on other tables of the file, nor on their
+/// order; two tables of one file draw their rows independently.
 #[test]
 fn rows_do_not_depend_on_other_dispersions() {
     let scratch = ScratchFolder::new("bootstrap-company");
@@ -148,6 +185,8 @@ fn rows_do_not_depend_on_other_dispersions() {
     assert!(r.abs() < 3.29 / (DRAWS as f64).sqrt(), "{r}");
 }
 
+/// Law: an attitude that is a unit quaternion in the file keeps its bits, one that is not is normalised; a vector and
+/// an attitude may be named as a whole, and the columns are then named like their components.
 #[test]
 fn attitudes_and_vectors_are_drawn_as_a_whole() {
     let scratch = ScratchFolder::new("bootstrap-attitude");
@@ -198,4 +237,26 @@ fn a_row_is_one_factor() {
     // A, A with the length of B, A with the row of B, B
     let block = drawn(&saltelli, NAMES, 1..5);
     assert!(block[0] == block[1] && block[2] == block[3] && block[0] != block[3]);
+}
+
+/// Law: `sample --sample K` and `check --verbose` show the row that sample K takes, in all digits, and where it comes
+/// from.
+#[test]
+fn one_sample_is_shown_with_its_row() {
+    let scratch = ScratchFolder::new("bootstrap-shown");
+    let rows = measured();
+    scratch.file("insertion.csv", &csv(&rows));
+    let text = [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, LENGTH, BOOTSTRAP].concat();
+    scratch.file("rows.toml", &text);
+    let drawn = drawn(&plan(&scratch, &format!("{LENGTH}{BOOTSTRAP}")), NAMES, 0..65);
+    for sample in [1, 7, 64] {
+        let shown = scratch.prints(&format!("sample rows.toml --sample {sample}"), 0);
+        for (name, value) in NAMES.iter().zip(drawn[sample]) {
+            let line = shown.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {shown}"));
+            assert_eq!(line.split_whitespace().nth(1), Some(format!("{value:?}").as_str()), "{sample}: {shown}");
+        }
+    }
+    let checked = scratch.prints_wide("check rows.toml --verbose", 0);
+    let told = "one of the 32 rows of insertion.csv, 3 numbers together";
+    assert_eq!(checked.matches(told).count(), 3, "{checked}");
 }

@@ -23,6 +23,7 @@ type Distribution = (&'static str, fn(f64) -> f64);
 const DISTRIBUTIONS: [Distribution; 3] =
     [("uniform", |u| u), ("normal", normal::quantile), ("exponential", |u| -libm::log1p(-u))];
 
+/// The standard error of a fraction of [`CAMPAIGNS`].
 fn error(p: f64) -> f64 {
     (p * (1.0 - p) / f64::from(CAMPAIGNS)).sqrt()
 }
@@ -37,6 +38,7 @@ fn sample(random: &mut Uniform, count: usize, quantile: fn(f64) -> f64) -> Vec<f
     values
 }
 
+/// How often order statistics of these ranks enclose the `p`-quantile.
 fn covered(seed: u64, count: usize, p: f64, ranks: Ranks, of: fn(f64) -> f64) -> f64 {
     let mut random = Uniform::new(seed);
     let truth = of(p);
@@ -47,6 +49,8 @@ fn covered(seed: u64, count: usize, p: f64, ranks: Ranks, of: fn(f64) -> f64) ->
     fraction((0..CAMPAIGNS).map(|_| u32::from(covers(&sample(&mut random, count, of)))).sum())
 }
 
+/// Law: order statistics cover a quantile with exactly their binomial probability, whatever the distribution; a rank
+/// off by one does not.
 #[test]
 fn order_statistics_cover_with_their_binomial_probability() {
     for (index, (name, of)) in DISTRIBUTIONS.into_iter().enumerate() {
@@ -66,6 +70,8 @@ fn order_statistics_cover_with_their_binomial_probability() {
     }
 }
 
+/// Law: Clopper and Pearson's interval covers with exactly the probability of the counts whose interval has the
+/// fraction in it.
 #[test]
 fn clopper_pearson_covers_with_its_exact_probability() {
     for (count, p, confidence) in [(50_u64, 0.9, 0.95), (20, 0.5, 0.9), (200, 0.99, 0.95)] {
@@ -86,6 +92,8 @@ fn clopper_pearson_covers_with_its_exact_probability() {
     }
 }
 
+/// Law: a campaign that stops at the first narrow interval covers as often as stated; without the correction for the
+/// looks it would not.
 #[test]
 fn stopped_campaigns_cover() {
     let runs = looks(40, 640);
@@ -109,6 +117,27 @@ fn stopped_campaigns_cover() {
     assert!(fraction(covered) >= 0.95 - SIGMAS * error(0.95), "{covered}");
     assert!(stopped.iter().filter(|count| **count > 100).count() >= 2, "several looks stop: {stopped:?}");
     assert!(uncorrected < covered, "{uncorrected} {covered}");
+}
+
+/// Law: at the limit itself, where every decision is an error, gates decide at most as often as 1 - confidence on each
+/// side; they are not silent either.
+#[test]
+fn gates_err_as_seldom_as_stated() {
+    let mut random = Uniform::new(51);
+    let mut counts = [0_u32; 2];
+    let fraction_gates: Vec<_> = (0..=300).map(|within| fraction_gate(within, 300, 0.95, 0.95)).collect();
+    for _ in 0..CAMPAIGNS {
+        let within = (0..300).filter(|_| random.uniform() < 0.95).count();
+        match fraction_gates[within].decision {
+            Decision::Pass => counts[0] += 1,
+            Decision::Fail => counts[1] += 1,
+            Decision::Undecided(_) => {}
+        }
+    }
+    for count in counts {
+        let found = fraction(count);
+        assert!(found <= 0.05 + SIGMAS * error(0.05) && found > 0.02, "{counts:?}");
+    }
 }
 
 /// Law: of campaigns with the number of runs that an undecided gate names nine in ten decide, where the truth is what
@@ -244,5 +273,8 @@ fn a_sketch_of_ten_million_is_within_its_error() {
         let [lower, upper] = ranks.bounds(rank).expect("a rank");
         assert!(lower <= values[rank as usize - 1] && values[rank as usize - 1] <= upper, "{p}");
     }
+    // the counter-test: one percent further on is further than the error
+    let (next, median) = (ranks.quantile(0.51).expect("many"), quantile(&values, 0.5).expect("many"));
+    assert!((next - median).abs() > RELATIVE_ERROR * median.abs());
     assert_eq!((sketch.min(), sketch.max()), (values.first().copied(), values.last().copied()));
 }

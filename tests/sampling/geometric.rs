@@ -17,6 +17,7 @@ const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\ndurati
 const DEBRIS_AND_STATE: &str = "[debris]\nmass_kg = 20.0\nprincipal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n\
     [initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\nattitude = [0.5, 0.5, -0.5, 0.5]\n";
 
+/// A campaign, and what `text` adds.
 pub fn campaign(text: &str) -> String {
     [HEAD, FUSELAGE, DEBRIS_AND_STATE, text].concat()
 }
@@ -31,11 +32,13 @@ const CHI_3: f64 = 16.266;
 const CHI_5: f64 = 20.515;
 const CHI_9: f64 = 27.877;
 
+/// The plan of [`campaign`] with one dispersion.
 pub fn plan(disperse: &str) -> Plan {
     let text = campaign(&format!("[[disperse]]\n{disperse}"));
     Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// What samples 1 to N of a file look like through `seen`.
 fn draws<T>(disperse: &str, seen: impl Fn(&SceneInput) -> T) -> Vec<T> {
     draws::seen(&plan(disperse), 1..=N as u64, |scene, _| seen(scene))
 }
@@ -45,7 +48,7 @@ fn rate(scene: &SceneInput) -> [f64; 3] {
 }
 
 /// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp,
-/// *Directional Statistics*, 2000, 10.4.1).
+/// *Directional Statistics*, 2000, 10.4.1): sees a preferred direction.
 fn rayleigh(directions: &[[f64; 3]]) -> f64 {
     let n = directions.len() as f64;
     let mean: [f64; 3] = std::array::from_fn(|i| directions.iter().map(|d| d[i]).sum::<f64>() / n);
@@ -53,7 +56,7 @@ fn rayleigh(directions: &[[f64; 3]]) -> f64 {
 }
 
 /// Bingham's statistic of uniformity on the sphere in `P` dimensions, n p (p + 2)/2 (tr T^2 - 1/p) with T the mean of x
-/// x^T, chi-square with (p - 1)(p + 2)/2 degrees of freedom (ibid., 10.7.1).
+/// x^T, chi-square with (p - 1)(p + 2)/2 degrees of freedom (ibid., 10.7.1): sees a preferred axis, whatever its sign.
 fn bingham<const P: usize>(points: &[[f64; P]]) -> f64 {
     let (n, p) = (points.len() as f64, P as f64);
     let mut square = 0.0;
@@ -66,6 +69,7 @@ fn bingham<const P: usize>(points: &[[f64; P]]) -> f64 {
     n * p * (p + 2.0) / 2.0 * (square - 1.0 / p)
 }
 
+/// Angles about an axis: the cosine to it, and the azimuth from 0 to 1.
 fn about(axis: [f64; 3], v: [f64; 3]) -> [f64; 2] {
     let z = scaled(1.0 / norm(axis), axis);
     let v = scaled(1.0 / norm(v), v);
@@ -103,13 +107,10 @@ fn cones_are_uniform_in_solid_angle() {
     let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
         [[actuation]]\nname = \"burn\"\nstart_s = 0\nend_s = 1\nthrust_n = { a = 3 }\n";
     type Seen = fn(&SceneInput) -> [f64; 3];
-    let cases: [(&str, Seen, f64, Option<[f64; 3]>); 9] = [
+    let cases: [(&str, Seen, f64, Option<[f64; 3]>); 6] = [
         ("initial.angular_velocity_rad_s", rate, 0.2, None),
         ("initial.angular_velocity_rad_s", rate, 1e-6, None),
         ("initial.angular_velocity_rad_s", rate, 2.5, Some([0.0, 3.0, 4.0])),
-        ("initial.angular_velocity_rad_s", rate, 0.8, Some([0.0, 0.0, -1.0])),
-        ("initial.angular_velocity_rad_s", rate, 0.8, Some([-1.0, 0.0, 0.0])),
-        ("initial.angular_velocity_rad_s", rate, 0.8, Some([0.0, -2.0, 0.0])),
         ("initial.angular_velocity_rad_s", rate, PI, None),
         ("wheels.w1.axis", |scene| scene.wheels[0].axis, 0.2, None),
         ("thrusters.a.direction", |scene| scene.thrusters[scene.thrusters.len() - 1].direction, 0.2, None),
@@ -204,6 +205,7 @@ fn attitudes_are_uniform_on_so3() {
     assert!(far < KS, "{far}");
 }
 
+/// The rotation vector from the nominal attitude, in the frame of the body.
 fn error(q: [f64; 4]) -> [f64; 3] {
     let off = hamilton(conjugate([0.5, 0.5, -0.5, 0.5]), q);
     let off = if off[0] < 0.0 { off.map(|x| -x) } else { off };
@@ -251,6 +253,41 @@ fn attitudes_turn_about_an_axis() {
     assert!(far < KS, "{far}");
 }
 
+/// Counter-tests: the same statistics reject common mistakes.
+#[test]
+fn usual_mistakes_are_caught() {
+    let uniform = draws(&format!("{RATE}distribution = \"uniform\"\nmin = -1\nmax = 1\n"), rate);
+    // components of a cube, normalised: towards its corners. No preferred axis, so second moments are blind; the
+    // component is not
+    let cube: Vec<f64> = uniform.iter().map(|v| v[2] / norm(*v)).collect();
+    // measured: 5.5 KS
+    assert!(distance(cube, |x| (1.0 + x) / 2.0) > 3.0 * KS);
+    // two quadrants only; measured: 4905 times the critical value
+    let half: Vec<[f64; 3]> = uniform.iter().map(|v| scaled(1.0 / norm(*v), [v[0].abs(), v[1], v[2]])).collect();
+    assert!(rayleigh(&half) > 100.0 * CHI_3);
+    // uniform angles to the axis: towards the pole; measured: 1521 times the critical value
+    let polar: Vec<[f64; 3]> = uniform
+        .iter()
+        .map(|v| {
+            let ((s, c), (sp, cp)) = (libm::sincos(PI * (v[0] + 1.0) / 2.0), libm::sincos(PI * v[1]));
+            [s * cp, s * sp, c]
+        })
+        .collect();
+    assert!(bingham(&polar) > 100.0 * CHI_5);
+    // uniform Euler angles: E[C33^2] = 1/2, which is 177 standard errors off; measured: 178
+    let mean = uniform.iter().map(|v| libm::cos(PI * v[0]).powi(2)).sum::<f64>() / N as f64;
+    assert!((mean - 1.0 / 3.0).abs() > 100.0 * (4.0 / 45.0 / N as f64).sqrt());
+    // a quaternion of uniform numbers, normalised; measured: 12.1 KS
+    let uniform = draws("parameter = \"initial.attitude\"\ndistribution = \"uniform\"\nmin = -1\nmax = 1\n", |s| {
+        s.initial.attitude
+    });
+    let quaternion = distance(uniform.iter().map(|q| libm::acos(q[0].abs().min(1.0)) * 2.0), |theta| {
+        (theta - libm::sin(theta)) / PI
+    });
+    assert!(quaternion > 3.0 * KS, "{quaternion}");
+}
+
+/// How many of the bodies that a file draws are impossible.
 fn impossible(text: &str, count: u64) -> usize {
     let plan = Plan::from_text("test.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     let mut scene = Scene::resolve(&plan.nominal).expect("the nominal scene is physical");
@@ -259,7 +296,7 @@ fn impossible(text: &str, count: u64) -> usize {
 }
 
 /// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible
-/// bodies, however wide.
+/// bodies, however wide. Counter-test: principal moments that are drawn freely do not.
 #[test]
 fn a_million_bodies_and_none_impossible() {
     let normal = |key: &str, std: f64| {
@@ -287,4 +324,43 @@ fn a_million_bodies_and_none_impossible() {
     println!("free principal moments: {refused} of 10000 impossible");
     // measured: 2415
     assert!(refused > 500, "{refused}");
+}
+
+/// Law: the mean direction follows the axis, in all eight octants and along all coordinate axes. The mean of cos(theta)
+/// of a cone of half-angle a is (1 + cos a)/2, of von Mises-Fisher coth(kappa) - 1/kappa; the mean direction of n draws
+/// is off by less than 5 of its standard deviations, some 0.01. An axis with one component mirrored is off by more
+/// than 1.
+#[test]
+fn mean_directions_follow_the_axis_in_all_octants() {
+    const DRAWS: u64 = 4000;
+    let signs = [-1.0, 1.0];
+    let mut axes: Vec<[f64; 3]> =
+        signs.iter().flat_map(|x| signs.iter().flat_map(move |y| signs.map(|z| [*x, 2.0 * y, 3.0 * z]))).collect();
+    axes.extend((0..6).map(|k| std::array::from_fn(|i| if i == k / 2 { signs[k % 2] } else { 0.0 })));
+    let kappa: f64 = 20.0;
+    let laws = [
+        ("distribution = \"cone\"\nhalf_angle_rad = 0.8\n", 0.5 * (1.0 + libm::cos(0.8))),
+        ("distribution = \"von_mises_fisher\"\nconcentration = 20.0\n", 1.0 / libm::tanh(kappa) - 1.0 / kappa),
+    ];
+    for axis in axes {
+        for (law, cosine) in laws {
+            // the axis as written, and as the nominal vector
+            let written = plan(&format!("{RATE}{law}axis = {axis:?}\n"));
+            let along =
+                campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
+            let nominal = Plan::from_text("test.toml", &along, Overrides::default());
+            for plan in [written, nominal.unwrap_or_else(|error| panic!("{error}"))] {
+                let mut mean = [0.0; 3];
+                for v in draws::seen(&plan, 1..=DRAWS, |scene, _| rate(scene)) {
+                    (0..3).for_each(|i| mean[i] += v[i] / norm(v) / DRAWS as f64);
+                }
+                let expected = scaled(cosine / norm(axis), axis);
+                let off: f64 = (0..3).map(|i| (mean[i] - expected[i]).powi(2)).sum::<f64>().sqrt();
+                // the mean of 4000 draws is off by sqrt((1 - cosine^2)/4000) in the root mean square: 0.0084 (cone) and
+                // 0.0049. The cone has 0.0058 in either direction across the axis, so that 0.04 is exceeded with a
+                // probability below 1e-10. Measured: 0.006
+                assert!(off < 0.04, "{law} about {axis:?}: mean {mean:?}, expected {expected:?}");
+            }
+        }
+    }
 }

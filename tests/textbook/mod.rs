@@ -1,14 +1,29 @@
-//! Textbook problems, integrated run by run.
+//! Textbook problems as runs in lanes, integrated as scalars or in lanes.
 
-use spindrift::math::Real;
+#![allow(dead_code)] // Every test file uses its own part.
+
+use fearless_simd::Simd;
+use spindrift::math::isa::Work;
+use spindrift::math::{Isa, Lanes, Real};
+use spindrift::ode::explicit::Step;
+use spindrift::ode::switches::{beside, dip};
 pub use spindrift::ode::{Adaptive, Fixed, LaneMethod};
 use spindrift::ode::{Control, Runs, System, Tolerance, integrate};
 use spindrift::propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use spindrift::run::{Grid, Outcome, Trajectory};
 
-/// A right-hand side with `P` parameters; `arc` counts the arcs.
+/// A right-hand side with `P` parameters; `arc` counts the arcs, and of a law with a switch it is its side, 1 or -1.
 pub trait Law<const N: usize, const P: usize>: Copy {
+    /// Whether it has a switch.
+    const SWITCHES: bool = false;
+
     fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], arc: R) -> [R; N];
+
+    /// The switch function.
+    #[inline(always)]
+    fn switch<R: Real>(_state: &[R; N], zero: R) -> R {
+        zero
+    }
 }
 
 /// One run: initial state, parameters, ends of its arcs.
@@ -21,19 +36,38 @@ pub struct Case<const N: usize, const P: usize> {
 
 /// Runs of one law.
 pub struct Bank<R, L, const N: usize, const P: usize> {
-    _law: L,
+    law: L,
     cases: Vec<Case<N, P>>,
     loaded: [usize; 8],
     parameters: [R; P],
     arc: R,
+    side: R,
 }
 
 impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> System<R, N> for Bank<R, L, N, P> {
     #[inline(always)]
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N] {
-        L::derivative(time, state, &self.parameters, self.arc)
+        L::derivative(time, state, &self.parameters, if L::SWITCHES { self.side } else { self.arc })
     }
 
+    #[inline(always)]
+    fn has_switches(&self) -> bool {
+        L::SWITCHES
+    }
+
+    #[inline(always)]
+    fn margin(&self, time: R, state: &[R; N]) -> R {
+        self.side * L::switch(state, time.zero())
+    }
+
+    #[inline(always)]
+    fn dip(&self, step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> R {
+        let (times, [after, before]) = beside(step, ends);
+        let of = |state: &[R; N]| self.margin(times[0], state);
+        dip([of(ends[0][0]), of(&after), of(&before), of(ends[1][0])])
+    }
+
+    /// ode45: max |e_i| / max(|y_i|, |y'_i|, atol/rtol) / rtol.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let zero = error[0].zero();
@@ -63,6 +97,12 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
         self.arc.set_lane(lane, arc as f64);
         Some(ends[arc])
     }
+
+    #[inline(always)]
+    fn choose_branches(&mut self, lanes: R::Mask, time: R, state: &[R; N]) {
+        let (zero, one) = (time.zero(), time.splat(1.0));
+        self.side = R::select(lanes, R::select(zero.lt(L::switch(state, zero)), one, -one), self.side);
+    }
 }
 
 /// What became of a run.
@@ -70,6 +110,12 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
 pub struct Journey<const N: usize> {
     pub points: Vec<[f64; N]>,
     pub outcome: Outcome,
+}
+
+impl<const N: usize> Journey<N> {
+    pub fn bits(&self) -> (Vec<[u64; N]>, Outcome) {
+        (self.points.iter().map(|point| point.map(f64::to_bits)).collect(), self.outcome)
+    }
 }
 
 #[inline(always)] // Else it is compiled without the instructions of the chosen set.
@@ -85,7 +131,7 @@ where
     R: Real,
     L: Law<N, P>,
 {
-    let mut bank = Bank { _law: law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], arc: zero };
+    let mut bank = Bank { law, cases: cases.to_vec(), loaded: [0; 8], parameters: [zero; P], arc: zero, side: zero };
     let mut lanes = LaneTrajectory::for_lanes(R::LANES, N, grid.points());
     let mut journeys: Vec<Option<Journey<N>>> = vec![None; cases.len()];
     let finish = |bank: &Bank<R, L, N, P>, lane: usize, run: usize, trajectory: &Trajectory, outcome: &Outcome| {
@@ -99,6 +145,7 @@ where
     journeys.into_iter().map(|journey| journey.expect("every run is completed")).collect()
 }
 
+/// Integrates all cases one by one.
 pub fn scalar<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize>(
     method: M,
     law: L,
@@ -109,6 +156,27 @@ pub fn scalar<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize>(
     integrated((method, law), 0.0_f64, cases, grid, control)
 }
 
+/// Integrates all cases in lanes.
+pub fn lanes<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize>(
+    isa: Isa,
+    method: M,
+    law: L,
+    cases: &[Case<N, P>],
+    grid: &Grid,
+    control: &Control,
+) -> Vec<Journey<N>> {
+    struct Integration<'a, M, L, const N: usize, const P: usize>(M, L, &'a [Case<N, P>], &'a Grid, &'a Control);
+    impl<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize> Work for Integration<'_, M, L, N, P> {
+        type Output = Vec<Journey<N>>;
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Vec<Journey<N>> {
+            integrated((self.0, self.1), Lanes::broadcast(simd, 0.0), self.2, self.3, self.4)
+        }
+    }
+    isa.run(Integration(method, law, cases, grid, control))
+}
+
+/// A control with equal relative and absolute tolerance.
 pub fn control(tolerance: f64, step: f64) -> Control {
     Control {
         tolerance: Tolerance { relative: tolerance, absolute: tolerance },
@@ -125,6 +193,60 @@ impl Law<2, 1> for Oscillator {
     fn derivative<R: Real>(_time: R, y: &[R; 2], p: &[R; 1], _arc: R) -> [R; 2] {
         [p[0] * y[1], -(p[0] * y[0])]
     }
+}
+
+/// A spring on each side of zero: y'' = -w^2 y above, and -4 w^2 y below, with w the parameter.
+#[derive(Clone, Copy)]
+pub struct TwoSprings;
+impl Law<2, 1> for TwoSprings {
+    const SWITCHES: bool = true;
+
+    #[inline(always)]
+    fn derivative<R: Real>(time: R, y: &[R; 2], p: &[R; 1], side: R) -> [R; 2] {
+        let rate = R::select(time.zero().lt(side), p[0], p[0] + p[0]);
+        [y[1], -(rate * rate * y[0])]
+    }
+
+    #[inline(always)]
+    fn switch<R: Real>(y: &[R; 2], _zero: R) -> R {
+        y[0]
+    }
+}
+
+/// Euler's equations of the free rigid body with the moments of inertia as parameters (Hairer, Lubich & Wanner 2006,
+/// IV.1.3).
+#[derive(Clone, Copy)]
+pub struct RigidBody;
+impl Law<3, 3> for RigidBody {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 3], i: &[R; 3], _arc: R) -> [R; 3] {
+        let w = [y[0] / i[0], y[1] / i[1], y[2] / i[2]];
+        spindrift::math::vector::cross(*y, w)
+    }
+}
+
+/// Hairer, Lubich & Wanner 2006, section IV.1 (example 1.7).
+pub const RIGID_BODY: ([f64; 3], [f64; 3]) = ([0.899_3, 0.0, 0.437_4], [2.0, 1.0, 2.0 / 3.0]);
+
+/// The restricted three-body problem (Hairer, Norsett & Wanner 1993, (0.1)) with the smaller mass as the parameter.
+#[derive(Clone, Copy)]
+pub struct ThreeBody;
+impl Law<4, 1> for ThreeBody {
+    #[inline(always)]
+    fn derivative<R: Real>(_time: R, y: &[R; 4], p: &[R; 1], _arc: R) -> [R; 4] {
+        let [x, z, u, v] = *y;
+        let (mu, nu) = (p[0], x.splat(1.0) - p[0]);
+        let (a, b) = (nu / cube(x + mu, z), mu / cube(x - nu, z));
+        let two = x.splat(2.0);
+        [u, v, x + two * v - a * (x + mu) - b * (x - nu), z - two * u - a * z - b * z]
+    }
+}
+
+/// The cube of the distance (x, z).
+#[inline(always)]
+fn cube<R: Real>(x: R, z: R) -> R {
+    let square = x.mul_add(x, z * z);
+    square * square.sqrt()
 }
 
 /// y'' = (1 - y^2) y' - y.
