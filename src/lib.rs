@@ -405,7 +405,7 @@ pub use scene::schema::Limit;
 /// let worst: spindrift::SingleRun = results.replay(SampleId(7))?;
 /// drop(results);
 /// let all = Verification { fraction: 1.0, repair: false };
-/// assert_eq!(verify(&session, &folder, all)?.unwrap().problems, 0);
+/// assert_eq!(verify(&session, &folder, all)?.unwrap().checked.problems, 0);
 /// # let _ = (largest, worst, Outputs::default());
 /// # std::fs::remove_dir_all(&folder).unwrap();
 /// # Ok::<(), WorkflowError>(())

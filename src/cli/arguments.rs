@@ -66,6 +66,8 @@ pub enum Command {
     #[command(after_help = help::NEW)]
     New(NewOptions),
     /// Print the JSON Schema of campaign files, by which editors complete and check them.
+    ///
+    /// A campaign file names it in its first line: #:schema spindrift.schema.json
     #[command(after_help = help::SCHEMA)]
     Schema,
     /// List the columns of the rows: name, unit, meaning.
@@ -442,7 +444,8 @@ mod tests {
             assert_eq!(examples.len(), 2, "{help}");
             for example in examples {
                 assert!(example.starts_with(&format!("spindrift {name} ")), "{example}");
-                let parsed = Arguments::try_parse_from(example.split_whitespace());
+                let command = example.split(" > ").next().unwrap_or_default();
+                let parsed = Arguments::try_parse_from(command.split_whitespace());
                 assert!(
                     parsed.is_ok(),
                     "{example}: {}",

@@ -96,7 +96,7 @@ Examples:
 pub const SCHEMA: &str = "\
 Examples:
   spindrift schema > spindrift.schema.json
-A file names it in its first line: #:schema spindrift.schema.json";
+  spindrift schema > schemas/spindrift.schema.json";
 
 /// Of `columns`.
 pub const COLUMNS: &str = "\
