@@ -55,11 +55,11 @@ export function bodyGroup(three, scene, palette, color) {
   return group;
 }
 
-// The plates that air and light push, as squares of their areas; edges alone where `color` is given.
+// The plates that air and light push, as thin squares of their areas; edges alone where `color` is given.
 export function plateGroup(three, scene, palette, color) {
   const group = new three.Group();
   for (const { side, normal, center } of scene.plates) {
-    const geometry = new three.PlaneGeometry(side, side);
+    const geometry = new three.BoxGeometry(side, side, 0.002 * side);
     const object = color ? edges(three, geometry, color) : edged(three, geometry, palette.quiet, 0.3, palette.text);
     object.position.set(...center);
     object.quaternion.copy(towards(three, normal));

@@ -111,7 +111,8 @@ def test_the_command_line_comes_with_the_package(tmp_path: Path) -> None:
     """Law: it prints and exits as the program does."""
     assert command("--version").stdout == f"spindrift {sd.__version__}\n"
     assert command("new", "my_sweep.toml", cwd=tmp_path).returncode == 0
-    assert (tmp_path / "my_sweep.toml").read_text() == START.read_text().replace('"start"', '"my_sweep"')
+    expected = "#:schema spindrift.schema.json\n" + START.read_text().replace('"start"', '"my_sweep"')
+    assert (tmp_path / "my_sweep.toml").read_text() == expected
     done = command("campaign", "my_sweep.toml", "--samples", "200", cwd=tmp_path)
     assert done.returncode == 0 and "PASS" in done.stdout, done.stderr
     failed = command("campaign", "my_sweep.toml", "--samples", "200", "--set", "require[0].at_most=0.001 deg", "--out", "f", cwd=tmp_path)

@@ -271,16 +271,13 @@ fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
     };
     let is_one_of = |names: &'static [&'static str]| move |number: &Number| names.contains(&number.name.as_str());
     let mut columns = named(&is_one_of(&["value", "median"]));
-    let required = named(&|number: &Number| number.limit.is_some());
-    columns.extend(if required.is_empty() || is_all { named(&is_one_of(&["p5", "p95"])) } else { Vec::new() });
-    let is_with_spread = required.is_empty() || is_all;
+    let required = named(&|number: &Number| number.limit.is_some() && number.name != "median");
+    if required.is_empty() || is_all {
+        columns.extend(named(&is_one_of(&["p5", "p95"])));
+    }
+    let start = columns.len().min(1);
     columns.extend(required.into_iter().filter(|name| !columns.contains(name)).collect::<Vec<_>>());
-    if is_with_spread {
-        columns[1..].sort_by_key(|name| name.trim_start_matches('p').parse::<f64>().map_or(0, |p| (1e6 * p) as u64));
-    }
-    if columns.len() == 1 {
-        columns.extend(named(&|number: &Number| number.name.starts_with('p')));
-    }
+    columns[start..].sort_by_key(|name| name.trim_start_matches('p').parse::<f64>().map_or(0, |p| (1e6 * p) as u64));
     if is_all {
         columns.extend(named(&is_one_of(&["mean", "min"])));
     }

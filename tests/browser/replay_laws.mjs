@@ -54,7 +54,7 @@ export async function checkMission(page, name) {
         const known = Array.from(number.values.subarray(width * place, width * (place + 1)), (value) => value * number.factor);
         const texts = width === 1 ? [shown[k]] : shown[k].slice(0, shown[k].length - number.unit.length).split(", ");
         // numbers with a power of ten are read as they are written
-        const read = texts.map((text) => Number(text.replace(number.unit, "").replaceAll(",", "").replace(/ × 10/, "e").replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]/g, (digit) => "0123456789-"["⁰¹²³⁴⁵⁶⁷⁸⁹⁻".indexOf(digit)])));
+        const read = texts.map((text) => Number(text.replace(number.unit, "").replaceAll("−", "-").replaceAll(",", "").replace(/\s×\s10/, "e").replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]/g, (digit) => "0123456789-"["⁰¹²³⁴⁵⁶⁷⁸⁹⁻".indexOf(digit)])));
         expect(known.every((value, part) => !Number.isFinite(value) || near(read[part], value)), `${number.name} is ${shown[k]} for ${known}`);
       });
       const marks = Array.from(document.querySelectorAll(".marks button"), (button) => [Number(button.dataset.time), parseFloat(button.style.getPropertyValue("--at"))]);

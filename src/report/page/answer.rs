@@ -121,8 +121,9 @@ pub fn first(found: &Findings) -> String {
     let warning = |one: &Finding| format!("<p><b>{}:</b> {}</p>", escaped(&one.title), full(&one.sentence));
     let mut lines: String = found.of(Kind::Warning).map(warning).collect();
     for lost in found.of(Kind::Loss).filter(|one| !one.children.is_empty()) {
-        lines += &format!("<p>{}</p>", full(&lost.sentence));
-        lines += &lost.children.iter().map(reason).collect::<String>();
+        let reasons: Vec<String> = lost.children.iter().map(reason).collect();
+        let count = full(&lost.sentence);
+        lines += &format!("<p class=\"reason\">{count} {}</p>", reasons.join("</p><p class=\"reason\">"));
     }
     if lines.is_empty() { lines } else { format!("<section id=\"warnings\" role=\"alert\">{lines}</section>\n") }
 }
@@ -131,11 +132,7 @@ fn reason(one: &Finding) -> String {
     let notes: String = one.notes.iter().map(|note| format!(" {}", full(note))).collect();
     let command = one.command("plan.toml");
     let command = command.map_or_else(String::new, |command| format!(" Replay: <code>{}</code>", escaped(&command)));
-    format!(
-        "<p class=\"reason\"><b>{}</b>: {}.{notes}{command}</p>",
-        text(&one.title),
-        text(one.sentence.trim_end_matches('.'))
-    )
+    format!("<b>{}</b>: {}.{notes}{command}", text(&one.title), text(one.sentence.trim_end_matches('.')))
 }
 
 /// A row of the table of answers.
@@ -253,7 +250,7 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
         ),
         false => (
             "What was found",
-            ["outcome", "found", "with its interval, from the smallest to the largest value", "runs"],
+            ["outcome", "found", "interval within all values", "runs"],
             format!(
                 "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict \
                 here</summary>\
