@@ -39,7 +39,7 @@ const CRATES: [(&str, &[&str]); 4] = [
     ("rayon", &["ensemble"]),
 ];
 
-/// A source file: its path from `src` or `kernels/src`, and its code up to the unit tests, without lines of comments.
+/// A source file: its path from `src` or `crates/kernels/src`, and its code up to the unit tests, without lines of comments.
 struct Source {
     path: String,
     code: String,
@@ -89,11 +89,11 @@ fn read(folder: &Path, root: &Path, list: &mut Vec<Source>) {
 
 /// All files of the library and of the program.
 fn sources() -> Vec<Source> {
-    ["src", "kernels/src"].iter().flat_map(|folder| sources_in(folder)).collect()
+    ["src", "crates/kernels/src"].iter().flat_map(|folder| sources_in(folder)).collect()
 }
 
 /// Where the sources of each crate are.
-const CRATES_OF_THE_PROJECT: [&str; 3] = ["src", "kernels/src", "python/src"];
+const CRATES_OF_THE_PROJECT: [&str; 3] = ["src", "crates/kernels/src", "crates/python/src"];
 
 /// All files of one crate.
 fn sources_in(folder: &str) -> Vec<Source> {
@@ -260,9 +260,8 @@ const WIDTH: usize = 120;
 fn no_line_is_too_long() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut long = Vec::new();
-    let mut open: Vec<PathBuf> = ["benches", "examples", "figures", "fuzz", "kernels", "python", "src", "tests"]
-        .map(|name| root.join(name))
-        .into();
+    let mut open: Vec<PathBuf> =
+        ["benches", "crates", "examples", "fuzz", "src", "tests"].map(|name| root.join(name)).into();
     while let Some(path) = open.pop() {
         if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
             open.extend(std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()));

@@ -32,7 +32,7 @@ fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<St
         return Some(format!("no answer with {runs:?} and a time: {answer:?}"));
     }
     let picture = format!("figures/gallery/{name}.svg");
-    // the figure that it is: figures/tests/gallery.rs draws it again
+    // the figure that it is: crates/figures/tests/gallery.rs draws it again
     let shown = paragraphs.next().unwrap_or_default();
     if !shown.starts_with("<!-- picture: ") || !shown.ends_with(&format!("]({picture})")) {
         return Some("there is no picture".to_owned());

@@ -129,9 +129,14 @@ fn rules() -> String {
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
     let listed = listed_dependencies();
-    let [program, kernels, figures, python, benches] =
-        ["Cargo.toml", "kernels/Cargo.toml", "figures/Cargo.toml", "python/Cargo.toml", "benches/Cargo.toml"]
-            .map(manifest);
+    let [program, kernels, figures, python, benches] = [
+        "Cargo.toml",
+        "crates/kernels/Cargo.toml",
+        "crates/figures/Cargo.toml",
+        "crates/python/Cargo.toml",
+        "benches/Cargo.toml",
+    ]
+    .map(manifest);
     let mut of_program = program["dependencies"].as_table().expect("a table").clone();
     of_program.extend(kernels["dependencies"].as_table().expect("a table").clone());
     let places = [

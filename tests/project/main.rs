@@ -11,4 +11,5 @@ mod documents;
 mod examples;
 mod gallery;
 mod generated_tables;
+mod weight;
 mod words;

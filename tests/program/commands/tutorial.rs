@@ -91,7 +91,7 @@ fn the_tutorial_does_what_it_says() {
                 assert!(missing.is_none(), "not printed: {}\n{printed}", missing.unwrap_or_default());
                 counts[2] += 1;
             }
-            // drawn and compared in figures/tests/tutorial.rs
+            // drawn and compared in crates/figures/tests/tutorial.rs
             Step::Picture { .. } => counts[3] += 1,
         }
     }

@@ -19,7 +19,7 @@ fn mark<'l>(line: &'l str, name: &str) -> Option<&'l str> {
 /// Law: a reader who does what the tutorial says gets its pictures.
 #[test]
 fn pictures_are_those_of_the_commands() {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
     let document = fs::read_to_string(docs.join("tutorial.md")).expect("a tutorial");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tutorial");
     let _ = fs::remove_dir_all(&folder);

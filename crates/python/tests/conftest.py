@@ -11,7 +11,7 @@ import pytest
 
 import spindrift as sd
 
-REPOSITORY = Path(__file__).parents[2]
+REPOSITORY = Path(__file__).parents[3]
 START = REPOSITORY / "assets" / "start.toml"
 
 

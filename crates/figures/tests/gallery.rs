@@ -53,7 +53,7 @@ fn entries(gallery: &str) -> Vec<[&str; 3]> {
 #[test]
 fn pictures_are_those_that_the_program_draws() {
     draw_by(draw);
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let gallery = fs::read_to_string(root.join("docs/gallery.md")).expect("a gallery");
     let scratch = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gallery");
     let (watch, mut stale, mut missing, mut count) = (Quiet::default(), Vec::new(), Vec::new(), 0);
