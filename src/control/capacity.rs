@@ -1,5 +1,5 @@
-//! [`Capacity`]: about which axes a loop has torque in both directions, whether the momentum of the nominal scene fits
-//! into its wheels, and about which axes its thrusters can take it out again.
+//! [`Capacity`]: the axes about which a loop has torque in both directions, and the nominal momentum that its wheels
+//! can store and its thrusters unload.
 
 use super::allocation::{ThrustAllocation, WheelTorque};
 use crate::control::observes::Observes;
@@ -9,34 +9,32 @@ use crate::control::vector::{difference, dot, norm, product, scaled, sum};
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 
-/// Torques of wheels and thrusters in a direction below this, of the sum of two projections, are none: above its
-/// rounding, 1e-16, and below the square of any alignment that is used, 1e-12.
+/// Threshold of a torque in the sum of two projections: above rounding, 1e-16, and below the square of any real
+/// alignment, 1e-12.
 const NOTHING: f64 = 1e-13;
 
-/// The torque of a loop, and the angular momentum of the nominal scene about its centre of mass that it can take. Axes
-/// are unit vectors in F_s.
+/// Torque of a loop, and the nominal angular momentum about the centre of mass that it can take. Axes are unit vectors
+/// in F_s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
-    /// The part of the momentum within the span of the wheels' axes, N m s.
+    /// Momentum within the span of the wheels' axes, N m s.
     pub within_reach: f64,
-    /// The most that the wheels can take in its direction within their limits of speed, shared by least norm, N m s;
-    /// infinite without limits.
+    /// Most momentum in its direction that the wheels can store within their speed limits, shared by least norm, N m s.
     pub wheels: f64,
-    /// The part about axes without torque in both directions, N m s: the loop cannot take it.
+    /// Momentum about axes without torque in both directions, N m s.
     pub out_of_reach: f64,
-    /// The axes that span the torques of the wheels.
+    /// Axes that span the torques of the wheels.
     pub wheel_axes: Vec<[f64; 3]>,
-    /// The axes that span the torques of the thrusters in both directions, with the total thrust and the net force of 1
-    /// N m, N.
+    /// Axes that span the two-sided torques of the thrusters, with the total thrust and the net force for 1 N m, N.
     pub thruster_axes: Vec<([f64; 3], [f64; 2])>,
-    /// The number of axes about which they unload the wheels: where the force is held, without a net force.
+    /// Number of axes about which they can unload the wheels; without a net force if the force is held.
     pub unloaded_axes: usize,
-    /// The axes about which neither wheels nor thrusters have torque in both directions.
+    /// Axes without two-sided torque of wheels or thrusters.
     pub free_axes: Vec<[f64; 3]>,
 }
 
 impl Capacity {
-    /// The capacity of the loop `spec` in the nominal scene `scene`, as flight software believes it.
+    /// Capacity of the loop `spec` in the nominal scene `scene`, as flight software believes it.
     pub fn of(spec: &LoopSpec, scene: &Scene) -> Self {
         let (mass, initial) = (&scene.mass, &scene.initial);
         let mut momentum = product(mass.inertia, initial.omega_se_s);
@@ -49,7 +47,7 @@ impl Capacity {
         let most = |(share, place): (f64, &usize)| {
             mass.wheels[*place].axial * scene.actuators.wheels[*place].speed_limit / share.abs()
         };
-        // a share of zero limits nothing
+        // a zero share sets no limit
         let limits = shares.into_iter().zip(&spec.wheels).filter(|(share, _)| *share != 0.0).map(most);
         let within_reach = norm(reached);
         let thrusters = ThrustAllocation::of_loop(&spec.believed(scene), &spec.thrusters, wheels.reachable);
@@ -59,7 +57,7 @@ impl Capacity {
         let free_axes: Vec<[f64; 3]> = axes(both, |moment| moment <= NOTHING);
         let out_of_reach = free_axes.iter().map(|axis| dot(*axis, momentum).powi(2)).sum::<f64>().sqrt();
         let with_cost = |axis: [f64; 3]| {
-            // the force is held where that can be
+            // without a net force wherever possible
             let holds_force = spec.holds_force && norm(difference(product(unloading, axis), axis)) < 1e-6;
             (axis, thrusters.cost(axis, holds_force))
         };
@@ -74,7 +72,6 @@ impl Capacity {
         }
     }
 
-    /// About which axes the loop has torque, a line each.
     pub fn lines(&self, spec: &LoopSpec) -> Vec<String> {
         let mut lines = Vec::new();
         if !spec.wheels.is_empty() {
@@ -144,14 +141,14 @@ impl Capacity {
     }
 }
 
-/// The principal axes of `matrix` whose moments are as `is_meant` says; of the whole space those of F_s.
+/// The principal axes of `matrix` with moments that `is_meant` accepts; those of F_s if all are.
 fn axes(matrix: [[f64; 3]; 3], is_meant: impl Fn(f64) -> bool) -> Vec<[f64; 3]> {
     let (moments, c_sb) = principal_axes(matrix);
     let found: Vec<[f64; 3]> = (0..3).filter(|i| is_meant(moments[*i])).map(|i| c_sb.map(|row| row[i])).collect();
     if found.len() == 3 { vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] } else { found }
 }
 
-/// `axes` by their names in F_s, or by their components.
+/// Names of `axes` in F_s, or their components.
 fn names(axes: &[[f64; 3]]) -> String {
     let name = |axis: &[f64; 3]| {
         let place = (0..3).find(|i| {
@@ -183,8 +180,8 @@ mod tests {
         (found, notes)
     }
 
-    /// Law: the momentum of Berdoz's spacecraft along s2, s3 is within the wheels' limits where J Omega says so; that
-    /// along s1 is for P2 and P3, about s1 alone.
+    /// Law: the momentum of Berdoz's spacecraft along s2, s3 fits into the wheels up to J Omega; along s1 only P2 and
+    /// P3 take it.
     #[test]
     fn momenta_fit_or_not() {
         let (found, notes) = capacity(&[]);
@@ -192,7 +189,7 @@ mod tests {
         let expected = (3_055.375_141_124_116 * y).hypot(1_687.280_032_907_598_8 * z);
         assert!((found.within_reach / expected - 1.0).abs() < 1e-12);
         assert_eq!(found.out_of_reach, 0.0, "{x}");
-        // w1 is the first at its limit: it has the larger share
+        // w1 has the larger share and saturates first
         let most = 1.656_699_250_916_492_6 * 40.0 * core::f64::consts::PI * expected / (3_055.375_141_124_116 * y);
         assert!((found.wheels / most - 1.0).abs() < 1e-12);
         assert_eq!((found.thruster_axes.len(), notes.len()), (1, 1), "{notes:?}");

@@ -1,11 +1,11 @@
-//! [`declared!`]: the numbers of a table of a loop, as rows of their keys and as the struct that reads them.
+//! [`declared!`]: numbers of a table, as key rows and as the struct that reads them.
 
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// The type of the numbers of a key.
+/// A value of one key.
 pub trait DeclaredValue: Sized {
-    /// The numbers of the key of `row` in `table`: its default where the table does not declare it, NaN without one.
+    /// The value of the key of `row` in `table`; by default the row's default, else NaN.
     fn read(table: &DeclaredTable, row: &LawParameter) -> Self;
 }
 
@@ -23,8 +23,8 @@ impl DeclaredValue for f64 {
     }
 }
 
-/// `declared! { /// doc Name = ROWS { field: f64 = row; other: [f64; 3] = row; } }`: the struct `Name` with these
-/// fields, its rows `ROWS` for campaign files, and `Name::of(&table)`, which reads them.
+/// `declared! { Name = ROWS { field: f64 = row; other: [f64; 3] = row; } }` defines the struct `Name`, its key rows
+/// `ROWS` and `Name::of(&table)`.
 macro_rules! declared {
     ($(#[$about:meta])* $name:ident = $rows:ident { $($field:ident: $type:ty = $row:expr;)+ }) => {
         $(#[$about])*
@@ -37,7 +37,7 @@ macro_rules! declared {
         pub static $rows: [$crate::scene::LawParameter; [$(stringify!($field)),+].len()] = [$($row),+];
 
         impl $name {
-            /// Reads them from `table`: the default of a key that it does not declare, NaN without one.
+            /// Reads them from `table`; by default a key's default, else NaN.
             pub fn of(table: &$crate::scene::DeclaredTable) -> Self {
                 $name { $($field: $crate::control::declared::DeclaredValue::read(table, &$row)),+ }
             }
@@ -46,7 +46,7 @@ macro_rules! declared {
 }
 pub(crate) use declared;
 
-/// A number that is not negative, with its default.
+/// A nonnegative number with a default.
 pub const fn number(
     key: &'static str,
     unit: &'static str,
@@ -56,7 +56,7 @@ pub const fn number(
     LawParameter::number(key, unit, meaning, Limit::NotNegative).or(default)
 }
 
-/// A limit of which zero is none.
+/// A limit for which zero means none.
 pub fn limit(number: f64) -> f64 {
     if number == 0.0 { f64::INFINITY } else { number }
 }

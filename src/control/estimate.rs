@@ -1,4 +1,4 @@
-//! [`Estimate`]: what flight software believes of the state at a tick.
+//! [`Estimate`]: flight software's belief of the state at a tick.
 
 use crate::scene::MAX_WHEELS;
 
@@ -15,7 +15,6 @@ pub struct DebrisState {
     pub omega_de_d: [f64; 3],
 }
 
-/// The estimated state at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// Attitude quaternion, F_s -> F_e, scalar first.
@@ -30,14 +29,13 @@ pub struct Estimate {
     pub v_co_e: [f64; 3],
     /// Rates of the wheels relative to the body, rad/s.
     pub wheel_rates: [f64; MAX_WHEELS],
-    /// The debris, where the nominal scene has one.
+    /// The debris, if the nominal scene has any.
     pub debris: Option<DebrisState>,
 }
 
 impl Estimate {
-    /// True if all of it is finite.
     pub fn is_finite(&self) -> bool {
-        // a product by zero is NaN of what is not finite, and a sum cannot overflow
+        // 0 times a non-finite number is NaN, and the sum cannot overflow
         let zero = |numbers: &[f64]| numbers.iter().fold(0.0, |sum, number| sum + 0.0 * number);
         let own = zero(&self.q_es) + zero(&self.omega_se_s) + zero(&self.gyro_bias_s) + zero(&self.wheel_rates);
         let of_debris = self.debris.as_ref().map_or(0.0, |debris| {

@@ -1,10 +1,9 @@
-//! [`Failure`]: why a mission has failed.
+//! [`Failure`]: the reason why a mission has failed.
 
-/// Why a mission has failed.
+/// The reason why a mission has failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Failure {
-    /// It has not.
     None,
     /// A phase took longer than its `timeout_s`.
     Timeout,
@@ -14,18 +13,18 @@ pub enum Failure {
     LostTarget,
     /// The spacecraft came closer to the debris than `control.keep_out_m`.
     KeepOut,
-    /// The debris is too slow for its velocity to have a direction, and the file names no other axis.
+    /// The debris is too slow to define an axis, and the file gives no other.
     NoAxis,
-    /// An estimate or a command is no finite number.
+    /// An estimate or a command is not finite.
     Diverged,
-    /// The module that is the law of the phase has trapped: [`crate::control::flight_code`].
+    /// The phase's module has trapped ([`crate::control::flight_code`]).
     ModuleTrap,
-    /// It has used up the fuel of a step.
+    /// The phase's module has used up the fuel of a step.
     ModuleFuel,
 }
 
 impl Failure {
-    /// The names, in the order of their codes.
+    /// Names in the order of the codes.
     pub const NAMES: [&'static str; 9] = [
         "none",
         "timeout",
@@ -38,7 +37,6 @@ impl Failure {
         "module_fuel",
     ];
 
-    /// Its code in a row.
     pub fn code(self) -> f64 {
         f64::from(self as u8)
     }

@@ -14,9 +14,8 @@ use crate::scene::{Actuated, LawParameter};
 
 /// A control law that a campaign flies.
 ///
-/// Its name and its parameters are part of the plan, and so of the identity of the rows. The law of a run is made at
-/// its start and sees this run alone; it must not depend on anything but its context and its input in the run.
-/// Change the name where you change the law: rows that are there already are then other rows.
+/// Its name and parameters are part of the plan, hence of the identity of the rows: change the name when you change the
+/// law. The law of a run is made at its start and must depend on nothing but its context and its input in that run.
 #[derive(Clone)]
 pub struct ControlLaw {
     name: &'static str,
@@ -24,7 +23,7 @@ pub struct ControlLaw {
     parameters: &'static [LawParameter],
     columns: LawColumns,
     make: Arc<LawMaker>,
-    /// The structure of the loop of a campaign file.
+    /// The loop of a campaign file.
     spec: Option<Arc<LoopSpec>>,
 }
 
@@ -73,12 +72,12 @@ impl ControlLaw {
         ControlLaw { columns: reported, spec: Some(spec), ..law }
     }
 
-    /// The structure of the loop of a campaign file; `None` of a law that a program brings.
+    /// The loop of a campaign file; `None` for a program's own law.
     pub fn spec(&self) -> Option<&LoopSpec> {
         self.spec.as_deref()
     }
 
-    /// Adds columns of the rows, which the law reports at the end of a run ([`ActuationLaw::report`]).
+    /// Adds columns that the law reports at the end of a run ([`ActuationLaw::report`]).
     #[must_use]
     pub fn reporting(self, columns: &'static [LawColumn]) -> Self {
         ControlLaw { columns: LawColumns { list: columns, ..self.columns }, ..self }
@@ -89,22 +88,22 @@ impl ControlLaw {
         self.name
     }
 
-    /// The actuators that it commands: rows have their columns of work and impulse.
+    /// The actuators that it commands, which have columns of work and impulse.
     pub fn commands(&self) -> Actuated {
         self.commands
     }
 
-    /// The columns of a row that it reports.
+    /// The columns that it reports.
     pub fn columns(&self) -> LawColumns {
         self.columns
     }
 
-    /// The parameters that it declares: keys of `[control]`.
+    /// Its parameters, keys of `[control]`.
     pub fn parameters(&self) -> &'static [LawParameter] {
         self.parameters
     }
 
-    /// Memory for the laws of the runs of one worker.
+    /// Memory for the laws of one worker's runs.
     pub fn runs(&self) -> LawRuns {
         LawRuns::new(self.make.clone(), self.spec.is_some())
     }
@@ -116,7 +115,7 @@ impl fmt::Debug for ControlLaw {
     }
 }
 
-/// Laws of one name are one law; loops of campaign files are what they consist of.
+/// Laws are equal by name, loops of campaign files also by content.
 impl PartialEq for ControlLaw {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name && self.spec == other.spec

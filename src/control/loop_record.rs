@@ -1,31 +1,30 @@
-//! [`LoopRecord`]: what a control loop records at the observation points: the quantities over time of bands and
-//! requirements.
+//! [`LoopRecord`]: a control loop's quantities over time at the observation points, for bands and requirements.
 //!
-//! A loop knows its errors at its ticks and its torques at the starts of arcs; an observation point has what was known
-//! last. The engine holds the loops of the runs that it flies, so that a record is shared memory: the loop writes it,
-//! and whoever observes the run reads it when the run has ended.
+//! A loop knows its errors at ticks and its torques at starts of arcs; an observation point gets the latest values. The
+//! record is shared memory, because the engine owns the loops: the loop writes it, and the observer reads it after the
+//! run.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::control::guidance::target::AttitudeError;
 use crate::observables::{LawSeries, Series};
 
-/// The quantities at a time.
+/// Quantities at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownOverTime {
-    /// By the place of the series in [`LawSeries`], but for the pointing error; NaN where it is not known.
+    /// By index of the series in [`LawSeries`], except the pointing error; NaN if unknown.
     pub values: [f64; LawSeries::COUNT],
-    /// The pointing error, whose angle is computed at observation points only; `None` without a target.
+    /// The attitude error, if there is a target; its angle is computed at observation points only.
     pub error: Option<AttitudeError>,
 }
 
 /// Before the first tick.
 pub const NOTHING_KNOWN: KnownOverTime = KnownOverTime { values: [f64::NAN; LawSeries::COUNT], error: None };
 
-/// The place of `series`.
+/// The index of `series`.
 ///
 /// # Panics
-/// If no control loop records it.
+/// Unless control loops record it.
 pub fn place(series: Series) -> usize {
     LawSeries::place(series).expect("a control loop records the series")
 }
@@ -34,44 +33,43 @@ pub fn place(series: Series) -> usize {
 #[derive(Debug)]
 pub struct LoopRecord {
     times: Vec<f64>,
-    /// The first point without values.
+    /// First point without values.
     next: usize,
     known: KnownOverTime,
-    /// Series by series and point by point.
+    /// By series, then by point.
     values: Vec<f64>,
 }
 
-/// A record that a loop and the observer of its run share.
+/// A record shared by a loop and the observer of its run.
 #[derive(Clone, Debug)]
 pub struct SharedRecord(Arc<Mutex<LoopRecord>>);
 
 impl SharedRecord {
-    /// A record of runs observed at `times`, s, ascending.
+    /// A record of runs observed at `times`, ascending.
     pub fn new(times: &[f64]) -> Self {
         let values = vec![f64::NAN; times.len() * LawSeries::COUNT];
         SharedRecord(Arc::new(Mutex::new(LoopRecord { times: times.to_vec(), next: 0, known: NOTHING_KNOWN, values })))
     }
 
-    /// The record, as long as what is returned lives.
     pub fn lock(&self) -> MutexGuard<'_, LoopRecord> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl LoopRecord {
-    /// Clears what an earlier run has left.
+    /// Clears the last run.
     pub fn restart(&mut self) {
         (self.next, self.known) = (0, NOTHING_KNOWN);
         self.values.fill(f64::NAN);
     }
 
-    /// `known` is what is known from `time` on, s; times do not descend.
+    /// Sets the values from `time` on; times do not descend.
     pub fn take(&mut self, time: f64, known: &KnownOverTime) {
         self.fill_before(time);
         self.known = *known;
     }
 
-    /// The values at all points, series by series and point by point.
+    /// Values by series, then by point.
     pub fn values(&mut self) -> &[f64] {
         self.fill_before(f64::INFINITY);
         &self.values

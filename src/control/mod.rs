@@ -1,20 +1,17 @@
-//! Layer 4: control in the loop.
+//! Layer 4: control in the loop, between the engines' interface to laws ([`crate::dynamics::actuation`]) and
+//! `campaign`, which reads the files.
 //!
-//! - [`law`]: [`ControlLaw`], a law that a plan can fly; [`context`]: its settings for a run; [`runs`]: the laws of the
-//!   runs that an engine propagates together.
-//! - [`spec`]: the structure of a loop in a campaign file; [`parameters`] and `declared`: its numbers.
-//! - [`control_loop`]: the loop of a run, where plant and flight software exchange the data of [`bus`].
-//! - [`plant`]: the truth ([`truth`]), which [`sensors`] measure ([`measurement`], [`sensor_spec`], [`observes`]) and
-//!   [`actuators`] move.
-//! - [`flight_software`]: [`estimators`] from measurements to an [`estimate`], [`guidance`] to a phase and its target,
-//!   [`laws`] to a torque ([`flight_code`]: those of WebAssembly modules), [`allocation`] to commands.
-//! - [`outcome`], [`failure`]: the end of a run; [`recorder`], [`loop_record`]: its telemetry and quantities over time.
-//! - [`net_launch`]: the launch of a net at debris.
-//! - [`capacity`], [`review`], [`stability`]: checks of a loop before it flies.
-//! - [`vector`], [`rotation`], [`small_matrix`], [`tick_times`]: numbers and times.
-//!
-//! Not here: the interface between engines and laws ([`crate::dynamics::actuation`]), and reading of campaign files
-//! (`campaign`).
+//! - [`spec`], [`parameters`], `declared`: the structure of a loop in a campaign file, and its numbers.
+//! - [`law`], [`context`], [`runs`]: the law of a plan, its settings for one run, and the laws of runs that share an
+//!   engine.
+//! - [`control_loop`]: the loop of one run, in which plant and flight software exchange the data of [`bus`].
+//! - [`plant`]: the [`truth`], measured by [`sensors`] and moved by [`actuators`].
+//! - [`flight_software`]: [`estimators`], [`guidance`], [`laws`] (those of WebAssembly modules: [`flight_code`]) and
+//!   [`allocation`].
+//! - [`outcome`], [`failure`], [`recorder`], [`loop_record`]: results of a run, at its end and over time.
+//! - [`net_launch`]: launch of a net at debris.
+//! - [`capacity`], [`review`], [`stability`]: checks before a loop flies.
+//! - [`vector`], [`rotation`], [`small_matrix`], [`tick_times`]: arithmetic and times.
 
 pub mod actuators;
 pub mod allocation;

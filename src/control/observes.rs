@@ -1,42 +1,39 @@
-//! [`Observes`]: the part of the state that a sensor observes, which estimators use instead of kinds of sensors.
+//! [`Observes`]: the part of the state that a sensor observes. Estimators depend on it, not on kinds of sensors.
 
 use std::sync::Arc;
 
 use super::estimators::attitude_innovation::AttitudeSensor;
 use crate::scene::{DeclaredTable, Scene};
 
-/// The noise of a gyro, as flight software believes it: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
+/// Flight software's model of gyro noise: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroNoise {
-    /// Angular random walk sv.
     pub angular_random_walk: f64,
-    /// Random walk of the bias su.
     pub bias_random_walk: f64,
 }
 
-/// An observed part of the state, with the function from nominal parameters to the noise or the filter's model.
+/// An observed part of the state, with the function from nominal parameters to its noise or filter model.
 #[derive(Clone, Copy, Debug)]
 pub enum Observes {
-    /// The rotation vector of F_s since the sample before, in F_s, rad: the same before and after it.
+    /// The rotation vector of F_s since the last sample, rad.
     Rotation(fn(&DeclaredTable) -> GyroNoise),
     /// The attitude: quaternion F_s -> F_e, scalar first.
     Attitude(fn(&DeclaredTable) -> Arc<dyn AttitudeSensor>),
-    /// A part of the attitude, as the direction of the Sun in F_s is; the scene is the nominal one.
+    /// A direction in F_s, such as that of the Sun; the scene is the nominal one.
     Direction(fn(&DeclaredTable, &Scene) -> Arc<dyn AttitudeSensor>),
-    /// Position and velocity of the base point p in F_e, and of the debris's centre of mass; standard deviations in m
+    /// Position and velocity in F_e of the base point p and of the debris's centre of mass; standard deviations in m
     /// and m/s.
     Motion(fn(&DeclaredTable) -> [f64; 2]),
-    /// Attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its rate relative to the
-    /// spacecraft in F_d, rad/s; standard deviations in rad and rad/s.
+    /// Attitude of the debris relative to the spacecraft F_d -> F_s, scalar first, and its relative rate in F_d, rad/s;
+    /// standard deviations in rad and rad/s.
     DebrisAttitude(fn(&DeclaredTable) -> [f64; 2]),
-    /// Rates of the wheels relative to the body, in the order of those that turn, rad/s.
+    /// Rates of the turning wheels relative to the body, rad/s.
     WheelRates,
-    /// The magnetic field in F_s, T: a part of the attitude, and what torque rods act in.
+    /// The magnetic field in F_s, T: a direction, and the field in which torque rods act.
     Field(fn(&DeclaredTable, &Scene) -> Arc<dyn AttitudeSensor>),
 }
 
 impl Observes {
-    /// Its name in messages.
     pub fn text(&self) -> &'static str {
         match self {
             Observes::Rotation(_) => "the rotation of the body",
@@ -49,17 +46,17 @@ impl Observes {
         }
     }
 
-    /// True if it is about the debris alone.
+    /// True if only debris can be observed this way.
     pub fn needs_debris(&self) -> bool {
         matches!(self, Observes::DebrisAttitude(_))
     }
 
-    /// True if measurements may be delivered later, with their age; filters take the others when they arrive.
+    /// True if measurements may arrive late, with their age; filters apply the others on arrival.
     pub fn has_latency(&self) -> bool {
         !matches!(self, Observes::Rotation(_) | Observes::WheelRates)
     }
 
-    /// True if a loop has at most one: estimators, and laws of torque rods, use a single one.
+    /// True if a loop may have only one: estimators and rod laws use a single one.
     pub fn at_most_one(&self) -> bool {
         matches!(self, Observes::Rotation(_) | Observes::WheelRates | Observes::Field(_))
     }

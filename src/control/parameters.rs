@@ -1,4 +1,4 @@
-//! The numbers that `[control]` and the phases of `[[guidance]]` have: keys with unit, limit, default and meaning.
+//! Keys of the numbers in `[control]` and in phases of `[[guidance]]`.
 
 use super::declared::{declared, number};
 use super::guidance::phase::Maneuver;
@@ -8,7 +8,6 @@ use crate::scene::LawParameter;
 use crate::scene::schema::{Facts, Limit, Needs, Presence, Shape};
 
 declared! {
-    /// Numbers of every loop.
     LoopNumbers = LOOP {
         delay: f64 = number("delay_s", "s", "Time from a tick to the effect of its commands", &[0.0]);
         settling_band: f64 = number(
@@ -35,28 +34,24 @@ declared! {
 }
 
 declared! {
-    /// Numbers of a loop with thrusters.
     ThrusterNumbers = THRUSTERS {
         isp: f64 = number("isp_s", "s", "Specific impulse, from which the propellant follows; 0: not known", &[0.0]);
     }
 }
 
 declared! {
-    /// Numbers of every phase.
     PhaseNumbers = PHASE {
         timeout: f64 = number("timeout_s", "s", "Time in the phase after which the mission fails; 0: never", &[0.0]);
     }
 }
 
 declared! {
-    /// Numbers of a phase with a condition.
     ConditionNumbers = CONDITION {
         hold: f64 = number("hold_s", "s", "How long the condition of the phase must be met", &[0.0]);
     }
 }
 
 declared! {
-    /// Numbers of a phase in a loop with thrusters.
     UnloadingNumbers = UNLOADING {
         time: f64 = number(
             "unloading_time_s",
@@ -69,7 +64,6 @@ declared! {
     }
 }
 
-/// The wanted attitude as a parameter.
 const WANTED_ATTITUDE: LawParameter = LawParameter {
     facts: Facts {
         key: "attitude",
@@ -85,14 +79,12 @@ const WANTED_ATTITUDE: LawParameter = LawParameter {
 };
 
 declared! {
-    /// Numbers of a phase with an attitude.
     AttitudeNumbers = ATTITUDE {
         attitude: [f64; 4] = WANTED_ATTITUDE;
     }
 }
 
-/// The lists of a phase with the target `target` and the maneuver `thrust`, with a condition or without, in a loop with
-/// thrusters or without.
+/// The lists of keys of a phase with this target and maneuver.
 pub fn of_phase(
     target: Target,
     thrust: Maneuver,

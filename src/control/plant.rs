@@ -1,6 +1,5 @@
-//! [`Plant`]: the truth of one run: the scene that is flown, its sensors, and what its actuators make of commands.
-//!
-//! [`super::bus`]: what passes between it and flight software.
+//! [`Plant`]: the truth of one run: its drawn scene, its sensors, and the response of its actuators to commands
+//! ([`super::bus`]).
 
 use std::sync::Arc;
 
@@ -16,24 +15,23 @@ use super::vector::{scaled, sum};
 use crate::dynamics::actuation::{Actuation, BodyState, OpenLoop, WheelState};
 use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
 
-/// The answer of the actuators to commands over an arc.
+/// Response of the actuators over an arc.
 #[derive(Clone, Copy, Debug)]
 pub struct Applied {
-    /// True if a thruster fires, or is stuck on.
+    /// True if a thruster fires or is stuck on.
     pub fires: bool,
-    /// The length of the arc, s: to its end or that of the run.
+    /// Length of the arc, to its end or that of the run.
     pub length: f64,
-    /// True if a motor was limited by its torque, and by the speed of its wheel.
+    /// True if a motor reached its torque limit, and its wheel's speed limit.
     pub saturated: [bool; 2],
-    /// Largest commanded torque beyond a limit, N m.
+    /// Largest commanded torque beyond a limit.
     pub torque_excess: f64,
-    /// True if a limit of a rod cut the wanted dipole.
+    /// True if a rod saturated.
     pub is_rod_saturated: bool,
-    /// The thrusts of the schedule over the arc, those of thrusters that are stuck on among them, N.
+    /// Scheduled thrusts over the arc, including stuck thrusters.
     pub scheduled_thrust: [f64; MAX_THRUSTERS],
 }
 
-/// The truth of one run.
 pub struct Plant {
     spec: Arc<LoopSpec>,
     drawn: Scene,
@@ -41,17 +39,16 @@ pub struct Plant {
     sensors: Vec<SampledSensor>,
     wheel_drives: Vec<WheelDrive>,
     is_on_off: bool,
-    /// The duration of the campaign and the end of the run, s.
+    /// Duration of the campaign and end of the run.
     duration: f64,
     end: f64,
     delivered: Vec<Measurement>,
-    /// The measurement of the ideal sensor of a loop with perfect knowledge.
+    /// Output of the ideal sensor of a loop with perfect knowledge.
     state: Option<Estimate>,
 }
 
 impl Plant {
-    /// A run of the scene `drawn` for `duration` seconds that ends at `end`, measured by `sensors`, with a motor for
-    /// each wheel that turns.
+    /// A run of `drawn` over `duration` seconds that ends at `end`, with a drive for each turning wheel.
     pub fn new(
         spec: &Arc<LoopSpec>,
         drawn: Scene,
@@ -72,22 +69,20 @@ impl Plant {
         }
     }
 
-    /// The scene that is flown.
     pub fn scene(&self) -> &Scene {
         &self.drawn
     }
 
-    /// True if thrusters are on or off.
     pub fn is_on_off(&self) -> bool {
         self.is_on_off
     }
 
-    /// The true state at `time`, s, where the engine has this motion. Times do not descend.
+    /// The true state for the engine's motion at `time`; times do not descend.
     pub fn truth(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Truth {
         Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut())
     }
 
-    /// The measurements delivered at tick number `tick`. Ticks are called in order.
+    /// The measurements delivered at tick `tick`; ticks are in order.
     pub fn measure(&mut self, tick: u64, truth: &Truth) -> Measurements<'_> {
         self.delivered.clear();
         for (place, sensor) in self.sensors.iter_mut().enumerate() {
@@ -99,22 +94,22 @@ impl Plant {
         self.measurements(truth.time)
     }
 
-    /// The last measurements, delivered at `time`, s.
+    /// The last measurements, delivered at `time`.
     pub fn measurements(&self, time: f64) -> Measurements<'_> {
         Measurements { time, delivered: &self.delivered, state: self.state.as_ref() }
     }
 
-    /// The true bias of the gyro, in F_s, rad/s; `None` without one.
+    /// True gyro bias in F_s, if there is a gyro.
     pub fn gyro_bias_s(&self) -> Option<[f64; 3]> {
         self.sensors.iter().find_map(|sensor| sensor.sensor().bias_s())
     }
 
-    /// The failure of `device` by `time`, s.
+    /// The failure of `device` by `time`.
     fn failure(&self, device: Device, time: f64) -> Option<&FailureInput> {
         self.drawn.failures.iter().find(|failure| failure.device == device && failure.at_s <= time)
     }
 
-    /// The thrusters that have failed by `time`, s, with the thrusts at which they are stuck, N.
+    /// Thrusters that have failed by `time`, with the thrusts at which they are stuck.
     fn stuck(&self, time: f64) -> impl Iterator<Item = (usize, f64)> + '_ {
         let same = SAME_TIME * self.spec.period;
         self.drawn.failures.iter().filter_map(move |failure| match failure.device {
@@ -123,16 +118,15 @@ impl Plant {
         })
     }
 
-    /// The thrusts of all thrusters from `time` on, N, those that are stuck on among them, where `actuation` acts.
+    /// All thrusts from `time` on under `actuation`, including stuck thrusters.
     pub fn thrust(&self, time: f64, actuation: &Actuation) -> [f64; MAX_THRUSTERS] {
         let mut thrust = actuation.thrust;
         self.stuck(time).for_each(|(i, stuck)| thrust[i] = stuck);
         thrust
     }
 
-    /// Applies `commands` from `time` on: writes the torques and thrusts of the actuators, and the end of the arc, to
-    /// `actuation`, in which nothing acts. The torques that the schedule of the scene commands add to those
-    /// of the motors; its thrusts are returned.
+    /// Applies `commands` from `time` on: writes torques, thrusts and the end of the arc to the empty `actuation`.
+    /// Scheduled motor torques are added; scheduled thrusts are returned.
     pub fn apply(
         &self,
         time: f64,
@@ -143,7 +137,7 @@ impl Plant {
         let same = SAME_TIME * self.spec.period;
         let scheduled = OpenLoop { schedule: &self.drawn.schedule }.at(time + same);
         let mut until = commands.until.min(scheduled.until);
-        // an actuator that fails ends the arc, unless it is one time with its end
+        // a failing actuator ends the arc, unless it does so within rounding of its end
         let of_actuators = self.drawn.failures.iter().filter(|failure| !matches!(failure.device, Device::Sensor(_)));
         for failure in of_actuators.filter(|failure| time + same < failure.at_s) {
             if failure.at_s < until - same {
@@ -171,12 +165,12 @@ impl Plant {
             }
         }
         fires |= self.stuck(time).any(|(_, thrust)| thrust != 0.0);
-        // the end of the campaign ends an arc too; where an event does, what has acted is what would act until then
+        // the end of the campaign ends an arc too; after an event nothing is undone
         let held = until.min(self.duration) - time;
         let length = until.min(self.end) - time;
         actuation.until = until;
         let (mut saturated, mut torque_excess) = ([false; 2], 0.0_f64);
-        // a wheel whose speed is held has a motor of its own
+        // a wheel held at its speed has its own motor
         for (i, drive) in self.wheel_drives.iter().enumerate() {
             if self.drawn.mass.wheels[i].mode != WheelMode::Free {
                 continue;

@@ -1,5 +1,5 @@
-//! [`Recorder`]: telemetry of a run under a loop: phase, estimates, commands, measurements and what a module reports,
-//! at the control ticks.
+//! [`Recorder`]: telemetry of a run under a loop at its control ticks: phase, estimates, commands, measurements and
+//! module telemetry.
 
 use super::estimate::{DebrisState, Estimate};
 use super::measurement::Measurement;
@@ -13,21 +13,20 @@ use crate::control::tick_times::SAME_TIME;
 use crate::run::{Quantity, Telemetry};
 use crate::scene::MAX_WHEELS;
 
-/// The components of vectors and of quaternions.
+/// Component names of vectors and quaternions.
 const XYZ: &[&str] = &["x", "y", "z"];
 const WXYZ: &[&str] = &["w", "x", "y", "z"];
 
-/// Records a run.
 #[derive(Debug)]
 pub struct Recorder {
     telemetry: Telemetry,
     groups: Vec<Group>,
 }
 
-/// Columns that are recorded together.
+/// Columns recorded together.
 struct Group {
     quantities: Vec<Quantity>,
-    /// Adds a value for each of them.
+    /// Appends a value for each of them.
     values: Values,
 }
 
@@ -39,10 +38,8 @@ impl std::fmt::Debug for Group {
     }
 }
 
-/// The record of a tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Tick<'a> {
-    /// Time, s.
     pub time: f64,
     pub phase: usize,
     /// Angle of the estimated attitude to the target, rad.
@@ -56,7 +53,6 @@ pub struct Tick<'a> {
 }
 
 impl Recorder {
-    /// Records a run under `spec`.
     pub fn new(spec: &LoopSpec) -> Self {
         let groups = groups(spec);
         let quantities = groups.iter().flat_map(|group| group.quantities.clone()).collect();
@@ -68,7 +64,6 @@ impl Recorder {
         &self.telemetry
     }
 
-    /// Records a control tick.
     pub fn tick(&mut self, tick: &Tick<'_>) {
         let mut row = Vec::with_capacity(self.telemetry.quantities.len());
         for group in &self.groups {
@@ -81,7 +76,7 @@ impl Recorder {
     }
 }
 
-/// The columns of a loop, in their order, each group with its values.
+/// The columns of a loop in their order, by groups.
 fn groups(spec: &LoopSpec) -> Vec<Group> {
     let mut list = Vec::new();
     let mut add = |name: &str, components: &[&str], [unit, suffix]: [&str; 2], meaning: &str, values: Values| {
@@ -159,7 +154,7 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         }
     }
     for (place, sensor) in spec.sensors.iter().enumerate() {
-        // its own name where a loop has several of its kind
+        // prefixed by its name if the loop has several of its kind
         let is_alone = spec.sensors.iter().filter(|other| other.kind == sensor.kind).count() == 1;
         let prefix = if is_alone { String::new() } else { format!("{}_", sensor.name) };
         let mut next = 0;
@@ -170,7 +165,6 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
             };
             next += quantity.components.width();
             let sensor = sensor.clone();
-            // the last measurement of the sensor
             let values: Values = Box::new(move |tick, row| {
                 let last = tick.measurements.iter().rev().find(|measurement| measurement.sensor == place);
                 let shown = last.map(|last| sensor.telemetry(last.values));

@@ -1,4 +1,4 @@
-//! [`notes`]: likely mistakes in a control loop, but for its numbers (`ensemble::plausibility`).
+//! [`notes`]: likely mistakes in the structure of a control loop (numbers: `ensemble::plausibility`).
 
 use super::guidance::phase::Next;
 use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
@@ -10,10 +10,10 @@ use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::sampling::SampleId;
 use crate::scene::{ControlInput, DeclaredTable, Scene};
 
-/// Times that differ by less, relative to the duration, are one: a sum of two of them has an error of 1e-16.
+/// Relative tolerance for equal times: a sum of two has an error of 1e-16.
 const SAME: f64 = 1e-12;
-/// Likely mistakes in the loop `spec`, a sentence each: with its nominal numbers `numbers`, in the nominal
-/// scene `scene`, over `duration` seconds.
+/// Likely mistakes in the loop `spec`, one sentence each, with its nominal numbers `numbers` in the nominal scene
+/// `scene` over `duration` seconds.
 pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
     let phases: Vec<(&PhaseSpec, &DeclaredTable)> = spec.phases.iter().zip(&numbers.guidance).collect();
     let mut notes = order(&spec.phases);
@@ -30,7 +30,7 @@ pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f
     notes
 }
 
-/// Sensors of one direction without one of the whole attitude: nothing measures the rotation about it at once.
+/// Sensors of one direction only: the rotation about it is not observed at once.
 fn directions_alone(spec: &LoopSpec) -> Option<String> {
     let is_whole = spec.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::Attitude(_)));
     let mut directions =
@@ -42,7 +42,7 @@ fn directions_alone(spec: &LoopSpec) -> Option<String> {
     })
 }
 
-/// Effects on the spacecraft that the filters and laws do not model.
+/// Effects on the spacecraft that filters and laws do not model.
 fn unknown_effects(scene: &Scene) -> Option<String> {
     let is_unknown = |effect: &Effect| match effect {
         // filters know the commands of torque rods
@@ -59,7 +59,7 @@ fn unknown_effects(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Transfers on an orbit about a flattened body, which guidance takes for a point mass.
+/// Transfers about an oblate body, which guidance takes for a point mass.
 fn transfers_about_a_point_mass(phases: &[(&PhaseSpec, &DeclaredTable)], scene: &Scene) -> Option<String> {
     let j2 = scene.orbit.and_then(|orbit| orbit.j2).filter(|j2| *j2 > 0.0)?;
     let (phase, _) = phases.iter().find(|(_, table)| number(table, "transfer_time_s") > 0.0)?;
@@ -70,7 +70,7 @@ fn transfers_about_a_point_mass(phases: &[(&PhaseSpec, &DeclaredTable)], scene: 
     ))
 }
 
-/// A window of stability that the run does not complete.
+/// A stability window that outlasts the run.
 fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
     let LoopNumbers { stability_from: from, stability_window: window, .. } = LoopNumbers::of(table);
     let end = if window > 0.0 { from + window } else { from };
@@ -87,12 +87,11 @@ fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
     })
 }
 
-/// The first number of `key`, which tables of several kinds have; zero where this one does not.
+/// First number of `key`; zero in tables without it.
 fn number(table: &DeclaredTable, key: &str) -> f64 {
     table.named(key).map_or(0.0, |numbers| numbers[0])
 }
 
-/// The phases that may follow a phase.
 fn followers(phase: &PhaseSpec) -> Vec<usize> {
     let next = match phase.next {
         Next::Phase(next) => Some(next),
@@ -101,7 +100,7 @@ fn followers(phase: &PhaseSpec) -> Vec<usize> {
     next.into_iter().chain(phase.otherwise).collect()
 }
 
-/// Phases that follow themselves, or one another for ever, or are never reached.
+/// Phases that follow themselves, form endless cycles, or are unreachable.
 fn order(phases: &[PhaseSpec]) -> Vec<String> {
     let grow = |mut set: Vec<bool>, joins: &dyn Fn(usize, &[bool]) -> bool| {
         while let Some(place) = (0..set.len()).find(|place| !set[*place] && joins(*place, &set)) {
@@ -139,7 +138,7 @@ fn order(phases: &[PhaseSpec]) -> Vec<String> {
     notes
 }
 
-/// A condition that is never met, or always, and one that has no time to hold.
+/// Conditions that are never met, always met, or have no time to hold.
 fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<String> {
     let Some(until) = &phase.until else { return Vec::new() };
     let (name, hold, timeout) = (phase.name, ConditionNumbers::of(table).hold, PhaseNumbers::of(table).timeout);
@@ -168,7 +167,7 @@ fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<Str
     notes
 }
 
-/// A slew that is faster than a star tracker can measure.
+/// A slew too fast for a star tracker.
 fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &DeclaredTable)) -> Vec<String> {
     let (name, rate) = (phase.name, number(table, "max_rate_rad_s"));
     let mut notes = Vec::new();
@@ -188,11 +187,11 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
     notes
 }
 
-/// A law that is not stable for small errors at the period and the delay of the loop.
+/// A law with unstable small errors at the loop's period and delay.
 fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usize) -> Option<String> {
     let (phase, table) = (&spec.phases[place], &numbers.guidance[place]);
     let law = phase.law?;
-    // a slew under a torque limit brakes on a curve that has no gain at its end
+    // a slew under a torque limit brakes on a curve without a gain at its end
     if number(table, "max_torque_n_m") > 0.0 {
         return None;
     }
@@ -207,7 +206,7 @@ fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usiz
     Some(format!("guidance.{}: {beyond}", phase.name))
 }
 
-/// Wheels that are above their limit of speed at the start.
+/// Wheels above their speed limit at the start.
 fn fast_wheels(spec: &LoopSpec, scene: &Scene) -> Vec<String> {
     let wheels = spec.wheel_names.iter().enumerate();
     let note = |(place, name): (usize, &crate::scene::Name)| {

@@ -1,18 +1,17 @@
-//! Rotations as vectors and as modified Rodrigues parameters, besides the quaternions of [`super::vector`] (scalar
-//! first, Hamilton product).
+//! Rotation vectors and modified Rodrigues parameters, besides the quaternions of [`super::vector`].
 
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, scaled, sum};
 
-/// The quaternion of the rotation vector `v`, rad: angle times axis.
+/// The quaternion of the rotation vector `v` (angle times axis, rad).
 pub fn quaternion_of(v: [f64; 3]) -> [f64; 4] {
     let half = 0.5 * norm(v);
-    // sin(x)/x, without a division by zero
+    // sin(x)/x, regular at zero
     let sinc = if half < 1e-4 { 1.0 - half * half / 6.0 } else { libm::sin(half) / half };
     let [x, y, z] = scaled(0.5 * sinc, v);
     [libm::cos(half), x, y, z]
 }
 
-/// The rotation vector of the quaternion `q`, rad, of the shorter rotation: its length is at most pi.
+/// The rotation vector of `q`, rad, the short way: at most pi long.
 pub fn vector_of(q: [f64; 4]) -> [f64; 3] {
     let [w, x, y, z] = if q[0] < 0.0 { q.map(|component| -component) } else { q };
     let sine = norm([x, y, z]);
@@ -21,16 +20,15 @@ pub fn vector_of(q: [f64; 4]) -> [f64; 3] {
     scaled(factor, [x, y, z])
 }
 
-/// The modified Rodrigues parameters of `q`, of length at most one: tan(angle/4) times the axis, of the shorter
-/// rotation, which is the shadow set where the other is longer (H. Schaub & J. L. Junkins, *Analytical Mechanics of
-/// Space Systems*, 2018, section 3.5).
+/// The modified Rodrigues parameters tan(angle/4) times axis of `q`, the short way (the shadow set beyond half a turn):
+/// at most one long (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 3.5).
 pub fn mrp_of(q: [f64; 4]) -> [f64; 3] {
     let [w, x, y, z] = if q[0] < 0.0 { q.map(|component| -component) } else { q };
     scaled(1.0 / (1.0 + w), [x, y, z])
 }
 
-/// `v` turned by the rotation vector `by`: with components in the frame before the turn, those in the frame after it
-/// are by the opposite vector. Rodrigues's formula.
+/// `v` rotated by the rotation vector `by`, by Rodrigues's formula; components in the rotated frame need the opposite
+/// vector.
 pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
     let angle = norm(by);
     if angle == 0.0 {
@@ -42,8 +40,8 @@ pub fn turned(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
     sum(sum(scaled(cosine, v), scaled(sine, cross(axis, v))), along)
 }
 
-/// The rotation matrix of the shortest way that s3 turns to `direction`, of any length but zero; about s1 where that is
-/// the opposite one.
+/// The rotation matrix that turns s3 to `direction` (any length but zero) the shortest way, about s1 if they are
+/// opposite.
 pub fn from_s3_to(direction: [f64; 3]) -> [[f64; 3]; 3] {
     let [x, y, z] = direction;
     let across = [-y, x, 0.0];
@@ -58,9 +56,8 @@ mod tests {
     use super::*;
     use crate::control::vector::{dcm_from_quaternion, difference, hamilton, product};
 
-    /// Law: vector and quaternion are one rotation, of any angle up to half a turn; so are the MRP, and a turned
-    /// vector. Law: s3 goes to the direction, whatever its length; the axes stay orthonormal and right-handed; s3
-    /// itself is left as it is, bit for bit.
+    /// Law: s3 turns to the direction, whatever its length, by an orthonormal, right-handed matrix; s3 itself stays bit
+    /// for bit.
     #[test]
     fn s3_turns_to_a_direction() {
         let cases = [
@@ -98,11 +95,11 @@ mod tests {
             let by_matrix = product(dcm_from_quaternion(q), u);
             assert!(norm(difference(turned(u, v), by_matrix)) < 2e-15, "{angle}");
         }
-        // beyond half a turn: the shadow set, and the shorter way
+        // beyond half a turn: the shadow set, and the short way
         let q = quaternion_of(scaled(4.0, axis));
         assert!((norm(mrp_of(q)) - libm::tan(0.25 * (2.0 * core::f64::consts::PI - 4.0))).abs() < 1e-15);
         assert!(norm(sum(vector_of(q), scaled(2.0 * core::f64::consts::PI - 4.0, axis))) < 1e-14);
-        // two turns about one axis add
+        // rotations about one axis add
         let both = hamilton(quaternion_of(scaled(0.4, axis)), quaternion_of(scaled(0.7, axis)));
         assert!(norm(difference(vector_of(both), scaled(1.1, axis))) < 1e-15);
     }

@@ -1,5 +1,5 @@
-//! [`LawRuns`]: the laws of the runs that an engine propagates together, each with the schedule of its scene, which a
-//! control loop applies itself.
+//! [`LawRuns`]: the laws of runs that an engine propagates together. Each law acts beside its scene's schedule, except
+//! that a control loop applies the schedule itself.
 
 use std::sync::{Arc as Shared, Mutex, MutexGuard, PoisonError};
 
@@ -11,15 +11,14 @@ use crate::scene::Arc;
 /// Makes the law of a run.
 pub type LawMaker = dyn Fn(&LawContext<'_>) -> Box<dyn ActuationLaw + Send> + Send + Sync;
 
-/// The laws of the runs of a worker, by the index of the run; what an earlier run has left in a place is replaced.
+/// The laws of a worker's runs, by index; a new run replaces the last one at its index.
 pub struct LawRuns {
     make: Shared<LawMaker>,
-    /// True if the laws apply the schedule themselves.
     take_schedule: bool,
     laws: Vec<SharedLaw>,
 }
 
-/// The law of a run, shared by the engine that propagates it and by whoever ends it.
+/// The law of a run, shared by the engine that propagates it and the code that ends it.
 #[derive(Clone)]
 pub struct SharedLaw(Shared<Mutex<BesideSchedule>>);
 
@@ -48,7 +47,7 @@ impl LawRuns {
         LawRuns { make, take_schedule, laws: Vec::new() }
     }
 
-    /// Makes the law of run `run`, which starts. Indices are given from zero on, without a gap.
+    /// Makes the law of run `run`; new indices follow without a gap.
     pub fn begin(&mut self, run: usize, context: &LawContext<'_>) {
         let law = (self.make)(context);
         // both answer at the first arc
@@ -61,19 +60,17 @@ impl LawRuns {
         }
     }
 
-    /// The laws of the runs that have begun.
     pub fn shared(&self) -> Vec<SharedLaw> {
         self.laws.clone()
     }
 
-    /// Writes what the law of run `run`, which has ended, reports: the values of [`super::ControlLaw::columns`], NaN
-    /// where it has none.
+    /// Writes the columns that the law of the completed run `run` reports ([`super::ControlLaw::columns`]), NaN by
+    /// default.
     pub fn report(&self, run: usize, values: &mut [f64]) {
         values.fill(f64::NAN);
         self.laws[run].lock().law.report(values);
     }
 
-    /// The telemetry of run `run`.
     pub fn telemetry(&self, run: usize) -> Option<Telemetry> {
         self.laws[run].lock().law.telemetry().cloned()
     }
@@ -85,11 +82,11 @@ impl LawSource for LawRuns {
     }
 }
 
-/// A law, and the schedule of the scene, whose commands add to those of the law.
+/// A law beside the scene's schedule; their commands add.
 struct BesideSchedule {
     schedule: Vec<Arc>,
     law: Box<dyn ActuationLaw + Send>,
-    /// The last answers of schedule and law.
+    /// Last arcs of schedule and law.
     answers: [Actuation; 2],
 }
 

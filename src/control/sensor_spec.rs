@@ -1,4 +1,4 @@
-//! [`SensorSpec`]: a sensor of a loop, as a campaign file has it; [`Readings`]: the last measurements of all.
+//! [`SensorSpec`]: a sensor of a loop in a campaign file; [`Readings`]: the last measurements of all sensors.
 
 use super::measurement::{Reading, Values};
 use super::observes::Observes;
@@ -6,33 +6,31 @@ use super::sensors;
 use crate::sampling::Written;
 use crate::scene::Name;
 
-/// A sensor.
+/// A sensor of a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorSpec {
-    /// Its name.
     pub name: Name,
-    /// Its kind, by its place in the list.
+    /// Index into [`sensors::KINDS`].
     pub kind: usize,
     /// Time between measurements, s.
     pub period: f64,
-    /// Time from a measurement to its delivery, s.
+    /// Delay from measurement to delivery, s.
     pub latency: f64,
-    /// The keys of its table that are no parameters, as canonical text has them.
+    /// Keys of its table other than parameters, in canonical form.
     pub written: Written,
 }
 
 impl SensorSpec {
-    /// The part of the state that it observes.
     pub fn observes(&self) -> Observes {
         sensors::KINDS[self.kind].observes
     }
 
-    /// The number of numbers of a measurement.
+    /// Number of values in a measurement.
     pub fn width(&self) -> usize {
         sensors::KINDS[self.kind].quantities.iter().map(|quantity| quantity.components.width()).sum()
     }
 
-    /// `values` as telemetry has them: rotations over the period of the sensor as their mean rate.
+    /// `values` for telemetry: rotations over the sensor's period become mean rates.
     pub fn telemetry(&self, mut values: Values) -> Values {
         let mut next = 0;
         for quantity in sensors::KINDS[self.kind].quantities {
@@ -46,20 +44,17 @@ impl SensorSpec {
     }
 }
 
-/// The last measurements of the sensors of a loop.
+/// The last measurements of a loop's sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readings<'a> {
-    /// The sensors, in the order of the loop.
     pub sensors: &'a [SensorSpec],
     /// By sensor; empty if no law reads them.
     pub last: &'a [Reading],
 }
 
 impl<'a> Readings<'a> {
-    /// None.
     pub const NONE: Readings<'static> = Readings { sensors: &[], last: &[] };
 
-    /// Each with its sensor.
     pub fn iter(&self) -> impl Iterator<Item = (&'a SensorSpec, &'a Reading)> + use<'a> {
         self.sensors.iter().zip(self.last)
     }

@@ -1,7 +1,5 @@
-//! Matrices of fixed size, by rows: products, Cholesky factors, inverses. For filters and allocation, without
-//! allocation.
+//! Fixed-size matrices by rows, for filters and allocation: products, Cholesky factors, inverses.
 
-/// The inverse of a 3x3 matrix, by cofactors.
 pub fn inverse(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let minor = |i: usize, j: usize| {
         let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
@@ -11,12 +9,11 @@ pub fn inverse(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| minor(j, i) / determinant))
 }
 
-/// a b.
 pub fn multiplied<const N: usize, const K: usize, const M: usize>(
     a: &[[f64; K]; N],
     b: &[[f64; M]; K],
 ) -> [[f64; M]; N] {
-    // rows of b side by side, which the compiler makes vectors of; closures of from_fn become calls
+    // row loops vectorise; closures of from_fn become calls
     let mut product = [[0.0; M]; N];
     for (row, of_a) in product.iter_mut().zip(a) {
         for (factor, of_b) in of_a.iter().zip(b) {
@@ -28,7 +25,6 @@ pub fn multiplied<const N: usize, const K: usize, const M: usize>(
     product
 }
 
-/// The transpose.
 pub fn transposed<const N: usize, const M: usize>(a: &[[f64; M]; N]) -> [[f64; N]; M] {
     let mut turned = [[0.0; N]; M];
     for (j, row) in a.iter().enumerate() {
@@ -39,7 +35,6 @@ pub fn transposed<const N: usize, const M: usize>(a: &[[f64; M]; N]) -> [[f64; N
     turned
 }
 
-/// a + b.
 pub fn added<const N: usize, const M: usize>(a: &[[f64; M]; N], b: &[[f64; M]; N]) -> [[f64; M]; N] {
     let mut sum = *a;
     for (row, of_b) in sum.iter_mut().zip(b) {
@@ -48,12 +43,11 @@ pub fn added<const N: usize, const M: usize>(a: &[[f64; M]; N], b: &[[f64; M]; N
     sum
 }
 
-/// The diagonal matrix of `entries`.
 pub fn diagonal<const N: usize>(entries: [f64; N]) -> [[f64; N]; N] {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { entries[i] } else { 0.0 }))
 }
 
-/// The lower factor L of a = L L^T; `None` where `a` is not positive definite.
+/// The lower factor L of a = L L^T; `None` unless `a` is positive definite.
 pub fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut l = [[0.0; N]; N];
     for i in 0..N {
@@ -72,7 +66,7 @@ pub fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     Some(l)
 }
 
-/// x with a x = b, where `l` is the factor of `a`.
+/// Solves a x = b by the Cholesky factor `l` of `a`.
 pub fn solved<const N: usize>(l: &[[f64; N]; N], b: [f64; N]) -> [f64; N] {
     let mut y = b;
     for i in 0..N {
@@ -88,7 +82,7 @@ pub fn solved<const N: usize>(l: &[[f64; N]; N], b: [f64; N]) -> [f64; N] {
 mod tests {
     use super::*;
 
-    /// Law: an inverse times its matrix is one; a factor times its transpose is the matrix, and solves it.
+    /// Law: a matrix times its inverse is the identity; a Cholesky factor reproduces its matrix and solves with it.
     #[test]
     fn factors_and_inverses() {
         let a = [[4.0, 1.0, -0.5], [1.0, 3.0, 0.25], [-0.5, 0.25, 2.0]];

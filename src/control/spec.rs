@@ -1,5 +1,5 @@
-//! [`LoopSpec`]: the structure of a control loop in a campaign file. Its numbers, which can be dispersed, are
-//! parameters of the scene.
+//! [`LoopSpec`]: the structure of a control loop in a campaign file. Its dispersible numbers are parameters of the
+//! scene.
 
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
@@ -14,59 +14,45 @@ use crate::observables::{LawSeries, Series};
 use crate::sampling::Written;
 use crate::scene::{Name, Scene};
 
-/// A control loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopSpec {
-    /// Control period, s.
     pub period: f64,
-    /// The estimator, by its place in the list of estimators.
+    /// Index into [`super::estimators::KINDS`].
     pub estimator: usize,
-    /// The wheels that the loop drives, by their places among the wheels that turn.
+    /// Indices of the driven wheels among those that turn.
     pub wheels: Vec<usize>,
-    /// The thrusters that it fires, by their places.
     pub thrusters: Vec<usize>,
-    /// The torque rods that it drives, by their places.
     pub rods: Vec<usize>,
-    /// The modulation of thrusters, by its place in the list.
     pub modulation: usize,
-    /// True if thrusters keep the force at zero outside of maneuvers.
+    /// True if thrusters keep the net force at zero outside maneuvers.
     pub holds_force: bool,
-    /// The sensors.
     pub sensors: Vec<SensorSpec>,
-    /// The module that phases name as their law.
+    /// The WebAssembly module that phases can name as their law.
     pub module: Option<ModuleSpec>,
-    /// The phases; there is at least one.
     pub phases: Vec<PhaseSpec>,
-    /// What flight software believes instead of the nominal scene: mass and centre from p in F_s, and inertia about
-    /// that centre with wheels locked.
+    /// Flight software's beliefs that replace the nominal scene: mass, centre of mass from p in F_s, and inertia about
+    /// it with wheels locked.
     pub model: Written,
-    /// The keys of `[control]` that are no parameters, as canonical text has them.
+    /// Keys of `[control]` other than parameters, in canonical form.
     pub written: Written,
-    /// Whether the scene has debris.
     pub has_debris: bool,
-    /// The names of the wheels that turn.
     pub wheel_names: Vec<Name>,
-    /// The names of the thrusters.
     pub thruster_names: Vec<Name>,
-    /// The names of the torque rods.
     pub rod_names: Vec<Name>,
 }
 
-/// A WebAssembly module as the file names it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModuleSpec {
-    /// The path of its file, as written.
     pub file: String,
-    /// The module.
     pub code: &'static FlightCode,
 }
 
-/// Most ticks in a control period, and control periods in a latency.
+/// Limit on the ticks in a control period, and on the control periods in a latency.
 pub const MOST_TICKS: f64 = 1000.0;
 
-/// The number of ticks in a control period of `period` seconds, at some of which each sensor measures: sensors with
-/// these periods, each a whole multiple of the control period or a whole fraction of it. One where no sensor is faster
-/// than the loop; else the least common multiple of the fractions. `None` where that is more than [`MOST_TICKS`].
+/// The number of ticks in a control period of `period` seconds at which sensors with these periods measure (each a
+/// multiple or a whole fraction of the control period): the least common multiple of the fractions. `None` above
+/// [`MOST_TICKS`].
 pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Option<u64> {
     let common = |a: u64, b: u64| {
         let (mut x, mut y) = (a, b);
@@ -85,43 +71,34 @@ pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Opti
     Some(ticks)
 }
 
-/// A phase of guidance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseSpec {
-    /// Its name.
     pub name: Name,
-    /// Its control law; `None` for no torque.
     pub law: Option<&'static LawKind>,
-    /// True if its law `mrp_feedback` has the term omega x H.
+    /// True if `mrp_feedback` includes the term omega x H.
     pub gyroscopic: bool,
-    /// The attitude that it wants; the quaternion of an attitude is a parameter.
+    /// Target attitude; an inertial target's quaternion is a parameter.
     pub target: Target,
-    /// The use of thrust.
     pub thrust: Maneuver,
-    /// The use of torque rods.
     pub rods: RodUse,
-    /// The condition that ends it.
     pub until: Option<Condition>,
-    /// The next phase.
     pub next: Next,
-    /// The phase that follows at once if the condition is not met.
+    /// Phase that begins at once if the condition is not met.
     pub otherwise: Option<usize>,
-    /// The keys of its table that are no parameters, as canonical text has them.
+    /// Keys of its table other than parameters, in canonical form.
     pub written: Written,
 }
 
 impl LoopSpec {
-    /// Ticks of sensors in a control period.
     pub fn ticks_per_period(&self) -> u64 {
         ticks_per_period(self.period, self.sensors.iter().map(|sensor| sensor.period)).unwrap_or(1)
     }
 
-    /// The module that phases name as their law.
     pub fn code(&self) -> Option<&'static FlightCode> {
         self.module.as_ref().map(|module| module.code)
     }
 
-    /// The quantities over time that the loop records.
+    /// Quantities that the loop records over time.
     pub fn over_time(&self) -> LawSeries {
         let mut series = LawSeries::NONE;
         if self.points() {
@@ -142,37 +119,31 @@ impl LoopSpec {
         self.wheels.iter().fold(series, |series, wheel| series.with(Series::MotorTorque.of_wheel(*wheel)))
     }
 
-    /// True if a phase leads to the launch of a net.
     pub fn launches(&self) -> bool {
         self.phases.iter().any(|phase| phase.next == Next::Launch)
     }
 
-    /// True if a phase has a target.
     pub fn points(&self) -> bool {
         self.phases.iter().any(|phase| phase.target != Target::None)
     }
 
-    /// The kind of the estimator.
     pub fn estimator_kind(&self) -> &'static EstimatorKind {
         &super::estimators::KINDS[self.estimator]
     }
 
-    /// True if the estimator has filters.
     pub fn has_filter(&self) -> bool {
         self.estimator_kind().has_filter
     }
 
-    /// True if an ideal sensor delivers the state.
     pub fn knows_the_truth(&self) -> bool {
         self.estimator_kind().knows_the_truth
     }
 
-    /// True if a camera sees the debris.
+    /// True if a camera observes the debris.
     pub fn has_camera(&self) -> bool {
         self.sensors.iter().any(|sensor| matches!(sensor.observes(), Observes::DebrisAttitude(_)))
     }
 
-    /// True if the launch axis is needed.
     pub fn needs_axis(&self) -> bool {
         let needs = |phase: &PhaseSpec| {
             matches!(phase.target, Target::LaunchAxis | Target::Transfer) || phase.thrust == Maneuver::Transfer

@@ -1,4 +1,4 @@
-//! Stability for small errors of a law whose torque is held over control periods and acts after a delay.
+//! Small-error stability of a law whose torque is held over control periods and acts after a delay.
 //!
 //! About one axis the body is a double integrator, theta'' = a. At tick k, a period T apart, the law gives a_k = -(k
 //! theta_k + c theta'_k + i sum theta + j sum theta'), which acts from t_k + d to t_(k+1) + d, with d = (m + f) T. With
@@ -7,13 +7,12 @@
 //! (z-1)^3 z^(m+1) + (c T (z-1) + j T z) (z-1) D + (k T^2 (z-1) + i T^2 z) (D + (z-1) B) = 0, D = f + (1-f) z, B = f -
 //! f^2/2 + z (1-f)^2/2,
 //!
-//! with a factor z-1 less where there is no integral of the angle, and another one less where there is no stiffness and
-//! no integral of the rate, which acts as a stiffness: a free integrator is not the law's. A law is stable where all
-//! roots are within the unit circle, which the Schur-Cohn test decides without computing them (E. I. Jury, *Theory and
-//! Application of the z-Transform Method*, 1964). Without delay and integral that is k T < 2 c and c T < 2.
+//! with one factor z-1 less without an angle integral, and another one less with neither stiffness nor rate integral,
+//! which acts as a stiffness: free integrators are not the law's. A law is stable if all roots are within the unit
+//! circle, by the Schur-Cohn test (E. I. Jury, *Theory and Application of the z-Transform Method*, 1964); without delay
+//! and integrals that is k T < 2 c and c T < 2.
 //!
-//! Exact for small angles and where flight software believes the nominal inertia; limits, friction, and the lag of an
-//! estimator are not part of it.
+//! Exact for small angles and a believed nominal inertia; limits, friction and estimator lag are not modelled.
 
 use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
@@ -28,35 +27,35 @@ use crate::control::tick_times::SAME_TIME;
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 
-/// Most periods of delay that are judged: the test takes the square of their number.
+/// Most delay periods judged: the test's cost grows with their square.
 const MOST_DELAY: f64 = 200.0;
-/// The error, rad and rad/s, by which the gains of a law are found: the sine of half of it is linear to 4e-14.
+/// Error, rad and rad/s, at which gains are measured: the sine of half of it is linear to 4e-14.
 const SMALL: f64 = 1e-6;
-/// An axis about which less than this share of the largest acceleration can be given is not controlled.
+/// Share of the largest acceleration below which an axis is not controlled.
 const NOT_CONTROLLED: f64 = 1e-12;
-/// A gain below this share of the others is the rounding of a law that does not have it.
+/// Share of the largest gain below which a gain is rounding.
 const NO_GAIN: f64 = 1e-12;
-/// Halvings by which a limit is found.
+/// Bisections to find a limit.
 const HALVINGS: usize = 40;
-/// The least share of its torque at which a law is tried.
+/// Smallest share of its torque at which a law is tried.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// The gains of a law about one axis: accelerations, rad/s^2, for an error of a radian, for a rate of a radian a
-/// second, and for each tick of an error of a radian or of a rate of a radian a second.
+/// Gains of a law about one axis: acceleration, rad/s^2, per radian of error and per rad/s of rate, and the same per
+/// tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisGains {
     /// k, 1/s^2.
     pub stiffness: f64,
     /// c, 1/s.
     pub damping: f64,
-    /// i, 1/s^2 for each tick.
+    /// i, 1/s^2 per tick.
     pub integral: f64,
-    /// j, 1/s for each tick: the integral of the rate.
+    /// j, 1/s per tick: integral of the rate.
     pub rate_integral: f64,
 }
 
 impl AxisGains {
-    /// True if small errors die away at a period of `period` seconds and a delay of `delay` seconds.
+    /// True if small errors decay at a period of `period` and a delay of `delay` seconds.
     pub fn is_stable(&self, period: f64, delay: f64) -> bool {
         let (k, c) = (self.stiffness * period * period, self.damping * period);
         let (i, j) = (self.integral * period * period, self.rate_integral * period);
@@ -105,7 +104,7 @@ impl AxisGains {
     }
 }
 
-/// True if all roots of the polynomial with these coefficients, of falling powers, are within the unit circle.
+/// True if all roots of the polynomial, coefficients in falling powers, are within the unit circle.
 fn is_within_unit_circle(mut a: Vec<f64>) -> bool {
     while a.len() > 1 {
         let last = a.len() - 1;
@@ -118,8 +117,8 @@ fn is_within_unit_circle(mut a: Vec<f64>) -> bool {
     true
 }
 
-/// The gains of `law`, which knows `known`, about each axis that the torques within the projection `reach` control of a
-/// body with the inertia `inertia` (K, kg m^2), all in F_s; without a target the attitude is free.
+/// The gains of `law` about each axis that torques within the projection `reach` control, for a body of inertia
+/// `inertia` (K, kg m^2), all in F_s; without a target the attitude is free.
 pub fn axis_gains(
     law: &AttitudeLaw,
     known: &KnownBody,
@@ -128,7 +127,7 @@ pub fn axis_gains(
     period: f64,
 ) -> Vec<AxisGains> {
     let unit = |axis: usize| std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
-    // columns: the torque against an error about each axis
+    // columns: torque against an error about each axis
     let columns =
         |torque: &dyn Fn([f64; 3]) -> [f64; 3]| [0, 1, 2].map(|axis| scaled(-1.0 / SMALL, torque(unit(axis))));
     let turned = |axis: [f64; 3]| LawInput { q_ts: quaternion_of(scaled(SMALL, axis)), ..LawInput::AT_TARGET };
@@ -137,7 +136,7 @@ pub fn axis_gains(
     // without momentum: omega x H is of second order
     let turning = |axis: [f64; 3]| LawInput { omega_se_s: scaled(SMALL, axis), ..LawInput::AT_TARGET };
     let damping = columns(&|axis| torque(&turning(axis)));
-    // what a tick adds
+    // increment of one tick
     let added = |input: LawInput| -> [f64; 3] {
         let mut law = law.clone();
         let [first, second] = [0.0, period].map(|since| law.torque(known, &input, since));
@@ -151,7 +150,7 @@ pub fn axis_gains(
     let controlled = (0..3).filter(|mode| accelerations[*mode] > NOT_CONTROLLED * most);
     let gains = controlled.map(|mode| {
         let direction = axes.map(|row| row[mode]);
-        // the axis about which the body turns where the torque is along the direction
+        // the axis about which a torque along the direction turns the body
         let turn = product(inverse, direction);
         let along = |columns: &[[f64; 3]; 3]| (0..3).map(|i| dot(columns[i], direction) * turn[i]).sum::<f64>();
         let found = [&stiffness, &damping, &integral, &rate_integral].map(along);
@@ -163,8 +162,8 @@ pub fn axis_gains(
     gains.collect()
 }
 
-/// The largest share of its gains at which small errors die away about every axis under a law that has the gains
-/// `gains(1)`; `None` where they do as it is, zero where no share is enough.
+/// The largest share of the gains, given as `gains(share)`, at which small errors decay about every axis: `None` if
+/// they do at full gain, zero if no share suffices.
 pub fn stable_share(gains: impl Fn(f64) -> Vec<AxisGains>, period: f64, delay: f64) -> Option<f64> {
     let is_stable = |share: f64| gains(share).iter().all(|gains| gains.is_stable(period, delay));
     if delay / period > MOST_DELAY || is_stable(1.0) {
@@ -181,8 +180,7 @@ pub fn stable_share(gains: impl Fn(f64) -> Vec<AxisGains>, period: f64, delay: f
     Some(low)
 }
 
-/// The projection onto the torques that the loop `spec` holds over a period with the actuators of `believed`: pulses do
-/// not.
+/// Projection onto the torques that the loop can hold over a period with the actuators of `believed`; pulses cannot.
 fn reach(spec: &LoopSpec, believed: &Scene) -> [[f64; 3]; 3] {
     let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
     let by_wheels = WheelTorque::new(&axes).reachable;
@@ -193,8 +191,8 @@ fn reach(spec: &LoopSpec, believed: &Scene) -> [[f64; 3]; 3] {
     WheelTorque::new(&added(&by_wheels, &thrusters.two_sided_torques(spec.holds_force))).reachable
 }
 
-/// A sentence that small errors grow under `law`, with the limit of its gains; `None` if they die away. `law` is the
-/// law of phase number `phase` in a run of `scene`, which flight software takes for `believed`.
+/// A sentence with the limit of the gains of `law`, if small errors grow under it; `law` is that of phase number
+/// `phase` in a run of `scene`, believed to be `believed`.
 pub fn beyond_limit(
     (spec, phase): (&LoopSpec, usize),
     (believed, scene): (&Scene, &Scene),
@@ -235,8 +233,7 @@ pub fn beyond_limit(
 mod tests {
     use super::*;
 
-    /// The size of angle and rate in two windows of a double integrator under a torque that is held, flown from instant
-    /// to instant: early and late.
+    /// Largest angle and rate, early and late, of a double integrator under held torque, flown from instant to instant.
     fn flown(gains: AxisGains, period: f64, delay: f64) -> [f64; 2] {
         const TICKS: usize = 6000;
         let (mut angle, mut rate, mut summed, mut summed_rate) = (1.0, 0.3 / period, 0.0, 0.0);
@@ -273,8 +270,8 @@ mod tests {
         sizes
     }
 
-    /// Law: 2% below the limit of the gains errors die away, 2% above it they grow, flown in time: at any delay, with
-    /// and without stiffness, integral of the angle and integral of the rate.
+    /// Law: flown in time, errors decay 2% below the limit of the gains and grow 2% above it, at any delay, with and
+    /// without stiffness and integrals.
     #[test]
     fn the_limit_is_where_errors_begin_to_grow() {
         let mut tried = 0;
@@ -299,7 +296,7 @@ mod tests {
                     let large = shape.times(1e3);
                     let share = match stable_share(|share| vec![large.times(share)], period, delay * period) {
                         Some(share) if share > 0.0 => share,
-                        // too little damping, whatever the gain
+                        // too little damping at any gain
                         _ => continue,
                     };
                     for (factor, grows) in [(0.98, false), (1.02, true)] {

@@ -1,23 +1,19 @@
-//! [`TickTimes`]: the times of ticks as a person writes them. A tick at k T, in binary, may be an ulp off the
-//! decimal number, and so may the difference of two such times: what compares them with numbers of a file takes the
-//! whole number of ticks instead.
+//! [`TickTimes`]: times of ticks as decimal numbers. In binary, k T and differences of such times may be an ulp off;
+//! comparisons with numbers of a file use the integer number of ticks instead.
 
-/// Times that differ by less than this share of a period are one: rounding of the products that they are.
+/// Share of a period below which times are equal, for rounding of their products.
 pub const SAME_TIME: f64 = 1e-9;
 
-/// A time that is nearer to a tick than this share of the time between two is that of the tick: the difference of two
-/// times has a rounding of 2e-16 of them, so that this suffices for 4e9 ticks.
+/// Share of a tick within which a time is that of the tick: with a rounding of 2e-16, enough for 4e9 ticks.
 const NEAR_TICK: f64 = 1e-6;
 
-/// Powers of ten with which a period is tried as a decimal number: more than nine places are a rounding.
+/// Powers of ten at which a period is tried as a decimal number; more than nine places are rounding.
 const SCALES: [f64; 10] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// The times of the ticks of a loop, as quotients of whole numbers where its period is a decimal number: rounded once.
+/// Times of a loop's ticks, as correctly rounded quotients of integers if its period is a decimal number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TickTimes {
-    /// The control period, s.
     period: f64,
-    /// From tick to tick, s.
     tick: f64,
     /// Tick k is at k `numerator`/`denominator`.
     numerator: f64,
@@ -25,7 +21,7 @@ pub struct TickTimes {
 }
 
 impl TickTimes {
-    /// The times of a loop with `ticks` ticks in its period `period`, s.
+    /// Times of a loop with `ticks` ticks per `period`, s.
     pub fn new(period: f64, ticks: u64) -> Self {
         // the nearest decimal number is the period, bit for bit
         let decimal = SCALES.map(|scale| ((period * scale).round(), scale));
@@ -35,12 +31,12 @@ impl TickTimes {
         TickTimes { period, tick: period / ticks, numerator, denominator: denominator * ticks }
     }
 
-    /// The difference below which two times are one, s.
+    /// Difference below which times are equal, s.
     pub fn same(&self) -> f64 {
         SAME_TIME * self.period
     }
 
-    /// `time`, a time or a difference of two, s: where it is that of a tick, rounded once.
+    /// `time`, a time or a difference of two, s; if it is that of a tick, correctly rounded.
     pub fn exact(&self, time: f64) -> f64 {
         let tick = (time / self.tick).round();
         if (time - tick * self.tick).abs() < NEAR_TICK * self.tick {
@@ -55,8 +51,8 @@ impl TickTimes {
 mod tests {
     use super::*;
 
-    /// Law: n ticks last what a file calls n periods, whenever they begin, for every decimal period; times between
-    /// ticks are as they were. By differences of k T alone some are longer and some are shorter.
+    /// Law: n ticks last as long as n periods in a file, whenever they begin, for every decimal period; times between
+    /// ticks are unchanged. Differences of k T alone are off on either side.
     #[test]
     fn times_of_ticks_are_those_that_are_written() {
         let mut beside = [0; 2];
@@ -68,7 +64,7 @@ mod tests {
                 for first in [0, 1, 3, 17, 864_000, 6_048_000] {
                     for count in 1..60 {
                         let [start, end] = [first, first + count * ticks].map(at);
-                        // the digits of the whole number, with the point where the period has it
+                        // digits of the integer, with the period's decimal point
                         let written: f64 = format!("{}e-{unit}", count * per_unit).parse().expect("a number");
                         assert_eq!(times.exact(end - start), written, "{text} {ticks} {first} {count}");
                         beside[0] += usize::from(end - start < written);
@@ -82,7 +78,7 @@ mod tests {
         assert!(beside.iter().all(|count| *count > 100), "{beside:?}");
         assert!(TickTimes::new(0.1, 1).exact(f64::NAN).is_nan());
         assert_eq!(TickTimes::new(0.1, 1).exact(f64::INFINITY), f64::INFINITY);
-        // a period that is no decimal number is as it is
+        // a period that is not decimal stays
         let third = 1.0 / 3.0;
         assert_eq!(TickTimes::new(third, 1).exact(6.0 * third), 2.0);
     }

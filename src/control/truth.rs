@@ -13,42 +13,37 @@ use crate::scene::{MAX_WHEELS, Offsets, Scene};
 /// The true state of a run at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
-    /// Time since the start of the run, s.
     pub time: f64,
-    /// The motion of the body.
     pub body: BodyState,
-    /// Position of c relative to the base point p, in F_s, m.
+    /// Position of c relative to the base point p, in F_s.
     pub r_cp_s: [f64; 3],
-    /// Rates of the wheels relative to the body, rad/s.
     pub wheel_rates: [f64; MAX_WHEELS],
-    /// The debris, where the scene has one.
     pub debris: Option<DebrisState>,
 }
 
-/// The motion of the debris of a run over time: a free rigid body in uniform translation or near an orbit, read at
-/// ascending times.
+/// Motion of the debris over time, as a free rigid body in uniform translation or near an orbit, read at ascending
+/// times.
 #[derive(Clone, Debug)]
 pub struct DebrisMotion {
     inertia: [[f64; 3]; 3],
     inverse: [[f64; 3]; 3],
     is_isotropic: bool,
     start: DebrisState,
-    /// Its motion relative to an orbit, if there is one.
+    /// Motion relative to an orbit, if any.
     orbit: Option<Box<RelativeOrbit>>,
-    /// Time and state of the integration.
     time: f64,
     now: DebrisState,
 }
 
-/// Order of the series of the free rotation, and the largest |omega| h of a step: the first neglected term is
-/// (1/4)^13/13!, far below rounding.
+/// Order of the series of the free rotation, and largest |omega| h of a step: the first neglected term, (1/4)^13/13!,
+/// is far below rounding.
 const ORDER: usize = 12;
 const LARGEST_TURN: f64 = 0.25;
-/// Steps between two readings beyond which the debris is not followed: a hundred thousand radians.
+/// Most steps between two readings, a hundred thousand radians.
 const MOST_STEPS: f64 = 4e5;
 
 impl DebrisMotion {
-    /// The motion of the debris of `scene`; `None` without debris.
+    /// The motion of the debris of `scene`, if any.
     pub fn of(scene: &Scene) -> Option<Self> {
         let body = scene.mass.debris.as_ref()?;
         let initial = &scene.initial;
@@ -66,7 +61,7 @@ impl DebrisMotion {
         Some(DebrisMotion { inertia: body.inertia, inverse, is_isotropic, start, orbit, time: 0.0, now: start })
     }
 
-    /// The state at `time`, s, which is not before that of the last call.
+    /// The state at `time`, not before the last call's.
     pub fn at(&mut self, time: f64) -> DebrisState {
         let start = self.start;
         if self.is_isotropic {
@@ -79,7 +74,7 @@ impl DebrisMotion {
                 let left = time - self.time;
                 let steps = (left / longest).ceil().max(1.0);
                 if steps.is_nan() || steps > MOST_STEPS {
-                    // no rotation that anything can follow: what depends on it diverges
+                    // too fast to follow: everything that depends on it diverges
                     (self.now.omega_de_d, self.now.q_ed, self.time) = ([f64::NAN; 3], [f64::NAN; 4], time);
                     break;
                 }
@@ -125,7 +120,6 @@ impl DebrisMotion {
 }
 
 impl Truth {
-    /// The truth at `time` of a run of `scene` with the motion `body`, `wheels`.
     pub fn new(
         scene: &Scene,
         time: f64,
@@ -155,7 +149,7 @@ impl Truth {
         }
     }
 
-    /// The motion of the base point p.
+    /// Motion of the base point p.
     pub fn base_point(&self) -> PointMotion {
         let (body, c_es) = (&self.body, dcm_from_quaternion(self.body.q_es));
         PointMotion {

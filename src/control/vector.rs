@@ -1,55 +1,44 @@
-//! Three-vectors, 3x3 matrices and quaternions of plain numbers, without fused operations.
+//! Three-vectors, 3x3 matrices and quaternions (Hamilton, scalar first) of plain numbers, without fused operations.
 //!
-//! [`crate::math::vector`] is for lanes, in functions compiled for an instruction set: elsewhere each fused operation
-//! is a call of the library, a seventh of the instructions of a loop. Quaternions are Hamilton's, scalar first. IEEE
-//! 754 operations: the same bits everywhere.
+//! [`crate::math::vector`] is for functions compiled for an instruction set: elsewhere each fused operation is a
+//! library call, a seventh of a loop's instructions. IEEE 754 operations give the same bits everywhere.
 
-/// q*.
 pub fn conjugate(q: [f64; 4]) -> [f64; 4] {
     [q[0], -q[1], -q[2], -q[3]]
 }
 
-/// `a . b`.
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// `a x b`.
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// `a + b`.
 pub fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// `a - b`.
 pub fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// `s a`.
 pub fn scaled(s: f64, a: [f64; 3]) -> [f64; 3] {
     [s * a[0], s * a[1], s * a[2]]
 }
 
-/// `|a|`.
 pub fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// `m a` for a matrix stored by rows.
 pub fn product(m: [[f64; 3]; 3], a: [f64; 3]) -> [f64; 3] {
     [dot(m[0], a), dot(m[1], a), dot(m[2], a)]
 }
 
-/// `m^T a` for a matrix stored by rows.
 pub fn transposed_product(m: [[f64; 3]; 3], a: [f64; 3]) -> [f64; 3] {
     sum(sum(scaled(a[0], m[0]), scaled(a[1], m[1])), scaled(a[2], m[2]))
 }
 
-/// The Hamilton product `p (x) q`.
 pub fn hamilton(p: [f64; 4], q: [f64; 4]) -> [f64; 4] {
     [
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
@@ -59,7 +48,6 @@ pub fn hamilton(p: [f64; 4], q: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// The DCM of a unit quaternion, by rows.
 pub fn dcm_from_quaternion(q: [f64; 4]) -> [[f64; 3]; 3] {
     let [w, x, y, z] = q;
     let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
@@ -74,7 +62,7 @@ pub fn dcm_from_quaternion(q: [f64; 4]) -> [[f64; 3]; 3] {
 mod tests {
     use crate::math::vector as fused;
 
-    /// Law: the operations are those of the kernels, to rounding.
+    /// Law: operations agree with the kernels to rounding.
     #[test]
     fn operations_are_those_of_the_kernels() {
         let (a, b) = ([0.3, -1.2, 0.7], [2.0, 0.25, -0.5]);

@@ -1,11 +1,5 @@
-//! Models of actuators: what they make of a command, as torques and thrusts that are held over an arc.
-//!
-//! - [`wheel_drive`]: a wheel's motor with its limits, and friction.
-//! - [`thruster_drive`]: a thruster that is throttled, or on or off.
-//! - [`modulation`]: the list of how thrusters are driven.
-//! - [`delay`]: commands on their way.
-//!
-//! Not here: alignment errors, which are the scene's, and where the commands come from ([`super::allocation`]).
+//! Models of actuators: constant torques and thrusts over an arc in response to commands. Alignment errors belong to
+//! the scene.
 
 pub mod delay;
 pub mod modulation;

@@ -1,26 +1,25 @@
-//! The list of `control.modulation`: modes of thrusters.
+//! The values of `control.modulation`: modes of thrusters.
 
 use super::thruster_drive::ThrustMode;
 use crate::control::declared::{declared, number};
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// The names, in the order of their places.
+/// Names, by index.
 pub const NAMES: [&str; 3] = ["throttled", "pulse_width", "hysteresis"];
 
 declared! {
-    /// Numbers of hysteresis.
     Levels = LEVELS {
         on: f64 = number("level_on", "1", "Fraction of the shortest firing at which a thruster turns on", &[0.75]);
         off: f64 = number("level_off", "1", "Fraction of the shortest firing at which it turns off", &[0.25]);
     }
 }
 
-/// The keys of the modulation at `place`.
+/// Keys of the modulation `place`.
 pub fn parameters(place: usize) -> &'static [LawParameter] {
     if NAMES[place] == "hysteresis" { &LEVELS } else { &[] }
 }
 
-/// The modulation at `place` with the numbers of `table`.
+/// The modulation `place` with the numbers of `table`.
 pub fn mode(place: usize, table: &DeclaredTable) -> ThrustMode {
     match NAMES[place] {
         "throttled" => ThrustMode::Throttled,
@@ -32,7 +31,7 @@ pub fn mode(place: usize, table: &DeclaredTable) -> ThrustMode {
     }
 }
 
-/// True if thrusters are on or off, so that each needs a largest thrust.
+/// True if thrusters are on or off and hence need a largest thrust.
 pub fn is_on_off(place: usize) -> bool {
     NAMES[place] != "throttled"
 }

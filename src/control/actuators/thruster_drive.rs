@@ -1,20 +1,19 @@
-//! [`ThrusterDrive`]: what a thruster makes of a wanted mean thrust over a control period.
+//! [`ThrusterDrive`]: the response of a thruster to a wanted mean thrust over a control period.
 
-/// The mode of a thruster.
+/// Mode of a thruster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThrustMode {
-    /// To any thrust up to its largest.
+    /// Any thrust up to the largest.
     Throttled,
-    /// On or off, for a share of the period that makes the mean. What is too short for a pulse is kept and added in the
-    /// next period, so that no impulse is lost (Basilisk's `thrFiringRemainder`).
+    /// On or off, for a share of the period that gives the mean. A remainder too short for a pulse carries over to the
+    /// next period (Basilisk's `thrFiringRemainder`).
     Remainder,
-    /// On or off. What is too short for a pulse makes one of the least length from the share `on` of it upwards, none
-    /// from `off` downwards, and what the last period made in between (a Schmitt trigger; Basilisk's
-    /// `thrFiringSchmitt`).
+    /// On or off. Below the shortest pulse, the share of its length turns the thruster on from `on` upwards, off from
+    /// `off` downwards, and leaves it unchanged in between (a Schmitt trigger; Basilisk's `thrFiringSchmitt`).
     Hysteresis {
-        /// Share of the least length at which a pulse starts.
+        /// Share of the shortest pulse that starts one.
         on: f64,
-        /// The share at which it stops; below `on`.
+        /// Share that stops it, below `on`.
         off: f64,
     },
 }
@@ -23,37 +22,34 @@ pub enum ThrustMode {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThrusterDrive {
     pub mode: ThrustMode,
-    /// Largest thrust, N; that while it is on, where it is on or off. Infinite only of one that is throttled without a
-    /// limit.
+    /// Largest thrust, also that of an on-off thruster; infinite only if throttled without a limit.
     pub most: f64,
-    /// Least length of a pulse, s: the minimum impulse bit over the thrust. Not above the control period. Of no effect
-    /// where it is throttled.
+    /// Shortest pulse, at most the control period: minimum impulse bit over thrust. Unused if throttled.
     pub least_on: f64,
 }
 
-/// The memory of a thruster between periods.
+/// Memory of a thruster between periods.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PulseState {
-    /// The length of pulse that was too short to be made, s.
+    /// Pulse length carried over.
     pub remainder: f64,
-    /// True if it was on in the last period.
+    /// True if it fired in the last period.
     pub was_on: bool,
 }
 
-/// The thrust over a period.
+/// Thrust over a period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
-    /// Thrust from the start of the period on, N.
+    /// Thrust from the start of the period on.
     pub thrust: f64,
-    /// Its length, s: at most the period.
+    /// Duration, at most the period.
     pub on_time: f64,
-    /// The wanted mean thrust beyond the largest, N.
+    /// Wanted mean thrust beyond the largest.
     pub excess: f64,
 }
 
 impl ThrusterDrive {
-    /// The thrust over a period of `period` seconds in which the mean thrust `wanted` (N; below zero as zero) is
-    /// wanted.
+    /// Response over `period` seconds to the wanted mean thrust `wanted`; negative counts as zero.
     pub fn over(&self, wanted: f64, period: f64, state: &mut PulseState) -> Pulse {
         let wanted = wanted.max(0.0);
         let excess = (wanted - self.most).max(0.0);
@@ -91,17 +87,17 @@ impl ThrusterDrive {
 mod tests {
     use super::*;
 
-    /// The thruster of Basilisk's tests: 0.5 N, 0.2 s at least, a period of 0.5 s.
+    /// The thruster of Basilisk's tests: 0.5 N, pulses of at least 0.2 s, a period of 0.5 s.
     const PERIOD: f64 = 0.5;
     const THRUSTER: ThrusterDrive = ThrusterDrive { mode: ThrustMode::Remainder, most: 0.5, least_on: 0.2 };
 
-    /// The lengths of the pulses of each thruster over the periods, in which `wanted` is wanted.
+    /// Checks the pulse lengths of eight thrusters over the periods.
     fn assert_pulses<const P: usize>(drive: ThrusterDrive, wanted: [[f64; 8]; P], expected: [[f64; 8]; P]) {
         let mut states = [PulseState::default(); 8];
         for (wanted, expected) in wanted.iter().zip(expected) {
             for (one, state) in states.iter_mut().enumerate() {
                 let pulse = drive.over(wanted[one], PERIOD, state);
-                // Basilisk writes 1.1 periods where the pulse does not end within it
+                // Basilisk writes 1.1 periods for a pulse that does not end within its period
                 let expected = expected[one].min(PERIOD);
                 assert!((pulse.on_time - expected).abs() < 1e-12, "{one}: {pulse:?} for {expected}");
                 assert_eq!(pulse.thrust, if pulse.on_time > 0.0 { 0.5 } else { 0.0 });
@@ -110,7 +106,7 @@ mod tests {
     }
 
     /// Basilisk babdff7, src/fswAlgorithms/effectorInterfaces/thrFiringRemainder/_UnitTest/test_thrFiringRemainder.py,
-    /// to its tolerance; its first two rows are before the module knows a period. Off-pulsing is a thrust less than the
+    /// to its tolerance, without the two rows before the module knows its period. Off-pulsing is a thrust below the
     /// largest.
     #[test]
     fn pulses_with_remainder_are_those_of_basilisk() {

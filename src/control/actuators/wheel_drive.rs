@@ -1,48 +1,41 @@
-//! [`WheelDrive`]: the torque on a wheel over an arc, of its motor within limits and of friction.
+//! [`WheelDrive`]: motor torque within limits, and friction, on a wheel over an arc.
 //!
-//! All of it is held over the arc, so that friction and limits are right to first order in the arc's length. The rate
-//! at the end is predicted from the torque on the wheel alone: what else turns the body changes it, which the next arc
-//! sees.
+//! Torques are constant over the arc, so that friction and limits are exact to first order in its length. The final
+//! rate is predicted from the torque on the wheel alone; other rotation of the body is seen at the next arc.
 
 use crate::control::vector::{dot, product};
 use crate::scene::FailureInput;
 
-/// A wheel's motor and bearing. Torques are about the wheel's axis and act on the wheel; the body takes the opposite.
+/// A wheel's motor and bearing. Torques are about its axis and act on the wheel; the body takes the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelDrive {
-    /// The inertia by which a torque changes the rate relative to the body, kg m^2: [`relative_inertia`].
+    /// Torque over the change of the rate relative to the body, kg m^2: [`relative_inertia`].
     pub inertia: f64,
-    /// Largest torque of the motor, N m; infinite without a limit.
+    /// Largest motor torque; may be infinite.
     pub torque_limit: f64,
-    /// Largest rate relative to the body to which the motor accelerates, rad/s; infinite without a limit.
+    /// Largest rate to which the motor accelerates; may be infinite.
     pub speed_limit: f64,
-    /// Coulomb friction, N m.
     pub coulomb: f64,
-    /// Viscous friction, N m s.
     pub viscous: f64,
-    /// Factor of the commanded torque.
     pub torque_scale: f64,
-    /// Torque that the motor adds to any command other than zero, N m.
+    /// Added to any nonzero command.
     pub torque_bias: f64,
 }
 
-/// The torques on a wheel over an arc.
+/// Torques on a wheel over an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Driven {
-    /// Torque on the wheel, of motor and friction, N m.
+    /// Motor and friction.
     pub torque: f64,
-    /// Torque of the motor, N m.
     pub motor: f64,
-    /// Magnitude of the torque that limits take away, N m.
+    /// Magnitude of the torque cut by limits.
     pub excess: f64,
-    /// True if the torque limit cuts it.
     pub is_torque_limited: bool,
-    /// True if the speed limit does.
     pub is_speed_limited: bool,
 }
 
-/// J/(1 + J a.K^-1 a) of a wheel with the axial inertia J = `axial` (kg m^2) about a = `axis` in F_s: its motor turns
-/// the body too, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a). `inverse` is K^-1, 1/(kg m^2), F_s.
+/// J/(1 + J a.K^-1 a) of a wheel with the axial inertia J = `axial` about a = `axis` in F_s: its motor also turns the
+/// body, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a). `inverse` is K^-1, F_s.
 pub fn relative_inertia(axial: f64, axis: [f64; 3], inverse: [[f64; 3]; 3]) -> f64 {
     axial / (1.0 + axial * dot(axis, product(inverse, axis)))
 }
@@ -61,14 +54,14 @@ impl WheelDrive {
         }
     }
 
-    /// The drive after `failure`, whose factor acts on the torque and on its limit.
+    /// The drive after `failure`, whose factor scales torque and torque limit.
     #[must_use]
     pub fn failed(self, failure: &FailureInput) -> Self {
         let scale = failure.torque_scale.unwrap_or(1.0);
         WheelDrive {
             torque_scale: scale * self.torque_scale,
             torque_bias: scale * self.torque_bias,
-            // an infinite limit stays: zero times infinity is no number
+            // an infinite limit stays: zero times infinity is NaN
             torque_limit: if self.torque_limit.is_finite() {
                 scale.abs() * self.torque_limit
             } else {
@@ -80,26 +73,23 @@ impl WheelDrive {
         }
     }
 
-    /// What acts over an arc of `length` > 0 seconds at whose start the wheel has the rate `rate` relative to the body
-    /// (rad/s), where the torque `commanded` (N m) is commanded.
+    /// Torques over an arc of `length` > 0 seconds from the relative rate `rate` on, under the command `commanded`.
     ///
-    /// The motor accelerates the wheel no further than to the limit of the rate; beyond the limit it leaves the wheel
-    /// to friction, or brakes as commanded. Friction has its value at the start, but does not turn the wheel back:
-    /// where it would, it is what stops the wheel at the end. Where the motor turns the wheel round, Coulomb friction
-    /// is against the motion at the end and viscous friction is zero. A wheel at rest stays at rest where its motor is
-    /// weaker than Coulomb friction.
+    /// The motor accelerates the wheel up to the speed limit; beyond it, it only brakes. Friction has its initial value
+    /// but never reverses the wheel: at most it stops the wheel at the end. If the motor reverses the wheel, Coulomb
+    /// friction opposes the final motion and viscous friction is zero. A wheel at rest stays so under a motor weaker
+    /// than Coulomb friction.
     pub fn over(&self, commanded: f64, rate: f64, length: f64) -> Driven {
         let bias = if commanded == 0.0 { 0.0 } else { self.torque_bias };
         let asked = self.torque_scale * commanded + bias;
         let within = asked.clamp(-self.torque_limit, self.torque_limit);
         // the torque that changes the rate by 1 rad/s over the arc
         let per_rate = self.inertia / length;
-        // the most that the motor may do along a direction in which the rate is `along`: up to the limit, and against
-        // friction
+        // largest motor torque in a direction with the rate `along`: up to the speed limit, against friction
         let friction = |along: f64| if along > 0.0 { self.coulomb + self.viscous * along } else { 0.0 };
         let most = |along: f64| (per_rate * (self.speed_limit - along) + friction(along)).max(0.0);
         let motor = within.clamp(-most(-rate), most(rate));
-        // where the motor turns the wheel round, viscous friction changes sign on the way
+        // if the motor reverses the wheel, viscous friction changes sign on the way
         let to_stop = rate * per_rate + motor;
         let viscous =
             if to_stop * rate > 0.0 { (self.viscous * rate).abs().min(to_stop.abs()).copysign(-rate) } else { 0.0 };
@@ -120,7 +110,7 @@ mod tests {
 
     const WHEEL: WheelDrive = WheelDrive::ideal(0.5);
 
-    /// The rates after each of `arcs` arcs of `length` seconds with the commands `command`.
+    /// Rates after each of `arcs` arcs of `length` seconds under the commands `command`.
     fn rates(
         wheel: &WheelDrive,
         start: f64,
@@ -136,8 +126,8 @@ mod tests {
         (0..arcs).map(|_| next()).collect()
     }
 
-    /// Law: under Coulomb friction the rate falls linearly; the wheel stops, from either side, and stays, also under a
-    /// motor that is weaker.
+    /// Law: Coulomb friction slows a wheel linearly, stops it from either side and holds it, also against a weaker
+    /// motor.
     #[test]
     fn coulomb_friction_stops_a_wheel() {
         let wheel = WheelDrive { coulomb: 0.02, ..WHEEL };
@@ -146,20 +136,20 @@ mod tests {
             let found = rates(&wheel, start, 0.7, 200, |_| 0.0);
             assert!((found[99].abs() - (start.abs() - 0.04 * 70.0)).abs() < 1e-13);
             assert!(found[..106].iter().all(|rate| rate * start > 0.0), "{start}");
-            // rounding of the torque that stops it
+            // rounding of the stopping torque
             assert!(found[108..].iter().all(|rate| rate.abs() < 1e-15), "{:?}", &found[104..110]);
         }
         let at_rest = rates(&wheel, 0.0, 0.7, 10, |_| 0.0199);
         assert!(at_rest.iter().all(|rate| *rate == 0.0));
         let pushed = rates(&wheel, 0.0, 0.7, 10, |_| 0.03);
         assert!((pushed[9] - 0.01 / 0.5 * 7.0).abs() < 1e-15, "{pushed:?}");
-        // where the motor turns it round, friction is against the motion at the end
+        // if the motor reverses it, friction opposes the final motion
         let through = wheel.over(-2.0, 0.4, 0.7);
         assert!((through.torque + 1.98).abs() < 1e-15);
     }
 
-    /// Law: whatever is commanded, the motor stays within its limit and the rate within its own; the excess is what is
-    /// missing; and what is within both limits is given as it is.
+    /// Law: under any command the motor and the rate stay within their limits, the excess is the missing torque, and
+    /// commands within both limits are met.
     #[test]
     fn limits_hold() {
         let wheel = WheelDrive { torque_limit: 0.3, speed_limit: 2.0, coulomb: 0.01, viscous: 0.004, ..WHEEL };
@@ -180,7 +170,7 @@ mod tests {
             met[usize::from(found.is_torque_limited) + 2 * usize::from(found.is_speed_limited)] += 1;
         }
         assert!(met.iter().all(|count| *count > 300), "{met:?}");
-        // held at the limit against friction; above it, left to friction
+        // held at the limit against friction; left to friction above it
         let at_limit = wheel.over(0.3, 2.0, 0.1);
         assert!(at_limit.torque.abs() < 1e-16 && (at_limit.motor - 0.018).abs() < 1e-16, "{at_limit:?}");
         assert_eq!(wheel.over(0.3, 3.0, 0.1).motor, 0.0);

@@ -1,8 +1,4 @@
-//! From a wanted torque, force and dipole to commands of wheels, thrusters and torque rods.
-//!
-//! - [`rods`]: to dipoles of torque rods, within their limits.
-//! - [`thrust`]: to thrusts, none negative, with the least total, by a `simplex` of fixed size.
-//! - [`wheel_torque`]: to torques of wheels' motors, with the least norm.
+//! Allocation of torque, force and dipole to wheels, thrusters and torque rods.
 
 pub mod rods;
 mod simplex;
@@ -15,6 +11,6 @@ pub mod wheel_torque;
 pub use thrust::ThrustAllocation;
 pub use wheel_torque::WheelTorque;
 
-/// A component of a force or torque below this, relative to its length, is rounding: of a lever, a projection, a
-/// difference. Measured: a few 1e-16. A thruster that fired because of it would cut arcs and be counted.
+/// Relative size below which a component of a force or torque is rounding of a lever, projection or difference
+/// (measured: a few 1e-16). A thruster fired by rounding would cut arcs and be counted.
 const ROUNDING: f64 = 1e-14;

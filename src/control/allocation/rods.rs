@@ -1,33 +1,28 @@
-//! [`RodAllocation`]: dipoles of torque rods that add up to a wanted dipole, within their limits.
+//! [`RodAllocation`]: dipoles of torque rods for a wanted dipole, within their limits.
 
 use super::wheel_torque::WheelTorque;
 use crate::control::vector::{scaled, sum};
 use crate::math::list::List;
 use crate::scene::{MAX_TORQUE_RODS, Scene};
 
-/// A command of the torque rods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodCommand {
-    /// Dipoles along the axes of the rods, within their limits, A m^2.
+    /// Dipoles along the rods' axes, within their limits, A m^2.
     pub dipoles: [f64; MAX_TORQUE_RODS],
-    /// True if a limit cut the wanted dipole.
     pub is_limited: bool,
 }
 
-/// No torque rod has a current.
 pub const NO_DIPOLES: RodCommand = RodCommand { dipoles: [0.0; MAX_TORQUE_RODS], is_limited: false };
 
-/// The torque rods of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodAllocation {
-    /// Allocation of unit dipoles: a rod is a wheel whose torque on the body is minus its dipole.
+    /// Least-norm allocation of unit dipoles: a rod is a wheel whose torque on the body is minus its dipole.
     least_norm: WheelTorque,
-    /// Place among all rods, axis in F_s, and limit, A m^2.
+    /// Index among all rods, axis in F_s, and limit, A m^2.
     rods: List<(usize, [f64; 3], f64), MAX_TORQUE_RODS>,
 }
 
 impl RodAllocation {
-    /// The rods at the places `used` of `scene`.
     pub fn of_loop(scene: &Scene, used: &[usize]) -> Self {
         let mut rods = List::empty((0, [0.0; 3], 0.0));
         for place in used {
@@ -38,8 +33,8 @@ impl RodAllocation {
         RodAllocation { least_norm: WheelTorque::new(&axes), rods }
     }
 
-    /// The dipoles with the least norm for the part of `wanted` (F_s, A m^2) within the span of the rods, all by the
-    /// same factor less where one would be beyond its limit: the direction stays.
+    /// Least-norm dipoles for the part of `wanted` (F_s, A m^2) within the rods' span, scaled down together to the
+    /// limits so that the direction stays.
     pub fn limited(&self, wanted: [f64; 3]) -> RodCommand {
         let found = self.least_norm.motors(scaled(-1.0, wanted));
         let ratios = self.rods.iter().zip(found).map(|((_, _, limit), dipole)| dipole.abs() / limit);
@@ -52,7 +47,7 @@ impl RodAllocation {
         RodCommand { dipoles, is_limited: most > 1.0 }
     }
 
-    /// The dipole in F_s of the dipoles `dipoles` of all rods, A m^2.
+    /// Total dipole in F_s of the rods' dipoles `dipoles`, A m^2.
     pub fn dipole(&self, dipoles: &[f64; MAX_TORQUE_RODS]) -> [f64; 3] {
         self.rods.iter().fold([0.0; 3], |total, (place, axis, _)| sum(total, scaled(dipoles[*place], *axis)))
     }
@@ -73,8 +68,8 @@ mod tests {
 
     const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-    /// Law: within the limits the rods have the wanted dipole, three or four of them; beyond, one along it that is at a
-    /// limit; a rod that the loop does not drive has none; two rods have the part within their plane.
+    /// Law: within limits three or four rods give the wanted dipole, beyond them one along it with a rod at its limit;
+    /// undriven rods give none; two rods give the part in their plane.
     #[test]
     fn rods_have_the_wanted_dipole_or_its_direction() {
         let oblique = [0.577_350_269_189_625_8; 3];

@@ -1,37 +1,32 @@
-//! [`least`]: a small linear program with bounded variables and costs in an order of priority, in memory of fixed size.
+//! [`least`]: a small linear program with bounded variables and lexicographic costs, in fixed-size memory.
 //!
-//! The simplex method in tableau form (G. B. Dantzig, *Linear Programming and Extensions*, 1963, chapters 5 and 18 for
-//! bounds) with the rule of R. G. Bland (Mathematics of Operations Research 2(2), 1977), which cannot cycle. Costs are
-//! compared in lexicographic order, as if each priority outweighed all later ones.
+//! The tableau simplex method (G. B. Dantzig, *Linear Programming and Extensions*, 1963, chapters 5 and 18 for bounds)
+//! with the anticycling rule of R. G. Bland (Mathematics of Operations Research 2(2), 1977).
 
 use crate::scene::MAX_THRUSTERS;
 
-/// Largest number of equations: a force and a torque.
+/// Most equations: a force and a torque.
 pub(super) const ROWS: usize = 6;
-/// Largest number of variables: thrusts, a share, and what is missing or too much of each equation.
+/// Most variables: thrusts, a share, and deficit and excess of each equation.
 pub(super) const COLUMNS: usize = MAX_THRUSTERS + 1 + 2 * ROWS;
 /// Number of priorities.
 pub(super) const LEVELS: usize = 4;
 
-/// Smallest reduced cost and smallest pivot that are not rounding, where entries and costs are at most of order one.
+/// Rounding threshold of reduced costs and pivots, with entries and costs of order one.
 const NEGLIGIBLE: f64 = 1e-10;
-/// Most steps. Bland's rule ends by itself (1,000 random sets take 40 steps at most); this holds where rounding makes
-/// it fail.
+/// Most steps, in case rounding defeats Bland's rule; 1,000 random sets take at most 40.
 const MOST_STEPS: usize = 500;
 
-/// A variable: its entries in the equations, its largest value (the smallest is zero), and its costs, the first
-/// priority first.
+/// A variable: entries in the equations, upper bound (the lower is zero), and costs by priority.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub entries: [f64; ROWS],
     pub most: f64,
     pub costs: [f64; LEVELS],
-    /// True if it starts at its largest value.
     pub starts_at_most: bool,
 }
 
 impl Column {
-    /// No variable.
     pub const BLANK: Column = Column { entries: [0.0; ROWS], most: 0.0, costs: [0.0; LEVELS], starts_at_most: false };
 }
 
@@ -40,20 +35,18 @@ struct Tableau<'a> {
     columns: &'a [Column],
     /// Inverse of the basis times the columns, by rows.
     entries: [[f64; COLUMNS]; ROWS],
-    /// Reduced costs.
     costs: [[f64; COLUMNS]; LEVELS],
-    /// The basic variable of each row, and its value.
+    /// Basic variable of each row, and its value.
     basis: [usize; ROWS],
     values: [f64; ROWS],
     is_basic: [bool; COLUMNS],
     is_at_most: [bool; COLUMNS],
 }
 
-/// The variables with the least cost that satisfy the first `rows` equations: entries times variables = `wanted`.
+/// The variables of least cost that satisfy the first `rows` equations, entries times variables = `wanted`.
 ///
-/// The columns from `units` on are those of the unit matrix, then those of its negative: the first basis, of the sign
-/// of what is wanted. Entries, costs and `wanted` are of order one. Errors: a few rounding errors times the condition
-/// of the last basis.
+/// The columns from `units` on form the unit matrix and then its negative, the initial basis by the sign of `wanted`.
+/// Entries, costs and `wanted` are of order one. Error: a few roundings times the condition of the last basis.
 pub(super) fn least(rows: usize, columns: &[Column], units: usize, wanted: [f64; ROWS]) -> [f64; COLUMNS] {
     let mut tableau = Tableau::new(rows, columns, units, wanted);
     let mut steps = 0;
@@ -91,7 +84,7 @@ impl<'a> Tableau<'a> {
         new
     }
 
-    /// `wanted` less what the variables make that are not basic.
+    /// `wanted` less the contribution of nonbasic variables.
     fn missing(&self, mut wanted: [f64; ROWS]) -> [f64; ROWS] {
         for (j, column) in self.columns.iter().enumerate().filter(|(j, _)| self.is_at_most[*j] && !self.is_basic[*j]) {
             debug_assert!(column.most.is_finite(), "variable {j} is at its limit");
@@ -102,8 +95,7 @@ impl<'a> Tableau<'a> {
         wanted
     }
 
-    /// The direction in which a change of variable `j` lowers the cost, if one does: up from zero, or down from its
-    /// largest value.
+    /// The direction of variable `j` that lowers the cost, if any: up from zero or down from its upper bound.
     fn direction(&self, j: usize) -> Option<f64> {
         if self.is_basic[j] || self.columns[j].most == 0.0 {
             return None;
@@ -113,11 +105,11 @@ impl<'a> Tableau<'a> {
         (direction * cost < 0.0).then_some(direction)
     }
 
-    /// One step; false if the cost is least.
+    /// One step; false at the optimum.
     fn step(&mut self) -> bool {
         let entering = (0..self.columns.len()).find_map(|j| self.direction(j).map(|direction| (j, direction)));
         let Some((entering, direction)) = entering else { return false };
-        // how far it can go: to its own other bound, or until a basic variable is at one of its
+        // up to its own other bound or that of a basic variable
         let mut furthest = self.columns[entering].most;
         let mut leaving: Option<(usize, bool)> = None;
         for row in 0..self.rows {
@@ -135,7 +127,7 @@ impl<'a> Tableau<'a> {
             }
         }
         if furthest == f64::INFINITY {
-            // costs are not negative, so that only rounding can come here
+            // costs are nonnegative: only rounding leads here
             return false;
         }
         for row in 0..self.rows {
@@ -155,7 +147,6 @@ impl<'a> Tableau<'a> {
         true
     }
 
-    /// Makes column `column` the unit column of `row`.
     fn pivot(&mut self, row: usize, column: usize) {
         let pivot = self.entries[row][column];
         let of_pivot = self.entries[row].map(|entry| entry / pivot);
@@ -173,8 +164,7 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// The basic variables from the equations again: the errors of the steps go, two digits of them in the worst of
-    /// 1,000 random sets.
+    /// Recomputes the basic variables from the equations; gains up to two digits in 1,000 random sets.
     fn refine(&mut self, units: usize, wanted: [f64; ROWS]) {
         let mut missing = self.missing(wanted);
         for (basic, value) in self.basis.iter().zip(self.values).take(self.rows) {
@@ -182,7 +172,7 @@ impl<'a> Tableau<'a> {
                 *missing -= entry * value;
             }
         }
-        // what became of the unit matrix is the inverse of the basis
+        // the unit matrix has become the inverse of the basis
         for row in 0..self.rows {
             let inverse = &self.entries[row][units..units + self.rows];
             self.values[row] += inverse.iter().zip(missing).map(|(entry, missing)| entry * missing).sum::<f64>();

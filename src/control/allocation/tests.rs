@@ -1,4 +1,4 @@
-//! Allocated thrusts against linear programs solved by other means.
+//! Allocated thrusts against independent solutions of linear programs.
 
 use super::{ThrustAllocation, WheelTorque};
 use crate::control::vector::{cross, difference, norm, scaled};
@@ -27,9 +27,9 @@ fn size(vector: impl IntoIterator<Item = f64>) -> f64 {
     vector.into_iter().map(f64::abs).sum()
 }
 
-/// Law: the optimum is that of SciPy's linprog on 1,000 random sets, with a force and without, with limits and without,
-/// beside wheels that reach nothing, one axis, two, all: what is missing of torque and force by priority, and the
-/// total; no thrust is negative or beyond its limit, and beyond the limits the torque keeps its direction.
+/// Law: on 1,000 random sets the optimum is that of SciPy's linprog, with and without force and limits, beside wheels
+/// that reach zero to three axes: missing torque and force by priority, and the total. No thrust is negative or beyond
+/// its limit, and at the limits the torque keeps its direction.
 #[test]
 fn optima_are_those_of_linprog() {
     let text = include_str!("../../../tests/golden/thrust_allocation.json");
@@ -65,7 +65,7 @@ fn optima_are_those_of_linprog() {
             |is_meant: bool| size((0..3).filter(|i| is_within[*i] == is_meant).map(|i| torque[i] - turned[i]));
         let of_force = force.map_or(0.0, |force| size(difference(force, forced)));
         let found = [missing(false), of_force, missing(true), size(thrust)];
-        // linprog's own tolerances; measured: 5e-12
+        // linprog's tolerances; measured: 5e-12
         for (found, expected) in found.iter().zip(expected) {
             assert!((found - expected).abs() < 5e-11 * (1.0 + expected), "{index}: {found} for {expected}");
         }
@@ -87,7 +87,7 @@ pub fn report(center: [f64; 3], most: f64, by_wheels: [[f64; 3]; 3]) -> ThrustAl
     ThrustAllocation::new(&thrusters, center, &[most; 3], by_wheels)
 }
 
-/// Law: the closed form of P1, P2, P3 gives what is wanted, and is the program's optimum, in each of its three cases.
+/// Law: the closed form of P1, P2, P3 gives the wanted wrench and is the program's optimum, in each of its three cases.
 #[test]
 fn the_closed_form_is_the_optimum() {
     let mut numbers = Numbers(5);
@@ -121,9 +121,8 @@ fn the_closed_form_is_the_optimum() {
     assert!(report([0.1, 0.0, 1.5], 1.0, NONE).lever.is_none(), "with c off s3 they turn about s2 too");
 }
 
-/// Law: rounding fires no thruster. Thrusters whose lines meet c turn nothing, whatever their directions; what wheels
-/// about three oblique axes give is given by them alone; and of a torque across two wheels no thruster gives more than
-/// that of it.
+/// Law: rounding fires no thruster, be it through lines of thrust that meet c, three oblique wheels that give all the
+/// torque, or two wheels and a torque across them.
 #[test]
 fn rounding_fires_nothing() {
     let mut numbers = Numbers(11);
@@ -146,7 +145,7 @@ fn rounding_fires_nothing() {
         if norm(normal) < 0.1 {
             continue;
         }
-        // thrusters in pairs, each pair about one axis of the plane or about its normal
+        // pairs of thrusters, each about one axis of the plane or about its normal
         let level = scaled(1.0 / norm(normal), normal);
         let arms = [axes[0], cross(level, axes[0]), level];
         let pairs = (0..3).flat_map(|i| {
@@ -161,7 +160,7 @@ fn rounding_fires_nothing() {
     }
 }
 
-/// Eight thrusters as in Basilisk's test of thrForceMapping: four at the top, the same at the bottom.
+/// Eight thrusters as in Basilisk's test of thrForceMapping: four at the top, four at the bottom.
 pub fn eight(center: [f64; 3], by_wheels: [[f64; 3]; 3]) -> ThrustAllocation {
     let top = [[-0.8636, -0.8255], [-0.8255, -0.8636], [0.8255, 0.8636], [0.8636, 0.8255]];
     let directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [-1.0, 0.0, 0.0]];

@@ -1,19 +1,17 @@
-//! [`ThrustAllocation`]: thrusts, none negative, that give a wanted torque, and a force where one is wanted, with the
-//! least total thrust.
+//! [`ThrustAllocation`]: nonnegative thrusts for a wanted torque, and for a force if one is wanted, with the least
+//! total.
 //!
-//! **Attitude first.** min sum(f) with the torque as wanted and 0 <= f <= max. The force is free, unless a maneuver or
-//! `hold_force` asks for one. Deviations are least in this order: the torque that no wheel
-//! can give; the force, where one is wanted; the torque that wheels make good (`super::WheelTorque::reachable`); then
-//! the total is made least. An amount is the sum of the magnitudes of the components: of the force in F_s, of the
-//! torque along axes of which each is within the span of the wheels' axes or across it (those of F_s where wheels reach
-//! all or nothing).
+//! **Attitude first.** min sum(f) for the wanted torque and 0 <= f <= max; the force is free unless a maneuver or
+//! `hold_force` sets it. Deviations are minimised in this order: torque that no wheel can give; force, if wanted;
+//! torque that wheels can replace (`super::WheelTorque::reachable`); total thrust. An amount is the sum of component
+//! magnitudes: of the force in F_s, of the torque along axes either within or across the span of the wheels' axes
+//! (those of F_s if wheels reach all or nothing).
 //!
-//! **Limits.** Where a thrust would be beyond its limit, the torque that no wheel can give keeps its direction and is
-//! scaled down as little as possible: a torque against a rate stays one. The rest follows in the order above, within
-//! the limits.
+//! **Limits.** If a thrust exceeds its limit, the torque that no wheel can give is scaled down as little as possible in
+//! its direction, so that a torque against a rate remains one. The rest follows in the order above.
 //!
-//! It is a linear program (`super::simplex`). Berdoz's P1, P2, P3 with a wanted force have a closed form in three
-//! cases.
+//! The problem is a linear program (`super::simplex`). Berdoz's P1, P2, P3 with a wanted force have a closed form in
+//! three cases.
 
 use super::ROUNDING;
 use super::simplex::{COLUMNS, Column, ROWS, least};
@@ -23,27 +21,26 @@ use crate::math::symmetric::principal_axes;
 use crate::scene::thruster::report_offset;
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster};
 
-/// A component of all thrusters' torques (or forces) below this, relative to the largest one, is rounding: far below
-/// any lever or alignment.
+/// Share of the largest component among thrusters below which a component is rounding.
 const NOTHING: f64 = 1e-9;
 
-/// The priorities: torque that no wheel can give, force, torque that wheels make good, the total thrust.
+/// Priorities: torque that no wheel can give, force, torque that wheels can replace, total thrust.
 const ACROSS: usize = 0;
 const FORCE: usize = 1;
 const WITHIN: usize = 2;
 const TOTAL: usize = 3;
 
-/// A force and a torque about c in F_s, N and N m.
+/// A force and a torque about c in F_s.
 pub type Wrench = [[f64; 3]; 2];
 
 /// A component of force or torque.
 #[derive(Clone, Copy, Debug)]
 struct Row {
-    /// Along this unit vector, F_s.
+    /// Unit vector in F_s.
     axis: [f64; 3],
-    /// The priority of what is missing of it.
+    /// Priority of its deviation.
     level: usize,
-    /// The largest of the thrusters at 1 N, N or N m.
+    /// Largest value among the thrusters at 1 N.
     scale: f64,
 }
 
@@ -53,32 +50,32 @@ impl Row {
     }
 }
 
-/// The thrusters, prepared once per run.
+/// The thrusters of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct ThrustAllocation {
     /// Force and torque about c of each thruster at 1 N.
     pub(super) wrenches: List<Wrench, MAX_THRUSTERS>,
-    /// The largest thrusts, N.
+    /// Thrust limits.
     pub(super) most: [f64; MAX_THRUSTERS],
-    /// The components in which the thrusters give anything: those of the torque, then those of the force.
+    /// Components in which the thrusters act, torque before force.
     rows: List<Row, ROWS>,
-    /// P1, P2, P3 with the closed form: the lever, m.
+    /// Lever of P1, P2, P3, if the closed form applies.
     pub(super) lever: Option<f64>,
 }
 
 impl ThrustAllocation {
-    /// Allocation to `thrusters` on a spacecraft with its centre of mass c at `center` (from p in F_s, m). `most` has
-    /// the largest thrusts, N, infinite without a limit, zero of a thruster that is not used; `by_wheels` is the
-    /// projection onto the torques that wheels can give, F_s.
+    /// Allocation to `thrusters` with the centre of mass c at `center` (from p in F_s). Limits `most` are infinite
+    /// without a limit and zero for an unused thruster; `by_wheels` is the projection onto the torques that wheels can
+    /// give.
     ///
     /// # Panics
-    /// With more than [`MAX_THRUSTERS`] thrusters, or not as many limits.
+    /// With more than [`MAX_THRUSTERS`] thrusters, or without a limit for each.
     pub fn new(thrusters: &[Thruster], center: [f64; 3], most: &[f64], by_wheels: [[f64; 3]; 3]) -> Self {
         assert_eq!(thrusters.len(), most.len(), "a limit of each thruster");
         let mut wrenches = List::empty([[0.0; 3]; 2]);
         for thruster in thrusters {
             let torque = cross(difference(thruster.position, center), thruster.direction);
-            // the difference of two positions has their rounding
+            // rounding of the difference of positions
             let least = ROUNDING * (norm(thruster.position) + norm(center)) * norm(thruster.direction);
             wrenches.push([thruster.direction, torque.map(|torque| if torque.abs() <= least { 0.0 } else { torque })]);
         }
@@ -102,8 +99,7 @@ impl ThrustAllocation {
         ThrustAllocation { wrenches, most, rows, lever }
     }
 
-    /// Allocation to the thrusters of a control loop, at the places `used` of `scene`, besides wheels with the torques
-    /// of the projection `by_wheels`.
+    /// Allocation to the thrusters `used` of `scene`, beside wheels with the torques of the projection `by_wheels`.
     pub fn of_loop(scene: &Scene, used: &[usize], by_wheels: [[f64; 3]; 3]) -> Self {
         let models = &scene.actuators.thrusters;
         let limit = |place: usize| if used.contains(&place) { models[place].max_thrust } else { 0.0 };
@@ -111,8 +107,7 @@ impl ThrustAllocation {
         Self::new(&scene.thrusters, scene.mass.center, &most, by_wheels)
     }
 
-    /// The thrusts (N, in the order of the thrusters) for the torque `torque_s` about c (N m, F_s), and for the force
-    /// `force_s` (N, F_s) where one is wanted; none where these are not finite.
+    /// Thrusts for the torque `torque_s` about c and, if wanted, the force `force_s`; none if these are not finite.
     pub fn allocate(&self, force_s: Option<[f64; 3]>, torque_s: [f64; 3]) -> [f64; MAX_THRUSTERS] {
         let wanted = [force_s.unwrap_or([0.0; 3]), torque_s];
         let rows = self.rows(force_s.is_some());
@@ -127,7 +122,7 @@ impl ThrustAllocation {
         }
     }
 
-    /// Force and torque about c in F_s of the thrusts `thrust`, N and N m.
+    /// Force and torque about c in F_s of the thrusts `thrust`.
     pub fn given(&self, thrust: &[f64; MAX_THRUSTERS]) -> Wrench {
         let mut total = [[0.0; 3]; 2];
         for (wrench, thrust) in self.wrenches.iter().zip(thrust) {
@@ -138,20 +133,20 @@ impl ThrustAllocation {
         total
     }
 
-    /// The components of the torque, with those of the force where one is wanted.
+    /// The torque components, and those of the force if wanted.
     pub(super) fn rows(&self, has_force: bool) -> Rows<'_> {
         let torques = self.rows.iter().filter(|row| row.level != FORCE).count();
         Rows(&self.rows[..if has_force { self.rows.len() } else { torques }])
     }
 
-    /// P2 and P3 turn about s1 with opposite signs: P2 - P3 = D makes the torque, P1 - P2 - P3 the force F. The smaller
-    /// of P2, P3 is zero unless that leaves P1 below zero; then P1 is, and P2 + P3 = -F.
+    /// P2 and P3 turn about s1 with opposite signs: P2 - P3 = D gives the torque, P1 - P2 - P3 the force F. The smaller
+    /// of P2, P3 is zero unless P1 would be negative; then P1 is zero, and P2 + P3 = -F.
     fn closed_form(&self, lever: f64, [[_, _, force], [torque, ..]]: &Wrench) -> [f64; MAX_THRUSTERS] {
         let mut thrust = [0.0; MAX_THRUSTERS];
         if !(force.is_finite() && torque.is_finite()) {
             return thrust;
         }
-        // c beside s3: the force has a torque of its own
+        // off s3, the force has its own torque about c
         let of_force = self.wrenches[0][1][0];
         let turning = (torque - of_force * force) / lever;
         let forward = force + turning.abs();
@@ -164,7 +159,7 @@ impl ThrustAllocation {
         thrust
     }
 
-    /// The thrusts as variables, the first of a program, in units of `size`.
+    /// The thrusts as the first variables of a program, in units of `size`.
     fn thrusts(&self, rows: Rows<'_>, size: f64, most: impl Fn(f64) -> f64) -> List<Column, COLUMNS> {
         let mut columns = List::empty(Column::BLANK);
         for (wrench, limit) in self.wrenches.iter().zip(self.most) {
@@ -175,7 +170,7 @@ impl ThrustAllocation {
         columns
     }
 
-    /// The thrusts without limits that come nearest to `wanted` in `rows`, with the least total.
+    /// Unlimited thrusts nearest to `wanted` in `rows`, with the least total.
     pub(super) fn nearest(&self, rows: Rows<'_>, wanted: &Wrench) -> [f64; MAX_THRUSTERS] {
         let size = rows.size(wanted);
         if size == 0.0 || !size.is_finite() {
@@ -186,18 +181,18 @@ impl ThrustAllocation {
         self.solved(&columns, self.wrenches.len(), rows, wanted, size)
     }
 
-    /// The thrusts within their limits: of the torque of `without_limits` that no wheel can give the largest share,
-    /// then what comes nearest to the rest of `wanted`.
+    /// Thrusts within limits: the largest share of the torque of `without_limits` that no wheel can give, then the rest
+    /// of `wanted`.
     fn within_limits(&self, rows: Rows<'_>, wanted: &Wrench, without_limits: &Wrench) -> [f64; MAX_THRUSTERS] {
         let mut target = *wanted;
-        // the rows are a basis of the torques that the thrusters give
+        // the rows are a basis of the thrusters' torques
         for row in rows.0.iter().filter(|row| row.level == ACROSS) {
             let change = row.of(without_limits) - row.of(wanted);
             target[1] = std::array::from_fn(|i| target[1][i] + change * row.axis[i]);
         }
         let size = rows.size(&target);
         let mut columns = self.thrusts(rows, size, |most| most);
-        // the share that is not given: all at the start
+        // the missing share, initially all
         let mut share = Column { entries: rows.of(&target, size), most: 1.0, starts_at_most: true, ..Column::BLANK };
         share.costs[ACROSS] = 1.0;
         for (entry, _) in share.entries.iter_mut().zip(rows.0).filter(|(_, row)| row.level != ACROSS) {
@@ -207,7 +202,7 @@ impl ThrustAllocation {
         let units = columns.len();
         rows.push_units(&mut columns, |row| if row.level == ACROSS { 0.0 } else { f64::INFINITY });
         let mut thrust = self.solved(&columns, units, rows, &target, size);
-        // of the product of limit and size
+        // rounding of limit times size
         thrust.iter_mut().zip(self.most).for_each(|(thrust, most)| *thrust = thrust.min(most));
         thrust
     }
@@ -229,12 +224,12 @@ impl ThrustAllocation {
     }
 }
 
-/// The components of a wrench that count.
+/// Components of a wrench that count.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a>(&'a [Row]);
 
 impl Rows<'_> {
-    /// The components of `wrench`, in units of their scales and of `size`; rounding becomes zero.
+    /// Components of `wrench` in units of their scales and of `size`; rounding becomes zero.
     fn of(&self, wrench: &Wrench, size: f64) -> [f64; ROWS] {
         let [force, torque] = wrench.map(|part| ROUNDING * norm(part));
         let mut found = [0.0; ROWS];
@@ -246,17 +241,17 @@ impl Rows<'_> {
         found
     }
 
-    /// The sum of their magnitudes, in units of their scales.
+    /// Sum of their magnitudes in units of their scales.
     fn size(&self, wrench: &Wrench) -> f64 {
         self.of(wrench, 1.0).iter().map(|entry| entry.abs()).sum()
     }
 
-    /// True if all of `wrench` is below `least`, relative to what the thrusters give.
+    /// True if all components of `wrench` are below `least`, relative to the thrusters.
     pub(super) fn is_negligible(&self, wrench: &Wrench, least: f64) -> bool {
         self.of(wrench, 1.0).iter().all(|entry| entry.abs() <= least)
     }
 
-    /// Adds the deficit and the excess of each component as variables up to `most`.
+    /// Adds deficit and excess of each component as variables up to `most`.
     fn push_units(&self, columns: &mut List<Column, COLUMNS>, most: impl Fn(&Row) -> f64) {
         let largest = |level: usize| {
             let of_level = self.0.iter().filter(|row| row.level == level);
@@ -273,10 +268,9 @@ impl Rows<'_> {
     }
 }
 
-/// Three orthogonal axes of which each is within the span of the projection `by_wheels` or across it: those of F_s
-/// where `by_wheels` is diagonal. Otherwise the one axis that is alone, n, within or across; the direction within the
-/// plane across n that is nearest to an axis of F_s, to the first of them where several are as near; and their cross
-/// product.
+/// Three orthogonal axes, each within or across the span of the projection `by_wheels`: those of F_s if it is diagonal.
+/// Otherwise the single axis n within or across, the direction across n nearest to an axis of F_s (the first of
+/// equals), and their cross product.
 fn torque_axes(by_wheels: [[f64; 3]; 3]) -> [([f64; 3], usize); 3] {
     let of_frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let within = (0..3).map(|i| by_wheels[i][i]).sum::<f64>().round() as usize;

@@ -5,16 +5,14 @@ use crate::control::vector::{difference, norm, product, scaled, sum};
 use crate::math::list::List;
 use crate::scene::MAX_THRUSTERS;
 
-/// Directions that differ by less, relative to their length, are one: far above the rounding of positions, far below
-/// any alignment.
+/// Relative tolerance for equal directions, far above rounding of positions and below any alignment.
 const SAME: f64 = 1e-9;
 
 impl ThrustAllocation {
-    /// The projection onto the torques (F_s) that the thrusters give in both directions, with whatever net force comes
-    /// with them; where `holds_force`, without any. Momentum of wheels along them can be unloaded. Of P1, P2, P3 it is
-    /// s1 s1^T.
+    /// The projection onto torques (F_s) that the thrusters give in both directions; with `holds_force`, without a net
+    /// force. Wheel momentum along them can be unloaded. For P1, P2, P3 it is s1 s1^T.
     pub fn two_sided_torques(&self, holds_force: bool) -> [[f64; 3]; 3] {
-        // what a cone of wrenches has in both directions is spanned by those of its generators whose opposite is in it
+        // the two-sided part of a cone of wrenches is spanned by the generators whose opposites are in it
         let mut spanning = List::<Wrench, MAX_THRUSTERS>::empty([[0.0; 3]; 2]);
         let rows = self.rows(holds_force);
         for (wrench, _) in self.wrenches.iter().zip(self.most).filter(|(_, most)| *most > 0.0) {
@@ -41,8 +39,8 @@ impl ThrustAllocation {
         projection
     }
 
-    /// The total thrust and the magnitude of the net force, N, of 1 N m about the unit vector `axis` (F_s), in the
-    /// direction in which each is larger, without limits; where `holds_force`, with the force held at zero.
+    /// Total thrust and magnitude of the net force for 1 N m about the unit vector `axis` (F_s), each in its worse
+    /// direction, without limits; with `holds_force` at zero force.
     pub fn cost(&self, axis: [f64; 3], holds_force: bool) -> [f64; 2] {
         [1.0, -1.0].iter().fold([0.0_f64; 2], |[total, force], sign| {
             let thrust = self.nearest(self.rows(holds_force), &[[0.0; 3], scaled(*sign, axis)]);
@@ -51,7 +49,7 @@ impl ThrustAllocation {
     }
 }
 
-/// Eliminates the forces of `vectors`: of the space that they span, vectors that span the part without a force.
+/// Reduces `vectors` to vectors that span the part of their space without a force.
 fn without_force(vectors: &mut [Wrench]) {
     let largest = vectors.iter().map(|[force, _]| norm(*force)).fold(0.0, f64::max);
     for component in 0..3 {
@@ -73,9 +71,9 @@ mod tests {
     use crate::scene::Thruster;
     use crate::scene::thruster::REPORT_DIRECTIONS;
 
-    /// Law: torque in both directions: about s1 of P1, P2, P3, with the force held or free, about all axes of eight
-    /// thrusters; of P2 and P3 alone, and of two opposite thrusters, where the force is free. In that space every
-    /// torque is given, in both directions.
+    /// Law: two-sided torques are about s1 for P1, P2, P3, with the force held or free; about all axes for eight
+    /// thrusters; and exist for P2 and P3 alone, or for two opposite thrusters, only if the force is free. Every torque
+    /// in that space is given in both directions.
     #[test]
     fn two_sided_torques_can_be_given() {
         let close = |found: [[f64; 3]; 3], expected: [f64; 3]| {
@@ -99,7 +97,7 @@ mod tests {
         let without_first = ThrustAllocation::new(&three, [0.0, 0.0, 1.5], &[0.0, 1.0, 1.0], NONE);
         assert!(close(without_first.two_sided_torques(true), [0.0; 3]), "they only brake");
         assert!(close(without_first.two_sided_torques(false), [1.0, 0.0, 0.0]));
-        // two opposite thrusters beside c: no torque without a force
+        // two opposite thrusters off c: no torque without a force
         let position = [0.3, 0.7, 0.11];
         let beside = [1.0, -1.0].map(|to| Thruster { position, direction: scaled(to, [0.48, -0.6, 0.64]) });
         let of_pair = |held| ThrustAllocation::new(&beside, [0.0; 3], &[1.0; 2], NONE).two_sided_torques(held);

@@ -1,4 +1,4 @@
-//! [`WheelTorque`]: torques of wheels' motors that give a wanted torque on the body, with the least norm.
+//! [`WheelTorque`]: least-norm motor torques for a wanted torque on the body.
 
 use super::ROUNDING;
 use crate::control::vector::{dot, norm, product, scaled, sum};
@@ -6,28 +6,27 @@ use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// A direction along which the sum of the squares of the axes' components is less than this, relative to the largest
-/// such sum, is not reached: above the rounding of such sums, 1e-16, and below the square of any alignment that is
-/// used, 1e-12.
+/// Share of the largest sum of squared axis components below which a direction is not reached: above rounding, 1e-16,
+/// and below the square of any real alignment, 1e-12.
 const NOT_REACHED: f64 = 1e-13;
 
-/// The axes of the wheels, prepared once per run.
+/// The wheels' axes, prepared for a run.
 ///
-/// A motor's torque tau on a wheel acts as -tau on the body: u = -A tau, with the axes as columns of A. tau = -A^T (A
-/// A^T)^+ u has the least norm of all that give the part of u within the span of the axes (the pseudo-inverse of R.
-/// Penrose, Proc. Cambridge Phil. Soc. 51, 1955).
+/// A motor torque tau on a wheel acts as -tau on the body: u = -A tau with the axes as columns of A. tau = -A^T (A
+/// A^T)^+ u is the least-norm solution for the part of u within the axes' span (R. Penrose, Proc. Cambridge Phil. Soc.
+/// 51, 1955).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelTorque {
-    /// Torques of the motors for a unit torque on the body along each axis of F_s, by wheels.
+    /// Motor torques, by wheel, for unit torques on the body along F_s.
     gains: List<[f64; 3], MAX_WHEELS>,
-    /// The projection onto the span of the axes, F_s: torques on the body that the wheels can give.
+    /// Projection onto the span of the axes, F_s: the torques that the wheels can give.
     pub reachable: [[f64; 3]; 3],
-    /// Unit vectors, orthogonal, along which no wheel gives a torque, F_s.
+    /// Orthonormal directions without torque, F_s.
     across: List<[f64; 3], 3>,
 }
 
 impl WheelTorque {
-    /// Wheels with the axes `axes`, unit vectors in F_s.
+    /// Wheels with the unit axes `axes` in F_s.
     ///
     /// # Panics
     /// With more than [`MAX_WHEELS`] wheels.
@@ -53,12 +52,12 @@ impl WheelTorque {
         WheelTorque { gains, reachable, across }
     }
 
-    /// The wheels of a control loop, at the places `used` among those of `scene` that turn.
+    /// The wheels `used` among the turning wheels of `scene`.
     pub fn of_loop(scene: &Scene, used: &[usize]) -> Self {
         Self::new(&used.iter().map(|place| scene.mass.wheels[*place].axis).collect::<Vec<_>>())
     }
 
-    /// The part of the torque `torque_s` (F_s, N m) that no wheel can give; a component of it that is rounding is zero.
+    /// The part of `torque_s` (F_s) that no wheel can give; components that are rounding are zero.
     pub fn out_of_reach(&self, torque_s: [f64; 3]) -> [f64; 3] {
         let least = ROUNDING * norm(torque_s);
         let components = self.across.iter().map(|axis| (dot(*axis, torque_s), axis));
@@ -67,8 +66,7 @@ impl WheelTorque {
             .fold([0.0; 3], |all, (along, axis)| sum(all, scaled(along, *axis)))
     }
 
-    /// The torques of the motors on the wheels (N m, in the order of the axes) for the torque `torque_s` on the body,
-    /// F_s, N m: of its part within reach.
+    /// Motor torques, in the order of the axes, for the reachable part of the torque `torque_s` on the body (F_s).
     pub fn motors(&self, torque_s: [f64; 3]) -> [f64; MAX_WHEELS] {
         let mut found = [0.0; MAX_WHEELS];
         found.iter_mut().zip(&self.gains).for_each(|(motor, gain)| *motor = dot(*gain, torque_s));
@@ -87,8 +85,8 @@ mod tests {
 
     const WANTED: [f64; 3] = [1.0, -0.5, 0.7];
 
-    /// Law: two wheels give the part of the torque in their plane, with torques of the least norm; one wheel gives the
-    /// part along it; parallel wheels share.
+    /// Law: two wheels give the torque's part in their plane with the least norm, one wheel the part along it, and
+    /// parallel wheels share.
     #[test]
     fn the_part_within_reach_is_given() {
         let a = scaled(1.0 / norm([1.0, 2.0, 2.0]), [1.0, 2.0, 2.0]);
@@ -99,7 +97,7 @@ mod tests {
             let given = on_body(axes, motors);
             let off = norm(difference(given, product(wheels.reachable, WANTED)));
             assert!(off < 1e-15, "{off:e}");
-            // what is not given no wheel could give
+            // no wheel could give the rest
             let most = axes.iter().map(|axis| dot(difference(WANTED, given), *axis).abs()).fold(0.0, f64::max);
             assert!(most < 4e-16, "{most:e}");
         }

@@ -1,4 +1,4 @@
-//! The loop of a run from its specification and the numbers that the run has drawn.
+//! Construction of a run's loop from its specification and drawn numbers.
 
 use std::sync::Arc;
 
@@ -33,7 +33,6 @@ use crate::control::small_matrix::inverse;
 use crate::control::spec::{LoopSpec, PhaseSpec};
 use crate::scene::{DeclaredTable, Device, Scene};
 
-/// The motors and bearings of the wheels of `scene`.
 fn wheel_drives(scene: &Scene) -> Vec<WheelDrive> {
     let inverse = inverse(scene.mass.inertia_rotating());
     let wheels = scene.mass.wheels.iter().zip(&scene.actuators.wheels);
@@ -49,7 +48,6 @@ fn wheel_drives(scene: &Scene) -> Vec<WheelDrive> {
     drives.collect()
 }
 
-/// The phases of `spec` with the numbers of `tables`.
 fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
     let phase = |(phase, table): (&PhaseSpec, &DeclaredTable)| Phase {
         until: phase.until.clone(),
@@ -73,7 +71,6 @@ fn phases(spec: &LoopSpec, tables: &[DeclaredTable]) -> Vec<Phase> {
     spec.phases.iter().zip(tables).map(phase).collect()
 }
 
-/// The sensors of the run of `context`, on a loop with ticks of `tick_period` seconds.
 fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<SampledSensor> {
     let sampled = |(place, (sensor, parameters)): (usize, (&SensorSpec, &DeclaredTable))| {
         let of_run = SensorContext {
@@ -95,8 +92,7 @@ fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<S
     spec.sensors.iter().zip(&context.parameters.sensors).enumerate().map(sampled).collect()
 }
 
-/// The flight software of the run of `context`, on a loop with ticks of `tick_period` seconds: it is made from nominal
-/// numbers, and from the drawn ones of the loop itself.
+/// Flight software of a run, from nominal numbers and the loop's own drawn ones.
 fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: f64) -> FlightSoftware {
     let numbers = &context.parameters.law;
     let believed = spec.believed(context.nominal);
@@ -139,7 +135,6 @@ fn flight_software(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick_period: 
     FlightSoftware::new(spec, parts)
 }
 
-/// The judge of the run of `context`.
 fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
     let numbers = &context.parameters.law;
     let (of_loop, near_debris) = (LoopNumbers::of(numbers), DebrisNumbers::of(numbers));
@@ -158,7 +153,6 @@ fn mission(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Mission {
 }
 
 impl ControlLoop {
-    /// The loop of the run of `context`, which reports `columns`.
     pub fn new(spec: &Arc<LoopSpec>, columns: &Arc<OutcomeColumns>, context: &LawContext<'_>) -> Self {
         let ticks_per_period = spec.ticks_per_period();
         let tick_period = spec.period / ticks_per_period as f64;

@@ -1,10 +1,8 @@
-//! [`Growth`]: bounds of commands that hold a body.
+//! [`Growth`]: bounds on commands, beyond which a loop has diverged.
 //!
-//! A loop under which small errors die away asks in a period T for a change of the rate of at most 4 pi/T + 2 |omega|,
-//! since k T^2 < 4 and c T < 2 ([`crate::control::stability`]), and its rate comes from that at the start and from its
-//! slews. A loop has diverged where it asks for more than [`TURN`]/T, of which the body would turn around a dozen times
-//! until the next tick, and for more than [`RISE`] times the rate at the start. Disturbances and thrusters that are
-//! stuck on are no commands.
+//! Under a stable loop k T^2 < 4 and c T < 2 ([`crate::control::stability`]), so that in a period T it changes the rate
+//! by at most 4 pi/T + 2 |omega|. Divergence is a change above both [`TURN`]/T, a dozen revolutions until the next
+//! tick, and [`RISE`] times the initial rate. Disturbances and stuck thrusters do not count.
 
 use crate::control::plant::{Applied, Plant};
 use crate::control::small_matrix::inverse;
@@ -12,32 +10,31 @@ use crate::control::vector::{cross, difference, norm, product, scaled, sum};
 use crate::dynamics::actuation::Actuation;
 use crate::scene::Scene;
 
-/// The change of the rate in a period, times the period, rad.
+/// Change of the rate in a period, times the period, rad.
 const TURN: f64 = 100.0;
-/// The change of the rate in a period, over the rate at the start.
+/// Change of the rate in a period over the initial rate.
 const RISE: f64 = 1e3;
 
-/// Bounds of the commands of a run.
+/// Bounds on the commands of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
     /// Inverse of K, 1/(kg m^2), F_s.
     inverse: [[f64; 3]; 3],
-    /// The largest change of the rate in a control period, rad/s.
+    /// Largest change of the rate in a control period.
     most: f64,
-    /// The control period, s.
     period: f64,
 }
 
 impl Growth {
-    /// Bounds of a run of `scene` under a loop of `period` seconds.
+    /// Bounds for a run of `scene` under a loop of period `period`.
     pub fn new(scene: &Scene, period: f64) -> Self {
         let start = norm(scene.initial.omega_se_s);
         let most = (TURN / period).max(RISE * start);
         Growth { inverse: inverse(scene.mass.inertia_rotating()), most, period }
     }
 
-    /// The change of the rate in a control period, rad/s, by commands over an arc of `plant`, if that is beyond the
-    /// bounds; the field is measured as `field_s`, T.
+    /// The change of the rate in a control period by the commands of an arc, if beyond the bounds; `field_s` is the
+    /// measured field.
     pub fn beyond(
         &self,
         plant: &Plant,

@@ -1,5 +1,5 @@
-//! [`Mission`]: the judge of a run, which knows the truth: outcome, failures and quantities over time. Nothing of it
-//! goes back to flight software.
+//! [`Mission`]: judges a run by its truth: outcome, failures and quantities over time. None of it reaches flight
+//! software.
 
 use std::sync::Arc;
 
@@ -24,7 +24,6 @@ use crate::observables::Series;
 use crate::run::Telemetry;
 use crate::scene::{MAX_WHEELS, WheelMode};
 
-/// The judge of a run.
 pub struct Mission {
     spec: Arc<LoopSpec>,
     pub(super) criteria: MissionCriteria,
@@ -33,15 +32,15 @@ pub struct Mission {
     /// Quantities over time, and their record.
     over_time: KnownOverTime,
     record: Option<SharedRecord>,
-    /// Places of the torques of motors among them.
+    /// Indices of motor torques among them.
     motor_places: [usize; MAX_WHEELS],
-    /// Time at the limit of speed after which a run fails, s; infinite where there is none.
+    /// Time at the speed limit after which a run fails; may be infinite.
     saturation_timeout: f64,
     saturated_since: f64,
 }
 
 impl Mission {
-    /// Judges a run under `spec` by `criteria`; it fails after `saturation_timeout` seconds at the limit of speed.
+    /// Judges a run under `spec` by `criteria`; it fails after `saturation_timeout` seconds at a wheel's speed limit.
     pub fn new(
         spec: &Arc<LoopSpec>,
         criteria: MissionCriteria,
@@ -61,20 +60,20 @@ impl Mission {
         }
     }
 
-    /// The failure of a run that is too near to the debris.
+    /// Failure by an approach below the keep-out distance.
     pub fn keep_out(&self, truth: &Truth) -> Option<Failure> {
         let debris = truth.debris.as_ref()?;
         let distance = norm(difference(debris.r_gdo_e, truth.body.r_co_e));
         (distance < self.criteria.keep_out).then_some(Failure::KeepOut)
     }
 
-    /// The failure of a run with a wheel at its limit of speed for too long.
+    /// Failure by a wheel at its speed limit for too long.
     pub fn saturation(&self, time: f64) -> Option<Failure> {
         let longest = self.saturation_timeout + SAME_TIME * self.criteria.period;
         (time - self.saturated_since > longest).then_some(Failure::WheelSaturated)
     }
 
-    /// Takes the truth of a control tick into the quantities over time, and into the outcome where the tick is judged.
+    /// Adds the truth of a control tick to the quantities over time and, if `is_judged`, to the outcome.
     pub fn judge(
         &mut self,
         (plant, truth): (&Plant, &Truth),
@@ -83,7 +82,7 @@ impl Mission {
         is_judged: bool,
     ) {
         let target = software.phase().target;
-        // of perfect knowledge the believed error is the true one
+        // with perfect knowledge the estimated error is the true one
         let knows = self.spec.knows_the_truth();
         let error = (target != Target::None).then(|| {
             if knows {
@@ -117,7 +116,6 @@ impl Mission {
         }
     }
 
-    /// Records the tick, where this run is to be recorded.
     pub fn record(&mut self, (plant, truth): (&Plant, &Truth), software: &FlightSoftware, guided: &Guided) {
         if let Some(recorder) = &mut self.recorder {
             recorder.tick(&Tick {
@@ -127,14 +125,14 @@ impl Mission {
                 estimate: software.estimate(),
                 consistency: &consistency(plant, truth, software),
                 commanded: software.latest_commands(),
-                // no law steps where the mission ends
+                // no law steps at the end of the mission
                 telemetry: if guided.progress == Progress::Flies { software.telemetry() } else { &[] },
                 measurements: plant.measurements(truth.time).delivered,
             });
         }
     }
 
-    /// Takes what the actuators make of the commands over an arc from `time` on, at whose start the motion is this one.
+    /// Adds the actuators' response over an arc from `time` on; `body` and `wheels` are its initial state.
     pub fn arc(
         &mut self,
         time: f64,
@@ -163,14 +161,13 @@ impl Mission {
         }
     }
 
-    /// Records the quantities over time as they are known from `time` on, s.
+    /// Records the quantities over time from `time` on.
     pub fn record_over_time(&self, time: f64) {
         if let Some(record) = &self.record {
             record.lock().take(time, &self.over_time);
         }
     }
 
-    /// The columns of the row.
     pub fn report(&self, columns: &OutcomeColumns, guidance: &Guidance, values: &mut [f64]) {
         columns.report(&self.outcome, guidance, &self.criteria, values);
     }
@@ -180,7 +177,6 @@ impl Mission {
     }
 }
 
-/// The consistency of the filters of `software`.
 pub(super) fn consistency(plant: &Plant, truth: &Truth, software: &FlightSoftware) -> Consistency {
     Consistency::of(&software.filters(), software.estimate(), truth, plant.gyro_bias_s())
 }

@@ -1,14 +1,13 @@
-//! [`ControlLoop`]: plant and flight software of one run, tick by tick, and what the mission comes to.
+//! [`ControlLoop`]: plant and flight software of one run, tick by tick.
 //!
-//! At a tick the sensors that are due measure the true state, the estimator updates, guidance may change the phase, the
-//! law wants a torque and the maneuver a force, and allocation makes commands of them. A command acts `delay_s` later,
-//! until the next one (zero-order hold), or as pulses; what the actuators make of it is held over an arc, with friction
-//! and limits by the state at its start. Where the end of a run is a tick, that tick is the last one: the run can
-//! launch or fail there, and nothing that it commands acts.
+//! At a tick, due sensors measure the true state, the estimator updates, guidance may change the phase, the law
+//! computes a torque and the maneuver a force, and allocation turns them into commands. A command acts `delay_s` later,
+//! until the next one (zero-order hold) or as pulses. Actuator output is constant over an arc, with friction and limits
+//! by its initial state. A tick at the end of a run is the last: the run can launch or fail there, but its commands do
+//! not act.
 //!
-//! The truth is [`super::plant`]'s, and flight software is [`super::flight_software`]: measurements go from one to the
-//! other and commands back, and here is the only place that knows both. `mission` judges the run by the truth, and
-//! `growth` whether its commands hold the body.
+//! Measurements pass from [`super::plant`], the truth, to [`super::flight_software`] and commands back; only this
+//! module knows both. `mission` judges the run by the truth, and `growth` its commands.
 
 mod construction;
 mod growth;
@@ -30,18 +29,16 @@ use crate::control::laws::interface::digits;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
 use crate::run::Telemetry;
 
-/// When the ticks of a loop are.
+/// Ticks of a loop.
 #[derive(Clone, Copy, Debug)]
 struct Clock {
-    /// The number of the next tick.
+    /// Number of the next tick.
     tick: u64,
-    /// Ticks of sensors in a control period.
+    /// Sensor ticks in a control period.
     ticks_per_period: u64,
-    /// From tick to tick, s.
     tick_period: f64,
-    /// When the next one is, s.
     next: f64,
-    /// Control period and end of the run, s.
+    /// Control period and end of the run.
     period: f64,
     end: f64,
 }
@@ -56,13 +53,12 @@ impl Clock {
         self.next = self.tick as f64 * self.tick_period;
     }
 
-    /// True if the control tick at `time` is the last one in a row.
+    /// True for the last judged control tick.
     fn is_final(&self, time: f64) -> bool {
         time + (1.0 + SAME_TIME) * self.period >= self.end
     }
 }
 
-/// The loop of one run.
 pub struct ControlLoop {
     columns: Arc<OutcomeColumns>,
     plant: Plant,
@@ -71,17 +67,15 @@ pub struct ControlLoop {
     clock: Clock,
     has_ended: bool,
     growth: Growth,
-    /// Why the commands have grown beyond their bounds, where they have.
+    /// Reason of a divergence, if any.
     divergence: Option<String>,
 }
 
 impl ControlLoop {
-    /// True if a tick is due at `time`, s.
     fn is_due(&self, time: f64) -> bool {
         !self.has_ended && time >= self.clock.next - SAME_TIME * self.clock.tick_period
     }
 
-    /// A tick at the true state `truth`; `is_last`: at the end of the run.
     fn at_tick(&mut self, truth: &Truth, is_last: bool) {
         self.flight_software.tick(&self.plant.measure(self.clock.tick, truth));
         if self.clock.is_control() {
@@ -96,7 +90,7 @@ impl ControlLoop {
             of_software => self.mission.keep_out(truth).or(of_software).or(self.mission.saturation(truth.time)),
         };
         let guided = self.flight_software.guide(truth.time, failure);
-        // columns are about the ticks whose commands act, and about the one at which the mission ends
+        // columns cover ticks whose commands act, and the one that ends the mission
         let is_judged = !is_last || guided.progress != Progress::Flies;
         self.mission.judge((&self.plant, truth), &self.flight_software, &guided, is_judged);
         let ends = match guided.progress {
@@ -118,13 +112,12 @@ impl ControlLoop {
             self.mission.outcome.take_telemetry(self.flight_software.telemetry());
         }
         self.mission.record((&self.plant, truth), &self.flight_software, &guided);
-        // rows have it of the last tick alone
+        // rows have the last tick's value only
         if is_judged && (self.has_ended || self.clock.is_final(truth.time)) {
             self.mission.outcome.consistency = consistency(&self.plant, truth, &self.flight_software);
         }
     }
 
-    /// The actuation from `time` on.
     fn arc_from(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         let mut commands = self.flight_software.acting(time);
         commands.until = commands.until.min(self.clock.next);
@@ -133,19 +126,19 @@ impl ControlLoop {
         if let Some(change) = self.growth.beyond(&self.plant, (&actuation, &applied), self.flight_software.field_s()) {
             self.has_ended = true;
             self.divergence = Some(self.diverged(time, change));
-            // the state at once, since nobody asks for it any more
+            // poisons the state at once, since no arc follows
             return Actuation { body_torque: [f64::NAN; 3], ..Actuation::end_of_run() };
         }
         self.flight_software.count(time, applied.length);
         self.mission.arc(time, &mut self.plant, (&actuation, &applied), (body, wheels));
-        // what the schedule fires is not counted as the loop's
+        // scheduled thrust is not counted as the loop's
         for (thrust, scheduled) in actuation.thrust.iter_mut().zip(applied.scheduled_thrust) {
             *thrust += scheduled;
         }
         actuation
     }
 
-    /// The reason of a divergence: the commands of `time` change the rate by `change` rad/s in a control period.
+    /// The reason of a divergence in which commands at `time` change the rate by `change` rad/s in a control period.
     fn diverged(&self, time: f64, change: f64) -> String {
         let FlightSoftware { spec, believed, guidance, laws, delay, .. } = &self.flight_software;
         let place = guidance.phase;

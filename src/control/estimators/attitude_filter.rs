@@ -1,12 +1,10 @@
-//! [`AttitudeFilter`]: attitude and bias of the gyro, by a multiplicative extended Kalman filter.
+//! [`AttitudeFilter`]: attitude and gyro bias by a multiplicative extended Kalman filter (E. J. Lefferts, F. L. Markley
+//! & M. D. Shuster, J. Guidance 5(5), 1982).
 //!
-//! E. J. Lefferts, F. L. Markley & M. D. Shuster, J. Guidance 5(5), 1982. The error of the attitude is a rotation
-//! vector in F_s, true = estimated (x) error; that of the bias is true minus estimated. The gyro is a rate-integrating
-//! one ([`crate::control::sensors`]): its errors add to the rotation vector, so that they turn the attitude by the
-//! right Jacobian J of that vector, and transition and noise of a step are exact for it at any rate. At zero rate J =
-//! 1, and the noise is Farrenkopf's: sv^2 T + su^2 T^3/3, -su^2 T^2/2, su^2 T.
-//!
-//! Not here: measurements that come late ([`super::delayed`]).
+//! The attitude error is a rotation vector in F_s, true = estimated (x) error; the bias error is true minus estimated.
+//! Errors of the rate-integrating gyro ([`crate::control::sensors`]) add to the rotation vector and so enter the
+//! attitude by its right Jacobian J: transition and noise of a step are exact at any rate. At zero rate J = 1, and the
+//! noise is Farrenkopf's: sv^2 T + su^2 T^3/3, -su^2 T^2/2, su^2 T.
 
 use std::sync::Arc;
 
@@ -23,32 +21,27 @@ use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, 
 /// A step by a measured rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroStep {
-    /// The rotation vector as measured, with the bias, rad.
+    /// Measured rotation vector, including the bias, rad.
     pub rotation_s: [f64; 3],
-    /// The rate as measured, with the bias, rad/s: what the rate of the estimate follows from.
+    /// Measured rate, including the bias, rad/s; gives the estimated rate.
     pub rate_s: [f64; 3],
-    /// Its duration T, s.
     pub interval: f64,
 }
 
-/// A measurement of the attitude, or of a part of it.
 #[derive(Clone, Debug)]
 pub struct AttitudeObservation {
-    /// Its numbers.
     pub values: Values,
-    /// The sensor, as the filter believes it.
+    /// The filter's model of the sensor.
     pub sensor: Arc<dyn AttitudeSensor>,
-    /// When it was measured, s.
     pub time: f64,
 }
 
 impl AttitudeObservation {
-    /// The attitude `q_es` (F_s -> F_e, scalar first) with an error of this covariance in F_s, rad^2.
+    /// The attitude `q_es` (F_s -> F_e, scalar first) with the error covariance `covariance` in F_s, rad^2.
     pub fn whole(q_es: [f64; 4], covariance: [[f64; 3]; 3]) -> Self {
         AttitudeObservation { values: values(&[&q_es]), sensor: Arc::new(WholeAttitude(covariance)), time: 0.0 }
     }
 
-    /// Its innovation where the attitude is estimated as `q_es`.
     pub fn innovation(&self, q_es: [f64; 4]) -> AttitudeInnovation {
         self.sensor.innovation(&self.values, q_es, self.time)
     }
@@ -57,27 +50,22 @@ impl AttitudeObservation {
 /// Attitude, gyro bias and their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeFilter {
-    /// Attitude quaternion, F_s -> F_e, scalar first.
     pub q_es: [f64; 4],
-    /// Bias of the gyro, in F_s, rad/s.
     pub bias_s: [f64; 3],
     /// Covariance of the errors of attitude (rad) and bias (rad/s).
     pub covariance: [[f64; 6]; 6],
-    /// Rate as last measured, with the bias, rad/s.
+    /// Last measured rate, including the bias, rad/s.
     pub rate_s: [f64; 3],
-    /// The noise of the gyro.
     pub noise: GyroNoise,
 }
 
 impl AttitudeFilter {
-    /// Attitude `q_es` with an error of standard deviation `attitude_sigma` (rad) about each axis, no bias with one of
-    /// `bias_sigma` (rad/s).
+    /// A filter at `q_es` with zero bias; standard deviations about each axis in rad and rad/s.
     pub fn new(q_es: [f64; 4], attitude_sigma: f64, bias_sigma: f64, noise: GyroNoise) -> Self {
         let (a, b) = (attitude_sigma * attitude_sigma, bias_sigma * bias_sigma);
         AttitudeFilter { q_es, bias_s: [0.0; 3], covariance: diagonal([a, a, a, b, b, b]), rate_s: [0.0; 3], noise }
     }
 
-    /// Angular velocity of F_s relative to F_e, in F_s, rad/s.
     pub fn omega_se_s(&self) -> [f64; 3] {
         difference(self.rate_s, self.bias_s)
     }
@@ -98,7 +86,7 @@ impl Filter for AttitudeFilter {
         let of_attitude = dcm_from_quaternion(conjugate(turn));
         let white = self.noise.angular_random_walk * self.noise.angular_random_walk;
         let walk = self.noise.bias_random_walk * self.noise.bias_random_walk;
-        // the transition is [[of_attitude, of_bias], [0, 1]]: by its blocks, a third of the products
+        // block by block, since the transition is [[of_attitude, of_bias], [0, 1]]: a third of the products
         let [tt, tb, bb] = corners(&self.covariance);
         let to_attitude = added(&multiplied(&of_attitude, &tt), &multiplied(&of_bias, &transposed(&tb)));
         let to_bias = added(&multiplied(&of_attitude, &tb), &multiplied(&of_bias, &bb));
@@ -120,12 +108,12 @@ impl Filter for AttitudeFilter {
     }
 }
 
-/// J with exp(v + e) = exp(v) exp(J e) for small e: 1 - (1 - cos v)/v^2 [v x] + (v - sin v)/v^3 [v x]^2.
+/// The right Jacobian J, exp(v + e) = exp(v) exp(J e) for small e: 1 - (1 - cos v)/v^2 [v x] + (v - sin v)/v^3 [v x]^2.
 pub(super) fn right_jacobian(v: [f64; 3]) -> [[f64; 3]; 3] {
     let angle = norm(v);
     let square = angle * angle;
     let (a, b) = if angle < 0.1 {
-        // the first neglected terms are below 1e-16
+        // neglected terms are below 1e-16
         let a = 0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0 - square / 3_628_800.0)));
         let b = 1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5_040.0 - square / 362_880.0));
         (a, b)
@@ -140,7 +128,6 @@ pub(super) fn right_jacobian(v: [f64; 3]) -> [[f64; 3]; 3] {
     transposed(&columns)
 }
 
-/// The quaternion over its norm.
 pub(super) fn normalized(q: [f64; 4]) -> [f64; 4] {
     let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     q.map(|x| x / length)
@@ -153,9 +140,9 @@ mod tests {
 
     const REST: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-    /// Variances of attitude before and after an update, their covariance and that of the bias before it, in the steady
-    /// state about one axis (R. L. Farrenkopf, 1978; F. L. Markley & R. G. Reynolds, J. Guidance 23(6), 2000), for
-    /// noise sv, su of the gyro and sn of an attitude every T seconds.
+    /// Steady-state variances about one axis (R. L. Farrenkopf, 1978; F. L. Markley & R. G. Reynolds, J. Guidance
+    /// 23(6), 2000): attitude before and after the update, its covariance with the bias, and bias before it, for gyro
+    /// noise sv, su and attitude noise sn every T seconds.
     fn farrenkopf(sv: f64, su: f64, sn: f64, t: f64) -> [f64; 4] {
         let (u, v) = (su * t * t.sqrt() / sn, sv * t.sqrt() / sn);
         let g = (1.0 + v * v / 4.0 + u * u / 48.0).sqrt();
@@ -196,7 +183,7 @@ mod tests {
         }
     }
 
-    /// What tests/golden/attitude_filter.py writes.
+    /// Output of tests/golden/attitude_filter.py.
     #[derive(serde::Deserialize)]
     struct Golden {
         tick_s: f64,
@@ -224,9 +211,9 @@ mod tests {
         covariance: Vec<f64>,
     }
 
-    /// Law: an independent implementation (matrices, series, informations, 40 digits, no history) that was fed with the
-    /// same rotations and attitudes, which arrive late and out of order, gives the same estimates at every tick: to
-    /// 6e-15 in attitude and bias and 1e-14 of the diagonal in the covariance (measured: 6.1e-16, 1.2e-15).
+    /// Law: an independent implementation (matrices, series, information form, 40 digits, no history) fed with the same
+    /// rotations and the same late, unordered attitudes agrees at every tick: attitude and bias to 6e-15, covariance to
+    /// 1e-14 of the diagonal (measured: 6.1e-16, 1.2e-15).
     #[test]
     fn an_independent_implementation_agrees() {
         let golden: Golden =

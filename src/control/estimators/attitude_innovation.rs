@@ -1,5 +1,4 @@
-//! [`AttitudeInnovation`]: the innovation of a measurement of the attitude, or of a part of it, in a filter of attitude
-//! and three more numbers.
+//! [`AttitudeInnovation`]: the innovation of a measurement of all or part of the attitude.
 
 use std::fmt::Debug;
 
@@ -8,22 +7,18 @@ use crate::control::measurement::{Values, part};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{conjugate, hamilton};
 
-/// An innovation of M numbers: e = H d + n, where d is the error of the attitude, true = estimated (x) d as a rotation
-/// vector in F_s, and n has the covariance R.
+/// An innovation of M components, e = H d + n: d is the attitude error, true = estimated (x) d, a rotation vector in
+/// F_s; n has the covariance R.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Innovation<const M: usize> {
-    /// e.
     pub value: [f64; M],
-    /// H, at the estimate.
+    /// H at the estimate.
     pub sensitivity: [[f64; 3]; M],
-    /// R.
     pub covariance: [[f64; M]; M],
 }
 
-/// An innovation by its number of components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AttitudeInnovation {
-    /// A direction.
     Two(Innovation<2>),
     /// An attitude, or a direction with its length.
     Three(Innovation<3>),
@@ -38,8 +33,8 @@ impl<const M: usize> Innovation<M> {
 }
 
 impl AttitudeInnovation {
-    /// The correction of a state whose first three errors are d, and the normalised square; `covariance`, that of the
-    /// state, becomes the one after it. `None`, and nothing changes, where the filter is already certain.
+    /// Updates `covariance`, whose first three errors are d; the correction of the state and the normalised square.
+    /// `None`, with no change, if the innovation's covariance is singular to rounding.
     pub fn update(&self, covariance: &mut [[f64; 6]; 6]) -> Option<([f64; 6], NormalizedSquare)> {
         match self {
             AttitudeInnovation::Two(innovation) => innovation.update(covariance),
@@ -48,18 +43,16 @@ impl AttitudeInnovation {
     }
 }
 
-/// A sensor of the attitude as filters believe it, by its nominal parameters.
+/// A filter's model of a sensor that measures all or part of the attitude.
 pub trait AttitudeSensor: Debug + Send + Sync {
-    /// The innovation of `values`, measured at `time` (s), where the attitude then is estimated as `q_es` (F_s -> F_e,
-    /// scalar first).
+    /// The innovation of `values`, measured at `time` (s), at the estimate `q_es` (F_s -> F_e, scalar first).
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation;
 }
 
-/// A sensor that measures the whole attitude, as a quaternion; the covariance of its error in F_s, rad^2.
+/// A sensor of the whole attitude as a quaternion, with its error covariance in F_s, rad^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WholeAttitude(pub [[f64; 3]; 3]);
 
-/// A measured rotation is the error itself.
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl AttitudeSensor for WholeAttitude {

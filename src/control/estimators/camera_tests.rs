@@ -1,4 +1,4 @@
-//! An image of the debris is as uncertain, and about the same axes, as the attitude through which it was seen.
+//! An image of the debris is as uncertain, and about the same axes, as the attitude through which it was taken.
 
 use super::tests::{at_once, known, update};
 use super::*;
@@ -12,18 +12,17 @@ use crate::control::vector::{dcm_from_quaternion, hamilton, scaled, transposed_p
 use crate::scene::Scene;
 use crate::scene::{DebrisInput, SceneInput};
 
-/// Deviation of the attitude at the start, rad.
+/// Initial standard deviation of the attitude, rad.
 const START: f64 = 0.1;
-/// Deviations of the star tracker about s1, s2, s3: poor about its boresight, rad.
+/// Star tracker noise about s1, s2, s3, rad: poor about its boresight.
 const TRACKER: [f64; 3] = [1e-3, 2e-3, 5e-2];
-/// Deviation of the camera, rad.
+/// Camera noise, rad.
 const CAMERA: f64 = 1e-4;
-/// Deviation of the debris's attitude at the start, rad.
+/// Initial standard deviation of the debris's attitude, rad.
 const DEBRIS: f64 = 1.0;
 
-/// Law: after one image the debris's attitude is as uncertain about each axis of F_s as the spacecraft's attitude, the
-/// camera and the start together say, by the sum of information: however F_d lies relative to F_s, an error about an
-/// axis of F_s has its square over that variance.
+/// Law: after one image the debris's attitude has, about each axis of F_s, the variance that follows from those of
+/// attitude, camera and start by the sum of information, whatever the rotation from F_d to F_s.
 #[test]
 fn an_image_is_as_uncertain_as_the_attitude() {
     let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });

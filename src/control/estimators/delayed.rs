@@ -1,8 +1,7 @@
-//! [`Delayed`]: a filter that takes measurements of the past at their time.
+//! [`Delayed`]: a filter that applies late measurements at the time they were taken.
 //!
-//! The last states are kept, with what they were propagated by and what was measured at each. A measurement that is
-//! late is taken at its time, and all steps after it are made again: the estimate is that of a filter to which nothing
-//! came late.
+//! It keeps its last states with their inputs; a late measurement is applied to its state and all later steps are
+//! repeated. The estimate equals that of a filter without latency.
 
 use std::collections::VecDeque;
 use std::fmt::Debug;
@@ -11,20 +10,16 @@ use super::kalman::NormalizedSquare;
 
 /// A filter that steps from tick to tick.
 pub trait Filter: Clone {
-    /// The input of a propagation over a tick.
     type Step: Clone + Debug;
-    /// A measurement.
     type Observation: Clone + Debug;
 
-    /// Moves on by a tick.
     fn propagate(&mut self, step: &Self::Step);
 
-    /// Takes a measurement; the normalised square of the innovation. `None`, and nothing changes, where the filter is
-    /// already certain.
+    /// Applies a measurement; the normalised square of its innovation. `None`, with no change, if the innovation's
+    /// covariance is singular to rounding.
     fn update(&mut self, observation: &Self::Observation) -> Option<NormalizedSquare>;
 }
 
-/// The state at one tick.
 #[derive(Clone, Debug)]
 struct Past<F: Filter> {
     /// The step that led to it; `None` at the start.
@@ -33,34 +28,30 @@ struct Past<F: Filter> {
     state: F,
 }
 
-/// A filter and its last states.
 #[derive(Clone, Debug)]
 pub struct Delayed<F: Filter> {
     past: VecDeque<Past<F>>,
     now: F,
-    /// The largest age of a measurement, in ticks.
+    /// Largest age of a measurement, ticks.
     oldest: usize,
 }
 
 impl<F: Filter> Delayed<F> {
-    /// The filter `start`, for measurements of up to `oldest` ticks ago.
+    /// Starts at `start`, for measurements up to `oldest` ticks old.
     pub fn new(start: F, oldest: usize) -> Self {
         let first = Past { step: None, observations: Vec::new(), state: start.clone() };
         Delayed { past: VecDeque::from([first]), now: start, oldest }
     }
 
-    /// The state at this tick.
     pub fn now(&self) -> &F {
         &self.now
     }
 
-    /// The state `age` ticks ago, after all measurements of that time that have arrived; the oldest that is kept, where
-    /// that is younger.
+    /// The state `age` ticks ago, after all measurements delivered since; the oldest kept if that is younger.
     pub fn at(&self, age: usize) -> &F {
         &self.past[self.past.len().saturating_sub(age + 1)].state
     }
 
-    /// Moves on by a tick.
     pub fn propagate(&mut self, step: F::Step) {
         self.now.propagate(&step);
         let mut observations = Vec::new();
@@ -73,8 +64,8 @@ impl<F: Filter> Delayed<F> {
         self.past.push_back(Past { step: Some(step), observations, state: self.now.clone() });
     }
 
-    /// Takes a measurement of `age` ticks ago. `None`, and nothing changes, where it is older than all that is kept, or
-    /// the filter was already certain.
+    /// Applies a measurement `age` ticks old. `None`, with no change, if it is older than all kept states or its
+    /// innovation's covariance is singular to rounding.
     pub fn update(&mut self, observation: F::Observation, age: usize) -> Option<NormalizedSquare> {
         let index = self.past.len().checked_sub(age + 1)?;
         let at = &mut self.past[index];

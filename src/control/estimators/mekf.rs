@@ -1,13 +1,11 @@
-//! Filters of all that is estimated: attitude and gyro bias ([`super::attitude_filter`]), or without a gyro attitude
-//! and rate by the nominal body's equation of motion ([`super::rigid_body_filter`]); position and velocity of
-//! spacecraft and debris ([`super::translation_filter`]); attitude and rate of the debris, torque-free, which keep on
-//! through gaps of the camera.
+//! The multiplicative extended Kalman filter for the whole state: attitude with gyro bias ([`super::attitude_filter`])
+//! or, without a gyro, with rate ([`super::rigid_body_filter`]); translation of spacecraft and debris
+//! ([`super::translation_filter`]); torque-free attitude of the debris, propagated through gaps of the camera.
 //!
-//! They start at the nominal state, at no bias, and believe the nominal noise of the sensors. Measurements are taken at
-//! their time. The debris is seen through the estimated attitude and rate of the spacecraft: their covariance adds to
-//! the camera's noise, as if it were white, which it is not. Where the gyro measures less often than the loop ticks,
-//! the rotation in between is predicted at its last rate and put right when it measures. Rates of wheels follow the
-//! commanded torques of motors from one tachometer reading to the next.
+//! Filters start at the nominal state with zero bias and assume the sensors' nominal noise. The attitude covariance of
+//! the spacecraft adds to the camera's noise as if it were white, which it is not. Between samples of a slow gyro the
+//! rotation is predicted at the last rate and corrected at the next sample; between tachometer readings, wheel rates
+//! follow the commanded motor torques.
 
 use std::sync::Arc;
 
@@ -47,7 +45,7 @@ const fn belief(key: &'static str, unit: &'static str, meaning: &'static str, de
 }
 
 declared! {
-    /// Initial deviations and process noise of the filters.
+    /// Initial standard deviations and process noise of the filters.
     Beliefs = PARAMETERS {
         attitude_sigma: f64 = belief("initial_attitude_sigma_rad", "rad",
             "Initial standard deviation of the attitude, about each axis", &[0.1]);
@@ -98,16 +96,14 @@ declared! {
     }
 }
 
-/// A sensor as the filters believe it.
 #[derive(Clone, Debug)]
 enum SensorModel {
-    /// The gyro; its period, s.
+    /// Noise and period (s).
     Gyro(GyroNoise, f64),
-    /// The attitude, or a part of it.
     Attitude(Arc<dyn AttitudeSensor>),
-    /// Standard deviations of position, m, and velocity, m/s.
+    /// Standard deviations of position (m) and velocity (m/s).
     Motion([f64; 2]),
-    /// Standard deviations of relative attitude, rad, and rate, rad/s.
+    /// Standard deviations of relative attitude (rad) and rate (rad/s).
     DebrisAttitude([f64; 2]),
     WheelRates,
 }
@@ -126,28 +122,23 @@ impl SensorModel {
     }
 }
 
-/// The filter of the spacecraft's attitude.
 enum Attitude {
     WithGyro(Delayed<AttitudeFilter>, GyroPropagation),
     WithoutGyro(Delayed<RigidBodyFilter>),
 }
 
-/// The measurements of the gyro so far.
 struct GyroPropagation {
-    /// The rotation since its last measurement, as predicted.
+    /// Predicted rotation since its last measurement.
     predicted: [f64; 4],
-    /// Its last rate, with the bias, rad/s.
     rate: [f64; 3],
     /// Variance of that rate about the bias, rad^2/s^2.
     variance: f64,
 }
 
-/// The innovations of one filter.
 #[derive(Clone, Copy, Debug, Default)]
 struct InnovationSum {
-    /// Sum over the measurements of this tick.
     of_tick: Option<NormalizedSquare>,
-    /// Sum and number of the normalised squares since the start, each over its degrees of freedom.
+    /// Sum and number of normalised squares per degree of freedom since the start.
     sum: f64,
     count: f64,
 }
@@ -155,7 +146,6 @@ struct InnovationSum {
 struct Mekf {
     mass: MassProperties,
     tick: f64,
-    /// Since the start, s.
     time: f64,
     sensors: Vec<SensorModel>,
     attitude: Attitude,
@@ -230,7 +220,6 @@ impl Mekf {
         }
     }
 
-    /// Covariances of attitude and rate of the spacecraft `age` ticks ago, in F_s.
     fn covariances_at(&self, age: usize) -> [[[f64; 3]; 3]; 2] {
         match &self.attitude {
             Attitude::WithGyro(filter, turned) => {
@@ -248,7 +237,6 @@ impl Mekf {
         self.innovations[place as usize].take(square);
     }
 
-    /// Moves on by a tick.
     fn propagate(&mut self, update: &Update<'_>) {
         let interval = update.interval;
         let before = self.attitude_at(0);
@@ -266,7 +254,7 @@ impl Mekf {
         let after = self.attitude_at(0);
         let mut acceleration_e = [0.0; 3];
         if update.acceleration_s != [0.0; 3] {
-            // mean of both ends: the body turns during a burn
+            // mean over the tick: the body turns during a burn
             let at = |q| product(dcm_from_quaternion(q), update.acceleration_s);
             acceleration_e = scaled(0.5, sum(at(before.0), at(after.0)));
         }
@@ -285,7 +273,7 @@ impl Mekf {
         }
     }
 
-    /// Takes what is seen through the attitude of the spacecraft.
+    /// Processes measurements that depend on the spacecraft's attitude.
     fn take(&mut self, measurement: &Measurement) {
         let (age, values) = (ticks(measurement.age, self.tick), &measurement.values);
         match &self.sensors[measurement.sensor] {
@@ -322,14 +310,14 @@ impl Mekf {
                 }
             }
             SensorModel::WheelRates => self.wheel_rates = part(values, 0),
-            // propagated by, and taken before
+            // already processed
             SensorModel::Gyro(..) | SensorModel::Attitude(_) => {}
         }
     }
 }
 
 impl GyroPropagation {
-    /// The rotation of a tick as measured, or as predicted where the gyro did not measure.
+    /// The rotation over a tick, as measured or, between samples, as predicted.
     fn rotation(&mut self, sensors: &[SensorModel], update: &Update<'_>) -> [f64; 3] {
         let mut measured = ([1.0, 0.0, 0.0, 0.0], 0.0);
         for measurement in update.measurements {
@@ -351,7 +339,6 @@ impl GyroPropagation {
 }
 
 impl InnovationSum {
-    /// Takes the innovation of a measurement.
     fn take(&mut self, square: Option<NormalizedSquare>) {
         let Some(square) = square else { return };
         (self.sum, self.count) = (self.sum + square.value / square.degrees as f64, self.count + 1.0);
@@ -366,7 +353,6 @@ impl InnovationSum {
     }
 }
 
-/// The nearest number of ticks to a time.
 fn ticks(time: f64, tick: f64) -> usize {
     (time / tick).round() as usize
 }

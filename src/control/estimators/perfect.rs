@@ -1,4 +1,4 @@
-//! Perfect knowledge: the true state; true parameters are not part of it.
+//! Perfect knowledge of the state, though not of the true parameters.
 
 use crate::control::estimate::Estimate;
 use crate::control::estimators::estimator::{Estimator, EstimatorKind, Update};

@@ -1,8 +1,8 @@
-//! Raw measurements: the last of each kind, held until the next, latency and all; the nominal state before the first.
-//! On an orbit position and velocity are not held but fall freely from where they were measured.
+//! Raw measurements: the last of each kind held until the next, latency included; the nominal state before the first.
+//! On an orbit, positions and velocities fall freely after their measurement.
 //!
-//! The rate is that of the gyro, bias and all, or without one the turn between the last two attitudes over the time
-//! between them.
+//! The rate is the gyro's, bias included, or without a gyro the rotation between the last two attitudes over their
+//! interval.
 
 use crate::control::estimate::Estimate;
 use crate::control::estimators::estimator::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
@@ -16,22 +16,20 @@ pub(super) const KIND: EstimatorKind = EstimatorKind {
     name: "raw",
     knows_the_truth: false,
     has_filter: false,
-    // a direction is no attitude
+    // a direction alone gives no attitude
     uses: |observes| !matches!(observes, Observes::Direction(_) | Observes::Field(_)),
     parameters: &[],
     make: |context| Box::new(Raw::new(context)),
 };
 
 struct Raw {
-    /// Centre of mass from p in F_s, nominal, m.
     center: [f64; 3],
-    /// Observations of each sensor, and its period, s.
+    /// Observation and period (s) of each sensor.
     sensors: Vec<(Observes, f64)>,
     has_gyro: bool,
     time: f64,
-    /// The gravity of the central body; `None` without an orbit.
     gravity: Option<Gravity<f64>>,
-    /// When the last attitude was taken, and which it was.
+    /// Time and value of the last attitude.
     last: Option<(f64, [f64; 4])>,
 }
 
@@ -82,7 +80,7 @@ impl Estimator for Raw {
                 | (Observes::Direction(_) | Observes::Field(_), _) => {}
             }
         }
-        // those that are seen through the attitude of this tick, whatever the order of the sensors
+        // measurements that depend on this tick's attitude, whatever the order of the sensors
         let (q_es, omega_se_s) = (estimate.q_es, estimate.omega_se_s);
         for measurement in update.measurements {
             let values = &measurement.values;

@@ -1,9 +1,9 @@
-//! [`RigidBodyFilter`]: attitude and rate of a rigid body of known inertia, by a multiplicative extended Kalman filter:
-//! of the debris, and of a spacecraft without gyro.
+//! [`RigidBodyFilter`]: attitude and rate of a rigid body of known inertia by a multiplicative extended Kalman filter,
+//! for the debris and for a spacecraft without gyro.
 //!
-//! The body follows Euler's equation K omega' = H x omega + u, H = K omega + h, with known torque u and momentum h of
-//! its wheels; what is not known of them is white noise, a random walk of the rate. Errors as in
-//! [`super::attitude_filter`]: a rotation vector in the frame of the body, and true minus estimated rate.
+//! The body follows K omega' = H x omega + u, H = K omega + h, with known torque u and wheel momentum h; unknown torque
+//! is a random walk of the rate. Errors are a rotation vector in the body frame, as in [`super::attitude_filter`], and
+//! true minus estimated rate.
 
 use super::attitude_filter::{AttitudeObservation, normalized};
 use super::delayed::Filter;
@@ -12,75 +12,61 @@ use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::small_matrix::{added, diagonal, inverse, multiplied};
 use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
 
-/// A step under a known torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyStep {
     /// Torque on the body in its frame, constant over the step, N m.
     pub torque: [f64; 3],
     /// Momentum of its wheels in its frame, constant over the step, N m s.
     pub momentum: [f64; 3],
-    /// Its duration, s.
     pub interval: f64,
 }
 
-/// A measurement of a body.
 #[derive(Clone, Debug)]
 pub enum BodyObservation {
-    /// The attitude of the body relative to F_e, or a part of it.
     Attitude(AttitudeObservation),
-    /// Attitude and rate.
     AttitudeAndRate(MeasuredMotion),
 }
 
-/// A measured attitude and rate, with the covariances of their errors in the body's frame.
+/// Measured attitude and rate, with error covariances in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredMotion {
-    /// Attitude quaternion, body -> F_e, scalar first.
     pub q: [f64; 4],
-    /// Covariance of its error, rad^2.
     pub attitude_covariance: [[f64; 3]; 3],
-    /// Angular velocity relative to F_e in the body's frame, rad/s.
     pub omega: [f64; 3],
-    /// Covariance of its error, rad^2/s^2.
     pub rate_covariance: [[f64; 3]; 3],
 }
 
 /// Attitude, rate and their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBodyFilter {
-    /// Attitude quaternion, body -> F_e, scalar first.
     pub q: [f64; 4],
-    /// Angular velocity relative to F_e in the body's frame, rad/s.
     pub omega: [f64; 3],
     /// Covariance of the errors of attitude (rad) and rate (rad/s).
     pub covariance: [[f64; 6]; 6],
     inertia: [[f64; 3]; 3],
     inverse: [[f64; 3]; 3],
-    /// Random walk of the rate, rad/s/sqrt(s).
     rate_random_walk: f64,
 }
 
-/// The largest |omega| h of a step of the integration, rad (the error of a step is some 0.05^5/100 of a radian), and
-/// the largest number of steps.
+/// Largest turn |omega| h of an integration step, rad (error of a step: some 0.05^5/100 rad), and most steps in a tick.
 const LARGEST_TURN: f64 = 0.05;
 const MOST_STEPS: f64 = 64.0;
 
 impl RigidBodyFilter {
-    /// A body of the inertia K (kg m^2, about its centre of mass, in its frame) with the attitude `q` and the rate
-    /// `omega` to the standard deviations `sigmas`, rad and rad/s, about each axis.
+    /// A body of inertia K (kg m^2, about its centre of mass, in its frame); `sigmas` are the standard deviations of
+    /// attitude (rad) and rate (rad/s) about each axis.
     pub fn new(inertia: [[f64; 3]; 3], q: [f64; 4], omega: [f64; 3], sigmas: [f64; 2], rate_random_walk: f64) -> Self {
         let [a, b] = sigmas.map(|sigma| sigma * sigma);
         let covariance = diagonal([a, a, a, b, b, b]);
         RigidBodyFilter { q, omega, covariance, inertia, inverse: inverse(inertia), rate_random_walk }
     }
 
-    /// omega' at the rate `omega`.
     fn acceleration(&self, omega: [f64; 3], step: &BodyStep) -> [f64; 3] {
         let momentum = sum(product(self.inertia, omega), step.momentum);
         product(self.inverse, sum(cross(momentum, omega), step.torque))
     }
 
-    /// d omega'/d omega = K^-1 ([H x] - [omega x] K), by columns turned into rows.
+    /// d omega'/d omega = K^-1 ([H x] - [omega x] K).
     fn slope(&self, omega: [f64; 3], step: &BodyStep) -> [[f64; 3]; 3] {
         let momentum = sum(product(self.inertia, omega), step.momentum);
         let columns: [[f64; 3]; 3] = std::array::from_fn(|j| {
@@ -91,9 +77,9 @@ impl RigidBodyFilter {
         crate::control::small_matrix::transposed(&columns)
     }
 
-    /// Moves on by `h` seconds: the rate by the classical Runge-Kutta method, the attitude by the rotation vector to
-    /// fourth order, the covariance with the transition of the attitude as it turned, that of the rate to second order,
-    /// and the trapezoidal rule between them.
+    /// Steps by `h` seconds: the rate by the classical Runge-Kutta method, the attitude by a rotation vector of fourth
+    /// order, the covariance by the exact attitude transition, a rate transition of second order and the trapezoidal
+    /// rule across.
     fn step(&mut self, h: f64, step: &BodyStep) {
         let before = self.omega;
         let k1 = self.acceleration(before, step);

@@ -1,5 +1,5 @@
-//! Filters against models of sensors and against their own assumptions: consistency over many runs, and estimates
-//! without noise.
+//! Filters against models of sensors and their own assumptions: consistency over many runs, and estimates without
+//! noise.
 
 use super::*;
 use crate::control::estimate::{DebrisState, Estimate};
@@ -16,17 +16,17 @@ use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilto
 use crate::sampling::{Noise, SampleId};
 use crate::scene::{DebrisInput, MAX_WHEELS, Scene, SceneInput};
 
-/// Times at which the statistics are judged, and the share of H0 that may fail one of them: each of `TIMES` times NEES
-/// and innovations at rest and in a slew.
+/// Number of times judged, and the family-wise error rate shared by NEES and innovations at each of them, at rest and
+/// in a slew.
 const TIMES: usize = 20;
 const ALPHA: f64 = 0.05 / (4 * TIMES) as f64;
 
-/// True if H0 gives such a sum of squares with so many degrees of freedom: each tail has ALPHA/2.
+/// True if a chi-square sum is within two-sided ALPHA.
 fn is_chi_square(sum: f64, degrees: f64) -> bool {
     (chi_square(0.5 * ALPHA, degrees)..=chi_square(1.0 - 0.5 * ALPHA, degrees)).contains(&sum)
 }
 
-/// Standard normal numbers of run `run`.
+/// Standard normal numbers of one run.
 struct Draws(Noise, u64);
 
 impl Draws {
@@ -47,9 +47,9 @@ const GYRO: [(&str, &[f64]); 2] =
 const TRACKER_NOISE: [f64; 3] = [2e-4, 3e-4, 1e-3];
 const START: [f64; 2] = [5e-3, 1e-3];
 
-/// Law: in a slew the attitude filter with gyro and star tracker is consistent: NEES (6) and innovations (3) of 1,000
-/// runs at 20 times are chi-square, family-wise alpha 0.05, seeds 5 and 8. A mean that is wrong by 10% is found with a
-/// probability above 0.99 at each time. The bias is known ten times better than at the start.
+/// Law: in a slew the filter with gyro and star tracker is consistent: NEES (6) and innovations (3) of 1,000 runs at 20
+/// times are chi-square at a family-wise alpha of 0.05 (seeds 5 and 8); a mean wrong by 10% is detected with a
+/// probability above 0.99 at each time. The bias becomes ten times better known.
 #[test]
 fn attitude_and_bias_are_consistent() {
     let (runs, omega) = (1_000_u64, [0.2, -0.5, 0.3]);
@@ -96,12 +96,12 @@ fn attitude_and_bias_are_consistent() {
     assert!(bias < START[1] / 10.0, "{bias}");
 }
 
-/// A sensor of the kind called `kind` as estimators know it.
+/// A sensor of the kind `kind` as estimators know it.
 pub fn known<'a>(kind: &str, period: f64, parameters: &'a crate::scene::DeclaredTable) -> KnownSensor<'a> {
     KnownSensor { observes: observes(kind), period, latency: 0.0, parameters }
 }
 
-/// What is known at a tick without actuation.
+/// Input at a tick without actuation.
 pub fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_> {
     Update {
         interval: if tick == 0 { 0.0 } else { period },
@@ -113,18 +113,16 @@ pub fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_
     }
 }
 
-/// What the sensor at the place `sensor` delivers without latency.
+/// A measurement without latency by the sensor at the index `sensor`.
 pub fn at_once(sensor: usize, values: Values) -> Measurement {
     Measurement { sensor, values, age: 0.0 }
 }
 
-/// What sensors of the kind called `kind` observe.
 pub fn observes(kind: &str) -> Observes {
     sensors::kind(kind).expect("a kind").observes
 }
 
-/// The sensors of a nominal run, which have no noise, with what the filters believe of it; the period of the gyro in
-/// ticks of 0.1 s, 0 for none.
+/// Noiseless sensors, with the filters' models; `gyro_period` in ticks of 0.1 s, 0 for none.
 struct Nominal {
     names: Vec<&'static str>,
     /// Period and latency, s.
@@ -154,12 +152,12 @@ impl Nominal {
     }
 }
 
-/// The estimate of the filters, and the truth, after 60 s in a slew at a constant rate with thrust, beside tumbling
-/// debris, from sensors without noise but with latency: the truth starts apart from the nominal scene.
+/// Estimate and truth after 60 s of a slew at constant rate under thrust beside tumbling debris, with noiseless but
+/// late sensors and a truth that starts off the nominal scene.
 fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
     let mut nominal = Scene::resolve(&input).expect("a valid scene");
-    // p turns about c: where c is relative to it depends on when it was seen
+    // p turns about c, so that c relative to it depends on the time of the measurement
     nominal.mass.center = [0.4, -0.3, 0.2];
     let nominal = &nominal;
     let mut sensors = Nominal::new(gyro_period);
@@ -178,7 +176,7 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     let body = nominal.mass.debris.as_ref().expect("debris").inertia;
     let mut debris =
         Body { inertia: [body[0][0], body[1][1], body[2][2]], q_es: [0.8, 0.6, 0.0, 0.0], omega: [0.03, -0.02, 0.04] };
-    // about a principal axis of the body, so that the rate is constant without torque
+    // a principal axis of the body: without torque the rate is constant
     let omega = [0.0, 0.0, 0.02];
     let mut q = quaternion_of([0.05, -0.02, 0.03]);
     let (mut r, mut v) = ([3.0, -2.0, 1.0], [0.05, 0.0, -0.02]);
@@ -199,7 +197,7 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
         last = Some((estimate, at));
         debris.step([0.0; 3], 0.1, 4);
         let q_after = hamilton(q, quaternion_of(scaled(0.1, omega)));
-        // the thrust's axis is that of the turn, so that its direction in F_e is constant
+        // thrust along the rotation axis has a constant direction in F_e
         let acceleration = product(dcm_from_quaternion(q), acceleration_s);
         r = sum(r, sum(scaled(0.1, v), scaled(0.005, acceleration)));
         v = sum(v, scaled(0.1, acceleration));
@@ -208,9 +206,8 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     last.expect("ticks")
 }
 
-/// Law: without noise the filters find the truth in spite of latencies of up to four ticks, a bias, a wrong start, and
-/// a gyro that is slower than the loop or not there. What is left is what they have not forgotten of the start: bounds
-/// are five to ten times the errors with the gyro.
+/// Law: without noise the filters converge to the truth in spite of latencies up to four ticks, a bias, a wrong start
+/// and a slow or absent gyro. Bounds are five to ten times the remaining errors with the gyro.
 #[test]
 fn estimates_without_noise_are_the_truth() {
     for gyro_period in [1, 2, 0] {
@@ -231,8 +228,8 @@ fn estimates_without_noise_are_the_truth() {
     }
 }
 
-/// Law: each kind of sensor that an estimator claims to use changes its estimate, and no other does: what nobody uses
-/// is refused by `check`, not ignored.
+/// Law: a kind of sensor changes an estimate exactly if the estimator claims to use it, since `check` refuses unused
+/// sensors.
 #[test]
 fn each_sensor_that_is_used_changes_the_estimate() {
     let input = input_on_orbit().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
@@ -246,7 +243,7 @@ fn each_sensor_that_is_used_changes_the_estimate() {
             let known = table("unit", kind.parameters, &[]);
             let sensors = [KnownSensor { observes: kind.observes, period: 0.1, latency: 0.0, parameters: &known }];
             let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 0.1 };
-            // an attitude at which a sensor with a field of view sees what it looks for
+            // an attitude with the sensor's object in its field of view
             let delivered = quarters.iter().find_map(|turn| {
                 let mut model = sensor(kind.name, &[], 0.1, 0);
                 let mut at = truth(0.0, quaternion_of(*turn), [0.03, -0.02, 0.01]);

@@ -1,13 +1,12 @@
 //! [`TranslationFilter`]: position and velocity of a point in F_e, by a linear Kalman filter with known acceleration.
 //!
-//! Noise is the same along all axes, and so the axes are independent: one covariance of position and velocity serves
-//! all three. What is not known of the acceleration is white noise, a random walk of the velocity (Y. Bar-Shalom, X. R.
-//! Li & T. Kirubarajan, *Estimation with Applications to Tracking and Navigation*, 2001, section 6.2.2).
+//! Noise is alike along all axes, so one covariance of position and velocity serves all three. Unknown acceleration is
+//! a random walk of the velocity (Y. Bar-Shalom, X. R. Li & T. Kirubarajan, *Estimation with Applications to Tracking
+//! and Navigation*, 2001, section 6.2.2).
 //!
-//! On an orbit the pull of the central body is known at the estimated position, and the step is the
-//! Runge-Kutta-Nyström method of order 4 (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations
-//! I*, 1993, table II.14.2). The covariance leaves out that the pull depends on the position: over the seconds between
-//! two measurements it changes it by (n t)^2, 1e-6.
+//! On an orbit the central body's pull at the estimate is added by the Runge-Kutta-Nyström method of order 4 (E.
+//! Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, table II.14.2). The covariance
+//! neglects the gravity gradient: (n t)^2, 1e-6 between measurements.
 
 use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, symmetric, transported};
@@ -16,40 +15,34 @@ use crate::control::small_matrix::{added, diagonal};
 use crate::control::vector::{difference, norm, scaled, sum};
 use crate::dynamics::gravity::Gravity;
 
-/// A step with known acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TranslationStep {
     /// Acceleration in F_e, constant over the step, m/s^2.
     pub acceleration_e: [f64; 3],
-    /// Its duration, s.
     pub interval: f64,
 }
 
-/// A measured motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionObservation {
-    /// Position and velocity.
     pub motion: PointMotion,
-    /// Standard deviations of each component of the position, m, and of the velocity, m/s.
+    /// Standard deviations of each component of position (m) and velocity (m/s).
     pub sigmas: [f64; 2],
 }
 
 /// Position, velocity and their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TranslationFilter {
-    /// Position and velocity.
     pub motion: PointMotion,
     /// Covariance of position (m) and velocity (m/s) along each axis.
     pub covariance: [[f64; 2]; 2],
-    /// Random walk of the velocity, m/s/sqrt(s).
     pub velocity_random_walk: f64,
-    /// The gravity of the central body at the origin; `None` without an orbit.
+    /// Gravity of the central body at the origin of F_e, if any.
     pub gravity: Option<Gravity<f64>>,
 }
 
 impl PointMotion {
-    /// This motion `t` seconds later, under the constant acceleration `acceleration_e` (F_e, m/s^2) and the pull
-    /// `gravity` of a central body at the origin.
+    /// The motion `t` seconds later under `gravity` of a central body at the origin and the constant acceleration
+    /// `acceleration_e` (F_e, m/s^2).
     pub fn falling(&self, gravity: &Gravity<f64>, acceleration_e: [f64; 3], t: f64) -> PointMotion {
         let PointMotion { r_e, v_e } = *self;
         let pull = |r: [f64; 3]| sum(acceleration_e, gravity.acceleration(r, norm(r)));
@@ -62,7 +55,7 @@ impl PointMotion {
 }
 
 impl TranslationFilter {
-    /// `motion` with errors of the standard deviations `sigmas`, m and m/s, along each axis.
+    /// A filter at `motion` with the standard deviations `sigmas` (m, m/s) along each axis.
     pub fn new(
         motion: PointMotion,
         sigmas: [f64; 2],
@@ -74,7 +67,6 @@ impl TranslationFilter {
     }
 }
 
-/// `a` minus `b`.
 fn errors(a: &PointMotion, b: &PointMotion) -> [[f64; 3]; 2] {
     [difference(a.r_e, b.r_e), difference(a.v_e, b.v_e)]
 }
@@ -114,8 +106,8 @@ mod tests {
     use crate::dynamics::orbit::KeplerOrbit;
     use crate::scene::Orbit;
 
-    /// Law: what falls is on its Kepler orbit, to fourth order in the step, and a known acceleration adds t^2/2 of
-    /// itself.
+    /// Law: a falling point stays on its Kepler orbit to fourth order in the step, and a known acceleration adds t^2/2
+    /// of itself.
     #[test]
     fn a_falling_point_is_on_its_orbit() {
         let orbit = Orbit {
@@ -138,9 +130,9 @@ mod tests {
         assert!((12.0..20.0).contains(&(far[0] / near[0])), "{near:?} {far:?}");
         let [pushed, free] = [[1e-3, 0.0, 0.0], [0.0; 3]].map(|push| start.falling(&gravity, push, 2.0));
         assert!(norm(difference(difference(pushed.r_e, free.r_e), [2e-3, 0.0, 0.0])) < 1e-8);
-        // gravity at the place that the push adds, 2e-3 m times 2e-6/s^2, over two seconds
+        // bound: gravity gradient 2e-6/s^2 at 2e-3 m, over two seconds
         assert!(norm(difference(difference(pushed.v_e, free.v_e), [2e-3, 0.0, 0.0])) < 8e-9);
-        // as the filter has it, and without an orbit the straight line of before
+        // the filter propagates likewise, and in a straight line without an orbit
         let mut filter = TranslationFilter::new(start, [1.0, 0.1], 0.0, Some(gravity));
         filter.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: 10.0 });
         assert_eq!(filter.motion, start.falling(&gravity, [0.0; 3], 10.0));

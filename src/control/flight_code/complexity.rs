@@ -1,37 +1,35 @@
-//! [`check`]: whether a module is simple enough to be compiled in seconds.
+//! [`check`]: limits on modules, so that they compile in seconds.
 //!
-//! A compiler's time and memory grow faster than the code: with the product of a function's blocks and locals, each of
-//! which may have another value in each block, and with the square of its blocks. What compilers make of flight code is
-//! below these limits.
+//! Compile time and memory grow with the product of a function's blocks and locals and with the square of its blocks.
+//! Flight code as compilers make it is below these limits.
 
 use wasmparser::{CompositeInnerType, FunctionBody, Operator, Parser, Payload, SubType};
 use wasmtime::{Result, bail};
 
-/// Most bytes of the bodies of all functions.
+/// Most bytes of all function bodies.
 const MOST_CODE: usize = 512 << 10;
 const MOST_FUNCTIONS: u32 = 5_000;
 /// Most locals of a function.
 const MOST_LOCALS: u64 = 1_000;
-/// Most blocks, loops and conditions within each other.
+/// Most nested blocks, loops and conditions.
 const MOST_NESTED: u64 = 1_000;
-/// Most targets of all tables of branches.
+/// Most targets of all branch tables.
 const MOST_TARGETS: u64 = 20_000;
-/// Most segments of data and of elements, each of which is code that an instance begins with: 45,000 of data take half
-/// a minute and more than a gigabyte.
+/// Most data and element segments, each of which is code run by an instance at its start: 45,000 of data take half a
+/// minute and over a gigabyte.
 const MOST_SEGMENTS: u32 = 2_000;
-/// Most parameters and results of all types and, once more, of all functions: the compiler makes code for each type
-/// that passes them on, and for each function. 4,000 types of 990 took 103 s and 618 MB.
+/// Most parameters and results of all types plus those of all functions, for each of which the compiler makes code:
+/// 4,000 types of 990 took 103 s and 618 MB.
 const MOST_PASSED: u64 = 100_000;
-/// Largest sum, over the functions, of the square of their blocks, that of one with 5,000: some seconds; a function of
-/// 10,000 loops takes nine.
+/// Largest sum of squared block counts, that of one function of 5,000 (some seconds); 10,000 loops take nine.
 const MOST_SQUARES: u64 = 25_000_000;
-/// Largest sum, over the functions, of blocks times locals: some seconds.
+/// Largest sum of blocks times locals (some seconds).
 const MOST_VALUES: u64 = 3_000_000;
 
-/// Checks the code of a module that is valid.
+/// Checks the code of a valid module.
 ///
 /// # Errors
-/// The limit that it exceeds.
+/// The exceeded limit.
 pub fn check(bytes: &[u8]) -> Result<()> {
     let (mut targets, mut values, mut squares, mut segments, mut passed) = (0, 0, 0, 0, 0);
     let mut types = Vec::new();
@@ -83,7 +81,7 @@ pub fn check(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// The number of parameters and results of a function of the type `of`; 1 for another type.
+/// Number of parameters and results of a function type; 1 for other types.
 fn passed_by(of: &SubType) -> u64 {
     match &of.composite_type.inner {
         CompositeInnerType::Func(function) => (function.params().len() + function.results().len()) as u64,
@@ -91,8 +89,7 @@ fn passed_by(of: &SubType) -> u64 {
     }
 }
 
-/// The number of targets in the tables of branches of a function, that of its blocks times locals, and the square of
-/// that of its blocks; locals are within their own limit.
+/// Branch targets, blocks times locals, and squared blocks of a function whose locals are within their own limit.
 fn counts(body: &FunctionBody<'_>) -> Result<[u64; 3]> {
     let mut locals = 0;
     for declared in body.get_locals_reader()? {
@@ -123,7 +120,7 @@ fn counts(body: &FunctionBody<'_>) -> Result<[u64; 3]> {
 mod tests {
     use super::*;
 
-    /// A number as WebAssembly has it: seven bits a byte, the lowest first.
+    /// Unsigned LEB128.
     fn leb(mut value: usize) -> Vec<u8> {
         let mut bytes = Vec::new();
         while value > 127 {
@@ -139,8 +136,7 @@ mod tests {
         [vec![id], leb(body.len()), body].concat()
     }
 
-    /// A module of `types` types with `parameters` parameters each, and of `functions` empty functions of the first
-    /// of them.
+    /// A module of `types` types with `parameters` parameters each, and `functions` empty functions of the first.
     fn module([types, parameters, functions]: [usize; 3]) -> Vec<u8> {
         let one = [vec![0x60], leb(parameters), vec![0x7c; parameters], leb(0)].concat();
         [
@@ -152,8 +148,7 @@ mod tests {
         .concat()
     }
 
-    /// Law: the parameters of all types and functions are counted before anything is compiled: at the limit a module
-    /// passes, above it is refused.
+    /// Law: parameters of all types and functions are counted before compilation, and refused above the limit.
     #[test]
     fn parameters_are_counted() {
         for (sizes, passes) in [

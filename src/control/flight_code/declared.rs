@@ -1,26 +1,21 @@
-//! Declarations of a module: texts in its memory with a line each, in parts separated by `|`.
+//! Declarations of a module: text in its memory with one line each, in parts separated by `|`.
 //!
-//! - parameters, `key | unit | default | meaning`: the default is empty where a campaign file must give the number;
-//! - sensors whose measurements it is given, `name | kind`;
+//! - parameters, `key | unit | default | meaning`; an empty default makes a key required;
+//! - sensors whose measurements it receives, `name | kind`;
 //! - telemetry, `key | unit | meaning`.
 //!
-//! Their numbers stand in the memory of the module in the order of the lines. What is declared is kept for good, as the
-//! module is.
+//! Their numbers are in the module's memory in the order of the lines. Declarations are leaked, like the module.
 
 use super::module::{DeclaredTelemetry, WantedSensor};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// Most parameters of a module.
 const MOST_PARAMETERS: usize = 64;
-/// Most sensors.
 const MOST_SENSORS: usize = 32;
-/// Most numbers of telemetry: each is two columns of the rows.
 const MOST_TELEMETRY: usize = 32;
-/// Longest key.
 const LONGEST_KEY: usize = 40;
 
-/// The lines of `text`, each in as many parts as `form` has.
+/// The lines of `text`, each in the parts of `form`.
 fn lines<const N: usize>(text: String, form: [&str; N], most: usize) -> Result<Vec<[&'static str; N]>, String> {
     if text.chars().any(|letter| letter.is_control() && letter != '\n') {
         return Err("its text has control characters".to_owned());
@@ -43,7 +38,6 @@ fn lines<const N: usize>(text: String, form: [&str; N], most: usize) -> Result<V
     Ok(list)
 }
 
-/// Refuses what is no key.
 fn check_key(key: &str) -> Result<(), String> {
     let is_key = key.starts_with(|first: char| first.is_ascii_lowercase())
         && key.len() <= LONGEST_KEY
@@ -54,10 +48,10 @@ fn check_key(key: &str) -> Result<(), String> {
     Err(format!("{key:?} is not a key: a key has lower-case letters, digits and _, at most {LONGEST_KEY}"))
 }
 
-/// The parameters that `text` declares.
+/// Parses declared parameters.
 ///
 /// # Errors
-/// The reason why a line is refused; so do the functions below.
+/// The reason why a line is refused; likewise below.
 pub fn parameters(text: String) -> Result<&'static [LawParameter], String> {
     let mut list = Vec::new();
     for [key, unit, default, meaning] in lines(text, ["key", "unit", "default", "meaning"], MOST_PARAMETERS)? {
@@ -74,13 +68,11 @@ pub fn parameters(text: String) -> Result<&'static [LawParameter], String> {
     Ok(Vec::leak(list))
 }
 
-/// The sensors that `text` declares.
 pub fn sensors(text: String) -> Result<&'static [WantedSensor], String> {
     let list = lines(text, ["name", "kind"], MOST_SENSORS)?;
     Ok(Vec::leak(list.into_iter().map(|[name, kind]| WantedSensor { name, kind }).collect()))
 }
 
-/// The telemetry that `text` declares.
 pub fn telemetry(text: String) -> Result<&'static [DeclaredTelemetry], String> {
     let mut list = Vec::new();
     for [key, unit, meaning] in lines(text, ["key", "unit", "meaning"], MOST_TELEMETRY)? {
@@ -94,7 +86,7 @@ pub fn telemetry(text: String) -> Result<&'static [DeclaredTelemetry], String> {
     Ok(Vec::leak(list))
 }
 
-/// The ending of keys in `unit`: `_kg_m2` for `kg m^2`, nothing for `1`.
+/// Suffix of keys in `unit`: `_kg_m2` for `kg m^2`, nothing for `1`.
 fn ending(unit: &str) -> String {
     if unit == "1" {
         return String::new();

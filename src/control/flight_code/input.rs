@@ -1,4 +1,4 @@
-//! [`bytes`] and [`measured`]: what a module is given at a tick, as it stands in its memory: little-endian numbers.
+//! Input of a module at a tick, as little-endian numbers in its memory.
 
 use super::module::WantedSensor;
 use crate::control::laws::interface::{KnownBody, LawInput};
@@ -9,12 +9,12 @@ use crate::scene::MAX_WHEELS;
 pub const NUMBERS: usize = 50;
 /// Numbers of each sensor: `struct spindrift_measurement`.
 pub const MEASURED: usize = 1 + MAX_VALUES;
-/// The age of the measurement of a sensor that has delivered none.
+/// Age of the measurement of a sensor that has not delivered any.
 const NONE_YET: f64 = -1.0;
 
-/// The numbers of a tick `elapsed` seconds after the last one of the phase (zero at the first), in a loop of the
-/// control period and the delay `times`, s. In this order, which is that of the table in `docs/flight-code.md` and of
-/// `struct spindrift_input` in `examples/flight_code/spindrift.h`.
+/// The input of a tick `elapsed` seconds after the phase's last one (zero at the first); `times` are control period and
+/// delay. The order is that of `docs/flight-code.md` and of `struct spindrift_input` in
+/// `examples/flight_code/spindrift.h`.
 pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 2]) -> [u8; 8 * NUMBERS] {
     let mut bytes = [0; 8 * NUMBERS];
     let mut places = bytes.chunks_exact_mut(8);
@@ -49,8 +49,7 @@ pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 
     bytes
 }
 
-/// The last measurements of the sensors `wanted`, one after the other: age, s, and numbers, as telemetry has them; 0
-/// beyond those that its kind has.
+/// Last measurements of the sensors `wanted`: age, then values as in telemetry, 0 beyond those of the kind.
 pub fn measured(wanted: &[WantedSensor], input: &LawInput<'_>) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(8 * MEASURED * wanted.len());
     for wanted in wanted {

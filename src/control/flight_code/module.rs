@@ -1,63 +1,61 @@
-//! [`FlightCode`]: a module that has been checked and compiled, and what it declares.
+//! [`FlightCode`]: a checked and compiled module with its declarations.
 
 use std::fmt;
 
 use crate::control::laws::LawKind;
 
-/// The numbers of the interfaces, of which `spindrift_interface` of a module returns one. 2 has measurements and
-/// telemetry in addition to 1.
+/// The interfaces that `spindrift_interface` may return; 2 adds measurements and telemetry.
 pub const INTERFACES: [i32; 2] = [1, 2];
-/// The name of modules as laws of phases.
+/// Name of modules as laws of phases.
 pub const NAME: &str = "module";
 /// Largest file of a module, bytes.
 pub const MOST_BYTES: u64 = 4 << 20;
-/// Most linear memory of an instance, bytes. Each run that a worker integrates has instances of its own.
+/// Most linear memory of an instance, bytes; each run of a worker has its own instances.
 pub const MOST_MEMORY: usize = 16 << 20;
-/// Fuel of a step, which is about its number of instructions: a law needs some hundreds.
+/// Fuel of a step, about its number of instructions; a law needs some hundreds.
 pub const STEP_FUEL: u64 = 10_000_000;
-/// Fuel of what precedes the first step: start function, static constructors and `spindrift_init`.
+/// Fuel of start function, static constructors and `spindrift_init` together.
 pub const START_FUEL: u64 = 100_000_000;
-/// Most stack of the processor that the calls of a module take, bytes: a small part of what a thread has.
+/// Most native stack for a module's calls, bytes: a small part of a thread's.
 pub const MOST_STACK: usize = 256 << 10;
 
-/// The error of a module in messages about campaign files: the allowed values, and the remedy.
+/// Why a module is refused in a campaign file: allowed values and remedy.
 pub type Refusal = (String, String);
 
-/// A sensor whose last measurement a module is given at each step.
+/// A sensor whose last measurement a module receives at each step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WantedSensor {
-    /// Its name in the campaign file.
+    /// Name in the campaign file.
     pub name: &'static str,
-    /// Its kind there, which defines its numbers.
+    /// Kind in the campaign file, which defines its numbers.
     pub kind: &'static str,
 }
 
 /// A number that a module reports at each step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DeclaredTelemetry {
-    /// Its key, which ends in its unit.
+    /// Key, with its unit as suffix.
     pub key: &'static str,
-    /// The key without its unit.
+    /// Key without its unit.
     pub stem: &'static str,
-    /// Its unit; `1` of a pure number.
+    /// Unit, `1` for a pure number.
     pub unit: &'static str,
-    /// Its meaning.
     pub meaning: &'static str,
 }
 
 impl DeclaredTelemetry {
-    /// The name of its column in time series, and with `of` = `_final` or `_max` of those in rows.
+    /// Name of its column in time series, or with `of` = `_final` or `_max` in rows.
     pub fn column(&self, of: &str) -> String {
         format!("module_{}{of}{}", self.stem, &self.key[self.stem.len()..])
     }
 
-    /// Its unit in columns.
+    /// Unit in columns.
     pub fn unit_of_column(&self) -> &'static str {
         if self.unit == "1" { "" } else { self.unit }
     }
 }
 
-/// A module that has been checked and compiled.
+/// A checked and compiled module.
 pub struct FlightCode {
     pub(super) sha256: String,
     pub(super) kind: LawKind,
@@ -71,17 +69,15 @@ impl FlightCode {
         &self.sha256
     }
 
-    /// The law that it is, with the parameters that it declares.
+    /// The law, with the parameters that it declares.
     pub fn kind(&'static self) -> &'static LawKind {
         &self.kind
     }
 
-    /// The sensors whose measurements it is given.
     pub fn sensors(&self) -> &'static [WantedSensor] {
         self.sensors
     }
 
-    /// The telemetry that it reports.
     pub fn telemetry(&self) -> &'static [DeclaredTelemetry] {
         self.telemetry
     }
@@ -93,7 +89,7 @@ impl fmt::Debug for FlightCode {
     }
 }
 
-/// Modules of the same bytes are one.
+/// Modules with equal bytes are equal.
 impl PartialEq for FlightCode {
     fn eq(&self, other: &Self) -> bool {
         self.sha256 == other.sha256

@@ -1,8 +1,8 @@
-//! Modules as compiled, and their instances.
+//! Compiled modules and their instances.
 //!
-//! The output of a module is a function of its input: NaN have one form, nothing is imported, and fuel is counted in
-//! instructions. Only the depth of calls at which it traps depends on the processor ([`MOST_STACK`]). Bounds are
-//! checked by instructions, not by signals: those are the process's own.
+//! A module's output is a function of its input: NaN are canonical, nothing is imported, and fuel counts instructions.
+//! Only the call depth at which it traps depends on the processor ([`MOST_STACK`]). Bounds are checked by instructions,
+//! since signals belong to the process.
 
 use std::fmt;
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -28,15 +28,14 @@ const MOST_TABLES: usize = 4;
 const MOST_ELEMENTS: usize = 10_000;
 /// Longest text of a table, bytes.
 const LONGEST_TEXT: usize = 1 << 14;
-/// The numbers of the output.
+/// Numbers in the output.
 const OUTPUT: usize = 3;
-/// The functions that return where numbers stand, each with the one that returns where the text stands that declares
-/// them.
+/// Exports that return the address of numbers and of the text that declares them.
 const PARAMETERS: [&str; 2] = ["spindrift_parameters", "spindrift_parameter_table"];
 const MEASUREMENTS: [&str; 2] = ["spindrift_measurements", "spindrift_measurement_table"];
 const TELEMETRY: [&str; 2] = ["spindrift_telemetry", "spindrift_telemetry_table"];
 
-/// The compiler of this process, and its settings.
+/// The compiler of this process.
 fn engine() -> Result<&'static Engine> {
     static ENGINE: OnceLock<Result<Engine>> = OnceLock::new();
     let make = || {
@@ -44,17 +43,17 @@ fn engine() -> Result<&'static Engine> {
         config.cranelift_nan_canonicalization(true).consume_fuel(true).max_wasm_stack(MOST_STACK);
         config.wasm_relaxed_simd(false).wasm_multi_value(false).wasm_multi_memory(false).wasm_memory64(false);
         config.signals_based_traps(false).wasm_backtrace_max_frames(None).generate_address_map(false);
-        // room for a memory at its largest, where it is: the default would reserve gigabytes for each run
+        // reserves the largest memory in place: the default would reserve gigabytes per run
         config.memory_reservation(MOST_MEMORY as u64).memory_may_move(false).memory_init_cow(false);
         Engine::new(&config)
     };
     ENGINE.get_or_init(make).as_ref().map_err(|error| format_err!("{error:#}"))
 }
 
-/// The module with these bytes, as [`FlightCode::kept`].
+/// See [`super::kept`].
 pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCode, Refusal> {
     static KEPT: Mutex<Vec<&'static FlightCode>> = Mutex::new(Vec::new());
-    // locked while it compiles: who wants the same module waits for it
+    // locked while compiling, so that others wait for the same module
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = kept.iter().find(|known| known.sha256 == sha256) {
         return Ok(known);
@@ -73,10 +72,10 @@ pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCo
     Ok(code)
 }
 
-/// A module that is ready to be instantiated.
+/// A module ready to be instantiated.
 type Compiled = InstancePre<StoreLimits>;
 
-/// The declarations of a module.
+/// Declarations of a module.
 #[derive(Clone, Copy)]
 struct Declared {
     parameters: &'static [LawParameter],
@@ -84,7 +83,7 @@ struct Declared {
     telemetry: &'static [DeclaredTelemetry],
 }
 
-/// The module with these bytes, and what it declares. An instance has been started, so that those of runs can be.
+/// The module and its declarations; a trial instance has started.
 fn compiled(bytes: &[u8]) -> Result<(Compiled, Declared)> {
     match bytes {
         [0, b'a', b's', b'm', 1, 0, 0, 0, ..] => {}
@@ -117,13 +116,13 @@ fn compiled(bytes: &[u8]) -> Result<(Compiled, Declared)> {
     Ok((compiled, declared))
 }
 
-/// An instance, which has a memory of its own.
+/// An instance with its own memory.
 struct Running {
     store: Store<StoreLimits>,
     instance: Instance,
     memory: Memory,
     step: TypedFunc<(), ()>,
-    /// Places in its memory.
+    /// Addresses in its memory.
     input: usize,
     output: usize,
     parameters: Option<usize>,
@@ -132,7 +131,7 @@ struct Running {
 }
 
 impl Running {
-    /// An instance whose start function and constructors have run.
+    /// An instance after its start function and constructors.
     fn start(compiled: &Compiled) -> Result<Self> {
         let limits = StoreLimitsBuilder::new().memory_size(MOST_MEMORY).tables(MOST_TABLES);
         let limits = limits.table_elements(MOST_ELEMENTS).build();
@@ -166,14 +165,14 @@ impl Running {
         self.optional(name)?.ok_or_else(|| missing(name))
     }
 
-    /// The place in memory that the function `name` returns, if there is one.
+    /// The address that the function `name` returns, if it exists.
     fn place(&mut self, name: &str) -> Result<Option<usize>> {
         let Some(function) = self.optional::<i32>(name)? else { return Ok(None) };
         let place = function.call(&mut self.store, ())?;
         Ok(Some(place.cast_unsigned() as usize))
     }
 
-    /// Checks that `numbers` numbers fit into the memory at `place`, which `name` returns.
+    /// Checks that `numbers` numbers fit into memory at `place`, the result of `name`.
     fn area(&self, place: usize, numbers: usize, name: &str) -> Result<()> {
         let size = self.memory.data_size(&self.store);
         if place + 8 * numbers > size {
@@ -182,8 +181,7 @@ impl Running {
         Ok(())
     }
 
-    /// What the module declares in the text of the function `table`, whose numbers, `count` of each thing, stand at
-    /// `place`, which the function `name` returns.
+    /// The declarations in the text at `table`; their numbers, `count` each, are at `place`, the result of `name`.
     fn declared<T>(
         &mut self,
         [name, table]: [&str; 2],
@@ -201,7 +199,7 @@ impl Running {
         Ok(things)
     }
 
-    /// The text that begins at `place`, up to its zero.
+    /// The zero-terminated text at `place`.
     fn text(&self, place: i32) -> std::result::Result<String, String> {
         let memory = self.memory.data(&self.store).get(place.cast_unsigned() as usize..).unwrap_or_default();
         let longest = &memory[..memory.len().min(LONGEST_TEXT)];
@@ -210,14 +208,13 @@ impl Running {
         String::from_utf8(longest[..end].to_vec()).map_err(|_| "its text is not UTF-8".to_owned())
     }
 
-    /// Writes `bytes` into the memory at `place`.
     fn write(&mut self, place: usize, bytes: &[u8]) {
         if let Some(area) = self.memory.data_mut(&mut self.store).get_mut(place..place + bytes.len()) {
             area.copy_from_slice(bytes);
         }
     }
 
-    /// Gives it its parameters and what it knows at the first step, and lets it prepare itself.
+    /// Writes parameters and the first input, and calls `spindrift_init`.
     fn prepare(&mut self, parameters: &[f64], known: &Known) -> Result<()> {
         if let Some(place) = self.parameters {
             let bytes: Vec<u8> = parameters.iter().flat_map(|number| number.to_le_bytes()).collect();
@@ -230,7 +227,6 @@ impl Running {
         }
     }
 
-    /// Writes what is known at a step.
     fn tell(&mut self, known: &Known) {
         self.write(self.input, &known.input);
         if let Some(place) = self.measurements {
@@ -238,7 +234,7 @@ impl Running {
         }
     }
 
-    /// A step: the torque that it wants, and what it reports.
+    /// A step: the wanted torque, and telemetry.
     fn step(&mut self, known: &Known, telemetry: &mut [f64]) -> Result<[f64; OUTPUT]> {
         self.tell(known);
         self.store.set_fuel(STEP_FUEL)?;
@@ -250,21 +246,18 @@ impl Running {
         Ok(std::array::from_fn(|index| self.number(self.output + 8 * index)))
     }
 
-    /// The number at `place` in its memory.
     fn number(&self, place: usize) -> f64 {
         let bytes = self.memory.data(&self.store).get(place..place + 8).and_then(|bytes| bytes.try_into().ok());
         bytes.map_or(f64::NAN, f64::from_le_bytes)
     }
 }
 
-/// The input of a step.
 struct Known {
     input: [u8; 8 * NUMBERS],
     measured: Vec<u8>,
 }
 
-/// The function `name` of an instance, without arguments and with these results; `None` where it exports nothing of
-/// that name.
+/// The function `name` without arguments, if it is exported.
 fn function<R: WasmResults>(
     instance: &Instance,
     store: &mut Store<StoreLimits>,
@@ -283,14 +276,14 @@ fn missing(name: &str) -> Error {
     format_err!("it does not export {name}")
 }
 
-/// The law of a phase in a run. Its instance is made at the first tick of the phase.
+/// The law of a phase in a run, with an instance from the phase's first tick on.
 struct ModuleLaw {
     compiled: Compiled,
     declared: Declared,
     parameters: Vec<f64>,
     /// Control period and delay, s.
     times: [f64; 2],
-    /// Telemetry of its last step; empty before the first, and after one that failed.
+    /// Telemetry of the last step; empty before the first and after a failure.
     telemetry: Vec<f64>,
     running: Option<Running>,
     failure: Option<Failure>,
@@ -339,7 +332,7 @@ impl PhaseLaw for ModuleLaw {
         self.failure = match stopped.downcast_ref() {
             Some(Trap::OutOfFuel) => Some(Failure::ModuleFuel),
             Some(_) => Some(Failure::ModuleTrap),
-            // an instance has been started before: what fails is this machine, and no row may say otherwise
+            // a trial instance has started before, so that this machine is at fault, and no row may blame the module
             None => panic!("no instance of the module can be made: {stopped:#}"),
         };
         [f64::NAN; 3]
@@ -354,7 +347,7 @@ impl PhaseLaw for ModuleLaw {
     }
 }
 
-/// The law as it begins.
+/// A clone restarts.
 impl Clone for ModuleLaw {
     fn clone(&self) -> Self {
         let (compiled, parameters) = (self.compiled.clone(), self.parameters.clone());

@@ -1,4 +1,4 @@
-//! From a wanted torque and force to commands; which of them act.
+//! From a wanted torque and force to commands, and the commands that act.
 
 use super::{CommandedImpulse, FlightSoftware, Guided, stored_momentum};
 use crate::control::allocation::rods::NO_DIPOLES;
@@ -13,10 +13,10 @@ use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, produc
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS};
 
 impl FlightSoftware {
-    /// Commands what the law and the maneuver want.
+    /// Commands the torque of the law and the force of the maneuver.
     ///
     /// # Errors
-    /// If the law cannot go on, or a command is no finite number: none is given.
+    /// If the law stops or a command is not finite; then nothing is commanded.
     pub fn command(&mut self, time: f64, guided: &Guided) -> Result<(), Failure> {
         let (estimate, error) = (&self.estimate, &guided.error);
         let mass = &self.believed.mass;
@@ -50,7 +50,7 @@ impl FlightSoftware {
                 _ => {
                     let s3_e = product(dcm_from_quaternion(estimate.q_es), [0.0, 0.0, 1.0]);
                     let along = mass.total * dot(guided.velocity_to_go, s3_e) / self.spec.period;
-                    // where s3 is turned for the thruster that pushes along it, none brakes
+                    // no thruster brakes if s3 is turned for one that pushes along it
                     let only_forward = matches!(phase.target, Target::Transfer | Target::Stop);
                     Some([0.0, 0.0, if only_forward { along.max(0.0) } else { along }])
                 }
@@ -93,7 +93,7 @@ impl FlightSoftware {
         Ok(())
     }
 
-    /// The commands that act at `time`, s, which does not descend.
+    /// The commands that act at `time`, which does not descend.
     pub fn acting(&mut self, time: f64) -> ActingCommands<'_> {
         let same = SAME_TIME * self.spec.period;
         let (motor_torque, mut until) = self.under_way.motors.at(time + same);
@@ -111,10 +111,10 @@ impl FlightSoftware {
         ActingCommands { motor_torque, pulses, rods, until }
     }
 
-    /// Adds up the commands that act for `length` seconds from `time` on, for the estimator.
+    /// Accumulates the commands acting for `length` seconds from `time` on, for the estimator.
     pub fn count(&mut self, time: f64, length: f64) {
         if self.spec.knows_the_truth() {
-            // only filters need the commands
+            // only filters need them
             return;
         }
         let same = SAME_TIME * self.spec.period;
@@ -122,7 +122,7 @@ impl FlightSoftware {
             let (pulses, _) = self.under_way.thrust.all();
             let mut thrust = [0.0; MAX_THRUSTERS];
             for &i in &self.spec.thrusters {
-                // a valve that is slower than it is believed fires on when its pulse should have ended
+                // a real valve may fire longer than its believed pulse
                 let left = pulses.begin + pulses.on_time[i] - time;
                 if left > same {
                     thrust[i] = pulses.thrust[i] * if left < length - same { left / length } else { 1.0 };

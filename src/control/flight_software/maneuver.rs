@@ -1,4 +1,4 @@
-//! The impulse that is left of a maneuver, and the attitude that it wants.
+//! Remaining impulse of a maneuver, and the attitude that it needs.
 
 use super::FlightSoftware;
 use crate::control::guidance::phase::{Maneuver, Phase};
@@ -8,7 +8,7 @@ use crate::control::vector::{dcm_from_quaternion, difference, product, scaled};
 use crate::scene::MAX_THRUSTERS;
 
 impl FlightSoftware {
-    /// The impulse per mass that is left of the maneuver of the phase.
+    /// Remaining impulse per mass of the phase's maneuver.
     pub fn velocity_to_go(&self, geometry: Option<&LaunchGeometry>, time: f64) -> VelocityToGo {
         let Some(geometry) = geometry else { return VelocityToGo::default() };
         let phase = &self.phases[self.guidance.phase];
@@ -19,17 +19,17 @@ impl FlightSoftware {
                 let change = difference([0.0; 3], geometry.acceleration());
                 VelocityToGo { velocity_e, change_e: geometry.inertial_change(velocity_e, change) }
             }
-            // within the burn what is left of the time of the transfer is ahead, and the impulse keeps its direction
+            // during the burn the transfer time runs down, and the impulse keeps its direction
             Maneuver::Transfer if phase.thrust == Maneuver::Transfer => {
                 let left = self.guidance.arrival - time;
                 if left < self.spec.period - self.ticks.same() {
-                    // the time of the transfer is over: what is left is for the stop
+                    // the transfer time is over: the stop removes the rest
                     return VelocityToGo::default();
                 }
                 let velocity_e = geometry.transfer(left);
                 VelocityToGo { velocity_e, change_e: geometry.inertial_change(velocity_e, [0.0; 3]) }
             }
-            // before it, all of it
+            // before the burn the whole transfer is ahead
             Maneuver::Transfer => {
                 let velocity_e = geometry.transfer(phase.transfer_time);
                 let change = geometry.change_of_transfer(phase.transfer_time);
@@ -38,8 +38,7 @@ impl FlightSoftware {
         }
     }
 
-    /// The impulse per mass, in F_e, m/s, of thrust that is commanded and has not acted yet at `time`, at the attitude
-    /// `q_es`.
+    /// Impulse per mass, in F_e, of commanded thrust that has yet to act at `time`, at the attitude `q_es`.
     fn on_its_way(&self, q_es: [f64; 4], time: f64) -> [f64; 3] {
         let (acting, waiting) = self.under_way.thrust.all();
         let mut impulse = [0.0; MAX_THRUSTERS];
@@ -54,7 +53,7 @@ impl FlightSoftware {
         scaled(1.0 / self.believed.mass.total, product(dcm_from_quaternion(q_es), impulse_s))
     }
 
-    /// The attitude relative to the target of the phase, and the velocity to go (m/s, F_e).
+    /// Attitude relative to the phase's target, and velocity to go in F_e.
     pub(in crate::control) fn wanted(&self, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
         let estimate = &self.estimate;
         let mut to_go = self.velocity_to_go(geometry, time);

@@ -1,10 +1,6 @@
-//! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. What it knows is the nominal scene as it is
-//! believed ([`LoopSpec::believed`]), its own drawn numbers, what its sensors deliver, and what it has commanded: no
-//! field of it and no argument of its tick is the truth.
-//!
-//! - `commands`: from a wanted torque and force to commands.
-//! - [`under_way`]: commands until they act no more.
-//! - `maneuver`: the impulse that is left of a maneuver, and the attitude that it wants.
+//! [`FlightSoftware`]: estimator, guidance, law and allocation of one run. It knows the believed nominal scene
+//! ([`LoopSpec::believed`]), its own drawn numbers, measurements and its own commands; neither fields nor arguments
+//! hold the truth.
 
 mod commands;
 mod maneuver;
@@ -39,13 +35,13 @@ use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
-/// The momentum of the wheels of `scene` relative to the body at the estimated rates, in F_s, N m s.
+/// Momentum of the wheels relative to the body at the estimated rates, in F_s.
 fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
     let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
     wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
 }
 
-/// The geometry of the launch from the state `launch` as estimated; `None` without debris.
+/// The estimated launch geometry; `None` without debris.
 fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
     let debris = estimate.debris.as_ref()?;
     let centers =
@@ -53,33 +49,31 @@ fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeomet
     Some(launch.geometry(&centers))
 }
 
-/// The decision of guidance at a control tick.
+/// Decision of guidance at a control tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Guided {
     pub progress: Progress,
     /// True if a phase begins with this tick.
     pub begins: bool,
-    /// The estimated attitude relative to the target.
+    /// Estimated attitude relative to the target.
     pub error: AttitudeError,
-    /// The velocity that the maneuver still has to change, in F_e, m/s.
+    /// Remaining velocity change of the maneuver, in F_e.
     pub velocity_to_go: [f64; 3],
 }
 
 /// Impulses commanded since the last tick.
 #[derive(Clone, Copy, Debug)]
 struct CommandedImpulse {
-    /// N s, in F_s.
     force_s: [f64; 3],
-    /// On the body, in F_s, N m s.
+    /// On the body.
     torque_s: [f64; 3],
-    /// N m s, by wheel.
+    /// By wheel.
     motors: [f64; MAX_WHEELS],
 }
 
 const NO_IMPULSE: CommandedImpulse =
     CommandedImpulse { force_s: [0.0; 3], torque_s: [0.0; 3], motors: [0.0; MAX_WHEELS] };
 
-/// The flight software of one run.
 pub struct FlightSoftware {
     pub(in crate::control) spec: Arc<LoopSpec>,
     pub(in crate::control) ticks: TickTimes,
@@ -88,65 +82,53 @@ pub struct FlightSoftware {
     estimator: Box<dyn Estimator>,
     pub(in crate::control) estimate: Estimate,
     pub(in crate::control) phases: Vec<Phase>,
-    /// The law of the phase, and those of all phases as they begin.
+    /// The phase's law, and those of all phases in their initial states.
     law: AttitudeLaw,
     pub(in crate::control) laws: Vec<AttitudeLaw>,
     pub(in crate::control) guidance: Guidance,
     wheels: Option<WheelTorque>,
     thrusters: Option<ThrustAllocation>,
     rods: Option<RodAllocation>,
-    /// The magnetic field as measured.
     field: MeasuredField,
-    /// The last measurement of each sensor; empty if no law reads them.
+    /// Last measurement of each sensor; empty if no law reads them.
     readings: Vec<Reading>,
-    /// The projection onto the torques that the thrusters give in both directions.
+    /// Projection onto the torques that thrusters give in both directions.
     two_sided: [[f64; 3]; 3],
     thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
     pulses: [PulseState; MAX_THRUSTERS],
     launch: LaunchState,
-    /// The nominal orbit.
     orbit: Option<OrbitPath>,
-    /// The geometry of the launch as estimated at the control tick; `None` without debris.
+    /// Estimated launch geometry at the control tick; `None` without debris.
     geometry: Option<LaunchGeometry>,
-    /// Time without the target after which it is lost, s; infinite where there is no limit.
+    /// Time without the debris in sight after which it is lost; may be infinite.
     lost_target_timeout: f64,
     is_recorded: bool,
-    /// From a command to its action, s.
     pub(in crate::control) delay: f64,
     pub(in crate::control) under_way: CommandsUnderWay,
-    /// The commands of the last control tick, of a run that is recorded.
+    /// Commands of the last control tick in a recorded run.
     latest: Commanded,
     commanded: CommandedImpulse,
-    /// When the debris was last measured, s.
+    /// Time of the last measurement of the debris.
     debris_seen: f64,
     has_camera: bool,
     started: bool,
     last_update: f64,
 }
 
-/// The parts of flight software, as a loop is made.
+/// Parts of flight software.
 pub struct Parts {
-    /// The nominal scene as it is believed.
     pub believed: Scene,
-    /// The estimator.
     pub estimator: Box<dyn Estimator>,
     pub phases: Vec<(Phase, AttitudeLaw)>,
-    /// The launch state.
     pub launch: LaunchState,
-    /// By thruster.
     pub thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
-    /// Time without the target after which it is lost, s.
     pub lost_target_timeout: f64,
-    /// From a command to its action, s.
     pub delay: f64,
-    /// The nominal state at the start.
     pub start: Estimate,
-    /// True if the run is recorded ([`FlightSoftware::latest_commands`]).
     pub is_recorded: bool,
 }
 
 impl FlightSoftware {
-    /// Flight software of the loop `spec`.
     pub fn new(spec: &Arc<LoopSpec>, parts: Parts) -> Self {
         let Parts { believed, estimator, phases, launch, start, .. } = parts;
         let (phases, laws): (Vec<Phase>, Vec<AttitudeLaw>) = phases.into_iter().unzip();
@@ -193,7 +175,7 @@ impl FlightSoftware {
         }
     }
 
-    /// A tick: the estimate from what is measured and from what was commanded.
+    /// Updates the estimate by the measurements of a tick and the commands since the last.
     pub fn tick(&mut self, measurements: &Measurements<'_>) {
         self.note_debris(measurements);
         self.note_field(measurements);
@@ -220,7 +202,6 @@ impl FlightSoftware {
         }
     }
 
-    /// Notes the magnetic field, where it was measured.
     fn note_field(&mut self, measurements: &Measurements<'_>) {
         for measurement in measurements.delivered {
             if matches!(self.spec.sensors[measurement.sensor].observes(), Observes::Field(_)) {
@@ -229,7 +210,7 @@ impl FlightSoftware {
         }
     }
 
-    /// Notes when the debris was seen: where there is a camera, it has to see it; elsewhere the radar.
+    /// Notes when the debris was seen: by the camera if there is one, else by the radar.
     fn note_debris(&mut self, measurements: &Measurements<'_>) {
         if measurements.state.is_some() {
             self.debris_seen = measurements.time;
@@ -246,8 +227,7 @@ impl FlightSoftware {
         }
     }
 
-    /// Decides at a control tick how the mission goes on, and begins a phase where one follows; `failure`: what ends it
-    /// whatever the phase.
+    /// Advances guidance at a control tick; `failure` ends the mission in whatever phase.
     pub fn guide(&mut self, time: f64, failure: Option<Failure>) -> Guided {
         let (mut error, mut velocity_to_go) = self.wanted(self.geometry.as_ref(), time);
         let progress = match failure {
@@ -258,20 +238,20 @@ impl FlightSoftware {
                 self.guidance.decide(&self.phases, time, input.as_ref(), &self.ticks)
             }
         };
-        // a phase begins with the run, or where guidance has changed it
+        // a phase begins with the run or by a change of guidance
         let begins = !std::mem::replace(&mut self.started, true) || std::mem::take(&mut self.guidance.has_changed);
         if begins {
             self.law = self.laws[self.guidance.phase].clone();
             (error, velocity_to_go) = self.wanted(self.geometry.as_ref(), time);
         }
         if self.is_recorded {
-            // nothing is commanded where the mission ends
+            // no commands at the end of the mission
             self.latest = Commanded::NOTHING;
         }
         Guided { progress, begins, error, velocity_to_go }
     }
 
-    /// The failure that flight software detects at a control tick; before [`FlightSoftware::guide`].
+    /// The failure that flight software detects at a control tick; call before [`FlightSoftware::guide`].
     pub fn failure(&mut self, time: f64) -> Option<Failure> {
         if self.spec.has_debris {
             self.geometry = geometry_of(&self.launch, &self.estimate);
@@ -286,7 +266,7 @@ impl FlightSoftware {
         (self.spec.has_debris && is_lost).then_some(Failure::LostTarget)
     }
 
-    /// The quantities of conditions, with this attitude relative to the target and this velocity to go.
+    /// Quantities of conditions.
     fn guidance_input(&self, time: f64, error: AttitudeError, velocity_to_go: [f64; 3]) -> GuidanceInput {
         let (estimate, ticks) = (&self.estimate, &self.ticks);
         let rates = &estimate.wheel_rates[..self.believed.mass.wheels.len()];
@@ -306,8 +286,7 @@ impl FlightSoftware {
         }
     }
 
-    /// The orbit as flight software knows it: that of the nominal scene at `time`, s; with perfect knowledge the true
-    /// one. `None` without an orbit.
+    /// The orbit as flight software knows it: nominal, or with perfect knowledge the true one.
     pub(in crate::control) fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
         let (orbit, nominal) = self.orbit.as_ref().zip(self.believed.orbit.as_ref())?;
         if self.spec.knows_the_truth() {
@@ -317,37 +296,32 @@ impl FlightSoftware {
         Some(OrbitMotion::of(nominal, time, position, velocity))
     }
 
-    /// The estimate of this tick.
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
     }
 
-    /// The state of guidance.
     pub fn guidance(&self) -> &Guidance {
         &self.guidance
     }
 
-    /// The phase that the run is in.
     pub fn phase(&self) -> &Phase {
         &self.phases[self.guidance.phase]
     }
 
-    /// The magnetic field as measured last, F_s, T.
+    /// Last measured magnetic field.
     pub fn field_s(&self) -> [f64; 3] {
         self.field.field_s
     }
 
-    /// The commands of the last control tick, of a run that is recorded.
     pub fn latest_commands(&self) -> Commanded {
         self.latest
     }
 
-    /// Telemetry of the law of the phase at its last tick.
+    /// Telemetry of the phase's law at its last tick.
     pub fn telemetry(&self) -> &[f64] {
         self.law.telemetry()
     }
 
-    /// The confidence of the filters.
     pub fn filters(&self) -> Filters {
         self.estimator.filters()
     }

@@ -1,66 +1,59 @@
-//! [`GuidanceInput`]: the input of guidance at a tick, and the quantities of conditions.
+//! [`GuidanceInput`]: input of guidance at a tick; [`Condition`]: expressions over it.
 
 use super::target::AttitudeError;
 use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::vector::norm;
 use crate::sampling::expression::Expression;
 
-/// The input of guidance at a tick, from the estimate.
+/// Estimated input of guidance at a tick.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceInput {
-    /// Time since the start of the run, s.
     pub time: f64,
-    /// Time since the phase began, s.
     pub time_in_phase: f64,
-    /// Magnitude of the angular velocity of the body relative to F_e, rad/s.
+    /// Magnitude of the body's rate relative to F_e.
     pub body_rate: f64,
-    /// The attitude relative to the target of the phase.
+    /// Attitude relative to the phase's target.
     pub error: AttitudeError,
-    /// Largest magnitude of a wheel's rate relative to the body, rad/s.
+    /// Largest magnitude of a wheel's rate relative to the body.
     pub wheel_speed: f64,
-    /// Magnitude of the wheels' momentum relative to the body, N m s.
+    /// Magnitude of the wheels' momentum relative to the body.
     pub wheel_momentum: f64,
-    /// Relative to the launch state, with debris that has an axis.
+    /// Relative to the launch state, if there is debris.
     pub geometry: Option<LaunchGeometry>,
-    /// Impulse per mass that is left of the maneuver of the phase, in F_e, m/s.
+    /// Remaining impulse per mass of the phase's maneuver, in F_e.
     pub velocity_to_go: [f64; 3],
     /// Direction of s3 in F_e.
     pub s3_e: [f64; 3],
-    /// Time until the current transfer reaches the station, s; NaN without one.
+    /// Time until the current transfer reaches the station; NaN without one.
     pub time_to_station: f64,
-    /// Time since the debris was last measured, s; NaN without debris.
+    /// Time since the debris was last measured; NaN without debris.
     pub debris_age: f64,
-    /// Magnitude of the angular velocity of the debris relative to F_e, rad/s; NaN without debris.
+    /// Magnitude of the debris's rate relative to F_e; NaN without debris.
     pub debris_rate: f64,
 }
 
-/// The numbers that a quantity can have.
+/// Range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum QuantityRange {
-    /// Every number.
     Any,
-    /// Zero and above: magnitudes.
     NotNegative,
-    /// The angle of a rotation: zero to pi.
+    /// Zero to pi.
     Angle,
-    /// A time within the run.
+    /// Within the run.
     Time,
 }
 
-/// A quantity that conditions may name.
+/// A quantity for conditions.
 pub struct GuidanceQuantity {
-    /// Its name, unit last.
+    /// Name with unit suffix.
     pub name: &'static str,
-    /// Its meaning.
     pub meaning: &'static str,
-    /// True if the scene must have debris.
     pub needs_debris: bool,
-    /// Its range.
     pub range: QuantityRange,
     value: fn(&GuidanceInput) -> f64,
 }
 
-/// The value of `of` at the launch geometry; NaN without one, which fulfils no condition.
+/// A value of the launch geometry; NaN without one, which meets no condition.
 fn with_geometry(input: &GuidanceInput, of: impl Fn(&LaunchGeometry) -> f64) -> f64 {
     input.geometry.as_ref().map_or(f64::NAN, of)
 }
@@ -79,7 +72,7 @@ impl GuidanceQuantity {
     }
 }
 
-/// The quantities of conditions, all of them estimates.
+/// The quantities of conditions, all estimated.
 pub static QUANTITIES: [GuidanceQuantity; 16] = [
     own("time_s", "Time since the start of the run", |s| s.time).within(QuantityRange::Time),
     own("time_in_phase_s", "Time since the phase began", |s| s.time_in_phase).within(QuantityRange::Time),
@@ -119,18 +112,17 @@ pub static QUANTITIES: [GuidanceQuantity; 16] = [
     }),
 ];
 
-/// A condition of a phase: an expression over [`QUANTITIES`] that is other than zero where it is met.
+/// A condition of a phase: an expression over [`QUANTITIES`], met if nonzero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
-    /// As written.
     pub text: String,
     expression: Expression,
-    /// The index in [`QUANTITIES`] of each variable.
+    /// Index in [`QUANTITIES`] of each variable.
     quantities: Vec<usize>,
 }
 
 impl Condition {
-    /// Reads `text`, of a scene with debris or without.
+    /// Parses `text` for a scene with or without debris.
     ///
     /// # Errors
     /// The allowed text, to follow "must be".
@@ -151,13 +143,13 @@ impl Condition {
         Ok(Condition { text: text.to_owned(), expression, quantities })
     }
 
-    /// True if it has the quantity called `name`.
+    /// True if it uses the quantity `name`.
     pub fn asks_for(&self, name: &str) -> bool {
         self.quantities.iter().any(|quantity| QUANTITIES[*quantity].name == name)
     }
 
-    /// The range of its value in runs of `duration` seconds, whatever the motion: 0 to 0 where it is never met, 1 to 1
-    /// where it is always.
+    /// Range of its value in runs of `duration` seconds, whatever the motion: 0 to 0 if it is never met, 1 to 1 if
+    /// always.
     pub fn range(&self, duration: f64) -> [f64; 2] {
         self.expression.range(|variable| match QUANTITIES[self.quantities[variable]].range {
             QuantityRange::Any => [f64::NEG_INFINITY, f64::INFINITY],
@@ -167,7 +159,7 @@ impl Condition {
         })
     }
 
-    /// True if it is met. An unknown value (NaN) meets no condition.
+    /// True if it is met; NaN meets no condition.
     pub fn is_met(&self, input: &GuidanceInput) -> bool {
         let value = self.expression.value(|variable| (QUANTITIES[self.quantities[variable]].value)(input));
         value != 0.0 && !value.is_nan()

@@ -1,8 +1,5 @@
-//! Guidance: a state machine of phases, whose conditions stand in the campaign file.
-//!
-//! - [`phase`]: what a phase is. [`target`]: the attitude that it wants. [`condition`]: what ends it, and what
-//!   conditions can ask for.
-//! - Here: [`Guidance`], which phase a run is in.
+//! Guidance: a state machine of [`phase`]s with a [`target`] attitude each, left by a [`condition`] of the campaign
+//! file.
 
 pub mod condition;
 pub mod phase;
@@ -15,36 +12,32 @@ use phase::{Maneuver, Next, Phase};
 use super::failure::Failure;
 use super::tick_times::TickTimes;
 
-/// The progress of a mission after a tick.
+/// Progress of a mission after a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// It goes on.
     Flies,
-    /// The net is launched: the run ends.
     Launches,
-    /// The mission has failed: the run ends.
     Fails(Failure),
 }
 
-/// The phase of a run.
+/// The current phase of a run.
 #[derive(Clone, Debug)]
 pub struct Guidance {
-    /// The phase, by its place in the list.
+    /// Index of the phase.
     pub phase: usize,
-    /// When it began, s.
+    /// When it began.
     pub since: f64,
-    /// Since when its condition has been met, s; NaN while it is not.
+    /// Time since which its condition has been met; NaN if it is not.
     met_since: f64,
-    /// When the station is reached by the transfer that is flown, s; NaN without one.
+    /// Arrival of the current transfer at the station; NaN without one.
     pub arrival: f64,
-    /// When each phase first began, s; NaN before.
+    /// When each phase first began; NaN before.
     pub first_begun: Vec<f64>,
-    /// True if the phase has just begun: laws start anew.
+    /// True if the phase has just begun, so that laws restart.
     pub has_changed: bool,
 }
 
 impl Guidance {
-    /// At the start of a run with `phases` phases.
     pub fn new(phases: &[Phase]) -> Self {
         let mut guidance = Guidance {
             phase: 0,
@@ -72,9 +65,8 @@ impl Guidance {
         }
     }
 
-    /// Decides at the tick at `time` (s), one of `ticks`, whether the phase goes on. `input` is what its condition
-    /// asks, and may be `None` where it has none. At most one change a tick, so that a phase lasts at least one, and no
-    /// list of phases makes a circle within a tick.
+    /// Decides at the tick at `time` whether the phase goes on; `input` is needed by its condition. At most one change
+    /// per tick, so that each phase lasts at least one and cycles take time.
     pub fn decide(
         &mut self,
         phases: &[Phase],

@@ -1,63 +1,56 @@
-//! [`Phase`]: one phase of guidance, with the numbers of a run.
+//! [`Phase`]: a phase of guidance with the numbers of a run.
 
 use super::condition::Condition;
 use super::target::Target;
 use crate::control::laws::MomentumUnloading;
 use crate::control::laws::rod_law::RodLaw;
 
-/// The use of thrust along s3.
+/// Use of thrust along s3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Maneuver {
-    /// None.
     None,
-    /// The first impulse of a transfer to the station.
+    /// First impulse of a transfer to the station.
     Transfer,
-    /// The second: the velocity relative to the debris is taken away.
+    /// Second impulse, which cancels the velocity relative to the debris.
     Stop,
 }
 
-/// The names of the maneuvers in campaign files.
+/// Names of the maneuvers in campaign files.
 pub const MANEUVERS: [(&str, Maneuver); 3] =
     [("none", Maneuver::None), ("transfer", Maneuver::Transfer), ("stop", Maneuver::Stop)];
 
-/// The phase that follows another one.
+/// Successor of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// None: the phase lasts until the run ends.
+    /// The phase lasts until the run ends.
     Stay,
-    /// Another phase, by its place in the list.
+    /// Index of another phase.
     Phase(usize),
-    /// The launch of the net.
+    /// Launch of the net.
     Launch,
 }
 
-/// A phase.
+/// A phase of guidance.
 #[derive(Clone, Debug)]
 pub struct Phase {
-    /// The condition that ends it.
     pub until: Option<Condition>,
-    /// The phase that follows then.
     pub next: Next,
-    /// The phase that follows at once if the condition is not met.
+    /// Phase that begins at once if the condition is not met.
     pub otherwise: Option<usize>,
-    /// Time for which the condition must be met, s.
+    /// Time for which the condition must hold.
     pub hold: f64,
-    /// After which the mission fails, s; infinite without.
+    /// Time after which the mission fails; may be infinite.
     pub timeout: f64,
-    /// The attitude.
     pub target: Target,
-    /// The use of thrust.
     pub thrust: Maneuver,
-    /// Time of a transfer that begins in this phase, s.
+    /// Time of a transfer that begins in this phase.
     pub transfer_time: f64,
-    /// Unloading of the wheels by thrusters, if any.
     pub unloading: Option<MomentumUnloading>,
-    /// The law of torque rods.
     pub rods: RodLaw,
 }
 
 impl Phase {
-    /// The maneuver whose impulse is the velocity to go: that of the thrust, else that for which s3 is pointed.
+    /// The maneuver of the velocity to go: that of the thrust, else the one for which s3 is pointed.
     pub fn maneuver(&self) -> Maneuver {
         match (self.thrust, self.target) {
             (Maneuver::None, Target::Transfer) => Maneuver::Transfer,

@@ -8,22 +8,22 @@ use crate::dynamics::gravity::Gravity;
 use crate::math::vector::quaternion_from_dcm;
 use crate::scene::Orbit;
 
-/// The attitude that a phase wants.
+/// Target attitude of a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// None: the rate is controlled alone.
+    /// Rate control only.
     None,
-    /// The attitude q_et of a frame fixed in F_e, F_t -> F_e, scalar first.
+    /// Inertial attitude q_et, F_t -> F_e, scalar first.
     Attitude([f64; 4]),
-    /// The attitude q_os of the body relative to the local orbital frame, F_s -> F_o, scalar first.
+    /// Attitude q_os relative to the local orbital frame, F_s -> F_o, scalar first.
     Orbital([f64; 4]),
-    /// s3 points at the central body.
+    /// s3 to the central body.
     Nadir,
-    /// s3 along the velocity of the orbit.
+    /// s3 along the orbital velocity.
     OrbitalVelocity,
-    /// s3 points at the Sun.
+    /// s3 to the Sun.
     Sun,
-    /// s3 points at the debris.
+    /// s3 to the debris.
     LineToDebris,
     /// s3 along the axis A_d.
     LaunchAxis,
@@ -35,7 +35,7 @@ pub enum Target {
     Velocity,
 }
 
-/// The names of the targets in campaign files; an attitude has a key of its own.
+/// Names of the targets in campaign files; an attitude has its own key.
 pub const TARGETS: [(&str, Target); 11] = [
     ("none", Target::None),
     ("attitude", Target::Attitude([1.0, 0.0, 0.0, 0.0])),
@@ -50,30 +50,29 @@ pub const TARGETS: [(&str, Target); 11] = [
     ("velocity", Target::Velocity),
 ];
 
-/// The attitude relative to a target.
+/// Attitude relative to a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeError {
     /// Attitude of F_s relative to the target, scalar first.
     pub q_ts: [f64; 4],
-    /// Angular velocity of the target relative to F_e, in F_s, rad/s.
+    /// Angular velocity of the target relative to F_e, in F_s.
     pub omega_te_s: [f64; 3],
 }
 
-/// Motion of the spacecraft relative to the central body, in F_e.
+/// Motion relative to the central body, in F_e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitMotion {
-    /// Position of its centre of mass, m.
+    /// Position of the centre of mass.
     pub r_e: [f64; 3],
-    /// Velocity, m/s.
     pub v_e: [f64; 3],
-    /// Acceleration by gravity, m/s^2.
+    /// Acceleration by gravity.
     pub a_e: [f64; 3],
-    /// The unit vector to the Sun; zero where the orbit has no date.
+    /// Unit vector to the Sun; zero without a date.
     pub sun_e: [f64; 3],
 }
 
 impl OrbitMotion {
-    /// The motion at the position `r_e` and the velocity `v_e` on `orbit` at `time`, s.
+    /// Motion at `r_e`, `v_e` on `orbit` at `time`.
     pub fn of(orbit: &Orbit, time: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
         OrbitMotion {
             r_e,
@@ -83,9 +82,8 @@ impl OrbitMotion {
         }
     }
 
-    /// The attitude q_eo of the local orbital frame ([`crate::scene::LocalFrame`]), F_o -> F_e, and its angular
-    /// velocity in F_e, rad/s. By plain sums, like everything that flight software computes: those of `LocalFrame` are
-    /// fused, and would be other bits.
+    /// Attitude q_eo of the local orbital frame ([`crate::scene::LocalFrame`]), F_o -> F_e, and its angular velocity in
+    /// F_e, without the fused operations of `LocalFrame`, whose bits differ.
     fn local_frame(&self) -> ([f64; 4], [f64; 3]) {
         let normal = cross(self.r_e, self.v_e);
         let o3 = scaled(-1.0 / norm(self.r_e), self.r_e);
@@ -96,31 +94,28 @@ impl OrbitMotion {
     }
 }
 
-/// The definition of a target, besides the attitude.
+/// Input that defines a target.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetInput<'a> {
-    /// Geometry of the launch; `None` without debris.
+    /// Launch geometry; `None` without debris.
     pub geometry: Option<&'a LaunchGeometry>,
-    /// The impulse of the maneuver.
     pub to_go: &'a VelocityToGo,
-    /// The orbit; `None` without one.
     pub orbit: Option<OrbitMotion>,
 }
 
-/// The impulse per mass that is left of a maneuver.
+/// Remaining impulse per mass of a maneuver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VelocityToGo {
-    /// In F_e, m/s.
+    /// In F_e.
     pub velocity_e: [f64; 3],
-    /// Its derivative without thrust, in F_e, m/s^2.
+    /// Its derivative without thrust, in F_e.
     pub change_e: [f64; 3],
 }
 
 impl AttitudeError {
-    /// None.
     pub const NONE: AttitudeError = AttitudeError { q_ts: [1.0, 0.0, 0.0, 0.0], omega_te_s: [0.0; 3] };
 
-    /// The angle of the rotation to the target, rad, by the shorter way.
+    /// Angle of the shorter rotation to the target, rad.
     pub fn angle(&self) -> f64 {
         let [w, x, y, z] = self.q_ts;
         2.0 * libm::atan2(norm([x, y, z]), w.abs())
@@ -128,17 +123,17 @@ impl AttitudeError {
 }
 
 impl Target {
-    /// True if it is defined by the debris.
+    /// True if the debris defines it.
     pub fn needs_debris(self) -> bool {
         !matches!(self, Target::None | Target::Attitude(_)) && !self.needs_orbit()
     }
 
-    /// True if it is defined by the orbit.
+    /// True if the orbit defines it.
     pub fn needs_orbit(self) -> bool {
         matches!(self, Target::Orbital(_) | Target::Nadir | Target::OrbitalVelocity | Target::Sun)
     }
 
-    /// The attitude `q_es` relative to the target, which `input` defines.
+    /// Attitude `q_es` relative to the target defined by `input`.
     pub fn error(self, q_es: [f64; 4], input: &TargetInput<'_>) -> AttitudeError {
         let TargetInput { geometry, to_go, orbit } = *input;
         // fixed in F_e, or on an orbit to the axis
@@ -160,11 +155,11 @@ impl Target {
             (Target::OrbitalVelocity, _) => {
                 orbit.map_or(AttitudeError::NONE, |OrbitMotion { v_e, a_e, .. }| pointing(q_es, v_e, turn_of(v_e, a_e)))
             }
-            // it turns by 2e-7 rad/s
+            // the Sun turns by 2e-7 rad/s
             (Target::Sun, _) => orbit.map_or(AttitudeError::NONE, |orbit| pointing(q_es, orbit.sun_e, [0.0; 3])),
             (Target::LineToDebris, Some(geometry)) => {
                 let line = geometry.to_debris;
-                // the spacecraft moves with the relative velocity, and the line against it
+                // the line moves against the spacecraft's relative velocity
                 let change = geometry.inertial_change(line, scaled(-1.0, geometry.relative_velocity));
                 pointing(q_es, line, turn_of(line, change))
             }
@@ -178,14 +173,14 @@ impl Target {
     }
 }
 
-/// The angular velocity of the direction of `vector`, whose derivative is `change`, rad/s.
+/// Angular velocity of the direction of `vector` with the derivative `change`.
 fn turn_of(vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
     let square = dot(vector, vector);
     if square == 0.0 { [0.0; 3] } else { scaled(1.0 / square, cross(vector, change)) }
 }
 
-/// The attitude relative to the one that points s3 along `direction` (F_e, any length) by the shortest rotation, and
-/// turns at `turn` (rad/s, F_e).
+/// Attitude relative to the one that turns s3 the shortest way to `direction` (F_e, any length) and rotates at `turn`
+/// (F_e).
 fn pointing(q_es: [f64; 4], direction: [f64; 3], turn: [f64; 3]) -> AttitudeError {
     let length = norm(direction);
     if length == 0.0 {
@@ -193,14 +188,14 @@ fn pointing(q_es: [f64; 4], direction: [f64; 3], turn: [f64; 3]) -> AttitudeErro
     }
     let c_es = dcm_from_quaternion(q_es);
     let d_s = transposed_product(c_es, scaled(1.0 / length, direction));
-    // s3 x d: the axis of the rotation from s3 to the direction
+    // s3 x d, the axis of the rotation from s3 to the direction
     let across = [-d_s[1], d_s[0], 0.0];
     let sine = norm(across);
     let angle = libm::atan2(sine, d_s[2]);
     let vector = match (sine > 0.0, d_s[2] > 0.0) {
         (true, _) => scaled(angle / sine, across),
         (false, true) => [0.0; 3],
-        // the other way: any axis across is as good
+        // opposite: any axis across will do
         (false, false) => [angle, 0.0, 0.0],
     };
     AttitudeError { q_ts: quaternion_of(scaled(-1.0, vector)), omega_te_s: transposed_product(c_es, turn) }
@@ -216,8 +211,8 @@ mod tests {
     const NO_IMPULSE: VelocityToGo = VelocityToGo { velocity_e: [0.0; 3], change_e: [0.0; 3] };
     const NOTHING: TargetInput<'_> = TargetInput { geometry: None, to_go: &NO_IMPULSE, orbit: None };
 
-    /// Law: without error s3 points at the central body and, where the whole attitude is wanted, the axes are those of
-    /// the orbital frame as turned; what the target turns by is how its attitude changes along the orbit.
+    /// Law: at zero error s3 points at the target, orbital attitudes have the axes of the rotated orbital frame, and
+    /// the target's rate is the derivative of its attitude along the orbit.
     #[test]
     fn targets_of_an_orbit_turn_with_it() {
         let mu = 3.986e14;
@@ -230,7 +225,7 @@ mod tests {
             let scene = Orbit { mu, position: r_e, velocity: v_e, body_radius: 0.0, j2: None, epoch };
             TargetInput { orbit: Some(OrbitMotion::of(&scene, time, r_e, sum(v_e, scaled(time, pull)))), ..NOTHING }
         };
-        // at the solstice the Sun is over the tropic, where the ecliptic is highest
+        // at the solstice the Sun is over the tropic
         let solstice = [0.0, libm::cos(0.40909), libm::sin(0.40909)];
         let q_os = quaternion_of([0.2, -0.5, 0.3]);
         for (target, q_es) in [
@@ -241,7 +236,7 @@ mod tests {
         ] {
             let error = target.error(q_es, &at(0.0));
             let q_et = hamilton(q_es, conjugate(error.q_ts));
-            // at the target there is no error, and s3 points where it must
+            // on target there is no error, and s3 points along the wanted direction
             assert!(target.error(q_et, &at(0.0)).angle() < 1e-14);
             let wished = match target {
                 Target::OrbitalVelocity => scaled(1.0 / norm(v_e), v_e),
@@ -254,12 +249,12 @@ mod tests {
                 _ => [0.0, 0.0, 1.0],
             };
             assert!(norm(difference(in_target, wanted)) < 1e-14, "{in_target:?}");
-            // q_et(t)' q_et(t + h) is the rotation by omega_te h; of nadir the part across it
+            // q_et(t)' q_et(t + h) is the rotation by omega_te h; for nadir, the part across
             let h = 1e-2;
             let moved = [-h, h].map(|time| target.error(q_et, &at(time)).q_ts);
             let slope = scaled(-0.5 / h, difference(vector_of(moved[1]), vector_of(moved[0])));
             let rate = target.error(q_et, &at(0.0)).omega_te_s;
-            // a year's turn of the Sun, 2e-7 rad/s, is left out
+            // neglects the Sun's motion, 2e-7 rad/s
             let bound = if target == Target::Sun { 2.1e-7 } else { 1e-9 };
             assert!(norm(difference(slope, rate)) < bound, "{target:?}: {slope:?} for {rate:?}");
             assert_eq!(norm(rate) > 1e-4, target != Target::Sun);

@@ -1,8 +1,7 @@
-//! A law of attitude outside of this program: a callback of whoever flies the campaign, as the function of Python that
-//! `plan.run(control=...)` takes.
+//! An attitude law outside this program: a callback, such as the Python function given to `plan.run(control=...)`.
 //!
-//! A loop calls its law at a tick and waits for the torque. Runs flown side by side on one thread
-//! ([`crate::ensemble::supervision::Crew`]) can wait for one another, so that one call serves all of them.
+//! A loop calls it at a tick and waits for the torque. Runs flown side by side on one thread
+//! ([`crate::ensemble::supervision::Crew`]) can share a call.
 
 use std::sync::{Arc, PoisonError, RwLock};
 
@@ -14,7 +13,7 @@ use crate::sampling::SampleId;
 /// Its name in `[[guidance]]`.
 pub const NAME: &str = "python";
 
-/// The law of the list for which a process installs a callback.
+/// The law that calls the installed callback.
 pub static KIND: LawKind = LawKind {
     name: NAME,
     parameters: &[],
@@ -24,23 +23,22 @@ pub static KIND: LawKind = LawKind {
 /// A call at a tick of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Call<'a> {
-    /// The run; 0 is the nominal one.
+    /// The run; 0 is nominal.
     pub sample: SampleId,
-    /// Since the last tick, s: zero at the first of a phase.
+    /// Time since the last tick, s; zero at the first of a phase.
     pub period: f64,
-    /// The input of laws.
+    /// Input of the law.
     pub input: &'a LawInput<'a>,
-    /// The state that flight software believes.
+    /// Estimated state.
     pub estimate: &'a Estimate,
 }
 
-/// The law itself.
+/// A law outside this program.
 pub trait Callback: Send + Sync {
-    /// The wanted torque on the body, F_s, N m. One that is not finite ends the run, which fails as `diverged`.
+    /// The wanted torque on the body, F_s, N m; a non-finite one ends the run as `diverged`.
     fn torque(&self, call: &Call<'_>) -> [f64; 3];
 }
 
-/// The callback of this process.
 static CURRENT: RwLock<Option<Arc<dyn Callback>>> = RwLock::new(None);
 
 fn current() -> Option<Arc<dyn Callback>> {
@@ -52,7 +50,7 @@ fn current() -> Option<Arc<dyn Callback>> {
 pub struct Installation(());
 
 impl Installation {
-    /// Installs `callback` in this process; `None` if there is another one.
+    /// Installs `callback` in this process; `None` if one is installed already.
     pub fn new(callback: Arc<dyn Callback>) -> Option<Self> {
         let mut current = CURRENT.write().unwrap_or_else(PoisonError::into_inner);
         if current.is_some() {
@@ -69,15 +67,15 @@ impl Drop for Installation {
     }
 }
 
-/// True if a phase of the loop `spec` is flown by a callback.
+/// True if a callback flies a phase of `spec`.
 pub fn is_law_of(spec: &LoopSpec) -> bool {
     spec.phases.iter().any(|phase| phase.law == Some(&KIND))
 }
 
-/// Refuses to fly the loop `spec` without the callback that it needs.
+/// Refuses to fly `spec` without the callback that it needs.
 ///
 /// # Errors
-/// With the message.
+/// The message.
 pub fn refuse_missing(spec: Option<&LoopSpec>) -> Result<(), String> {
     if current().is_some() || !spec.is_some_and(is_law_of) {
         return Ok(());
@@ -88,7 +86,6 @@ pub fn refuse_missing(spec: Option<&LoopSpec>) -> Result<(), String> {
     ))
 }
 
-/// The law in a run.
 #[derive(Clone)]
 struct CallbackLaw {
     sample: SampleId,

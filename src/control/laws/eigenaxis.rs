@@ -9,33 +9,29 @@ use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
 /// u = -K (k (e + z) + c omega_st) + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of the
-/// attitude q relative to the target, omega_st the rate relative to it, z = Ki int e dt, K = J less the axial inertias
-/// of free wheels, H the momentum with the wheels. From rest it turns about a fixed axis, with theta'' = -c theta' - k
+/// attitude q and the rate omega_st, both relative to the target, z = Ki int e dt, K = J less the axial inertias of
+/// free wheels, H the momentum with the wheels. From rest it turns about a fixed axis, with theta'' = -c theta' - k
 /// sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis, *J. Guidance* 12(3), 1989).
 ///
-/// With a limit of the rate, k (e + z) is cut to the length c max_rate, where the body coasts at that rate (cascade
-/// saturation; Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3). With a limit of the torque, K (...) keeps
-/// its direction, and large errors are removed by a `Slew`, which brakes in time. The integral rests while something is
-/// cut.
+/// A rate limit cuts k (e + z) to the length c max_rate, at which the body coasts (cascade saturation; Wie, *Space
+/// Vehicle Dynamics and Control*, 2008, section 7.3). Under a torque limit K (...) keeps its direction, and a `Slew`
+/// removes large errors, braking in time. The integral rests while a limit is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenaxis {
     /// k, 1/s^2.
     pub stiffness: f64,
     /// c, 1/s.
     pub damping: f64,
-    /// Largest rate, rad/s; infinite without a limit.
+    /// Largest rate; may be infinite.
     pub largest_rate: f64,
-    /// Largest torque on the body besides what its own momentum and a target that turns take, N m; infinite without a
-    /// limit. Beyond it the torque keeps its direction.
+    /// Largest torque on the body besides feedforward; may be infinite.
     pub largest_torque: f64,
-    /// The integral of the error.
     pub integral: Integral,
-    /// Removes large errors under a limit of the torque.
+    /// Removes large errors under a torque limit.
     slew: Slew,
 }
 
 declared! {
-    /// Its numbers in campaign files.
     EigenaxisNumbers = PARAMETERS {
         bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s",
             "Natural frequency w of small errors: k = 2 w^2", Limit::Positive);
@@ -75,15 +71,15 @@ impl Eigenaxis {
         Eigenaxis { stiffness, damping, largest_rate, largest_torque, integral: Integral::NONE, slew }
     }
 
-    /// The acceleration for small errors, rad/s^2, without limits and integral.
+    /// The acceleration for small errors, without limits and integral.
     fn uncut(&self, input: &LawInput) -> [f64; 3] {
         let error = scaled(self.stiffness, input.error_vector());
         scaled(-1.0, sum(error, scaled(self.damping, input.omega_st_s())))
     }
 
-    /// The acceleration within the limit of the rate, with the integral, which grows only while nothing is cut.
+    /// The acceleration within the rate limit; the integral rests while it is active.
     fn small(&mut self, input: &LawInput, period: f64) -> [f64; 3] {
-        // where damping balances the error, the rate is error/c
+        // damping balances the error at the rate error/c
         let most = self.damping * self.largest_rate;
         let is_cut = |error: [f64; 3]| self.stiffness * norm(error) > most;
         let before = self.integral.with(input.error_vector(), 0.0);
@@ -113,7 +109,7 @@ impl PhaseLaw for Eigenaxis {
     }
 
     fn weaker(&self, share: f64) -> Option<(AttitudeLaw, String)> {
-        // under a limit of the torque a slew brakes on a curve, which has no gain at the target
+        // under a torque limit a slew brakes on a curve without a gain at its end
         let (stiffness, damping) = (share * share * self.stiffness, share * self.damping);
         let gains = format!("bandwidth_rad_s = {}", digits((0.5 * stiffness).sqrt()));
         let law = AttitudeLaw::new(Eigenaxis { stiffness, damping, ..*self });
@@ -129,10 +125,10 @@ mod tests {
     use crate::control::vector::dot;
     use core::f64::consts::FRAC_PI_2;
 
-    /// Law: a slew from rest under limits of torque and rate takes the time of the textbook, 2 sqrt(theta/a) or
-    /// theta/v + v/a with a = torque/|K axis| (Wie, section 7.3), within 3%, two periods and the delay, until it stays
-    /// within 0.1 deg, with an overshoot of less than 0.05 deg, for every bandwidth that the period allows and any
-    /// period and delay. Two periods: switches wait for a tick, and the last two remove the rest.
+    /// Law: a slew from rest under torque and rate limits takes the textbook's time, 2 sqrt(theta/a) or theta/v + v/a
+    /// with a = torque/|K axis| (Wie, section 7.3), within 3%, two periods and the delay, until it stays within 0.1
+    /// deg, and overshoots by less than 0.05 deg, for every bandwidth that period and delay allow. Two periods:
+    /// switches wait for a tick, and the last two remove the rest.
     #[test]
     fn slews_take_the_time_of_the_textbook() {
         let (axis, inertia, torque) = ([0.48, -0.6, 0.64], [30.0, 45.0, 20.0], 0.25);

@@ -1,9 +1,9 @@
-//! [`Integral`]: what a law adds to its error, so that a constant torque leaves none.
+//! [`Integral`]: removes the offset that a constant torque would leave.
 
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// The key of its gain.
+/// Key of its gain.
 pub const GAIN: LawParameter = LawParameter::number(
     "integral_1_s",
     "1/s",
@@ -11,7 +11,7 @@ pub const GAIN: LawParameter = LawParameter::number(
     Limit::NotNegative,
 )
 .or(&[0.0]);
-/// The key of its limit, where the error is the vector part of a quaternion.
+/// Key of its limit for an error that is the vector part of a quaternion.
 pub const LIMIT: LawParameter = LawParameter::number(
     "integral_limit",
     "1",
@@ -19,7 +19,7 @@ pub const LIMIT: LawParameter = LawParameter::number(
     Limit::NotNegative,
 )
 .or(&[0.0]);
-/// The key of its limit, where the error is a rate.
+/// Key of its limit for an error that is a rate.
 pub const RATE_LIMIT: LawParameter = LawParameter::number(
     "integral_limit_rad_s",
     "rad/s",
@@ -28,28 +28,26 @@ pub const RATE_LIMIT: LawParameter = LawParameter::number(
 )
 .or(&[0.0]);
 
-/// z = Ki int e dt of an error e, each component within a limit. A law has e + z in place of e: z grows until e is zero
-/// (friction of wheels, a torque that the model does not have). It starts at zero with the phase; z += Ki T e at every
-/// later tick, before it is used.
+/// z = Ki int e dt of an error e, each component within a limit. A law uses e + z in place of e, so that z balances
+/// constant torques such as wheel friction. It is zero at the start of a phase and grows by Ki T e at every later tick,
+/// before use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integral {
-    /// Ki, 1/s; zero without an integral.
+    /// Ki, 1/s; zero for no integral.
     pub gain: f64,
-    /// Largest magnitude of each component of z, in the unit of the error; infinite without a limit.
+    /// Largest magnitude of each component of z, in the error's unit; may be infinite.
     pub limit: f64,
     sum: [f64; 3],
 }
 
 impl Integral {
-    /// No integral.
     pub const NONE: Integral = Integral::new(0.0, f64::INFINITY);
 
-    /// With this gain and limit.
     pub const fn new(gain: f64, limit: f64) -> Self {
         Integral { gain, limit, sum: [0.0; 3] }
     }
 
-    /// e + z, at a tick `period` seconds after the last one (zero at the first, or where the integral is to rest).
+    /// e + z, `period` seconds after the last tick (zero at the first, or to rest the integral).
     pub fn with(&mut self, error: [f64; 3], period: f64) -> [f64; 3] {
         if self.gain == 0.0 {
             return error;

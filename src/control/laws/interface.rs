@@ -1,5 +1,4 @@
-//! Between a loop and its laws: a kind of law ([`LawKind`]), a law ([`PhaseLaw`], [`AttitudeLaw`]), its settings
-//! ([`LawSettings`]), the spacecraft that it knows ([`KnownBody`]) and its input at a tick ([`LawInput`]).
+//! The interface between a loop and its attitude laws.
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -11,31 +10,28 @@ use crate::control::vector::{cross, difference, dot, product, scaled, sum};
 use crate::sampling::SampleId;
 use crate::scene::{DeclaredTable, LawParameter, MassProperties, WheelMode};
 
-/// A law of attitude in a run. Each phase that names it has one, which begins anew with the phase.
+/// An attitude law in a run; each phase has its own, which restarts with the phase.
 pub trait PhaseLaw {
-    /// The wanted torque on the body, F_s, N m, at a tick `period` seconds after the last one (zero at the first of the
-    /// phase).
+    /// The wanted torque on the body, F_s, N m, `period` seconds after the last tick (zero at the first of the phase).
     fn torque(&mut self, body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3];
 
-    /// The law with `share` of its gains, and these as a campaign file has them; `None` of a law that keeps its gains
-    /// to itself.
+    /// The law with `share` of its gains, and these as written in a campaign file; `None` if its gains are unknown.
     fn weaker(&self, _share: f64) -> Option<(AttitudeLaw, String)> {
         None
     }
 
-    /// Why it cannot go on, if its torque is no finite number; `None`: that itself is the reason.
+    /// The reason for a torque that is not finite, if it is not simply divergence.
     fn failure(&self) -> Option<Failure> {
         None
     }
 
-    /// The numbers of its last tick for the columns of the loop
-    /// ([`crate::control::flight_code::FlightCode::telemetry`]); NaN for a value that is no finite number.
+    /// Telemetry of its last tick ([`crate::control::flight_code::FlightCode::telemetry`]); NaN for a non-finite value.
     fn telemetry(&self) -> &[f64] {
         &[]
     }
 }
 
-/// A [`PhaseLaw`] that can be copied without knowing its type.
+/// A [`PhaseLaw`] that can be cloned as an object.
 trait ClonedLaw: PhaseLaw + fmt::Debug + Send {
     fn cloned(&self) -> Box<dyn ClonedLaw>;
     fn as_law(&self) -> &(dyn PhaseLaw + 'static);
@@ -56,12 +52,11 @@ impl<L: PhaseLaw + Clone + fmt::Debug + Send + 'static> ClonedLaw for L {
     }
 }
 
-/// Any law of attitude in a run, with its memory.
+/// Any attitude law in a run, with its state.
 #[derive(Debug)]
 pub struct AttitudeLaw(Box<dyn ClonedLaw>);
 
 impl AttitudeLaw {
-    /// The law `law`.
     pub fn new(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
         AttitudeLaw(Box::new(law))
     }
@@ -87,9 +82,9 @@ impl DerefMut for AttitudeLaw {
     }
 }
 
-/// A law of attitude that a campaign can name: built in, a WebAssembly module, a function of Python
-/// ([`super::callback`]), or a static of your program, which its session brings
-/// ([`crate::workflow::session::Session::with_attitude_law`]). Phases of `[[guidance]]` name all of them alike.
+/// An attitude law that phases of `[[guidance]]` can name: built in, a WebAssembly module, a Python function
+/// ([`super::callback`]), or a static of your program, given to its session
+/// ([`crate::workflow::session::Session::with_attitude_law`]).
 ///
 /// ```
 /// use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
@@ -122,7 +117,7 @@ impl DerefMut for AttitudeLaw {
 /// ```
 #[derive(Clone, Copy)]
 pub struct LawKind {
-    /// Its name, as in `kind` of a campaign file.
+    /// Its name in a campaign file.
     pub name: &'static str,
     /// The keys of its table.
     pub parameters: &'static [LawParameter],
@@ -136,14 +131,14 @@ impl fmt::Debug for LawKind {
     }
 }
 
-/// Laws of one name are one law.
+/// Laws are equal by name.
 impl PartialEq for LawKind {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
 }
 
-/// No torque: the law of a phase that names none.
+/// The law of a phase that names none.
 #[derive(Clone, Copy, Debug)]
 pub struct NoTorque;
 
@@ -153,27 +148,27 @@ impl PhaseLaw for NoTorque {
     }
 }
 
-/// The settings of the law of a phase.
+/// Settings of the law of a phase.
 #[derive(Clone, Copy, Debug)]
 pub struct LawSettings<'a> {
-    /// Its numbers.
+    /// Numbers of its keys.
     pub table: &'a DeclaredTable,
-    /// True if `mrp_feedback` has omega x H.
+    /// True if `mrp_feedback` includes omega x H.
     pub gyroscopic: bool,
-    /// The control period, s.
+    /// Control period, s.
     pub period: f64,
-    /// The time from a tick to the effect of its command, s.
+    /// Delay from a tick to the effect of its command, s.
     pub delay: f64,
-    /// The run.
+    /// The run; 0 is nominal.
     pub sample: SampleId,
 }
 
-/// A number with four significant digits.
+/// Rounds to four significant digits.
 pub(in crate::control) fn digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// The input of a law of attitude at a tick. F_t is the frame of the target.
+/// Input of an attitude law at a tick. F_t is the target's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawInput<'a> {
     /// Attitude quaternion F_s -> F_t, scalar first, of either sign.
@@ -184,19 +179,18 @@ pub struct LawInput<'a> {
     pub omega_te_s: [f64; 3],
     /// Derivative of that rate in F_e, in F_s, rad/s^2.
     pub acceleration_te_s: [f64; 3],
-    /// H, with the wheels, in F_s, N m s: [`KnownBody::momentum`].
+    /// H, wheels included, in F_s, N m s: [`KnownBody::momentum`].
     pub momentum_s: [f64; 3],
     /// Time since the start of the run, s.
     pub time: f64,
-    /// All that is estimated; `None` without a loop.
+    /// The whole estimate; `None` outside a loop.
     pub estimate: Option<&'a Estimate>,
-    /// The last measurement of each sensor, in a loop whose law reads them ([`super::callback`],
-    /// [`crate::control::flight_code`]).
+    /// Last measurement of each sensor, if the law reads them ([`super::callback`], [`crate::control::flight_code`]).
     pub readings: Readings<'a>,
 }
 
 impl LawInput<'_> {
-    /// At rest at a target at rest, without momentum.
+    /// On target at rest, without momentum.
     pub const AT_TARGET: LawInput<'static> = LawInput {
         q_ts: [1.0, 0.0, 0.0, 0.0],
         omega_se_s: [0.0; 3],
@@ -213,23 +207,23 @@ impl LawInput<'_> {
         difference(self.omega_se_s, self.omega_te_s)
     }
 
-    /// The vector part of the attitude, of the shorter rotation: q_v sign(q_0).
+    /// Vector part of the shorter rotation: q_v sign(q_0).
     pub fn error_vector(&self) -> [f64; 3] {
         let [w, x, y, z] = self.q_ts;
         if w < 0.0 { [-x, -y, -z] } else { [x, y, z] }
     }
 
-    /// omega x H + K (omega_te' - omega x omega_te): the torque that keeps the rate relative to the target, F_s, N m.
+    /// omega x H + K (omega_te' - omega x omega_te), the torque that keeps the rate relative to the target, F_s, N m.
     pub fn feedforward(&self, body: &KnownBody) -> [f64; 3] {
         let carried = difference(self.acceleration_te_s, cross(self.omega_se_s, self.omega_te_s));
         sum(product(body.inertia, carried), cross(self.omega_se_s, self.momentum_s))
     }
 }
 
-/// The constants of the spacecraft that a law knows: of the nominal scene.
+/// Constants of the nominal spacecraft.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownBody {
-    /// K = J*: the inertia without the axial ones of free wheels, in F_s, kg m^2.
+    /// K = J*, the inertia without the axial ones of free wheels, in F_s, kg m^2.
     pub inertia: [[f64; 3]; 3],
 }
 
@@ -238,16 +232,14 @@ impl KnownBody {
         KnownBody { inertia: mass.inertia_rotating() }
     }
 
-    /// H = K omega + sum h_i a_i, in F_s, N m s: of the body at the rate `omega` (rad/s), with the wheels of `mass` at
-    /// the rates `rates` (rad/s).
+    /// H = K omega + sum h_i a_i in F_s, N m s, at the body rate `omega` and wheel rates `rates`.
     pub fn momentum(&self, mass: &MassProperties, omega: [f64; 3], rates: &[f64]) -> [f64; 3] {
         wheel_momenta(mass, omega, rates).fold(product(self.inertia, omega), sum)
     }
 }
 
-/// The momenta that the wheels of `mass` add to K omega, h_i a_i by wheel, in F_s, N m s, at the rate `omega` of the
-/// body and the rates `rates` of the wheels, rad/s: h_i = J_i (a_i . omega + Omega_i) of a free wheel, and J_i Omega_i
-/// of one whose speed is held, because K has the rest of it.
+/// The momenta h_i a_i that wheels add to K omega, in F_s, N m s, at the body rate `omega` and wheel rates `rates`: h_i
+/// = J_i (a_i . omega + Omega_i) for a free wheel, J_i Omega_i for one held at its speed, since K includes its inertia.
 pub fn wheel_momenta<'a>(
     mass: &'a MassProperties,
     omega: [f64; 3],

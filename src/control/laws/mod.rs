@@ -1,8 +1,7 @@
-//! Laws of attitude: from what is known of the attitude to a wanted torque on the body.
+//! Attitude laws: from the estimated attitude to a wanted torque on the body.
 //!
-//! All of them know the nominal spacecraft only: [`KnownBody`] has its constants. The equation of motion is K omega' =
-//! H x omega + u, with K = J* where free wheels are driven by motors, H the angular momentum with the wheels, and u the
-//! torque on the body, F_s.
+//! All know the nominal spacecraft only ([`KnownBody`]). The equation of motion is K omega' = H x omega + u, with K =
+//! J* if motors drive free wheels, H the angular momentum with the wheels, and u the torque on the body, F_s.
 
 pub mod callback;
 mod eigenaxis;
@@ -24,18 +23,18 @@ pub use rate_damping::RateDamping;
 
 pub use interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, wheel_momenta};
 
-/// The laws of attitude that a campaign can name.
+/// Built-in attitude laws.
 pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
 
 #[cfg(test)]
 pub(super) mod plant {
-    //! A rigid body in small steps: what the laws are tested on.
+    //! A rigid body in small steps, for tests of laws.
 
     use super::LawInput;
     use crate::control::rotation::quaternion_of;
     use crate::control::vector::{cross, hamilton, product, scaled, sum};
 
-    /// A body with the diagonal inertia `inertia`, kg m^2.
+    /// A body with the diagonal inertia `inertia`.
     #[derive(Clone, Copy, Debug)]
     pub struct Body {
         pub inertia: [f64; 3],
@@ -49,7 +48,7 @@ pub(super) mod plant {
             [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
         }
 
-        /// What a law knows of it, with F_e as target.
+        /// Input of a law with F_e as target.
         pub fn input(&self) -> LawInput<'static> {
             let momentum_s = product(self.matrix(), self.omega);
             LawInput { q_ts: self.q_es, omega_se_s: self.omega, momentum_s, ..LawInput::AT_TARGET }
@@ -60,7 +59,7 @@ pub(super) mod plant {
             std::array::from_fn(|i| total[i] / self.inertia[i])
         }
 
-        /// Moves on by `time` seconds under a constant torque, in `steps` steps (RK4 of the rate, exponentials of its
+        /// Steps by `time` seconds under a constant torque, in `steps` steps (RK4 of the rate, exponentials of its
         /// mean).
         pub fn step(&mut self, torque: [f64; 3], time: f64, steps: usize) {
             let h = time / steps as f64;
@@ -72,7 +71,7 @@ pub(super) mod plant {
                 let k4 = self.acceleration(sum(w, scaled(h, k3)), torque);
                 let slope = std::array::from_fn(|i| (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]) / 6.0);
                 let after = sum(w, scaled(h, slope));
-                // midpoint of the rate, with the error of a commutator
+                // midpoint rate with the error of a commutator
                 let turn = sum(scaled(0.5 * h, sum(w, after)), scaled(h * h / 12.0, cross(w, after)));
                 self.q_es = hamilton(self.q_es, quaternion_of(turn));
                 let length = self.q_es.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -94,7 +93,7 @@ mod tests {
     use crate::scene::DeclaredTable;
     use crate::scene::{Name, Scene, SceneInput};
 
-    /// The law of `kind` with the numbers `number` gives to its keys, or their defaults.
+    /// The law of `kind` with the numbers that `number` gives to its keys, by default theirs.
     fn law_of(kind: &LawKind, period: f64, number: impl Fn(&str) -> Option<f64>) -> AttitudeLaw {
         let mut table = DeclaredTable::of(Name::NONE, kind.parameters);
         for (value, parameter) in table.values.iter_mut().zip(kind.parameters) {
@@ -104,8 +103,7 @@ mod tests {
         (kind.make)(&LawSettings { table: &table, gyroscopic: false, period, delay: 0.0, sample: SampleId(0) })
     }
 
-    /// Law: every law has a name of its own, and its torque is that of the attitude, whichever sign its quaternion has:
-    /// the target is reached by the shorter way.
+    /// Law: laws have unique names, and torques independent of the sign of the quaternion: they take the shorter way.
     #[test]
     fn the_shorter_way_is_taken() {
         let craft = KnownBody { inertia: [[2.0, 0.1, 0.0], [0.1, 3.0, 0.0], [0.0, 0.0, 4.0]] };
@@ -122,8 +120,8 @@ mod tests {
         }
     }
 
-    /// Law: laws that follow a target follow one that turns at a rate that changes, to an error of first order in the
-    /// period; without the target's rate and its derivative they lag behind.
+    /// Law: laws track a target that accelerates, to first order in the period; without its rate and acceleration they
+    /// lag.
     #[test]
     fn a_target_that_turns_is_followed() {
         let laws = [
@@ -159,8 +157,8 @@ mod tests {
         }
     }
 
-    /// Law: a constant torque leaves a law of the list with an error (an angle, or of rate damping a rate) without its
-    /// integral, and none with it; a limit of the integral below what balances the torque leaves a part.
+    /// Law: a constant torque leaves an error (for rate damping, a rate) without an integral and none with it; a limit
+    /// below the balancing integral leaves a part.
     #[test]
     fn the_integral_of_every_law_removes_the_offset() {
         for kind in KINDS {
@@ -183,14 +181,13 @@ mod tests {
             };
             let (without, with) = (left(0.0, 0.0), left(0.03, 0.0));
             assert!(without > 1e-3 && with < 1e-6 * without, "{}: {without:e} and {with:e}", kind.name);
-            // a part of what balances the torque: of MRP P Ki times the limit, else of the error itself
+            // part of the balancing integral: for MRP P Ki times the limit, else of the error itself
             let limited = left(0.03, if kind.name == "mrp_feedback" { 0.05 } else { 1e-3 });
             assert!(limited > 0.1 * without && limited < 0.97 * without, "{}: {limited:e} of {without:e}", kind.name);
         }
     }
 
-    /// Law: H of the laws is that of the whole spacecraft, J omega + sum J_i Omega_i a_i, whichever wheels turn freely,
-    /// are held or are locked.
+    /// Law: H is that of the whole spacecraft, J omega + sum J_i Omega_i a_i, for free, held and locked wheels.
     #[test]
     fn momentum_is_that_of_the_whole_spacecraft() {
         let omega = [0.3, -0.2, 0.5];

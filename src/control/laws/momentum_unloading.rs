@@ -1,29 +1,28 @@
-//! [`MomentumUnloading`]: a torque of thrusters that takes momentum out of the wheels.
+//! [`MomentumUnloading`]: a thruster torque that unloads the wheels.
 
 use crate::control::vector::{norm, product, scaled};
 
-/// The torque -(|h| - h_0)/T h/|h| on the body for the momentum h of the wheels along the axes on which thrusters have
-/// torque; none where |h| is within the dead band h_0. The law of attitude then asks the wheels for as much less, so
-/// that they give their momentum to it: h decays to the dead band with the time constant T. Momentum across those axes
-/// stays: it needs a turn first.
+/// The torque -(|h| - h_0)/T h/|h| on the body for the momentum h of the wheels along axes of two-sided thruster
+/// torque; none in the dead band |h| <= h_0. The attitude law takes the same torque back from the wheels, so that h
+/// decays to the dead band with the time constant T. Momentum across those axes needs a turn first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentumUnloading {
-    /// Momentum h_0 that may stay in the wheels, N m s.
+    /// Remaining momentum h_0.
     pub dead_band: f64,
-    /// Time constant T, s.
+    /// Time constant T.
     pub time_constant: f64,
 }
 
 impl MomentumUnloading {
-    /// The wanted change of the momentum `wheels_s` of the wheels relative to the body, sum J_i Omega_i a_i, both in
-    /// F_s, N m s: to the dead band.
+    /// Wanted change of the wheels' momentum `wheels_s` relative to the body, sum J_i Omega_i a_i, in F_s: to the dead
+    /// band.
     pub fn change(&self, wheels_s: [f64; 3]) -> [f64; 3] {
         let size = norm(wheels_s);
         if size <= self.dead_band { [0.0; 3] } else { scaled(-(size - self.dead_band) / size, wheels_s) }
     }
 
-    /// The torque on the body that thrusters are to give, F_s, N m. `two_sided` is the projection onto the torques that
-    /// they can give in both directions ([`crate::control::allocation::ThrustAllocation::two_sided_torques`]).
+    /// Thruster torque on the body, F_s, within the projection `two_sided`
+    /// ([`crate::control::allocation::ThrustAllocation::two_sided_torques`]).
     pub fn torque(&self, wheels_s: [f64; 3], two_sided: [[f64; 3]; 3]) -> [f64; 3] {
         scaled(1.0 / self.time_constant, self.change(product(two_sided, wheels_s)))
     }

@@ -1,4 +1,4 @@
-//! [`MrpFeedback`]: proportional to the modified Rodrigues parameters of the error, to the rate, and to an integral.
+//! [`MrpFeedback`]: feedback of modified Rodrigues parameters, rate and an integral.
 
 use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, digits};
 use crate::control::declared::{declared, limit};
@@ -9,27 +9,26 @@ use crate::scene::schema::Limit;
 
 /// u = -k s - P omega_st - P Ki z + (omega_te + Ki z) x H + K (omega_te' - omega x omega_te), with s the attitude
 /// relative to the target, z = k int s dt + K omega_st, K = J less the axial inertias of free wheels, and H with the
-/// wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4; the form of
-/// Basilisk's module `mrpFeedback`: towards a target at rest without an integral nothing is left of the third term).
-/// With `gyroscopic`, omega x H replaces (omega_te + Ki z) x H, to balance the gyroscopic torque of the body.
+/// wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4, as in Basilisk's
+/// `mrpFeedback`: without an integral, the third term vanishes for a target at rest). With `gyroscopic`, omega x H
+/// replaces (omega_te + Ki z) x H and balances the body's gyroscopic torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MrpFeedback {
     /// K, N m.
     pub stiffness: f64,
     /// P, N m s.
     pub damping: f64,
-    /// Ki, 1/(N m s); zero without an integral.
+    /// Ki, 1/(N m s); zero for no integral.
     pub integral: f64,
     /// Largest magnitude of each component of the integral of K s, N m s.
     pub integral_limit: f64,
-    /// True if omega x H is in it.
+    /// True if omega x H is included.
     pub gyroscopic: bool,
-    /// The integral of K s, N m s.
+    /// Integral of K s, N m s.
     summed: [f64; 3],
 }
 
 declared! {
-    /// Its numbers in campaign files.
     MrpNumbers = PARAMETERS {
         stiffness: f64 = LawParameter::number("stiffness_n_m", "N m", "Torque opposing an MRP of one: K",
             Limit::Positive);
@@ -61,13 +60,12 @@ impl MrpFeedback {
         MrpFeedback { gyroscopic: settings.gyroscopic, ..law }
     }
 
-    /// Without an integral, and without omega x H.
+    /// Without integral and omega x H.
     pub fn new(stiffness: f64, damping: f64) -> Self {
         let (integral, integral_limit) = (0.0, f64::INFINITY);
         MrpFeedback { stiffness, damping, integral, integral_limit, gyroscopic: false, summed: [0.0; 3] }
     }
 
-    /// Adds an integral of gain `integral`, whose components stay within `limit`.
     #[must_use]
     pub fn with_integral(self, integral: f64, limit: f64) -> Self {
         MrpFeedback { integral, integral_limit: limit, ..self }
@@ -106,9 +104,9 @@ mod tests {
     use super::*;
     use crate::control::vector::{dot, norm};
 
-    /// Basilisk babdff7, src/fswAlgorithms/attControl/mrpFeedback/_UnitTest/test_mrpFeedback.py: the torques of the
-    /// module (bsk 2.12.1) at its first three calls, control law 0, less its known torque of 1 N m along each axis. To
-    /// the tolerance of the test.
+    /// Basilisk babdff7, src/fswAlgorithms/attControl/mrpFeedback/_UnitTest/test_mrpFeedback.py: torques of the module
+    /// (bsk 2.12.1) at its first three calls, control law 0, less its known torque of 1 N m along each axis, to the
+    /// test's tolerance.
     #[test]
     fn torques_are_those_of_basilisk() {
         let mrp = [0.3, -0.5, 0.7];

@@ -1,4 +1,4 @@
-//! [`QuaternionFeedback`]: proportional to the quaternion of the error, and to the rate.
+//! [`QuaternionFeedback`]: feedback of the error quaternion and the rate.
 
 use super::integral::{self, Integral};
 use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, digits};
@@ -8,21 +8,19 @@ use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
 /// u = -2 w^2 K (e + z_i) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of
-/// the attitude q relative to the target, omega_st the rate relative to it, z_i = Ki int e dt, for the bandwidth w and
-/// the damping z of small errors. K is J less the axial inertias of free wheels, H the momentum with the wheels (B.
-/// Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3; the last term follows a target that turns).
+/// the attitude q and the rate omega_st, both relative to the target, z_i = Ki int e dt, bandwidth w and damping z of
+/// small errors, K = J less the axial inertias of free wheels, and H the momentum with the wheels (B. Wie, *Space
+/// Vehicle Dynamics and Control*, 2008, section 7.3; the last term tracks a turning target).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuaternionFeedback {
-    /// Bandwidth w, rad/s.
+    /// w, rad/s.
     pub bandwidth: f64,
-    /// Damping z.
+    /// z.
     pub damping: f64,
-    /// The integral of the error.
     pub integral: Integral,
 }
 
 declared! {
-    /// Its numbers in campaign files.
     QuaternionNumbers = PARAMETERS {
         bandwidth: f64 = LawParameter::number("bandwidth_rad_s", "rad/s", "Natural frequency of small errors",
             Limit::Positive);
@@ -46,7 +44,6 @@ impl QuaternionFeedback {
         QuaternionFeedback { bandwidth, damping, integral }
     }
 
-    /// Without an integral.
     pub fn new(bandwidth: f64, damping: f64) -> Self {
         QuaternionFeedback { bandwidth, damping, integral: Integral::NONE }
     }

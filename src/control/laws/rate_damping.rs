@@ -6,18 +6,16 @@ use crate::control::declared::{declared, limit};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -gain (omega + z) against the rate omega relative to F_e, with z = Ki int omega dt. The energy of rotation falls
-/// at -gain |omega|^2 without the integral.
+/// u = -gain (omega + z), omega relative to F_e, z = Ki int omega dt. Without the integral the rotational energy falls
+/// at gain |omega|^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateDamping {
-    /// Gain, N m s.
+    /// N m s.
     pub gain: f64,
-    /// The integral of the rate.
     pub integral: Integral,
 }
 
 declared! {
-    /// Its numbers in campaign files.
     RateDampingNumbers = PARAMETERS {
         gain: f64 = LawParameter::number("gain_n_m_s", "N m s", "Torque opposing a rate of 1 rad/s", Limit::Positive);
         integral_gain: f64 = integral::GAIN;

@@ -1,29 +1,26 @@
-//! [`RodLaw`]: the dipole that torque rods are to have, from the measured magnetic field.
-//!
-//! A dipole m has the torque m x B: never along B, so that what is along it waits until the field has turned.
+//! [`RodLaw`]: the dipole of torque rods from the measured magnetic field. The torque m x B is never along B: momentum
+//! along it waits until the field has turned.
 
 use crate::control::declared::declared;
 use crate::control::vector::{cross, difference, dot, scaled};
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// The use of torque rods in a phase.
+/// Use of torque rods in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodUse {
-    /// Nothing.
     None,
     /// Against the rotation.
     BDot,
-    /// Against the momentum of the wheels.
+    /// Against the wheels' momentum.
     Unloading,
 }
 
-/// The names of the uses in campaign files.
+/// Names of the uses in campaign files.
 pub const ROD_USES: [(&str, RodUse); 3] =
     [("none", RodUse::None), ("b_dot", RodUse::BDot), ("unloading", RodUse::Unloading)];
 
 declared! {
-    /// Numbers of a phase with B-dot.
     BDotNumbers = B_DOT {
         gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T",
             "Dipole opposing a change in the field of 1 T/s", Limit::Positive);
@@ -31,7 +28,6 @@ declared! {
 }
 
 declared! {
-    /// Numbers of a phase in which rods unload wheels.
     RodUnloadingNumbers = ROD_UNLOADING {
         time: f64 = LawParameter::number(
             "rod_unloading_time_s",
@@ -43,7 +39,6 @@ declared! {
 }
 
 impl RodUse {
-    /// Its numbers in a campaign file.
     pub fn parameters(self) -> &'static [LawParameter] {
         match self {
             RodUse::None => &[],
@@ -56,17 +51,16 @@ impl RodUse {
 /// The law of torque rods in a phase of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RodLaw {
-    /// Nothing.
     None,
     /// m = -k dB/dt with B in F_s (A. C. Stickler & K. T. Alfriend, Journal of Spacecraft and Rockets 13, 282, 1976): a
-    /// body that turns much faster than the field along its orbit sees dB/dt = B x omega, and loses energy at k |B x
+    /// body that turns much faster than the field along its orbit sees dB/dt = B x omega and loses energy at k |B x
     /// omega|^2.
     BDot {
         /// k, A m^2 s/T.
         gain: f64,
     },
     /// m = (h x B)/(T |B|^2) (P. J. Camillo & F. L. Markley, Journal of Guidance and Control 3, 563, 1980): the torque
-    /// is -1/T times the part of the momentum h of the wheels that is across B.
+    /// is -1/T times the wheel momentum h across B.
     Unloading {
         /// T, s.
         time_constant: f64,
@@ -74,7 +68,6 @@ pub enum RodLaw {
 }
 
 impl RodLaw {
-    /// The law of `of` with the numbers of `table`.
     pub fn new(of: RodUse, table: &DeclaredTable) -> Self {
         match of {
             RodUse::None => RodLaw::None,
@@ -83,13 +76,13 @@ impl RodLaw {
         }
     }
 
-    /// True if wheels make up for its torque, so that the body gets the torque of its attitude law.
+    /// True if wheels compensate its torque, so that the body gets that of its attitude law.
     pub fn unloads(&self) -> bool {
         matches!(self, RodLaw::Unloading { .. })
     }
 
-    /// The wanted dipole, F_s, A m^2, where the field is measured as `field` and the wheels have the momentum
-    /// `stored_s` relative to the body, N m s.
+    /// Wanted dipole, F_s, A m^2, in the measured field `field` and with the wheel momentum `stored_s` relative to the
+    /// body, N m s.
     pub fn dipole(&self, field: &MeasuredField, stored_s: [f64; 3]) -> [f64; 3] {
         match self {
             RodLaw::None => [0.0; 3],
@@ -106,22 +99,21 @@ impl RodLaw {
     }
 }
 
-/// The magnetic field as measured last and before that.
+/// The last two measurements of the magnetic field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredField {
-    /// The last one, F_s, T; zero where there is none yet.
+    /// The last one, F_s, T; zero before.
     pub field_s: [f64; 3],
-    /// When it was measured, s.
+    /// Time of the last one, s.
     time: f64,
-    /// The change since the one before, T, and the time between, s; zero where there is none.
+    /// Change between both, T, and interval, s; zero before.
     change: ([f64; 3], f64),
 }
 
 impl MeasuredField {
-    /// Before the first measurement.
     pub const NONE: MeasuredField = MeasuredField { field_s: [0.0; 3], time: f64::NAN, change: ([0.0; 3], 0.0) };
 
-    /// Takes the field `field_s` measured at `time`, s, after the others.
+    /// Adds the field `field_s` measured at `time`, in order.
     pub fn take(&mut self, time: f64, field_s: [f64; 3]) {
         if !self.time.is_nan() && time > self.time {
             self.change = (difference(field_s, self.field_s), time - self.time);
@@ -129,7 +121,7 @@ impl MeasuredField {
         (self.field_s, self.time) = (field_s, time);
     }
 
-    /// dB/dt in F_s, T/s, between the last two; zero before there are two.
+    /// dB/dt in F_s, T/s, between both; zero before.
     pub fn rate_s(&self) -> [f64; 3] {
         let (change, interval) = self.change;
         if interval > 0.0 { scaled(1.0 / interval, change) } else { [0.0; 3] }

@@ -1,25 +1,23 @@
-//! [`Slew`]: bang-bang or bang-coast-bang removal of a large error under a limit of the torque.
+//! [`Slew`]: bang-bang or bang-coast-bang removal of a large error under a torque limit.
 //!
-//! With the angle theta of the rotation to the target, its axis e and a = torque limit/|K e|, the rate along e follows
-//! min(max_rate, sqrt(2 b theta)), from which the body stops at the target under the deceleration b (B. Wie, *Space
-//! Vehicle Dynamics and Control*, 2008, section 7.3, has the same limit for small angles). The curve is met at the end
-//! of each period, so that following it needs no gain, and not the bandwidth of small errors.
+//! With the rotation angle theta to the target about e, and a = torque limit/|K e|, the rate along e follows
+//! min(max_rate, sqrt(2 b theta)), from which the body stops on target at the deceleration b (B. Wie, *Space Vehicle
+//! Dynamics and Control*, 2008, section 7.3, has the same limit for small angles). The curve is met at the end of each
+//! period, so that following it takes no gain or bandwidth.
 
 use super::interface::{KnownBody, LawInput};
 use crate::control::rotation::vector_of;
 use crate::control::vector::{dot, norm, product, scaled, sum};
 
-/// b/a: the share of the deceleration that the torque limit gives which braking counts on. The rest is for an inertia
-/// that is not the believed one, by up to 5%; it costs 1.3% of the time of a slew without coasting, sqrt((1 +
-/// 1/0.95)/2).
+/// b/a, the share of the available deceleration used for braking. The rest covers an inertia wrong by up to 5% and
+/// costs 1.3% of the time of a slew without coasting, sqrt((1 + 1/0.95)/2).
 const BRAKING: f64 = 0.95;
-/// Ticks near the target after which the law for small errors takes over. On the curve there are four before what is
-/// left is removed, which takes two.
+/// Ticks near the target before the law for small errors takes over: four on the curve, and two that remove the rest.
 const NEAR_TICKS: u8 = 6;
-/// The torque for small errors, relative to the limit, from which on a slew begins anew: twice it, which noise at the
-/// target does not reach where the bandwidth suits it.
+/// Small-error torque relative to the limit at which a slew restarts; noise on target stays below it for a suitable
+/// bandwidth.
 const ANEW: f64 = 2.0;
-/// Commands on their way that are remembered; those before them count as none.
+/// Commands under way that are remembered; earlier ones count as none.
 const MOST_COMMANDS: usize = 16;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,37 +25,35 @@ enum Stage {
     /// Before the first tick of the phase.
     Begins,
     Slews,
-    /// The error is small: another law removes it.
+    /// Another law removes the small error.
     Rests,
 }
 
-/// A slew, with what it remembers.
+/// A slew with its memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slew {
-    /// The control period, s.
     period: f64,
-    /// The time from a tick to the effect of its command, s.
+    /// Delay from a tick to the effect of its command.
     delay: f64,
     stage: Stage,
     /// Ticks near the target.
     near: u8,
-    /// True if the body closed at the last tick, and if it has ceased to in this slew.
+    /// True if the angle shrank at the last tick, and if it has stopped shrinking in this slew.
     was_closing: bool,
     has_stopped: bool,
-    /// The accelerations commanded at the last ticks, the latest first, rad/s^2, F_s.
+    /// Accelerations of the last ticks, latest first, F_s.
     commands: [[f64; 3]; MOST_COMMANDS],
 }
 
 impl Slew {
-    /// With the control period and the delay of commands, s.
     pub const fn new(period: f64, delay: f64) -> Self {
         let commands = [[0.0; 3]; MOST_COMMANDS];
         let stage = Stage::Begins;
         Slew { period, delay, stage, near: 0, was_closing: false, has_stopped: false, commands }
     }
 
-    /// The rotation vector to the target (its angle times its axis, rad) and the rate relative to it, rad/s, F_s, when
-    /// the command of this tick begins to act: those of `input`, moved on by the commands that act until then.
+    /// Rotation vector to the target and rate relative to it, F_s, predicted to the time at which this tick's command
+    /// acts.
     fn predicted(&self, input: &LawInput) -> [[f64; 3]; 2] {
         let (mut angle, mut rate) = (vector_of(input.q_ts), input.omega_st_s());
         let remembered = MOST_COMMANDS as f64 * self.period;
@@ -70,8 +66,8 @@ impl Slew {
         [angle, rate]
     }
 
-    /// The acceleration at a tick, rad/s^2, F_s, before the limit of the torque; `None` where the error is small.
-    /// `small` is the acceleration of the law for small errors, `largest_rate` rad/s, `largest_torque` N m.
+    /// The acceleration at a tick, F_s, before the torque limit; `None` for a small error. `small` is the acceleration
+    /// of the law for small errors.
     pub fn acceleration(
         &mut self,
         craft: &KnownBody,
@@ -106,7 +102,7 @@ impl Slew {
         if self.stage == Stage::Rests {
             return None;
         }
-        // on the curve at the end of the period: v^2 = 2 b (angle - (closing + v) T/2)
+        // meets the curve at the end of the period: v^2 = 2 b (angle - (closing + v) T/2)
         let braking = BRAKING * most;
         let half = 0.5 * braking * period;
         let ahead = (angle - 0.5 * closing * period).max(0.0);
@@ -116,7 +112,7 @@ impl Slew {
         Some(sum(scaled(-along, axis), scaled(-1.0 / period, across)))
     }
 
-    /// Remembers the acceleration that a tick has commanded, rad/s^2, F_s.
+    /// Remembers the acceleration commanded at a tick, F_s.
     pub fn command(&mut self, acceleration: [f64; 3]) {
         self.commands.rotate_right(1);
         self.commands[0] = acceleration;

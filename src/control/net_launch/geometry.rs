@@ -1,69 +1,64 @@
-//! [`LaunchGeometry`]: where the spacecraft is relative to the state from which a net is launched.
+//! [`LaunchGeometry`]: the spacecraft relative to the state from which a net is launched.
 //!
-//! Let v_d be the velocity of the debris in F_e and A_d the line through its centre of mass along v_d. At the launch
-//! state the spacecraft's centre of mass is on A_d behind the debris (on the side of -v_d) at a constant distance L, at
-//! rest relative to the debris, and s3, the axis of the net launcher, points at it: with e the unit vector of v_d,
-//! position r_d - L e, velocity v_d, s3 = e.
+//! Let e be the unit vector of the debris's velocity v_d in F_e and A_d the line along it through the debris's centre
+//! of mass. At launch the spacecraft's centre of mass is on A_d, at the distance L behind the debris, at rest relative
+//! to it, and s3, the launcher's axis, points at it: position r_d - L e, velocity v_d, s3 = e.
 //!
-//! On an orbit v_d is the velocity along it, and e turns, at the rate omega = v_d x v_d'/|v_d|^2. "At rest" is meant in
-//! the frame that turns so: the relative velocity is v - v_d - omega x (r - r_d), zero of a spacecraft that stays on
-//! A_d. The relative motion is that near a circular orbit of this rate (W. H. Clohessy & R. S. Wiltshire, Journal of
-//! the Aerospace Sciences 27, 1960); on an ellipse it is wrong by its eccentricity, which the loop corrects.
+//! On an orbit e turns at omega = v_d x v_d'/|v_d|^2, and the relative velocity is that in the turning frame, v - v_d -
+//! omega x (r - r_d), zero for a spacecraft that stays on A_d. Relative motion is that near a circular orbit of this
+//! rate (W. H. Clohessy & R. S. Wiltshire, Journal of the Aerospace Sciences 27, 1960); on an ellipse its error is of
+//! the order of the eccentricity and left to the loop.
 
 use crate::control::vector::{cross, difference, dot, norm, product, scaled, sum, transposed_product};
 
-/// The centres of mass of spacecraft and debris, as they are or as they are estimated.
+/// True or estimated motion of both centres of mass, in F_e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Centers {
-    /// Position of the spacecraft's centre of mass in F_e, m.
     pub r_co_e: [f64; 3],
-    /// Its velocity relative to F_e, in F_e, m/s.
     pub v_co_e: [f64; 3],
-    /// Position of the debris in F_e, m.
     pub r_gdo_e: [f64; 3],
-    /// Its velocity relative to F_e, in F_e, m/s.
     pub v_gdo_e: [f64; 3],
 }
 
-/// The definition of the launch state.
+/// Definition of the launch state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaunchState {
-    /// Distance L of the spacecraft behind the debris, m.
+    /// Distance L of the spacecraft behind the debris.
     pub distance: f64,
-    /// Speed of the debris below which its velocity has no direction, m/s.
+    /// Speed of the debris below which its velocity defines no axis.
     pub least_speed: f64,
-    /// The unit vector that is the axis then, in F_e; zero where there is none.
+    /// Unit vector of the axis in that case, in F_e; zero for none.
     pub approach_axis: [f64; 3],
-    /// Gravitational parameter of the central body at the origin, m^3/s^2; `None` without an orbit.
+    /// Gravitational parameter of the central body at the origin, if there is an orbit.
     pub mu: Option<f64>,
 }
 
-/// The frame that turns with the velocity of the debris along its orbit.
+/// The frame that turns with the debris's velocity along its orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurningFrame {
-    /// Unit vectors up, ahead and along the normal of the orbit, by rows, in F_e.
+    /// Unit vectors up, ahead and normal to the orbit, by rows, in F_e.
     pub axes: [[f64; 3]; 3],
-    /// The rate about the last, rad/s.
+    /// Rate about the normal.
     pub rate: f64,
 }
 
 /// The spacecraft relative to the launch state, in F_e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaunchGeometry {
-    /// The unit vector e of the axis A_d; zero where there is none, and then no station either.
+    /// Unit vector e of the axis A_d; zero if there is neither axis nor station.
     pub axis: [f64; 3],
-    /// From the spacecraft to the debris, m.
+    /// From the spacecraft to the debris.
     pub to_debris: [f64; 3],
-    /// From the station r_d - L e to the spacecraft, m.
+    /// From the station r_d - L e to the spacecraft.
     pub from_station: [f64; 3],
-    /// Velocity relative to the debris, and so to the station, m/s; on an orbit in the turning frame.
+    /// Velocity relative to debris and station; on an orbit, in the turning frame.
     pub relative_velocity: [f64; 3],
-    /// The turning frame; `None` without an orbit.
+    /// The turning frame on an orbit.
     pub frame: Option<TurningFrame>,
 }
 
 impl TurningFrame {
-    /// The frame of debris at `r_e` (m) with the velocity `v_e` (m/s), F_e.
+    /// The frame of debris at `r_e` with the velocity `v_e`, F_e.
     fn of(mu: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
         let distance = norm(r_e);
         let pull = scaled(-mu / (distance * distance * distance), r_e);
@@ -73,31 +68,30 @@ impl TurningFrame {
         TurningFrame { axes: [up, cross(normal, up), normal], rate }
     }
 
-    /// Its angular velocity, F_e, rad/s.
+    /// Its angular velocity, F_e.
     pub fn turn(&self) -> [f64; 3] {
         scaled(self.rate, self.axes[2])
     }
 
-    /// The change in F_e of a vector that changes by `change` in this frame.
+    /// Derivative in F_e of a vector with the derivative `change` in this frame.
     fn inertial_change(&self, vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
         sum(change, cross(self.turn(), vector))
     }
 
-    /// The acceleration without thrust at `position` and `velocity` relative to the debris, both in this frame, with
-    /// components in F_e: Clohessy & Wiltshire's equations x'' = 3 n^2 x + 2 n y', y'' = -2 n x', z'' = -n^2 z.
+    /// Free acceleration at `position` and `velocity` relative to the debris in this frame, components in F_e: Clohessy
+    /// & Wiltshire's x'' = 3 n^2 x + 2 n y', y'' = -2 n x', z'' = -n^2 z.
     fn acceleration(&self, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
         let ([x, _, z], [u, v, _]) = (product(self.axes, position), product(self.axes, velocity));
         let n = self.rate;
         transposed_product(self.axes, [n * (3.0 * n * x + 2.0 * v), -2.0 * n * u, -n * n * z])
     }
 
-    /// The velocity at which a spacecraft at `position` comes to the origin in `time` seconds: the closed form of those
-    /// equations.
+    /// The velocity that leads from `position` to the origin in `time` seconds, in closed form.
     fn velocity_to_origin(&self, position: [f64; 3], time: f64) -> [f64; 3] {
         let (n, [x, y, z]) = (self.rate, product(self.axes, position));
         let (sin, cos) = libm::sincos(n * time);
         let half = libm::sin(0.5 * n * time);
-        // 1 - cos without its cancellation
+        // 1 - cos without cancellation
         let (s, d) = (sin / n, 4.0 * half * half / n);
         let along = 4.0 * s - 3.0 * time;
         let (a, b) = (-(4.0 - 3.0 * cos) * x, -y - 6.0 * (sin - n * time) * x);
@@ -107,8 +101,7 @@ impl TurningFrame {
 }
 
 impl LaunchState {
-    /// The axis A_d of debris with the velocity `v_gdo_e` (m/s, F_e); `None` where it is too slow and the file names no
-    /// other.
+    /// The axis A_d for the debris velocity `v_gdo_e` (F_e), if it is defined.
     pub fn axis(&self, v_gdo_e: [f64; 3]) -> Option<[f64; 3]> {
         let speed = norm(v_gdo_e);
         if speed >= self.least_speed && speed > 0.0 {
@@ -117,7 +110,6 @@ impl LaunchState {
         (self.approach_axis != [0.0; 3]).then_some(self.approach_axis)
     }
 
-    /// The geometry of `centers`.
     pub fn geometry(&self, centers: &Centers) -> LaunchGeometry {
         let axis = self.axis(centers.v_gdo_e).unwrap_or([0.0; 3]);
         let to_debris = difference(centers.r_gdo_e, centers.r_co_e);
@@ -134,34 +126,32 @@ impl LaunchState {
 }
 
 impl LaunchGeometry {
-    /// True if there is an axis.
     pub fn has_axis(&self) -> bool {
         self.axis != [0.0; 3]
     }
 
-    /// The angular velocity of the axis and the station, F_e, rad/s; zero without an orbit.
+    /// Angular velocity of axis and station, F_e; zero without an orbit.
     pub fn turn(&self) -> [f64; 3] {
         self.frame.map_or([0.0; 3], |frame| frame.turn())
     }
 
-    /// The derivative in F_e of a vector with the derivative `change` relative to axis and station.
+    /// Derivative in F_e of a vector with the derivative `change` relative to axis and station.
     pub fn inertial_change(&self, vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
         self.frame.map_or(change, |frame| frame.inertial_change(vector, change))
     }
 
-    /// The relative acceleration of spacecraft and debris without thrust, as their velocity is meant, F_e, m/s^2: none,
-    /// without gravity.
+    /// Free relative acceleration in the frame of the relative velocity, F_e; zero without gravity.
     pub fn acceleration(&self) -> [f64; 3] {
         self.frame.map_or([0.0; 3], |frame| frame.acceleration(self.from_station, self.relative_velocity))
     }
 
-    /// The change of velocity with which the spacecraft reaches the station in `time` > 0 seconds without thrust: the
-    /// first of two impulses (the second stops it there), m/s.
+    /// Velocity change that leads to the station in `time` > 0 seconds: the first of two impulses, of which the second
+    /// stops there.
     pub fn transfer(&self, time: f64) -> [f64; 3] {
         self.transfer_of(self.from_station, self.relative_velocity, time)
     }
 
-    /// Its derivative without thrust for a constant time of transfer, m/s^2: it is linear in position and velocity.
+    /// Its derivative without thrust at a constant transfer time; it is linear in position and velocity.
     pub fn change_of_transfer(&self, time: f64) -> [f64; 3] {
         self.transfer_of(self.relative_velocity, self.acceleration(), time)
     }
@@ -174,7 +164,7 @@ impl LaunchGeometry {
         difference(wanted, relative_velocity)
     }
 
-    /// Distance of the spacecraft from the line A_d, m; NaN without one, as the errors below.
+    /// Distance of the spacecraft from the line A_d; NaN without one, like the errors below.
     pub fn axis_offset(&self) -> f64 {
         if !self.has_axis() {
             return f64::NAN;
@@ -183,12 +173,12 @@ impl LaunchGeometry {
         norm(difference(self.to_debris, along))
     }
 
-    /// Distance behind the debris along A_d, less the wanted one, m.
+    /// Distance behind the debris along A_d, less the wanted one.
     pub fn distance_error(&self) -> f64 {
         if self.has_axis() { -dot(self.from_station, self.axis) } else { f64::NAN }
     }
 
-    /// Distance from the station, m.
+    /// Distance from the station.
     pub fn position_error(&self) -> f64 {
         if self.has_axis() { norm(self.from_station) } else { f64::NAN }
     }
@@ -202,8 +192,8 @@ mod tests {
 
     const MU: f64 = 3.986004418e14;
 
-    /// Spacecraft and debris on a circle of 7,000 km, `x` m up, `y` ahead and `z` across from the debris with the
-    /// velocity `v` in the turning frame, and their geometry.
+    /// Spacecraft and debris on a circle of 7,000 km, with position (up, ahead, normal) and velocity relative to the
+    /// debris in the turning frame.
     fn beside_a_circle(position: [f64; 3], velocity: [f64; 3]) -> (Centers, LaunchGeometry) {
         let (r, n) = (7e6_f64, (MU / 7e6_f64.powi(3)).sqrt());
         let (r_gdo_e, v_gdo_e) = ([r, 0.0, 0.0], [0.0, r * n, 0.0]);
@@ -212,7 +202,7 @@ mod tests {
         (centers, LaunchState { mu: Some(MU), ..STATE }.geometry(&centers))
     }
 
-    /// The centres after `time` seconds on their own two-body orbits.
+    /// The centres after `time` seconds on their two-body orbits.
     fn later(centers: &Centers, time: f64) -> Centers {
         let fall = |position, velocity| {
             let orbit = crate::scene::Orbit { mu: MU, position, velocity, body_radius: 0.0, j2: None, epoch: None };
@@ -224,22 +214,22 @@ mod tests {
         Centers { r_co_e, v_co_e, r_gdo_e, v_gdo_e }
     }
 
-    /// Law: behind the debris on its orbit a spacecraft at rest is at the station and stays there.
+    /// Law: a spacecraft at rest behind the debris on its orbit is at the station and stays there.
     #[test]
     fn the_station_turns_with_the_orbit() {
         let (centers, there) = beside_a_circle([0.0, -10.0, 0.0], [0.0; 3]);
         assert!(there.position_error() < 1e-8 && norm(there.relative_velocity) < 1e-11, "{there:?}");
         let state = LaunchState { mu: Some(MU), ..STATE };
         let after = state.geometry(&later(&centers, 1500.0));
-        // the line is tangent to the circle: ten metres behind on it are 7 micrometres above the circle
+        // the line is tangent to the circle: ten metres back it is 7 micrometres above
         assert!(after.position_error() < 1e-3 && norm(after.relative_velocity) < 1e-6, "{after:?}");
-        // without the turning frame it would not be at rest
+        // not at rest without the turning frame
         let flat = LaunchState { mu: None, ..state }.geometry(&centers);
         assert!(norm(flat.relative_velocity) > 0.01);
     }
 
-    /// Law: the first impulse of a transfer leads to the station along two Kepler orbits, up to the terms of second
-    /// order that Clohessy & Wiltshire leave out (50^2 m/7000 km); without the orbit's terms it misses by metres.
+    /// Law: the first impulse of a transfer leads to the station along two Kepler orbits, up to second-order terms that
+    /// Clohessy & Wiltshire neglect (50^2 m/7000 km); without orbital terms it misses by metres.
     #[test]
     fn the_transfer_leads_to_the_station() {
         for (position, velocity) in
@@ -259,7 +249,8 @@ mod tests {
         }
     }
 
-    /// Law: acceleration and change of the transfer are how velocity and transfer change along two Kepler orbits.
+    /// Law: acceleration and change of the transfer are the derivatives of velocity and transfer along two Kepler
+    /// orbits.
     #[test]
     fn what_changes_without_thrust_is_known() {
         let (centers, start) = beside_a_circle([8.0, -45.0, 5.0], [0.03, 0.02, -0.01]);
@@ -275,7 +266,7 @@ mod tests {
                 slope(&|at| at.transfer(300.0)),
             ),
         ] {
-            // what rounding of 7000 km leaves of the slope
+            // rounding of 7000 km in the slope
             assert!(norm(difference(found, expected)) < 1e-8, "{found:?} {expected:?}");
             assert!(norm(found) > 1e-5);
         }

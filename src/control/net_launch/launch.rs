@@ -1,46 +1,45 @@
-//! The true state at the launch of a net, and plumes that hit the debris before it.
+//! The true state at the launch of a net, and plumes that hit the debris before.
 
 use super::geometry::{Centers, LaunchState};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled};
 use crate::scene::{MAX_THRUSTERS, Scene};
 
-/// The true state at the launch.
+/// The true state at launch.
 #[derive(Clone, Copy, Debug)]
 pub struct AtLaunch {
-    /// Angle between s3 and the line to the debris, rad.
+    /// Angle between s3 and the line to the debris.
     pub pointing_error: f64,
-    /// Distance from the line A_d, m.
+    /// Distance from the line A_d.
     pub axis_offset: f64,
-    /// Distance behind the debris along it, less the wanted one, m.
+    /// Distance behind the debris along it, less the wanted one.
     pub distance_error: f64,
-    /// Speed relative to the debris, m/s.
     pub relative_speed: f64,
-    /// Magnitude of the angular velocity of the body relative to F_e, rad/s.
+    /// Magnitude of the body's rate relative to F_e.
     pub body_rate: f64,
-    /// Angle between the angular momentum of the debris and A_d, 0 to pi/2, rad; NaN where it does not turn.
+    /// Angle between the debris's angular momentum and A_d, 0 to pi/2; NaN if it does not rotate.
     pub momentum_angle: f64,
-    /// Smallest difference between the limit of a wheel's speed and its speed, rad/s.
+    /// Smallest margin of a wheel's speed to its limit.
     pub speed_margin: f64,
 }
 
-/// The cone in which the plume of a thruster counts as hitting the debris.
+/// The cone in which a thruster's plume counts as hitting the debris.
 #[derive(Clone, Copy, Debug)]
 pub struct PlumeCone {
-    /// Largest distance to the debris, m.
+    /// Largest distance to the debris.
     pub range: f64,
-    /// Half angle about the direction in which the plume leaves, rad.
+    /// Half angle about the plume's direction.
     pub half_angle: f64,
 }
 
 impl PlumeCone {
-    /// True if the plume of a thruster of `scene` that fires at `thrust` (N) in the state `truth` hits the debris.
+    /// True if a thruster that fires at `thrust` hits the debris.
     pub fn hits(&self, scene: &Scene, truth: &Truth, thrust: &[f64; MAX_THRUSTERS]) -> bool {
         let mut firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
         firing.any(|(thruster, _)| self.hits_from(truth, thruster.direction))
     }
 
-    /// True if the plume of a thruster that pushes along `direction` (F_s) hits the debris: it leaves against its push.
+    /// True if the plume of a thruster with the thrust direction `direction` (F_s) hits the debris.
     fn hits_from(&self, truth: &Truth, direction: [f64; 3]) -> bool {
         let Some(debris) = &truth.debris else { return false };
         let to_debris = difference(debris.r_gdo_e, truth.body.r_co_e);
@@ -49,12 +48,10 @@ impl PlumeCone {
     }
 }
 
-/// The angle between two vectors, rad.
 fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
     libm::atan2(norm(cross(a, b)), dot(a, b))
 }
 
-/// The centres of mass at `truth`; `None` without debris.
 pub fn centers_of(truth: &Truth) -> Option<Centers> {
     let debris = truth.debris.as_ref()?;
     let body = &truth.body;
@@ -62,7 +59,7 @@ pub fn centers_of(truth: &Truth) -> Option<Centers> {
 }
 
 impl AtLaunch {
-    /// The state `truth` of a run of `scene` relative to the launch state `launch`; `None` without debris.
+    /// The state `truth` relative to the launch state `launch`; `None` without debris.
     pub fn of(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
         let geometry = launch.geometry(&centers_of(truth)?);
         let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
@@ -76,7 +73,7 @@ impl AtLaunch {
             distance_error: geometry.distance_error(),
             relative_speed: norm(geometry.relative_velocity),
             body_rate: norm(truth.body.omega_se_s),
-            // a line has no direction: 0 to pi/2
+            // a line has no sign: 0 to pi/2
             momentum_angle: {
                 let angle = angle_between(momentum, geometry.axis);
                 if momentum == [0.0; 3] { f64::NAN } else { angle.min(core::f64::consts::PI - angle) }

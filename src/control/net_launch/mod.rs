@@ -1,7 +1,4 @@
-//! The launch of a net at debris; the rest of `control` knows debris only as a second body that sensors see.
-//!
-//! - [`geometry`]: the launch state, and the transfer to it. [`parameters`]: its numbers in campaign files.
-//! - [`launch`]: what is true at the launch, and plumes that hit the debris.
+//! The launch of a net at debris, which is the rest of `control`'s second body for sensors only.
 
 pub mod geometry;
 pub mod launch;

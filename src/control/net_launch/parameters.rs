@@ -1,4 +1,4 @@
-//! The numbers of `[control]` and of phases that net launch needs.
+//! Keys of `[control]` and of phases for the launch of a net.
 
 use super::geometry::LaunchState;
 use crate::control::declared::{declared, number};
@@ -7,7 +7,6 @@ use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter, Orbit};
 
 declared! {
-    /// Numbers of a loop near debris.
     DebrisNumbers = DEBRIS {
         launch_distance: f64 = LawParameter::number(
             "launch_distance_m",
@@ -48,7 +47,6 @@ declared! {
 }
 
 declared! {
-    /// Numbers of a phase with a transfer.
     TransferNumbers = TRANSFER {
         time: f64 = LawParameter::number("transfer_time_s", "s", "Time of the transfer to the station",
             Limit::Positive);
@@ -56,7 +54,7 @@ declared! {
 }
 
 impl LaunchState {
-    /// The launch state of the numbers of `[control]`, on the orbit `orbit`.
+    /// The launch state by the numbers of `[control]`, on `orbit`.
     pub fn of(table: &DeclaredTable, orbit: Option<&Orbit>) -> Self {
         let DebrisNumbers { launch_distance, least_debris_speed, approach_axis, .. } = DebrisNumbers::of(table);
         let length = norm(approach_axis);

@@ -1,5 +1,4 @@
-//! [`OutcomeColumns`]: the columns of the outcome of a run under a loop, as one table: name, unit, meaning and value in
-//! one row.
+//! [`OutcomeColumns`]: the outcome of a run under a loop as columns, each one row of a table.
 
 use crate::control::failure::Failure;
 use crate::control::flight_code::module::FlightCode;
@@ -11,7 +10,6 @@ use crate::control::spec::LoopSpec;
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;
 
-/// Needs of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Needs {
     Nothing,
@@ -30,7 +28,6 @@ enum Needs {
 }
 
 impl Needs {
-    /// In words.
     fn words(self) -> &'static str {
         match self {
             Needs::Nothing => "",
@@ -49,7 +46,6 @@ impl Needs {
         }
     }
 
-    /// True if `spec` meets them.
     fn are_met(self, spec: &LoopSpec) -> bool {
         let (approaches, has_thrusters) = (spec.approaches(), !spec.thrusters.is_empty());
         match self {
@@ -70,7 +66,6 @@ impl Needs {
     }
 }
 
-/// A run that has ended.
 struct Run<'a> {
     outcome: &'a MissionOutcome,
     guidance: &'a Guidance,
@@ -78,20 +73,19 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// A number of the launch; NaN without one.
+    /// A value at launch; NaN without one.
     fn launch(&self, value: fn(&AtLaunch) -> f64) -> f64 {
         self.outcome.at_launch.as_ref().map_or(f64::NAN, value)
     }
 
-    /// The number of telemetry at `place`: the last one, and the largest magnitude.
+    /// Last value and largest magnitude of the telemetry number `place`.
     fn telemetry(&self, place: usize) -> [f64; 2] {
         self.outcome.telemetry.get(place).copied().unwrap_or([f64::NAN; 2])
     }
 }
 
-/// A row of the table.
 struct Row {
-    /// With `<phase>`, `<thruster>` or `<wheel>` in it one column of each, whose place `value` has.
+    /// `<phase>`, `<thruster>` or `<wheel>` gives one column for each, with its index passed to `value`.
     name: &'static str,
     unit: &'static str,
     needs: Needs,
@@ -100,7 +94,7 @@ struct Row {
     meaning: &'static str,
 }
 
-/// A value that stands for "never" or "none", as null.
+/// Null for infinity, which means "never" or "none".
 fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }
@@ -115,7 +109,7 @@ const fn row(
     Row { name, unit, needs, value, meaning }
 }
 
-/// The row of the last normalised square of the error of a filter: its place, name, needs, and estimated quantities.
+/// Last normalised squared error of a filter: index, name, needs and estimated quantities.
 macro_rules! nees {
     ($place:literal, $name:literal, $needs:expr, $of:literal) => {
         row(
@@ -133,7 +127,6 @@ macro_rules! nees {
     };
 }
 
-/// The row of its mean innovation.
 macro_rules! innovation {
     ($place:literal, $name:literal, $needs:expr, $of:literal) => {
         row(
@@ -151,7 +144,6 @@ macro_rules! innovation {
     };
 }
 
-/// All columns, in their order.
 #[rustfmt::skip]
 static TABLE: [Row; 43] = [
     row("launched", "", Needs::Launch, |run, _| f64::from(u8::from(run.outcome.has_launched())),
@@ -249,7 +241,7 @@ static TABLE: [Row; 43] = [
     innovation!(3, "debris_attitude", Needs::FilterOfMotion, "attitude and rate of the debris"),
 ];
 
-/// The columns of each number of telemetry that a module declares; its own unit and meaning come on top.
+/// Columns of each telemetry number that a module declares, appended to its own unit and meaning.
 static TELEMETRY: [Row; 2] = [
     row(
         "module_<telemetry>_final",
@@ -269,14 +261,14 @@ static TELEMETRY: [Row; 2] = [
     ),
 ];
 
-/// The columns with a whole number, and the names of its codes.
+/// Integer columns, with the names of their codes.
 const COUNTS: [(&str, &[&str]); 3] = [("launched", &[]), ("failure", &Failure::NAMES), ("phase_final", &[])];
 
-/// The names of phases, thrusters and wheels, by what stands for them, each with its place.
+/// Names of phases, thrusters and wheels with their indices, by placeholder.
 type Names = [(&'static str, Vec<(usize, String)>); 3];
 
 impl Row {
-    /// Its columns: each with the place that its value has.
+    /// Its columns, each with the index for its value.
     fn columns(&self, names: &Names) -> Vec<(Quantity, usize)> {
         let coded = |names: &mut dyn Iterator<Item = (usize, &str)>| {
             names.map(|(code, name)| format!("{code} {name}")).collect::<Vec<_>>().join(", ")
@@ -297,7 +289,7 @@ impl Row {
     }
 }
 
-/// The columns of the runs of a loop, with their rows of the table and their places.
+/// The outcome columns of a loop, with their rows and indices.
 pub struct OutcomeColumns(Vec<(Quantity, &'static Row, usize)>);
 
 impl std::fmt::Debug for OutcomeColumns {
@@ -307,7 +299,6 @@ impl std::fmt::Debug for OutcomeColumns {
 }
 
 impl OutcomeColumns {
-    /// Columns of runs of `spec`.
     pub fn of(spec: &LoopSpec) -> Self {
         let names = |places: &[usize], names: &[crate::scene::Name]| {
             places.iter().map(|place| (*place, names[*place].to_string())).collect()
@@ -334,7 +325,7 @@ impl OutcomeColumns {
         OutcomeColumns(TABLE.iter().filter(|row| is_there(row.needs)).flat_map(of).collect())
     }
 
-    /// Columns that any loop has, each with its needs; `<phase>`, `<wheel>` and `<thruster>` stand for names.
+    /// Columns of any loop, each with its needs; placeholders stand for names.
     pub fn of_all_loops() -> Vec<(Quantity, &'static str)> {
         let names = ["<phase>", "<thruster>", "<wheel>"].map(|mark| (mark, vec![(0, mark.to_owned())]));
         let of_loop = Self::named(&names, |_| true).0.into_iter().map(|(column, row, _)| (column, row));
@@ -342,7 +333,6 @@ impl OutcomeColumns {
         of_loop.chain(of_module).map(|(column, row)| (column, row.needs.words())).collect()
     }
 
-    /// As columns of rows.
     pub fn columns(&self) -> LawColumns {
         let column = |(quantity, row, _): &(Quantity, &Row, usize)| {
             let count = COUNTS.iter().find(|(name, _)| *name == row.name);
@@ -352,7 +342,6 @@ impl OutcomeColumns {
         LawColumns::kept(self.0.iter().map(column).collect())
     }
 
-    /// Writes their values of a run.
     pub fn report(
         &self,
         outcome: &MissionOutcome,

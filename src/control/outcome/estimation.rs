@@ -1,5 +1,4 @@
-//! Estimates against the truth: their errors ([`EstimateErrors`]), and these relative to the covariances of the filters
-//! ([`Consistency`]).
+//! Estimation errors ([`EstimateErrors`]), and their ratio to the filters' covariances ([`Consistency`]).
 
 use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::estimators::estimator::{Confidence, Covariance, FILTERS, Filters};
@@ -8,25 +7,21 @@ use crate::control::rotation::vector_of;
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, difference, hamilton, norm};
 
-/// Errors of an estimate; NaN relative to debris that there is not.
+/// Errors of an estimate; the relative ones are NaN without debris.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EstimateErrors {
-    /// Angle between estimated and true attitude, rad.
     pub attitude: f64,
-    /// Magnitude of the error of omega_se_s, rad/s.
     pub rate: f64,
-    /// Magnitude of the error of the position relative to the debris, m.
+    /// Magnitude of the error in position relative to the debris, m.
     pub relative_position: f64,
-    /// Magnitude of the error of the velocity relative to the debris, m/s.
+    /// Magnitude of the error in velocity relative to the debris, m/s.
     pub relative_velocity: f64,
 }
 
 impl EstimateErrors {
-    /// Perfect knowledge.
     pub const NONE: EstimateErrors =
         EstimateErrors { attitude: 0.0, rate: 0.0, relative_position: 0.0, relative_velocity: 0.0 };
 
-    /// The errors of `estimate` in the state `truth`.
     pub fn of(estimate: &Estimate, truth: &Truth) -> Self {
         let body = &truth.body;
         let relative = |own: [[f64; 3]; 2], debris: fn(&DebrisState) -> [f64; 3]| {
@@ -44,24 +39,23 @@ impl EstimateErrors {
     }
 }
 
-/// Errors of the filters relative to their covariances. Squares are divided by their degrees of freedom, so
-/// that each is 1 on average where a filter is right; NaN where there is none.
+/// Errors relative to the filters' covariances. Squares are per degree of freedom, 1 on average for a consistent
+/// filter; NaN without one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Consistency {
-    /// Normalised squares of the errors (NEES), of the innovations of this tick, and the mean of the innovations since
-    /// the start, by filter.
+    /// By filter: normalised squares of errors (NEES) and of this tick's innovations, and the mean of the latter since
+    /// the start.
     pub squares: [[f64; 3]; FILTERS],
-    /// Root mean squares that the covariances give to the magnitudes of the errors: of attitude, rad, and angular
-    /// velocity, rad/s, and of position, m, and velocity, m/s, relative to the debris.
+    /// Root mean square errors expected from the covariances: attitude (rad), rate (rad/s), and position (m) and
+    /// velocity (m/s) relative to the debris.
     pub expected: [f64; 4],
 }
 
 impl Consistency {
-    /// No filter.
     pub const NONE: Consistency = Consistency { squares: [[f64::NAN; 3]; FILTERS], expected: [f64::NAN; 4] };
 
-    /// The filters with the confidence `filters` and the estimate `estimate` of the same tick in the state `truth`;
-    /// `gyro_bias_s` is the true bias, rad/s, where there is a gyro.
+    /// Consistency of `filters` and `estimate` with `truth` at one tick; `gyro_bias_s` is the true bias, rad/s, if
+    /// there is a gyro.
     pub fn of(filters: &Filters, estimate: &Estimate, truth: &Truth, gyro_bias_s: Option<[f64; 3]>) -> Self {
         let per_degree = |square: NormalizedSquare| square.value / square.degrees as f64;
         let squares = std::array::from_fn(|place| match &filters[place] {
@@ -76,8 +70,7 @@ impl Consistency {
     }
 }
 
-/// The normalised square of the error (NEES) of the filter at `place` in [`Filters`]; `None` where the covariance is
-/// not positive definite, or there is no debris.
+/// NEES of the filter at `place` in [`Filters`]; `None` without debris or if the covariance is not positive definite.
 fn error_square(
     covariance: &Covariance,
     place: usize,
@@ -118,8 +111,7 @@ fn error_square(
     }
 }
 
-/// [`Consistency::expected`]. Spacecraft and debris have filters of their own, whose variances add; the axes of a
-/// motion are alike.
+/// [`Consistency::expected`]: variances of spacecraft and debris add.
 fn expected(filters: &Filters) -> [f64; 4] {
     let covariance = |place: usize| filters[place].as_ref().map(|filter| &filter.covariance);
     let root = |covariance: [[f64; 3]; 3], more: f64| (0..3).map(|i| covariance[i][i] + more).sum::<f64>().sqrt();

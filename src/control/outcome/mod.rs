@@ -1,5 +1,4 @@
-//! [`MissionOutcome`]: the outcome of a run under a loop, from the true state at every tick. [`columns`]: its columns;
-//! [`estimation`]: estimates against the truth.
+//! [`MissionOutcome`]: the outcome of a run under a loop, from the true state at every tick.
 
 pub mod columns;
 pub mod criteria;
@@ -20,47 +19,43 @@ use crate::control::vector::{dot, norm, scaled};
 use crate::dynamics::actuation::Actuation;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
-/// Standard gravity, by which a specific impulse is an exhaust velocity, m/s^2 (ISO 80000-3).
+/// Standard gravity, which turns a specific impulse into an exhaust velocity, m/s^2 (ISO 80000-3).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct MissionOutcome {
     failure: Failure,
     end: f64,
     at_launch: Option<AtLaunch>,
-    /// Largest rotation to the target after it was first passed, rad, and the direction of the first error of the
-    /// phase.
+    /// Largest rotation past the target, rad, and the direction of the phase's first error.
     overshoot: f64,
     first_error: Option<[f64; 3]>,
-    /// Since when the pointing error has been within the band, s; NaN while it is not.
+    /// Time since which the pointing error has been in the band, s; NaN outside it.
     settled_since: f64,
     pointing_since: f64,
     pointing_error: f64,
     stability: Stability,
-    /// N s, by thruster.
+    /// By thruster, N s.
     impulse: [f64; MAX_THRUSTERS],
     velocity_change: f64,
     debris_distance: f64,
     plume_time: f64,
     speed_peak: [f64; MAX_WHEELS],
     momentum_peak: f64,
-    /// Time in which a motor gave less than was commanded: by its limit of torque, by that of speed, s.
+    /// Time with a motor at its torque limit and at its wheel's speed limit, s.
     saturated: [f64; 2],
     torque_excess: f64,
-    /// Largest dipole of all rods together, A m^2, and the time in which a limit cut it, s.
+    /// Largest dipole of all rods together, A m^2, and time in saturation, s.
     rod_dipole: f64,
     rod_saturated: f64,
     attitude_error: [f64; 2],
     relative_error: [f64; 2],
-    /// Telemetry of the module: the last numbers and the largest magnitudes so far, NaN once one was no finite number.
+    /// Last value and largest magnitude of each telemetry number; NaN after a non-finite one.
     telemetry: Vec<[f64; 2]>,
-    /// The consistency of the filters at the last tick.
     pub consistency: Consistency,
 }
 
 impl MissionOutcome {
-    /// At the start.
     pub fn new() -> Self {
         MissionOutcome {
             failure: Failure::None,
@@ -89,8 +84,8 @@ impl MissionOutcome {
         }
     }
 
-    /// Takes the truth of a tick. `error` is the true attitude relative to the target of the phase, `None` without one;
-    /// `begins`: the phase has just begun.
+    /// Adds a tick. `error` is the true attitude relative to the phase's target, if it has one; `begins` marks the
+    /// first tick of a phase.
     pub fn tick(
         &mut self,
         scene: &Scene,
@@ -125,7 +120,7 @@ impl MissionOutcome {
             (self.first_error, self.overshoot) = (None, 0.0);
             (self.settled_since, self.pointing_since) = (f64::NAN, time);
         }
-        // a phase that begins at its target has a direction from the first error on
+        // a phase that begins on target takes its direction from the first error
         if self.first_error.is_none() && angle > 0.0 {
             self.first_error = Some(scaled(1.0 / angle, vector));
         }
@@ -140,7 +135,7 @@ impl MissionOutcome {
         }
     }
 
-    /// Takes the telemetry of the module at a tick; empty if it did not step.
+    /// Adds the module's telemetry at a tick; empty if it did not step.
     pub fn take_telemetry(&mut self, values: &[f64]) {
         self.telemetry.resize(self.telemetry.len().max(values.len()), [f64::NAN, 0.0]);
         for ([last, most], value) in self.telemetry.iter_mut().zip(values) {
@@ -148,7 +143,6 @@ impl MissionOutcome {
         }
     }
 
-    /// Takes an arc.
     pub fn arc(&mut self, actuation: &Actuation, applied: &Applied) {
         for (which, is_saturated) in applied.saturated.into_iter().enumerate() {
             self.saturated[which] += if is_saturated { applied.length } else { 0.0 };
@@ -158,7 +152,7 @@ impl MissionOutcome {
         self.rod_saturated += if applied.is_rod_saturated { applied.length } else { 0.0 };
     }
 
-    /// Takes the thrusts `thrust`, N, of `length` seconds of a run of `scene`; `hits`: a plume hits the debris.
+    /// Adds `length` seconds of the thrusts `thrust` (N) in a run of `scene`; `hits` if a plume hits the debris.
     pub fn fires(&mut self, scene: &Scene, length: f64, thrust: [f64; MAX_THRUSTERS], hits: bool) {
         for (impulse, thrust) in self.impulse.iter_mut().zip(thrust) {
             *impulse += thrust * length;
@@ -168,27 +162,25 @@ impl MissionOutcome {
         self.plume_time += if hits { length } else { 0.0 };
     }
 
-    /// True if the net was launched.
     fn has_launched(&self) -> bool {
         self.failure == Failure::None && self.end.is_finite()
     }
 
-    /// Largest rotation to the target after it was first passed, rad; NaN where no phase had a target.
+    /// Largest rotation past the target, rad; NaN without a target.
     fn overshoot_of_target(&self) -> f64 {
         if self.pointing_since.is_nan() { f64::NAN } else { self.overshoot }
     }
 
-    /// The sum of the impulses of all thrusters so far, N s.
     pub fn impulse_total(&self) -> f64 {
         self.impulse.iter().sum()
     }
 
-    /// Flight software gives no command at `time`, s.
+    /// Ends the run at `time` (s), at which flight software gives no command.
     pub fn cannot_go_on(&mut self, time: f64, failure: Failure) {
         (self.end, self.failure) = (time, failure);
     }
 
-    /// The run ends at `truth`, launched or failed.
+    /// Ends the run at `truth` by launch or failure.
     pub fn ends(&mut self, scene: &Scene, truth: &Truth, failure: Failure, launch: &LaunchState) {
         self.end = truth.time;
         self.failure = failure;

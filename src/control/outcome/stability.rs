@@ -1,29 +1,26 @@
-//! [`Stability`]: the time at which a mission has settled, and the relative performance error over a window.
+//! [`Stability`]: settling time of a mission, and relative performance error over a window.
 //!
-//! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is here the rotation
-//! vector from the target to the true attitude; the relative performance error over an interval is e(t) less its mean
-//! over that interval.
+//! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is the rotation
+//! vector from the target to the true attitude; the relative one is e(t) less its mean over the interval.
 
 use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::vector::norm;
 
-/// Statistics of the ticks so far.
 #[derive(Clone, Copy, Debug)]
 pub struct Stability {
-    /// Since when the error has been within the band, whatever the phase, s; NaN while it is not.
+    /// Time since which the error has been in the band, in whatever phase, s; NaN outside it.
     settled_since: f64,
-    /// Start of the window, s; NaN where it has not begun.
+    /// Start of the window, s; NaN before it.
     start: f64,
     last: f64,
     count: f64,
-    /// By axis of the body, rad: mean, sum of the squares of the departures from it, smallest and largest value.
+    /// By body axis, rad: mean, sum of squared deviations, smallest and largest value.
     mean: [f64; 3],
     squares: [f64; 3],
     extremes: [[f64; 2]; 3],
 }
 
 impl Stability {
-    /// Before the first tick.
     pub const NONE: Stability = Stability {
         settled_since: f64::NAN,
         start: f64::NAN,
@@ -34,7 +31,7 @@ impl Stability {
         extremes: [[f64::INFINITY, f64::NEG_INFINITY]; 3],
     };
 
-    /// Takes a tick with the error `error`, rad; `None` in a phase without a target.
+    /// Adds a tick with the error `error`, rad; `None` in a phase without a target.
     pub fn tick(&mut self, time: f64, error: Option<[f64; 3]>, criteria: &MissionCriteria) {
         let [from, length] = criteria.stability;
         let is_settled = error.is_some_and(|error| norm(error) <= criteria.settling_band);
@@ -45,7 +42,7 @@ impl Stability {
         }
         let start = if from > 0.0 { from } else { self.settled_since };
         if start.to_bits() != self.start.to_bits() {
-            // out of the band, or in it again: another window
+            // leaving or re-entering the band starts a new window
             *self = Stability { settled_since: self.settled_since, start, ..Stability::NONE };
         }
         self.last = time;
@@ -53,7 +50,7 @@ impl Stability {
         if !(time >= start - slack && (length == 0.0 || time < start + length - slack)) {
             return;
         }
-        // without a target the window has no error, and its statistics are NaN
+        // without a target the window's statistics are NaN
         let error = error.unwrap_or([f64::NAN; 3]);
         self.count += 1.0;
         for (axis, error) in error.into_iter().enumerate() {
@@ -66,19 +63,17 @@ impl Stability {
         }
     }
 
-    /// Since when the mission has settled, s; NaN where it has not.
+    /// Time since which the mission has been settled, s; NaN if it is not.
     pub fn settled_since(&self) -> f64 {
         self.settled_since
     }
 
-    /// Root mean square over the window of the magnitude of the relative performance error, rad; NaN of a window that
-    /// the run has not completed.
+    /// Root mean square magnitude of the relative performance error over the window, rad; NaN unless completed.
     pub fn rms(&self, criteria: &MissionCriteria) -> f64 {
         if self.is_complete(criteria) { (self.squares.iter().sum::<f64>() / self.count).sqrt() } else { f64::NAN }
     }
 
-    /// Largest difference, about an axis of the body, of two errors in the window, rad; NaN of a window that the run
-    /// has not completed.
+    /// Largest peak to peak of the error about any body axis over the window, rad; NaN unless completed.
     pub fn peak_to_peak(&self, criteria: &MissionCriteria) -> f64 {
         if !self.is_complete(criteria) || self.squares.iter().any(|square| square.is_nan()) {
             return f64::NAN;
@@ -86,7 +81,7 @@ impl Stability {
         self.extremes.iter().fold(0.0, |most: f64, [low, high]| most.max(high - low))
     }
 
-    /// True if the run has reached the end of the window: the last tick lasts a period. A window without an end has two
+    /// True if the run has reached the end of the window, the last tick lasting one period; an endless window needs two
     /// ticks.
     fn is_complete(&self, criteria: &MissionCriteria) -> bool {
         let [_, length] = criteria.stability;
@@ -115,7 +110,7 @@ mod tests {
         }
     }
 
-    /// Settling time, rms and peak to peak of `errors`, one a tick.
+    /// Settling time, rms and peak to peak of `errors`, one per tick.
     fn found(errors: &[Option<[f64; 3]>], criteria: &MissionCriteria) -> [f64; 3] {
         let mut stability = Stability::NONE;
         for (tick, error) in errors.iter().enumerate() {
@@ -124,7 +119,7 @@ mod tests {
         [stability.settled_since(), stability.rms(criteria), stability.peak_to_peak(criteria)]
     }
 
-    /// An error that decays to an offset with a jitter; within the band from tick 35 on.
+    /// A jittery error that decays to an offset, within the band from tick 35 on.
     fn settling() -> Vec<Option<[f64; 3]>> {
         let error = |tick: usize| {
             let t = tick as f64 * PERIOD;
@@ -133,7 +128,7 @@ mod tests {
         (0..200).map(|tick| Some(error(tick))).collect()
     }
 
-    /// Law: a mission has settled when its error stays within the band to the end, whatever the phase; a tick without a
+    /// Law: a mission has settled once its error stays in the band to the end, whatever the phase; a tick without a
     /// target is not settled.
     #[test]
     fn a_mission_settles_where_the_error_stays_in_the_band() {
@@ -150,7 +145,7 @@ mod tests {
         assert!(found(&errors, &plain).iter().all(|value| value.is_nan()));
     }
 
-    /// Law: a window that the run does not complete, or in which a phase has no target, has no value.
+    /// Law: an incomplete window, or one with a phase without a target, has no value.
     #[test]
     fn a_window_is_complete_or_has_no_value() {
         let mut errors = settling();
@@ -160,7 +155,7 @@ mod tests {
         errors[40] = None;
         assert!(found(&errors, &criteria(1.0, 4.0))[1..].iter().all(|value| value.is_nan()));
         assert!(found(&errors, &criteria(5.0, 4.0))[1..].iter().all(|value| value.is_finite()));
-        // the window after settling begins again
+        // re-entering the band restarts the window
         assert_eq!(found(&errors, &criteria(0.0, 0.0))[0], 41.0 * PERIOD);
     }
 }

@@ -1,4 +1,4 @@
-//! [`FailingSensor`]: a sensor that fails at a time of the run.
+//! [`FailingSensor`]: a sensor that fails during the run.
 
 use crate::control::measurement::Values;
 use crate::control::sensors::sensor::{Sensor, SensorContext, SensorKind};
@@ -6,11 +6,11 @@ use crate::control::tick_times::SAME_TIME;
 use crate::control::truth::Truth;
 use crate::scene::{DeclaredTable, FailureInput, SensorOutput};
 
-/// A sensor that is as it was until it fails. From the first sample at or after that time on it delivers nothing, or
-/// its last measurement, or it measures with another bias and the same noise.
+/// From the first sample at or after its failure, the sensor is silent, repeats its last measurement, or measures with
+/// another bias and the same noise.
 pub struct FailingSensor {
     sensor: Box<dyn Sensor>,
-    /// The sensor with its later bias, which measures from the start to have the same memory.
+    /// The sensor with its later bias, which measures from the start to share the memory.
     biased: Option<Box<dyn Sensor>>,
     at: f64,
     output: Option<SensorOutput>,
@@ -19,7 +19,6 @@ pub struct FailingSensor {
 }
 
 impl FailingSensor {
-    /// The sensor of `kind` in the run of `context`, with the failure `failure`.
     pub fn new(kind: &SensorKind, context: &SensorContext<'_>, failure: &FailureInput) -> Self {
         let biased = failure.output.is_none().then(|| {
             let parameters = &biased(context.parameters, failure);
@@ -36,7 +35,7 @@ impl FailingSensor {
     }
 }
 
-/// The parameters `healthy` with what `failure` adds to their bias.
+/// The parameters `healthy` with the bias change of `failure`.
 fn biased(healthy: &DeclaredTable, failure: &FailureInput) -> DeclaredTable {
     let mut table = healthy.clone();
     for (key, change) in [("bias_rad_s", failure.bias_rad_s), ("bias_rad", failure.bias_rad)] {

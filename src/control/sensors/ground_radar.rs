@@ -1,5 +1,4 @@
-//! A radar on the ground: positions and velocities in F_e of the base point p and, where there is one, of the debris's
-//! centre of mass.
+//! A ground radar: positions and velocities in F_e of the base point p and of the debris's centre of mass.
 
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
@@ -29,7 +28,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     RadarNumbers = PARAMETERS {
     position: f64 = optional("position_noise_m", "m", "Standard deviation of each component of a position");
     velocity: f64 = optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity");
@@ -44,14 +42,12 @@ const fn velocity(name: &'static str, meaning: &'static str) -> MeasuredQuantity
     MeasuredQuantity::new(name, XYZ, ["m/s", "m_s"], meaning)
 }
 
-/// Noise of one point.
 struct PointNoise {
     position: NormalErrors<3>,
     velocity: NormalErrors<3>,
 }
 
 struct GroundRadar {
-    /// Standard deviations of positions, m, and of velocities, m/s.
     position: f64,
     velocity: f64,
     base: PointNoise,

@@ -1,8 +1,5 @@
-//! A horizon sensor: the direction of nadir in the axes of the sensor, as [two angles](super::two_angles); nothing
-//! where nadir is out of view.
-//!
-//! Nadir is the direction from the centre of mass to the centre of the central body, which a sensor finds from the
-//! horizon about it. Filters compare it with the nadir of the nominal orbit.
+//! A horizon sensor: nadir in the sensor's axes as [two angles](super::two_angles), if in view. Filters compare it with
+//! nadir of the nominal orbit.
 
 use std::sync::Arc;
 
@@ -39,7 +36,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     HorizonSensorNumbers = PARAMETERS {
     noise: f64 = optional("noise_rad", "rad", "Standard deviation of each angle");
     boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
@@ -59,11 +55,11 @@ impl HorizonSensorNumbers {
     }
 }
 
-/// Nadir, which filters expect on the nominal orbit.
+/// Nadir; filters expect that of the nominal orbit.
 #[derive(Debug)]
 struct Nadir(Option<OrbitPath>);
 
-/// Nadir from the position `r_e`, F_e; of length one.
+/// Unit vector of nadir at the position `r_e`, F_e.
 fn nadir(r_e: [f64; 3]) -> [f64; 3] {
     scaled(-1.0 / norm(r_e), r_e)
 }

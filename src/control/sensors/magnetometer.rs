@@ -1,8 +1,5 @@
-//! A magnetometer: the Earth's magnetic field in F_s, with noise, bias, errors of scale and misalignment.
-//!
-//! The field is that of `[environment]` at the true place. The field of torque rods and wheels is not in it: a
-//! real one is read while rods are off, or has its bias corrected. Filters compare it with the field on the nominal
-//! orbit.
+//! A magnetometer: the field of `[environment]` at the true position in F_s, with noise, bias, scale errors and
+//! misalignment, without the fields of rods and wheels. Filters compare it with the field on the nominal orbit.
 
 use std::sync::Arc;
 
@@ -38,7 +35,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     MagnetometerNumbers = PARAMETERS {
     noise: [f64; 3] = axes("noise_t", "T", "Standard deviation of each component", Limit::NotNegative);
     bias: [f64; 3] = axes("bias_t", "T", "Constant error of each component", Limit::Finite);
@@ -49,10 +45,10 @@ declared! {
     }
 }
 
-/// A magnetometer as the filters believe it: in the field on the nominal orbit, without fixed errors.
+/// A filter's magnetometer: the field on the nominal orbit, without fixed errors.
 #[derive(Debug)]
 struct Believed {
-    /// `None` without a field: nothing is learned.
+    /// `None` without a field: no information.
     field: Option<(OrbitPath, MagneticField<f64>)>,
     noise: [f64; 3],
 }
@@ -65,9 +61,9 @@ impl Believed {
 }
 
 impl AttitudeSensor for Believed {
-    /// The innovation is across the measured field m, as that of [`super::two_angles`]: e_i = b_i . (m - B) = -b_i . B
-    /// for two unit vectors b across m, where B is the field in F_s as estimated; the length of B does not depend on
-    /// the attitude. With B' = B x d for a small error d of the attitude, b . (B x d) = (b x B) . d.
+    /// The innovation across the measured field m, as in [`super::two_angles`]: e_i = b_i . (m - B) = -b_i . B for two
+    /// unit vectors b across m and the estimated field B in F_s, whose length does not depend on the attitude. With B'
+    /// = B x d for a small attitude error d, b . (B x d) = (b x B) . d.
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
         let field_e = self.field.as_ref().map_or([0.0; 3], |(orbit, field)| field.at(time, orbit.state(time).position));
         let field_s = transposed_product(dcm_from_quaternion(q_es), field_e);

@@ -1,10 +1,8 @@
-//! Models of sensors: from the true state to measurements. One file for each kind, one line for each in [`KINDS`].
+//! Models of sensors: from the true state to measurements. Each kind has one file and one entry in [`KINDS`].
 //!
-//! A sensor measures at its own period; [`SampledSensor`] times it, and delivers each measurement after the latency.
-//! Noise is addressed by the sensor's own count, so that it depends neither on other sensors nor on measurements that
-//! were lost. The nominal run has no noise; biases, scales and misalignments stay.
-//!
-//! A [`failing`] sensor wraps one that fails during the run. Not here: the use of measurements ([`super::estimators`]).
+//! [`SampledSensor`] times a sensor by its own period and delivers each measurement after the latency; a [`failing`]
+//! sensor wraps one that fails. Noise is addressed by the sensor's own count, hence independent of other sensors and of
+//! lost measurements. The nominal run has biases, scales and misalignments but no noise.
 
 pub mod failing;
 mod ground_radar;
@@ -24,7 +22,6 @@ pub use sampled::SampledSensor;
 
 pub use sensor::{Components, MeasuredQuantity, Need, NormalErrors, Sensor, SensorContext, SensorKind};
 
-/// All kinds.
 pub static KINDS: [SensorKind; 8] = [
     rate_gyro::KIND,
     star_tracker::KIND,
@@ -35,7 +32,6 @@ pub static KINDS: [SensorKind; 8] = [
     relative_camera::KIND,
     tachometers::KIND,
 ];
-/// Their names.
 pub const NAMES: [&str; 8] = [
     rate_gyro::KIND.name,
     star_tracker::KIND.name,
@@ -47,7 +43,6 @@ pub const NAMES: [&str; 8] = [
     tachometers::KIND.name,
 ];
 
-/// The kind called `name`.
 pub fn kind(name: &str) -> Option<&'static SensorKind> {
     KINDS.iter().find(|kind| kind.name == name)
 }
@@ -64,7 +59,7 @@ pub(super) mod bench {
     use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
     use crate::scene::{EnvironmentInput, Epoch, FieldModel, Name, OrbitInput};
 
-    /// The table of the sensor `name` with these numbers, and the defaults of the others.
+    /// The table of the sensor `name` with these numbers, else defaults.
     pub fn table(name: &str, declared: &'static [LawParameter], values: &[(&str, &[f64])]) -> DeclaredTable {
         let mut table = DeclaredTable::of(Name::of(name), declared);
         for (key, numbers) in values {
@@ -74,12 +69,12 @@ pub(super) mod bench {
         table
     }
 
-    /// The sensor of the kind called `kind` in the run of `sample`.
+    /// A sensor of the kind `kind` in the run `sample`.
     pub fn sensor(kind: &str, values: &[(&str, &[f64])], period: f64, sample: u64) -> Box<dyn Sensor> {
         sensor_in(&on_orbit(), kind, values, period, sample)
     }
 
-    /// A sensor in the scene `drawn`.
+    /// Likewise in the scene `drawn`.
     pub fn sensor_in(
         drawn: &Scene,
         kind: &str,
@@ -92,12 +87,10 @@ pub(super) mod bench {
         (kind.make)(&SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 })
     }
 
-    /// A scene with a magnetic field.
     pub fn on_orbit() -> Scene {
         Scene::resolve(&input_on_orbit()).expect("a valid scene")
     }
 
-    /// The input of that scene.
     pub fn input_on_orbit() -> SceneInput {
         let epoch = Epoch::parse("2026-11-24T00:00:00Z");
         let orbit =
@@ -106,7 +99,7 @@ pub(super) mod bench {
         SceneInput { orbit: Some(orbit), environment, ..SceneInput::report() }
     }
 
-    /// A body at `time` with this motion about its centre of mass, which rests at the origin; no debris.
+    /// A body at `time` whose centre of mass rests at the origin; no debris.
     pub fn truth(time: f64, q_es: [f64; 4], omega_se_s: [f64; 3]) -> Truth {
         Truth {
             time,
@@ -124,9 +117,9 @@ pub(super) mod bench {
         degrees * (1.0 - spread + normal::quantile(p) * spread.sqrt()).powi(3)
     }
 
-    /// Fails where `numbers`, which H0 says are independent and normal with mean zero and this standard deviation, have
-    /// a mean or a mean square that H0 gives with a probability below `alpha` each. With 4,000 numbers and alpha = 1e-3
-    /// a deviation that is wrong by 10% is found with a probability above 0.999.
+    /// Tests that `numbers` are independent and normal with zero mean and this standard deviation, by mean and mean
+    /// square at a level `alpha` each. With 4,000 numbers and alpha = 1e-3 a deviation wrong by 10% is detected with a
+    /// probability above 0.999.
     pub fn assert_normal(numbers: &[f64], deviation: f64, alpha: f64) {
         let n = numbers.len() as f64;
         let mean = numbers.iter().sum::<f64>() / n;
@@ -149,7 +142,7 @@ mod tests {
     use crate::control::vector::{hamilton, norm};
     use crate::dynamics::orbit_path::OrbitPath;
 
-    /// Law: every kind of sensor and of estimator has a name of its own, and a default for each component of each key.
+    /// Law: kinds of sensors and estimators have unique names, and defaults for each component of each key.
     #[test]
     fn kinds_have_names_and_defaults() {
         let sensors = KINDS.iter().map(|kind| (kind.name, kind.parameters));
@@ -164,8 +157,8 @@ mod tests {
         }
     }
 
-    /// Law: the noise of a sample depends on its count alone, not on samples that were lost before it or read after it;
-    /// runs have noise of their own, the nominal one none.
+    /// Law: noise depends on a sample's count alone, not on lost or later samples; each run has its own noise, the
+    /// nominal one none.
     #[test]
     fn noise_is_addressed_by_count() {
         let noise: [(&str, &[f64]); 1] = [("noise_rad", &[1e-3, 2e-3, 3e-3])];
@@ -181,8 +174,8 @@ mod tests {
         assert_eq!(seen(0, 7), at.body.q_es);
     }
 
-    /// Law: the innovation of every kind of sensor of the attitude, where the estimate is wrong by a small rotation d,
-    /// is H d to second order, on the nominal orbit at the time of the measurement.
+    /// Law: for every attitude sensor, the innovation at an estimate wrong by a small rotation d is H d to second
+    /// order, on the nominal orbit at the time of the measurement.
     #[test]
     fn sensitivities_are_derivatives() {
         let (nominal, size) = (on_orbit(), 1e-6);

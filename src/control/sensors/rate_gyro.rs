@@ -1,9 +1,9 @@
-//! A rate-integrating gyro: the rotation vector from sample to sample, so that a slew adds no error of a held rate.
+//! A rate-integrating gyro: the rotation vector from sample to sample, exact in a slew.
 //!
-//! Source of the noise: R. L. Farrenkopf, J. Guidance and Control 1(4), 1978; F. L. Markley & J. L. Crassidis,
-//! *Fundamentals of Spacecraft Attitude Determination and Control*, 2014, section 4.7. Over a period T the bias walks
-//! by N(0, su^2 T), and the rotation has the variance sv^2 T + su^2 T^3/12 about the mean of the biases at both ends. A
-//! turn of more than half a revolution between samples reads as the shorter one.
+//! Noise: R. L. Farrenkopf, J. Guidance and Control 1(4), 1978; F. L. Markley & J. L. Crassidis, *Fundamentals of
+//! Spacecraft Attitude Determination and Control*, 2014, section 4.7. Over a period T the bias walks by N(0, su^2 T),
+//! and the rotation has the variance sv^2 T + su^2 T^3/12 about the mean of the initial and final bias. A turn beyond
+//! half a revolution per sample reads as the shorter one.
 
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
@@ -36,7 +36,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     GyroNumbers = PARAMETERS {
     angular_random_walk: f64 = optional(
         "angular_random_walk_rad_sqrt_s",
@@ -63,18 +62,16 @@ declared! {
 }
 
 impl GyroNoise {
-    /// The noise of a gyro with the numbers of `table`.
     fn of(table: &DeclaredTable) -> Self {
         let GyroNumbers { angular_random_walk, bias_random_walk, .. } = GyroNumbers::of(table);
         GyroNoise { angular_random_walk, bias_random_walk }
     }
 }
 
-/// A rate-integrating gyro in one run.
 #[derive(Debug)]
 pub struct RateGyro {
     period: f64,
-    /// Deviations of the rotation about that of the mean bias, rad, and of the bias from sample to sample, rad/s.
+    /// Standard deviations of the rotation about that of the mean bias, and of the bias from sample to sample.
     white_deviation: f64,
     walk_deviation: f64,
     bias: [f64; 3],
@@ -84,14 +81,13 @@ pub struct RateGyro {
     max_rate: f64,
     white: NormalErrors<3>,
     walk: NormalErrors<3>,
-    /// Attitude at the sample before.
+    /// Attitude at the last sample.
     before: Option<[f64; 4]>,
-    /// Angle that is not counted yet, rad.
+    /// Angle not counted yet.
     rest: [f64; 3],
 }
 
 impl RateGyro {
-    /// The gyro of `context`.
     pub fn new(context: &SensorContext<'_>) -> Self {
         let period = context.period;
         let numbers = GyroNumbers::of(context.parameters);
@@ -112,7 +108,7 @@ impl RateGyro {
         }
     }
 
-    /// The measured rotation about an axis, rad: limited, then counted.
+    /// The measured rotation about an axis: limited, then counted.
     fn counted(&mut self, axis: usize, rotation: f64) -> f64 {
         let largest = if self.max_rate > 0.0 { self.max_rate * self.period } else { f64::INFINITY };
         let limited = rotation.clamp(-largest, largest);
@@ -127,7 +123,7 @@ impl RateGyro {
 }
 
 impl Sensor for RateGyro {
-    /// The rotation since the sample before; nothing at the first sample.
+    /// The rotation since the last sample; none at the first.
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let now = truth.body.q_es;
         let before = self.before.replace(now)?;
@@ -154,7 +150,7 @@ mod tests {
     use crate::control::rotation::quaternion_of;
     use crate::control::vector::difference;
 
-    /// The rotations that a gyro measures of a turn at the constant rate `omega`, and its bias after each.
+    /// Rotations measured in a turn at the constant rate `omega`, with the bias after each.
     fn measured(values: &[(&str, &[f64])], sample: u64, omega: [f64; 3], samples: u64) -> Vec<([f64; 3], [f64; 3])> {
         let period = 0.1;
         let mut gyro = sensor("rate_gyro", values, period, sample);
@@ -177,9 +173,9 @@ mod tests {
     const WALK: f64 = 4e-3;
     const SLEW: [f64; 3] = [0.3, -0.2, 0.1];
 
-    /// Law: rotation and bias have Farrenkopf's statistics, in a slew too: H0 of means and variances of 4,000 samples,
-    /// alpha 1e-3 each, seed 5. The walk is as large as the white noise here, so that su^2 T^3/12 counts: without it
-    /// the variance would be 12% too small.
+    /// Law: rotation and bias have Farrenkopf's statistics, in a slew too: means and variances of 4,000 samples, alpha
+    /// 1e-3 each, seed 5. The walk equals the white noise, so that su^2 T^3/12 matters: without it the variance is 12%
+    /// too small.
     #[test]
     fn the_noise_is_farrenkopfs() {
         let (period, values): (f64, [(&str, &[f64]); 2]) =
@@ -202,8 +198,8 @@ mod tests {
         }
     }
 
-    /// Law: rotations are whole counts, and their sum is within half a count of the true angle; beyond the largest rate
-    /// it reads that rate.
+    /// Law: rotations are whole counts and add up to the true angle within half a count; above the largest rate the
+    /// gyro reads that rate.
     #[test]
     fn counts_add_up_and_rates_saturate() {
         let count = 7e-4;

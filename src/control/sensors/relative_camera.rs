@@ -1,4 +1,4 @@
-//! A camera on the spacecraft: attitude and rate of the debris relative to the spacecraft, within a range.
+//! A camera on the spacecraft: relative attitude and rate of the debris, within a range.
 
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
@@ -37,7 +37,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     CameraNumbers = PARAMETERS {
     attitude_noise: f64 = optional(
         "attitude_noise_rad",

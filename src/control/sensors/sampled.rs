@@ -1,4 +1,4 @@
-//! [`SampledSensor`]: when a sensor measures and when its measurements are delivered.
+//! [`SampledSensor`]: sampling and delivery of a sensor's measurements.
 
 use std::collections::VecDeque;
 
@@ -6,26 +6,23 @@ use crate::control::measurement::{Measurement, Values};
 use crate::control::sensors::sensor::Sensor;
 use crate::control::truth::Truth;
 
-/// A sensor in the loop: it measures every so many ticks, and delivers a measurement a fixed number of ticks later,
-/// with its age.
+/// A sensor that measures every `every` ticks and delivers a fixed number of ticks later.
 pub struct SampledSensor {
     sensor: Box<dyn Sensor>,
     every: u64,
     latency: u64,
     age: f64,
-    /// The tick at which each measurement is delivered.
+    /// Measurements with the ticks of their delivery.
     waiting: VecDeque<(u64, Values)>,
 }
 
 impl SampledSensor {
-    /// `sensor`, which measures at the ticks 0, `every`, 2 `every`, ... and delivers `latency` ticks of `tick` seconds
-    /// later. `every` is at least one.
+    /// `sensor` at the ticks 0, `every` >= 1, 2 `every`, ..., delivered `latency` ticks of `tick` seconds later.
     pub fn new(sensor: Box<dyn Sensor>, every: u64, latency: u64, tick: f64) -> Self {
         SampledSensor { sensor, every, latency, age: latency as f64 * tick, waiting: VecDeque::new() }
     }
 
-    /// The measurement that the sensor at the place `sensor` delivers at `tick` in the state `truth`. Called once for
-    /// each tick, in order.
+    /// The measurement that the sensor, at the index `sensor`, delivers at `tick`; call once per tick, in order.
     pub fn deliver(&mut self, sensor: usize, tick: u64, truth: &Truth) -> Option<Measurement> {
         if tick.is_multiple_of(self.every)
             && let Some(measurement) = self.sensor.measure(tick / self.every, truth)
@@ -36,7 +33,6 @@ impl SampledSensor {
         Some(Measurement { sensor, values, age: self.age })
     }
 
-    /// The sensor.
     pub fn sensor(&self) -> &dyn Sensor {
         &*self.sensor
     }

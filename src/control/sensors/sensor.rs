@@ -1,4 +1,4 @@
-//! [`Sensor`]: a model of a sensor in a run; [`SensorKind`]: a kind of it.
+//! [`Sensor`]: a model of a sensor in a run; [`SensorKind`]: its kind.
 
 use crate::control::measurement::Values;
 use crate::control::observes::Observes;
@@ -8,35 +8,30 @@ use crate::scene::schema::Limit;
 use crate::scene::schema::control::kept;
 use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
 
-/// A model of a sensor in one run.
 pub trait Sensor: Send {
-    /// Its measurement of `truth`, in the order of its kind's quantities; `None` if it gives nothing. `count` is
-    /// the number of its samples before this one: 0 at the start of the run.
+    /// The measurement of `truth`, in the order of its kind's quantities, if any; `count` samples precede it in the
+    /// run.
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values>;
 
-    /// The true bias of a gyro at its last sample, in F_s, rad/s.
+    /// True bias of a gyro at its last sample, in F_s.
     fn bias_s(&self) -> Option<[f64; 3]> {
         None
     }
 }
 
-/// The settings of a sensor in one run.
+/// Settings of a sensor in one run.
 #[derive(Clone, Copy, Debug)]
 pub struct SensorContext<'a> {
-    /// Its parameters as drawn; the name of the table is that of the sensor.
+    /// Its parameters as drawn, in a table with the sensor's name.
     pub parameters: &'a DeclaredTable,
-    /// The scene that is flown.
     pub drawn: &'a Scene,
-    /// Time from sample to sample, s.
     pub period: f64,
-    /// The sample; 0 is the nominal run.
     pub sample: SampleId,
-    /// The seed of the campaign.
     pub seed: u64,
 }
 
 impl SensorContext<'_> {
-    /// Standard normal numbers of this run for the error called `error`, one for each of `components`.
+    /// Standard normal numbers of this run for the error `error`, one for each of `components`.
     pub fn normal<const N: usize>(&self, error: &str, components: [&str; N]) -> NormalErrors<N> {
         let stream = |component: &str| {
             Noise::new(self.seed, &format!("sensors.{}.{error}.{component}", self.parameters.name), self.sample)
@@ -52,7 +47,7 @@ pub struct NormalErrors<const N: usize> {
 }
 
 impl<const N: usize> NormalErrors<N> {
-    /// The numbers of `count`, each times its deviation; for a deviation of zero nothing is drawn.
+    /// The numbers of `count` times their deviations; nothing is drawn for a deviation of zero.
     pub fn scaled(&mut self, count: u64, deviations: [f64; N]) -> [f64; N] {
         let mut errors = [0.0; N];
         if let Some(noise) = &mut self.noise {
@@ -66,22 +61,19 @@ impl<const N: usize> NormalErrors<N> {
     }
 }
 
-/// A kind of sensor.
 #[derive(Debug)]
 pub struct SensorKind {
-    /// As in `kind` of `[[sensors]]`.
+    /// Value of `kind` in `[[sensors]]`.
     pub name: &'static str,
-    /// The keys of its table; `period_s` and `latency_s` are those of every sensor.
+    /// Keys of its table besides `period_s` and `latency_s`.
     pub parameters: &'static [LawParameter],
-    /// The numbers of a measurement in their order, and columns of telemetry.
+    /// Values of a measurement in their order, and columns of telemetry.
     pub quantities: &'static [MeasuredQuantity],
-    /// The part of the state that it observes.
     pub observes: Observes,
     /// Its needs besides debris ([`Observes::needs_debris`]).
     pub needs: Option<Need>,
     /// The key that an orbit with an epoch replaces.
     pub replaced_by_epoch: Option<&'static str>,
-    /// The sensor of a run.
     pub make: fn(&SensorContext<'_>) -> Box<dyn Sensor>,
 }
 
@@ -104,14 +96,11 @@ impl SensorKind {
 /// A need of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// `[orbit]`.
     Orbit,
-    /// `environment.magnetic_field`, which is of an orbit.
     MagneticField,
 }
 
 impl Need {
-    /// True if it is met in `scene`.
     pub fn is_met(self, scene: &SceneInput) -> bool {
         match self {
             Need::Orbit => scene.orbit.is_some(),
@@ -131,32 +120,28 @@ impl Need {
     }
 }
 
-/// A vector that a sensor measures.
+/// A measured vector.
 #[derive(Clone, Copy, Debug)]
 pub struct MeasuredQuantity {
-    /// Its name, without unit, and its components: numbers of a measurement, one after another.
+    /// Name, without unit and components.
     pub name: &'static str,
-    /// Its components.
     pub components: Components,
-    /// Its unit, and how that stands in the name of a column.
+    /// Unit, and its suffix in names of columns.
     pub unit: [&'static str; 2],
-    /// True if telemetry divides it by the period of the sensor, as it does rotations.
+    /// True if telemetry divides it by the sensor's period.
     pub is_over_period: bool,
-    /// Its meaning, a sentence without full stop.
+    /// A sentence without full stop.
     pub meaning: &'static str,
 }
 
-/// The components of a measured vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Components {
-    /// Components with these names.
     Named(&'static [&'static str]),
-    /// One for each wheel that turns.
+    /// One for each turning wheel.
     Wheels,
 }
 
 impl Components {
-    /// Their number.
     pub fn width(self) -> usize {
         match self {
             Components::Named(list) => list.len(),
@@ -165,12 +150,10 @@ impl Components {
     }
 }
 
-/// The components of vectors and of quaternions.
 pub(super) const XYZ: Components = Components::Named(&AXES);
 pub(super) const WXYZ: Components = Components::Named(&["w", "x", "y", "z"]);
 
 impl MeasuredQuantity {
-    /// `name` with `components`, in `unit`, which stands in the names of columns as `suffix`.
     pub(super) const fn new(
         name: &'static str,
         components: Components,
@@ -181,15 +164,14 @@ impl MeasuredQuantity {
     }
 }
 
-/// The names of the components of a vector.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A vector in F_s or F_d that a campaign file may leave out: zeros.
+/// An optional vector, by default zero.
 pub(super) const fn axes(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> LawParameter {
     LawParameter::number(key, unit, meaning, limit).with_components(&AXES).or(&[0.0; 3])
 }
 
-/// A number that a campaign file may leave out: zero.
+/// An optional nonnegative number, by default zero.
 pub(super) const fn optional(key: &'static str, unit: &'static str, meaning: &'static str) -> LawParameter {
     LawParameter::number(key, unit, meaning, Limit::NotNegative).or(&[0.0])
 }

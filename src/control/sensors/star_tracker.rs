@@ -1,8 +1,8 @@
-//! A star tracker: the attitude, with noise about the axes of the tracker; nothing above a rate of the body.
+//! A star tracker: the attitude with noise about the tracker's axes F_t, up to a largest rate.
 //!
-//! The third axis of the tracker, F_t, is its boresight, about which a tracker measures least exactly (C. C. Liebe,
-//! IEEE Transactions on Aerospace and Electronic Systems 38(2), 2002). The others are s1 and s2, turned with s3 to the
-//! boresight the shortest way: they are s1 and s2 where it is s3.
+//! The third axis is the boresight, about which a tracker is least accurate (C. C. Liebe, IEEE Transactions on
+//! Aerospace and Electronic Systems 38(2), 2002); the others are s1 and s2, turned with s3 to the boresight the
+//! shortest way.
 
 use crate::control::sensors::sensor::{
     AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional,
@@ -36,7 +36,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     TrackerNumbers = PARAMETERS {
     noise: [f64; 3] = axes(
         "noise_rad",
@@ -53,7 +52,7 @@ declared! {
     }
 }
 
-/// The covariance of the noise of a tracker with the numbers of `table`, in F_s, rad^2.
+/// Noise covariance in F_s, rad^2.
 fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
     let numbers = TrackerNumbers::of(table);
     let c_st = from_s3_to(numbers.boresight);
@@ -62,11 +61,11 @@ fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
 }
 
 struct StarTracker {
-    /// About the axes of the tracker, rad.
+    /// About the tracker's axes.
     deviations: [f64; 3],
     /// F_t -> F_s.
     c_st: [[f64; 3]; 3],
-    /// The constant error as a quaternion.
+    /// Constant error.
     bias: [f64; 4],
     max_rate: f64,
     noise: NormalErrors<3>,

@@ -1,9 +1,7 @@
-//! A two-axis Sun sensor: the direction of the Sun in the axes of the sensor, as [two angles](super::two_angles);
-//! nothing where the Sun is out of view.
+//! A two-axis Sun sensor: the Sun in the sensor's axes as [two angles](super::two_angles), if in view.
 //!
-//! On an orbit with an epoch the Sun is that of the date, and the sensor sees nothing while the Earth covers more than
-//! half of its disc: the shadow is that of `environment.shadow`. Elsewhere the Sun is in a fixed direction, and nothing
-//! covers it.
+//! On an orbit with an epoch the Sun is that of the date, out of view while the Earth covers more than half of its disc
+//! (`environment.shadow`). Otherwise its direction is fixed and never covered.
 
 use std::sync::Arc;
 
@@ -18,7 +16,7 @@ use crate::dynamics::environment::sun::sun_after;
 use crate::scene::schema::Limit;
 use crate::scene::{Epoch, LawParameter, Orbit, Scene, Shadow};
 
-/// The share of the disc of the Sun that a sensor needs to see: its centre is then in sight.
+/// Visible share of the Sun's disc that a sensor needs: its centre is then in sight.
 const LEAST_LIT: f64 = 0.5;
 
 pub(super) const KIND: SensorKind = SensorKind {
@@ -41,7 +39,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     SunSensorNumbers = PARAMETERS {
     noise: f64 = optional("noise_rad", "rad", "Standard deviation of each angle");
     boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
@@ -62,17 +59,16 @@ declared! {
     }
 }
 
-/// The light of the Sun.
+/// Sunlight.
 #[derive(Clone, Copy, Debug)]
 enum Light {
     /// Along this unit vector in F_e.
     Fixed([f64; 3]),
-    /// At its place of the date; the radius of the Earth, m, and the shape of its shadow.
+    /// By the date; radius of the Earth and shape of its shadow.
     OfDate(Epoch, f64, Shadow),
 }
 
 impl SunSensorNumbers {
-    /// The sensor in `scene`.
     fn believed(&self, scene: &Scene) -> Believed<Light> {
         let of_date = |orbit: &Orbit| Some(Light::OfDate(orbit.epoch?, orbit.body_radius, scene.environment.shadow));
         let fixed = scaled(1.0 / norm(self.sun_direction), self.sun_direction);

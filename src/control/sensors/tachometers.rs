@@ -26,7 +26,6 @@ pub(super) const KIND: SensorKind = SensorKind {
 };
 
 declared! {
-    /// Its numbers in campaign files.
     TachometerNumbers = PARAMETERS {
         noise: f64 = optional("noise_rad_s", "rad/s", "Standard deviation of each rate");
         scale: f64 = LawParameter::number("scale", "1", "Ratio of measured to true rate", Limit::Finite).or(&[1.0]);

@@ -1,8 +1,8 @@
-//! A direction measured as two angles by a sensor with a boresight, of the Sun or of nadir.
+//! A direction, of the Sun or of nadir, measured as two angles from a boresight.
 //!
-//! The third axis of the sensor, F_t, is its boresight; the others are turned with s3 to it the shortest way. With the
-//! direction u in F_t the angles are atan(u1/u3) and atan(u2/u3), as by two crossed slits (J. R. Wertz,
-//! *Spacecraft Attitude Determination and Control*, 1978, section 7.1). The rotation about the direction is not seen.
+//! The sensor's third axis in F_t is its boresight; the others are turned with s3 to it the shortest way. The direction
+//! u in F_t has the angles atan(u1/u3) and atan(u2/u3), as by two crossed slits (J. R. Wertz, *Spacecraft Attitude
+//! Determination and Control*, 1978, section 7.1). The rotation about it is not observed.
 
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
@@ -12,26 +12,26 @@ use crate::control::small_matrix::{multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, transposed_product};
 
-/// A direction that such sensors look for.
+/// The direction of an object.
 pub trait Direction: std::fmt::Debug + Send + Sync {
-    /// The unit vector in F_e at `time`, s, as filters expect it; zero where it is unknown, and nothing is learned.
+    /// Unit vector in F_e at `time` as filters expect it; zero if unknown, which gives no information.
     fn expected(&self, time: f64) -> [f64; 3];
 
-    /// The unit vector in F_e in the state `truth`; `None` if it is hidden.
+    /// Unit vector in F_e at `truth`; `None` if hidden.
     fn actual(&self, truth: &Truth) -> Option<[f64; 3]>;
 }
 
-/// A boresight, and the noise of the angles.
+/// A boresight, and the angles' noise.
 #[derive(Clone, Copy, Debug)]
 pub struct TwoAngles {
     /// F_t -> F_s.
     c_st: [[f64; 3]; 3],
-    /// Standard deviation of each angle, rad.
+    /// Standard deviation of each angle.
     deviation: f64,
 }
 
 impl TwoAngles {
-    /// Angles about `boresight` in F_s, of any length, with the standard deviation `deviation`, rad.
+    /// Angles about `boresight` in F_s, of any length.
     pub fn new(boresight: [f64; 3], deviation: f64) -> Self {
         TwoAngles { c_st: from_s3_to(boresight), deviation }
     }
@@ -41,11 +41,11 @@ impl TwoAngles {
         transposed_product(self.c_st, transposed_product(dcm_from_quaternion(q_es), u_e))
     }
 
-    /// The innovation of the angles `values` where the direction is estimated as `u_t` in F_t, a unit vector.
+    /// The innovation of the angles `values` for the estimated unit vector `u_t` in F_t.
     ///
     /// It is across the measured direction m: e_i = -b_i . u for two unit vectors b across m. With u' = u x d for a
-    /// small error d of the attitude, b . (u x d) = (b x u) . d; the noise of the angles moves m by b_i . dm/d(angle).
-    /// Unlike the difference of the angles it has no pole where the estimate has the direction across the boresight.
+    /// small attitude error d, b . (u x d) = (b x u) . d; noise of the angles moves m by b_i . dm/d(angle). Unlike a
+    /// difference of angles it has no pole for an estimate across the boresight.
     pub fn innovation(&self, values: &Values, u_t: [f64; 3]) -> AttitudeInnovation {
         let tangents = part::<2>(values, 0).map(libm::tan);
         let seen = [tangents[0], tangents[1], 1.0];
@@ -63,7 +63,7 @@ impl TwoAngles {
     }
 }
 
-/// A sensor of the direction `D` as filters believe it.
+/// A filter's sensor of the direction `D`.
 #[derive(Debug)]
 pub struct Believed<D>(pub TwoAngles, pub D);
 
@@ -86,8 +86,8 @@ pub struct DirectionSensor<D> {
 }
 
 impl<D> DirectionSensor<D> {
-    /// A sensor with a constant error of `bias` (rad), up to `half_field_of_view` (rad) from the boresight; zero: all
-    /// before the sensor.
+    /// A sensor with the constant error `bias`, up to `half_field_of_view` from the boresight; zero for the half-space
+    /// ahead.
     pub fn new(
         context: &SensorContext<'_>,
         Believed(angles, direction): Believed<D>,
