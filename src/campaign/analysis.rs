@@ -1,4 +1,4 @@
-//! [`Analysis`]: what is made of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`,
+//! [`Analysis`]: the evaluation of the rows: `[statistics]`, `[summary]`, `[[observable]]`, `[[require]]`, `[stop]`,
 //! `[display]`. No row depends on it.
 
 use super::derived_observable::DerivedObservable;
@@ -15,26 +15,22 @@ use crate::observables::window::{MAX_WINDOWS, Window};
 use crate::sampling::keys::{Kind, ListLimit, Presence, Row};
 use crate::sampling::{Column, Design};
 
-/// What is made of the rows of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Which quantiles every observable has, ascending, each in (0, 1).
+    /// Quantiles of every observable, ascending, each in (0, 1).
     pub quantiles: Vec<f64>,
-    /// Confidence of every interval except those of requirements.
+    /// Confidence of all intervals except those of requirements.
     pub confidence: f64,
-    /// Observables that the screen and the tables of sensitivity have besides the usual ones.
+    /// Observables on the screen and in the tables of sensitivity besides the usual ones.
     pub summary_columns: Vec<String>,
-    /// Observables that follow from others.
     pub derived: Vec<DerivedObservable>,
-    /// What the campaign must show.
     pub requirements: Vec<Requirement>,
-    /// When it has enough samples; `None`: after `campaign.samples`.
+    /// `None`: after `campaign.samples`.
     pub stop: Option<Stop>,
-    /// In which units its numbers are shown.
     pub display: Display,
 }
 
-/// The quantiles of a file that does not name any.
+/// Default quantiles.
 pub const QUANTILES: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
 
 const QUANTILE_LIST: ListLimit = ListLimit {
@@ -46,7 +42,6 @@ const QUANTILE_LIST: ListLimit = ListLimit {
     },
 };
 
-/// The keys of `[statistics]`.
 pub const STATISTICS: [Row; 2] = [
     Row::new(
         "quantiles",
@@ -58,7 +53,6 @@ pub const STATISTICS: [Row; 2] = [
         .or(Presence::Or(DEFAULT_CONFIDENCE)),
 ];
 
-/// The keys of `[summary]`.
 pub const SUMMARY: [Row; 1] = [Row::new(
     "columns",
     Kind::Observables,
@@ -80,7 +74,7 @@ impl Default for Analysis {
 }
 
 impl Analysis {
-    /// Reads the tables; what is wrong is noted, and left out here. `of_rows` are the observables of the rows.
+    /// Reads the tables and omits invalid ones. `of_rows`: the observables of the rows.
     pub(super) fn read(root: &mut Section<'_, '_>, of_rows: Request) -> Self {
         let mut known = KnownColumns::new(of_rows);
         root.document.known = Some(known.clone());
@@ -93,7 +87,7 @@ impl Analysis {
             known.add(found.quantity());
             Some(found)
         });
-        // an observable is not made of others that are derived
+        // derived observables do not build on each other
         root.document.known = Some(known);
         let statistics = root.kept("[statistics]", &STATISTICS, |written| {
             if !written.has("quantiles") {
@@ -177,7 +171,7 @@ impl Analysis {
         }
     }
 
-    /// The extremes over time that the rows have for requirements, each once.
+    /// The extremes over time that requirements add to the rows, each once.
     pub fn windows(&self) -> impl Iterator<Item = Window> {
         let of = |index: usize| self.requirements[index].window();
         let is_first = move |index: &usize| (0..*index).all(|other| of(other) != of(*index));

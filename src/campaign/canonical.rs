@@ -1,12 +1,9 @@
-//! A plan as text: every key with its value, defaults too, in one order and one spelling; it reads back to the same
-//! plan.
+//! Canonical text: every key with its value or default, in one order and spelling; it reads back to the same plan.
 //!
-//! Its SHA-256 (FIPS 180-4) is the plan's identity, which `sha256sum` reproduces. Floats are written with the fewest
-//! digits that read back to the same bits.
+//! Its SHA-256 (FIPS 180-4) identifies the plan. Floats have the fewest digits that read back to the same bits.
 //!
-//! The row plan is the part of it that changes rows or their encoding: without the campaign's name, and with the number
-//! of samples only where the design's points depend on it. Two campaigns with the same row hash have the same rows,
-//! sample by sample.
+//! The row plan is the part on which rows and their encoding depend: without the campaign's name, and with the number
+//! of samples only if the design's points depend on it. Equal row hashes mean equal rows.
 
 use super::draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
 use super::lines::Lines;
@@ -22,12 +19,12 @@ fn digest(text: &str) -> String {
 }
 
 impl Plan {
-    /// The plan as canonical text.
+    /// The canonical text.
     pub fn text(&self) -> String {
         self.text_of(true)
     }
 
-    /// The part of the canonical text that changes rows or their encoding.
+    /// The row plan.
     pub fn row_text(&self) -> String {
         self.text_of(false)
     }
@@ -37,7 +34,7 @@ impl Plan {
         digest(&self.row_text())
     }
 
-    /// The keys that do not change rows, by the beginning of their path.
+    /// Prefixes of the keys outside the row plan.
     pub const OUTSIDE_ROWS: [&'static str; 10] = [
         "retain.",
         "campaign.description",
@@ -51,7 +48,6 @@ impl Plan {
         "display.",
     ];
 
-    /// The canonical text: `whole`, or the row plan.
     fn text_of(&self, whole: bool) -> String {
         let mut lines = Lines::default();
         self.write_settings(&settings::HEAD, whole, &mut lines);
@@ -123,7 +119,6 @@ impl Plan {
             "bands.points" => (self.band_points as u64).into(),
             "bands.runs" if self.band_runs != bands::RUNS => self.band_runs.into(),
             "output.compression" => Value::Word(self.compression.name()),
-            // `tolerance` is both of those that are written
             _ => return None,
         })
     }

@@ -1,5 +1,4 @@
-//! The columns of the rows of a plan: what its runs are observed for ([`request`]), and what is drawn
-//! ([`parameter_quantity`]).
+//! The columns of a plan's rows: observables ([`request`]) and draws ([`parameter_quantity`]).
 
 use super::event::Event;
 use super::event_columns;
@@ -13,8 +12,7 @@ use crate::propagation::Method;
 use crate::run::Quantity;
 use crate::scene::{Actuated, Parameter, SceneInput};
 
-/// The observables of campaigns with these groups and this method; `acting` is the nominal scene with the commands that
-/// act in a run, to which those of `law` add; the runs are watched for events, and for extremes.
+/// The observables of a plan. `acting`: the nominal scene with the commands that act in a run, besides those of `law`.
 pub fn request(
     groups: &[Group],
     acting: &SceneInput,
@@ -39,7 +37,7 @@ pub fn request(
     }
 }
 
-/// The column of a component of a dispersed parameter.
+/// The column of a dispersed component.
 pub fn parameter_quantity(parameter: Parameter, component: usize) -> Quantity {
     let unit = match parameter.unit() {
         "1" => String::new(),

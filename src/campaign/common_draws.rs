@@ -1,11 +1,9 @@
-//! [`draw_alike`]: whether two plans draw their samples from the same random numbers.
+//! [`draw_alike`]: whether two plans share random numbers.
 
 use super::plan::Plan;
 
-/// Whether a sample of `first` and the one of `second` with its number have random numbers in common: seed and design
-/// are the same, and so is a dispersed dimension, or nothing is dispersed in either. Distributions may differ in
-/// location, width and kind: the samples are pairs all the same, and the larger value of one is mostly the larger one
-/// of the other.
+/// Whether equal samples of two plans share random numbers: seed and design are equal, and so is a dispersed dimension,
+/// or nothing is dispersed. Distributions may differ: larger values still mostly go with larger ones.
 pub fn draw_alike(first: &Plan, second: &Plan) -> bool {
     let [one, other] = [first, second].map(|plan| plan.dispersions.dimensions());
     first.seed == second.seed
@@ -51,9 +49,8 @@ distribution = "attitude_error"
 std_rad = 0.01
 "#;
 
-    /// Law: plans draw alike where seed and design are the same and a dimension is, however wide and of whichever kind
-    /// its distribution is; another seed or design, or another number of samples where the design depends on it, is
-    /// another draw.
+    /// Law: plans draw alike if seed, design and one dimension are equal, whatever the distributions; another seed or
+    /// design, or number of samples on which the design depends, is another draw.
     #[test]
     fn plans_of_one_seed_draw_alike() {
         let plan = |changes: &[(&str, &str)]| {

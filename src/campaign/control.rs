@@ -1,5 +1,5 @@
-//! `[control]`: a control loop as a campaign file says it, and as canonical text. Its sensors are read by
-//! [`super::sensor_tables`], its phases by [`super::phase_tables`].
+//! `[control]`: the control loop, read and as canonical text; [`super::sensor_tables`] and [`super::phase_tables`] read
+//! its sensors and phases.
 
 use super::lines::Lines;
 use super::module_key::{self, ModuleKey};
@@ -23,7 +23,7 @@ use crate::scene::{BodyInput, DeclaredTable, Name, Scene, SceneError, SceneInput
 
 pub const MOST_PHASES: usize = 64;
 
-/// The keys of `[control]` that are no parameters.
+/// The keys of `[control]` that are not parameters.
 #[rustfmt::skip]
 pub const ROWS: [Row; 9] = [
     Row::new("period_s", Kind::Number, "Control period").limited(POSITIVE).required_as(POSITIVE.allowed, "0.1"),
@@ -38,7 +38,6 @@ pub const ROWS: [Row; 9] = [
     Row::new("module_sha256", Kind::Text(ANY_TEXT), "SHA-256 of that file"),
 ];
 
-/// What they have to do with each other.
 pub const RULES: [Rule; 2] = [
     Rule::Only {
         keys: &["modulation", "hold_force"],
@@ -60,11 +59,10 @@ pub const MODEL: [Row; 3] = [
     ),
 ];
 
-/// Reads the control loop of a file that has `[control]`; its numbers become parameters of `scene`. `None` where
-/// something is wrong.
+/// Reads `[control]`; its numbers become parameters of `scene`. `None` after a problem.
 ///
-/// Where a word that other keys depend on is wrong, these are read as if each were right, so that the file is told of
-/// its own mistakes alone.
+/// If a word on which other keys depend is wrong, these keys are read for all its values, so that no consequential
+/// errors are reported.
 pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option<ControlLaw> {
     let has_debris = scene.debris.is_some();
     let craft = Scene::resolve(scene).ok();
@@ -159,7 +157,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         }
     };
     let spec = LoopSpec {
-        // a wrong period is told, and the columns do not depend on it
+        // a wrong period is reported already and does not change the columns
         period: period.unwrap_or(f64::NAN),
         estimator: estimator?,
         wheels: wheels?,
@@ -185,19 +183,19 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     (has_actuators && !spec.phases.is_empty()).then(|| ControlLaw::closed_loop(spec))
 }
 
-/// The kind of this place, or all of them where it is not known which is meant.
+/// The kind at `place`, or all kinds if it is unknown.
 fn kinds<T>(place: Option<usize>, list: &[T]) -> impl Iterator<Item = &T> {
     list.iter().enumerate().filter(move |(kind, _)| place.is_none_or(|one| one == *kind)).map(|(_, kind)| kind)
 }
 
-/// The wheels that turn, in their order: the name of those that a loop may drive.
+/// The turning wheels in order: the names of free ones, which a loop may drive.
 pub(super) fn turning(scene: &SceneInput) -> Vec<Option<Name>> {
     let turning = scene.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
     turning.map(|wheel| (wheel.mode == WheelMode::Free).then_some(wheel.name)).collect()
 }
 
-/// The places of the actuators that `key` names, ascending, with their names in `written`; `known` are those that are
-/// there, `None` where one cannot be driven. `None` where the names are wrong.
+/// The indices, ascending, of the actuators that `key` names, whose names are set in `written`; `None` if they are
+/// wrong. `known` has `None` for actuators that cannot be driven.
 fn actuators(
     section: &mut Section<'_, '_>,
     written: &mut Written,
@@ -220,7 +218,7 @@ fn actuators(
     Some(places)
 }
 
-/// Notes which torque rods the loop, which drives those at `driven`, cannot drive or does not.
+/// Notes torque rods that the loop cannot drive, or leaves idle; it drives those at `driven`.
 fn check_rods(
     root: &mut Section<'_, '_>,
     scene: &SceneInput,
@@ -281,7 +279,7 @@ fn check_valves(
     }
 }
 
-/// `[control.model]`; `craft` is the nominal scene, where it is physical.
+/// `[control.model]`; `craft` is the nominal scene if it is physical.
 fn read_model(section: &mut Section<'_, '_>, craft: Option<&Scene>) -> Written {
     const KEY: &str = "inertia_kg_m2";
     let mut model = section.section("model");
@@ -299,7 +297,7 @@ fn read_model(section: &mut Section<'_, '_>, craft: Option<&Scene>) -> Written {
     written
 }
 
-/// Why no body has the inertia `inertia` about its centre of mass: what is said of that of the spacecraft.
+/// Why `inertia`, about the centre of mass, is not physical.
 fn impossible(inertia: [[f64; 3]; 3]) -> Option<SceneError> {
     let (mass_kg, center_of_mass_m, inertia_kg_m2) = (Some(1.0), Some([0.0; 3]), Some(inertia));
     let body = BodyInput { mass_kg, center_of_mass_m, inertia_kg_m2, ..BodyInput::DEFAULT };

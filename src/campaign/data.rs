@@ -1,9 +1,7 @@
-//! [`DataFile`]: named columns of numbers in a CSV or Parquet file that a campaign names: values of an empirical
-//! distribution, rows that are drawn or are a table of samples.
+//! [`DataFile`]: named columns of numbers in a CSV or Parquet file of a campaign.
 //!
-//! A path counts from the folder of the campaign file. What a plan keeps of a file is its name and the SHA-256 of its
-//! bytes, so that a plan's identity includes its data. Only the columns that are used are read, and how much memory
-//! they take is known before anything is decompressed.
+//! Paths are relative to the campaign file's folder. A plan keeps name and SHA-256, so that its identity includes its
+//! data. Only used columns are read, and their memory is bounded before decompression.
 
 use super::data_columns::{ReadError, TextCells, csv_columns, parquet_columns};
 use super::input_file::{self, InputError};
@@ -12,54 +10,48 @@ use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-/// Folder beside a plan with copies of the files of numbers and the module that it names.
+/// Folder next to a plan with copies of its data files and module.
 pub const COPIES: &str = "data";
 
-/// The name of the copy of `file` in the folder [`COPIES`]: the SHA-256 of its bytes, and its extension.
+/// The name of a file's copy in [`COPIES`]: its SHA-256 and extension.
 pub fn copy_name(file: &Path, sha256: &str) -> String {
     let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     format!("{sha256}.{}", extension.to_ascii_lowercase())
 }
 
-/// The bytes of a file of numbers.
+/// The bytes of a data file.
 ///
 /// # Errors
-/// Where it cannot be read, or is not what a plan may name.
+/// An unreadable, too large or irregular file.
 pub fn bytes(file: &Path) -> Result<Vec<u8>, InputError> {
     input_file::read(file, LARGEST_FILE)
 }
 
-/// Most numbers of all files of a campaign: 160 MB. A compressed column of equal values can be a thousand times as
-/// large as its file.
+/// Most numbers of a campaign's data files: 160 MB. A compressed column of equal values may be a thousand times larger
+/// than its file.
 pub const MOST_NUMBERS: u64 = 20_000_000;
-/// Most tables of a campaign file that name a file of numbers: each is read for its table, in time that a user waits
-/// for.
+/// Most tables that name a data file, each of which is read separately.
 pub const MOST_FILES: usize = 100;
-/// Largest file, bytes: [`MOST_NUMBERS`] in 25 characters each.
 const LARGEST_FILE: u64 = 25 * MOST_NUMBERS;
 
-/// A file of named columns of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
-    /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
-    /// The names of the columns.
     pub names: Vec<String>,
-    /// What was read of each; `None` of those that are not used.
+    /// Their cells; `None` for unused columns.
     columns: Vec<Option<TextCells>>,
-    /// The number of the first row of data as people count them in this format.
+    /// The number of the first row by the format's convention.
     first_row: usize,
 }
 
-/// What is wrong with a file: value, what is allowed, remedy.
+/// Value, allowed values and remedy of a problem.
 pub type Refusal = (String, String, String);
 
-/// Why a file of numbers is not used.
+/// Why a data file is not used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unused {
-    /// What is wrong with it.
     pub refusal: Refusal,
-    /// Whether that is only that it cannot be read now.
+    /// Whether the only problem is that it is unreadable now.
     pub is_unreadable: bool,
 }
 
@@ -70,10 +62,10 @@ impl From<Refusal> for Unused {
 }
 
 impl DataFile {
-    /// Reads the columns of the file whose names are `used`, at most `most` numbers.
+    /// Reads the columns whose names are `used`, at most `most` numbers.
     ///
     /// # Errors
-    /// What keeps them from being read.
+    /// Why they are not read.
     pub fn read(path: &Path, most: u64, used: &dyn Fn(&str) -> bool) -> Result<Self, Unused> {
         let shown = path.display().to_string();
         let unreadable =
@@ -134,16 +126,14 @@ impl DataFile {
         Ok(DataFile { sha256, names, columns, first_row })
     }
 
-    /// How many numbers were read.
     pub fn numbers(&self) -> u64 {
         self.columns.iter().flatten().map(|cells| cells.numbers.len() as u64).sum()
     }
 
-    /// The numbers of the column called `name`, all finite; `None` where there is no such column, or it was not to be
-    /// read.
+    /// The finite numbers of the column `name`; `None` for a missing or unread column.
     ///
     /// # Errors
-    /// The first cell that is not a finite number, or that there is none.
+    /// The first cell that is not a finite number, or an empty column.
     pub fn column(&self, name: &str) -> Option<Result<Vec<f64>, Refusal>> {
         let index = self.names.iter().position(|known| known == name)?;
         let TextCells { numbers, text, other } = self.columns[index].as_ref()?;
@@ -182,7 +172,7 @@ mod tests {
         file("required", None, compression)
     }
 
-    /// The same of a column that has to have values or not; `levels` says which of three rows have one.
+    /// `levels` marks the rows of three that have a value.
     fn file(kind: &str, levels: Option<&[i16]>, compression: Compression) -> Vec<u8> {
         let schema = Arc::new(parse_message_type(&format!("message m {{ {kind} double x; }}")).expect("a schema"));
         let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
@@ -207,7 +197,7 @@ mod tests {
         found
     }
 
-    /// Law: a row without a value is refused, with its number, whichever it is; it is no zero.
+    /// Law: a row without a value is refused by its number, not read as zero.
     #[test]
     fn a_row_without_a_value_is_refused() {
         for at in 0..3 {
@@ -220,15 +210,14 @@ mod tests {
         assert_eq!(whole, Ok(vec![1.5, 2.5]));
     }
 
-    /// Law: Parquet with gzip is read as that without; with brotli it is refused by name, with the remedy.
+    /// Law: codecs that are read give the same numbers; brotli is refused by name.
     #[test]
     fn compressions_are_read_or_refused_in_words() {
         let gzip = small(Compression::GZIP(parquet::basic::GzipLevel::default()));
         for bytes in [&small(Compression::UNCOMPRESSED), &small(Compression::SNAPPY), &gzip] {
             assert_eq!(read("codec", bytes), Ok(vec![1.5, 2.5]));
         }
-        // nothing here writes brotli: the footer of the gzip file is changed to name it (thrift's zigzag numbers 4 = 2
-        // x 2, 8 = 2 x 4)
+        // nothing here writes brotli: change the codec in the footer (thrift zigzag 4 to 8)
         let codecs = |bytes: &[u8]| {
             let path = std::env::temp_dir().join(format!("spindrift-{}-footer.parquet", std::process::id()));
             std::fs::write(&path, bytes).expect("written");
@@ -247,7 +236,7 @@ mod tests {
         assert_eq!(remedy, "write it with gzip, zstd, snappy, lz4 or no compression, or as .csv");
     }
 
-    /// Law: a Parquet file with any byte changed is read or refused; the reader's panics do not end the program.
+    /// Law: a Parquet file with any byte changed is read or refused without a panic.
     #[test]
     fn damaged_tables_are_refused() {
         let whole = small(Compression::SNAPPY);
@@ -264,7 +253,6 @@ mod tests {
         assert!(refused > whole.len() / 2, "{refused} of {}", 3 * whole.len());
     }
 
-    /// Whether a table is refused, or has no column x any more.
     fn read_or_absent(bytes: &[u8]) -> bool {
         let path = std::env::temp_dir().join(format!("spindrift-{}-damaged.parquet", std::process::id()));
         std::fs::write(&path, bytes).expect("written");

@@ -1,7 +1,6 @@
-//! [`csv_columns`], [`parquet_columns`]: the columns of a table that are used, as numbers.
+//! [`csv_columns`], [`parquet_columns`]: the used columns of a table as numbers.
 //!
-//! A file may be small and have much: what a column or a row takes is limited before it is decompressed, or kept. Not
-//! here: files, and what is said of them ([`super::data`]).
+//! A small file may hold much data, so the sizes of columns and rows are limited before decompression.
 
 use parquet::basic::{Compression, Repetition, Type as PhysicalType};
 use parquet::file::metadata::ParquetMetaData;
@@ -11,21 +10,20 @@ use parquet::schema::types::{Type, TypePtr};
 use std::cell::Cell;
 use std::io::{self, Read};
 
-/// Most bytes of a row of a CSV file, with the comments before it.
+/// Most bytes of a CSV row, with the comments before it.
 const LONGEST_ROW: usize = 1 << 20;
-/// Most bytes of a column of a Parquet file when it is decompressed, for each of its rows: the widest number has eight,
-/// as a value and once more in a dictionary; a place in the dictionary, and whether there is a value, have fewer.
+/// Most decompressed bytes of a Parquet column for each row: eight for the widest number, twice with a dictionary,
+/// fewer for its index and level.
 const MOST_BYTES_OF_A_ROW: u64 = 24;
-/// The same of the headers of its pages, in each group of rows.
+/// Most bytes of page headers in a row group.
 const MOST_BYTES_OF_HEADERS: u64 = 1 << 20;
-/// The cells of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TextCells {
-    /// Numbers; NaN for a text that is none.
+    /// NaN for a text that is not a number.
     pub numbers: Vec<f64>,
-    /// The first text that is no number.
+    /// Row and text of the first cell that is not a number.
     pub text: Option<(usize, String)>,
-    /// What the column has that is no number in any row, which is not read.
+    /// The content of a column without numbers, which is not read.
     pub other: Option<&'static str>,
 }
 
@@ -38,30 +36,26 @@ impl TextCells {
     }
 }
 
-/// Why a file could not be read: its format, or its size.
 pub(super) enum ReadError {
     Format(String),
-    /// Its compression, which is not read.
     Codec(&'static str),
-    /// It has at least so many numbers.
+    /// At least so many numbers.
     Size(u64),
-    /// Its rows are longer than this.
     Row(String),
 }
 
-/// Names and columns of cells.
 pub(super) type Columns = (Vec<String>, Vec<Option<TextCells>>);
 
-/// That `rows` rows of `columns` columns are no more than `most` numbers.
+/// Checks that `rows` x `columns` is at most `most`.
 fn fits(rows: u64, columns: usize, most: u64) -> Result<(), ReadError> {
     let numbers = rows.saturating_mul(columns as u64);
     if numbers > most { Err(ReadError::Size(numbers)) } else { Ok(()) }
 }
 
-/// Bytes that end with an error where a row is too long: the CSV reader would keep all of it.
+/// Bytes with an error after a row that is too long, which the CSV reader would buffer.
 struct Rows<'b> {
     bytes: &'b [u8],
-    /// How many bytes may be read before the next row is there.
+    /// Bytes left before the next row.
     left: &'b Cell<usize>,
 }
 
@@ -74,7 +68,7 @@ impl Read for Rows<'_> {
     }
 }
 
-/// The columns of a CSV file that are `used`, at most `most` numbers.
+/// The `used` columns of a CSV file, at most `most` numbers.
 pub(super) fn csv_columns(bytes: &[u8], most: u64, used: &dyn Fn(&str) -> bool) -> Result<Columns, ReadError> {
     let format = |error: csv::Error| match error.kind() {
         csv::ErrorKind::Io(_) => ReadError::Row(format!("a file with rows of at most {LONGEST_ROW} bytes")),
@@ -98,7 +92,7 @@ pub(super) fn csv_columns(bytes: &[u8], most: u64, used: &dyn Fn(&str) -> bool) 
     Ok((names, columns))
 }
 
-/// The columns of a Parquet file that are `used`, at most `most` numbers.
+/// The `used` columns of a Parquet file, at most `most` numbers.
 pub(super) fn parquet_columns(
     file: bytes::Bytes,
     most: u64,
@@ -134,7 +128,7 @@ pub(super) fn parquet_columns(
     let count = read.len();
     let projection = Type::group_type_builder(schema.name()).with_fields(read).build().map_err(format)?;
     for (row, found) in reader.get_row_iter(Some(projection)).map_err(format)?.enumerate() {
-        // what the metadata say is not to be relied on
+        // the metadata may be wrong
         fits(row as u64 + 1, count, most)?;
         let found: Row = found.map_err(format)?;
         let numbers = columns.iter_mut().flatten().filter(|cells| cells.other.is_none());
@@ -145,7 +139,7 @@ pub(super) fn parquet_columns(
     Ok((names, columns))
 }
 
-/// What a column has that is no number, whatever its rows say: it need not be read.
+/// The content of a column whose type excludes numbers.
 fn other_than_numbers(field: &Type) -> Option<&'static str> {
     if field.is_group() {
         return Some("a table within the table");
@@ -164,7 +158,7 @@ fn other_than_numbers(field: &Type) -> Option<&'static str> {
     }
 }
 
-/// That columns of numbers are not larger, when they are decompressed, than numbers are.
+/// Checks that decompressed columns are no larger than numbers are.
 fn check_sizes(metadata: &ParquetMetaData, read: &[TypePtr]) -> Result<(), ReadError> {
     for group in metadata.row_groups() {
         let rows = u64::try_from(group.num_rows()).unwrap_or(u64::MAX);
@@ -181,7 +175,6 @@ fn check_sizes(metadata: &ParquetMetaData, read: &[TypePtr]) -> Result<(), ReadE
     Ok(())
 }
 
-/// A Parquet value as a number.
 fn cell(field: &Field) -> Result<f64, String> {
     Ok(match field {
         Field::Bool(value) => f64::from(u8::from(*value)),

@@ -1,4 +1,4 @@
-//! The keys that name a file of numbers: `file`, `sha256`, `column`, `parameters`, `columns`.
+//! The keys of data files: `file`, `sha256`, `column`, `parameters`, `columns`.
 
 use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, Unused, copy_name};
 use super::meaning::meant;
@@ -12,14 +12,14 @@ use std::path::{Path, PathBuf};
 
 const SHA256: Row = Row::new("sha256", Kind::Text(ANY_TEXT), "SHA-256 of the file");
 
-/// The keys beside the one of a file of which one column is read.
+/// The keys of a file with one column, besides its path.
 pub const COLUMN: [Row; 2] = [
     SHA256,
     Row::new("column", Kind::Text(ANY_TEXT), "The column of the file")
         .required_as("the name of a column of the file", "\"mass_kg\""),
 ];
 
-/// The keys beside the one of a file whose columns are parameters.
+/// The keys of a file with columns for parameters, besides its path.
 pub const COLUMNS: [Row; 3] = [
     SHA256,
     Row::new("parameters", Kind::Names, "The parameters that are read; default: all columns of the file"),
@@ -46,7 +46,6 @@ pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
     Some(DataColumn { file, sha256: data.sha256, column, target: None, values })
 }
 
-/// Most characters of a column's name in a message.
 const LONGEST_SHOWN: usize = 60;
 
 fn absent_column(column: &str, data: &DataFile) -> (String, String) {
@@ -59,7 +58,7 @@ fn absent_column(column: &str, data: &DataFile) -> (String, String) {
     (format!("a column of the file ({})", shown.join(", ")), remedy)
 }
 
-/// The file that `file` names, with its columns that are `used`; if `sha256` is written, it must be the file's.
+/// The file at `file` with its `used` columns; `sha256`, if written, must match.
 fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(String, DataFile)> {
     table.require("file", "the path of a .csv or .parquet file, from this file's folder", "\"data.csv\"");
     let name = table.text("file").map(str::to_owned);
@@ -92,8 +91,7 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
     Some((name, data))
 }
 
-/// The file `name`, whose path counts from `folder`; where it is not there, the copy of the file of this checksum that
-/// a result has.
+/// The file `name` in `folder`; if missing, the copy with this checksum in a result.
 pub(super) fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf {
     let path = folder.join(name);
     let is_checksum = |sha256: &&str| sha256.len() == 64 && sha256.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -101,8 +99,8 @@ pub(super) fn found(folder: &Path, name: &str, sha256: Option<&str>) -> PathBuf 
     copy.filter(|copy| !path.exists() && copy.is_file()).unwrap_or(path)
 }
 
-/// The columns of a file that are parameters: those that are listed, else all but `sample_id`; under names of their
-/// own, if `columns` lists these.
+/// The columns of a file for parameters: the listed ones, else all but `sample_id`; `columns` gives their names in the
+/// file.
 pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     let listed = table.texts("parameters", "[\"wheels.w1.radius_m\"]");
     let own = table.texts("columns", "[\"radius\"]");
@@ -112,7 +110,7 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
         (None, Some(listed)) => listed.iter().flat_map(|name| names_of(&scene, name)).collect(),
         (None, None) => Parameter::all(&scene).flat_map(|parameter| names_of(&scene, &parameter.name())).collect(),
     };
-    // a component may be written as [0] too
+    // a component may also be written as [0]
     let is_component =
         |name: &str| listed.is_none() && name.split_once('[').is_some_and(|(whole, _)| used.contains(whole));
     let read = file(table, &|name| used.contains(name) || is_component(name));
@@ -166,7 +164,7 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     Some(columns)
 }
 
-/// The numbers that a name means, each with a name as it was written: those of a parameter as a whole, or one.
+/// The components that a name addresses, each with its name as written.
 fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (Parameter, usize))>> {
     if let Some((parameter, None)) = Parameter::find(&table.document.scene, name) {
         refuse_without_effect(table, name, parameter);
@@ -184,7 +182,7 @@ fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (P
     Some(vec![(name.to_owned(), component)])
 }
 
-/// Notes that the numbers `name` of `parameter` change no run.
+/// Notes that a draw of `parameter` changes no run.
 fn refuse_without_effect(table: &mut Section<'_, '_>, name: &str, parameter: Parameter) {
     if let Some((allowed, remedy)) = without_effect(table, parameter) {
         let key = if table.has("parameters") { "parameters" } else { "file" };
@@ -202,7 +200,7 @@ fn names_of(scene: &SceneInput, name: &str) -> Vec<String> {
     names.chain([name.to_owned()]).collect()
 }
 
-/// The numbers of the column that has one of the names `known`; the first of them is told where there is none.
+/// The numbers of the first column with one of the names `known`.
 fn finite_column(table: &mut Section<'_, '_>, data: &DataFile, key: &str, known: &[String]) -> Option<Vec<f64>> {
     match known.iter().find_map(|name| data.column(name)) {
         Some(Ok(values)) => Some(values),

@@ -1,6 +1,4 @@
-//! [`DerivedObservable`]: a `[[observable]]` table, an observable that follows from the columns of a row.
-//!
-//! It is evaluated when statistics are made, from the rows as they are on the disk: no row has it.
+//! [`DerivedObservable`]: an `[[observable]]` table. Statistics evaluate it from stored rows, which do not contain it.
 
 use super::columns::parameter_quantity;
 use super::known_columns::KnownColumns;
@@ -12,24 +10,21 @@ use crate::sampling::expression::Expression;
 use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, is_name};
 use crate::scene::{Parameter, SceneInput};
 
-/// An observable that follows from others and from dispersed parameters.
+/// An expression of columns and dispersed parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedObservable {
     pub name: String,
-    /// Its unit; empty for a pure number.
+    /// Empty for a pure number.
     pub unit: String,
-    /// The expression, over names of columns and of dispersed parameters.
     pub expression: String,
 }
 
-/// What a name must be.
 const NAME: TextLimit = TextLimit {
     allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like pointing_error_deg",
     test: |name| is_name(name, 60),
 };
 
-/// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 3] = [
     Row::new("name", Kind::Text(NAME), "Its name, which must not be that of a column").required_as(NAME.allowed,
@@ -39,12 +34,10 @@ pub const ROWS: [Row; 3] = [
         .required_as("arithmetic over columns and dispersed parameters", "\"2 * energy_error_max\""),
 ];
 
-/// A variable of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Variable {
-    /// The column of this name.
     Observable(String),
-    /// A component of a parameter, which must be dispersed.
+    /// A component of a dispersed parameter.
     Parameter(Parameter, usize),
 }
 
@@ -66,10 +59,9 @@ fn variable(name: &str, scene: &SceneInput, known: &KnownColumns) -> Option<Vari
 }
 
 impl DerivedObservable {
-    /// Reads one table; `None` where something is wrong, which is then noted.
+    /// Reads one table; `None` after a problem.
     pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         let written = table.whole(&ROWS, &[]);
-        // what the expression says is told too where the name is wrong
         let name = written.as_ref().and_then(|written| name(table, written.text("name")?));
         let written = written?;
         let known = table.document.known.as_ref()?;
@@ -94,26 +86,25 @@ impl DerivedObservable {
         Some(DerivedObservable { name, unit, expression })
     }
 
-    /// Name, unit and meaning.
     pub fn quantity(&self) -> Quantity {
         Quantity::named(self.name.clone(), self.unit.clone(), format!("{}.", self.expression))
     }
 
-    /// The parameters in the expression, each with its component.
+    /// The components of parameters in the expression.
     pub fn parameters(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
         let expression = Expression::parse(&self.expression).ok();
         let names = expression.iter().flat_map(Expression::variables);
         names.filter_map(|name| named(scene, name)).collect()
     }
 
-    /// The expression, and what its variables are; `None` only for what `DerivedObservable::read` refuses.
+    /// The expression and its variables; `None` only for what [`DerivedObservable::read`] refuses.
     pub fn parsed(&self, scene: &SceneInput, known: &KnownColumns) -> Option<(Expression, Vec<Variable>)> {
         let expression = Expression::parse(&self.expression).ok()?;
         let variables: Option<_> = expression.variables().iter().map(|name| variable(name, scene, known)).collect();
         Some((expression, variables?))
     }
 
-    /// The first parameter in the expression that is no column of the rows, which have those in `dispersed`.
+    /// The first parameter in the expression that is not among the `dispersed` columns.
     pub(super) fn undispersed(
         &self,
         scene: &SceneInput,
@@ -133,15 +124,14 @@ impl DerivedObservable {
     }
 }
 
-/// The value of an expression in the nominal scene; `None` where it depends on a run, or on a parameter that the scene
-/// does not have.
+/// The value in the nominal scene; `None` if it depends on a run or on a missing parameter.
 fn nominal_value(expression: &Expression, scene: &SceneInput, known: &KnownColumns) -> Option<f64> {
     let value = |name: &String| match variable(name, scene, known)? {
         Variable::Parameter(parameter, component) => parameter.value(scene, component),
         Variable::Observable(_) => None,
     };
     let values: Vec<f64> = expression.variables().iter().map(value).collect::<Option<_>>()?;
-    // what is missing or wrong in the scene is reported there
+    // problems of the scene are reported there
     values.iter().all(|value| value.is_finite()).then(|| expression.value(|index| values[index]))
 }
 

@@ -1,11 +1,10 @@
-//! `campaign.description`: the question that a campaign answers, for people. No row depends on it.
+//! `campaign.description`: the question that a campaign answers.
 
 use toml::de::DeTable;
 
 use super::sources::Sources;
 use crate::sampling::keys::TextLimit;
 
-/// Most characters of a description.
 const LONGEST: usize = 1000;
 
 pub(super) const LIMIT: TextLimit = TextLimit {
@@ -17,14 +16,12 @@ pub(super) const LIMIT: TextLimit = TextLimit {
     },
 };
 
-/// The words of a text with one space between them.
 pub(super) fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The question of a campaign that is made of `sources`, in which `written` is the value of `campaign.description`: as
-/// it was set beside the files, else that of the first file that has one, by its key or its first comment. What a file
-/// asks is not what the file asks that it extends.
+/// The question of a campaign: the setting `campaign.description`, else the key or first comment of the first file that
+/// has one, the extending file first.
 pub(super) fn of_sources(sources: &Sources, written: Option<String>) -> Option<String> {
     if sources.list.iter().any(|source| source.key.as_deref() == Some("campaign.description")) {
         return written;
@@ -39,8 +36,7 @@ fn of_key(text: &str) -> Option<String> {
     Some(in_one_line(campaign.get("description")?.get_ref().as_str()?))
 }
 
-/// The first sentence of the comments that a file begins with, without "Question:"; `None` where it begins with
-/// something else than that, blank lines, or what it extends. Lines that are indented continue a sentence.
+/// The first comment of a file, after blank lines and `extends`, without "Question:"; indented lines continue it.
 fn of_comment(text: &str) -> Option<String> {
     let is_before = |line: &&str| line.trim().is_empty() || line.starts_with("extends") || line.starts_with("#:schema");
     let comments = text.lines().skip_while(is_before).map_while(|line| line.trim_start().strip_prefix('#'));
@@ -62,7 +58,7 @@ fn of_comment(text: &str) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// Law: a question over several indented lines is one text; what follows it, and files without a comment, are not.
+    /// Law: the first comment, over indented lines, is the question; later comments and tables are not.
     #[test]
     fn the_first_comment_is_the_question() {
         let text = "# Question: how large\n#   is the drift?\n# Source: ours.\n\n[campaign]\n";
@@ -73,8 +69,7 @@ mod tests {
         assert_eq!(of_comment("\nextends = \"b.toml\"\n\n# Question: and faster?\n").as_deref(), Some("and faster?"));
     }
 
-    /// Law: a file has its own question, by key or comment, before that of the file that it extends, which it has where
-    /// it says none; what is set beside the files comes first.
+    /// Law: a setting takes precedence over the file's key, its comment, and the file that it extends.
     #[test]
     fn a_variant_has_its_own_question() {
         let folder = std::env::temp_dir().join(format!("spindrift-question-{}", std::process::id()));

@@ -1,5 +1,4 @@
-//! [`differences`], [`text_differences`]: the keys in which two plans differ; [`said`]: a value of such a key as a
-//! person says it.
+//! [`differences`], [`text_differences`]: the keys in which two plans differ; [`said`]: their values for people.
 
 use super::display::ShownUnit;
 use super::plan::Plan;
@@ -8,23 +7,21 @@ use crate::sampling::DistributionKind;
 use crate::sampling::keys::Kind;
 use crate::scene::Parameter;
 
-/// A key in which two plans differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyDifference {
-    /// The dotted key, `integrator.method`, `guidance.coast.timeout_s`.
+    /// The dotted key: `integrator.method`, `guidance.coast.timeout_s`.
     pub key: String,
-    /// Its value in the first plan; `None` where it does not have the key.
+    /// Its value in the first plan; `None` for a missing key.
     pub first: Option<String>,
-    /// Its value in the second.
     pub second: Option<String>,
 }
 
-/// The keys in which two plans differ, in the order of their texts.
+/// The keys in which two plans differ, in canonical order.
 pub fn differences(first: &Plan, second: &Plan) -> Vec<KeyDifference> {
     text_differences(&first.text(), &second.text())
 }
 
-/// The same of two canonical texts, which have one key a line.
+/// [`differences`] of canonical texts.
 pub fn text_differences(first: &str, second: &str) -> Vec<KeyDifference> {
     let (first, second) = (keys(first), keys(second));
     let value = |list: &[(String, String)], key: &str| {
@@ -43,11 +40,11 @@ pub fn text_differences(first: &str, second: &str) -> Vec<KeyDifference> {
     gone.chain(new).collect()
 }
 
-/// Every key of a canonical text with its value. A table of a list has its name, as `--set` writes it, or the parameter
-/// that it is about; one without either has its number.
+/// Every key of a canonical text with its value. A table of a list is addressed by its name, as in `--set`, its
+/// parameter, or its number.
 fn keys(text: &str) -> Vec<(String, String)> {
     let mut table = String::new();
-    // lists, how many tables of each were read, and what the last one is called
+    // list, number of tables so far, name of the last one
     let mut lists: Vec<(&str, usize, String)> = Vec::new();
     let mut found = Vec::new();
     let mut lines = text.lines();
@@ -62,7 +59,7 @@ fn keys(text: &str) -> Vec<(String, String)> {
             *count += 1;
             table.clone_from(last);
         } else if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-            // a table within a table of a list, [disperse.angle_rad], belongs to the last of them
+            // [disperse.angle_rad] belongs to the list's last table
             let of_list = lists.iter().find_map(|(list, _, last)| {
                 let rest = name.strip_prefix(list)?.strip_prefix('.')?;
                 Some(format!("{last}.{rest}"))
@@ -75,8 +72,7 @@ fn keys(text: &str) -> Vec<(String, String)> {
     found
 }
 
-/// What a table of `list` that has the keys in the first of `lines` is called: `guidance.coast`,
-/// `disperse[wheels.w1.rate_rad_s]`; `None` without a name.
+/// The address of a table of `list` whose keys follow in `lines`: `guidance.coast`, `disperse[wheels.w1.rate_rad_s]`.
 fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String> {
     let pairs = lines.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once(" = "));
     let word = |value: &str| Some(value.strip_prefix('"')?.strip_suffix('"')?.to_owned());
@@ -88,14 +84,13 @@ fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String
     })
 }
 
-/// The values of a key of two `plans`, which canonical text has in SI units: both in the unit in which people see them
-/// where they are shorter so (5 deg for 0.08726646259971647), each with that unit, or with its own where the key does
-/// not name it. Without plans only the numbers are written as people write them.
+/// The values of a key in two `plans` (SI in canonical text) in their display unit if this is shorter (5 deg for
+/// 0.08726646259971647), with the unit unless the key names its own. Without plans, numbers are only shortened.
 pub fn said(plans: Option<[&Plan; 2]>, key: &str, values: [Option<&str>; 2]) -> [Option<String>; 2] {
     let units = [0, 1].map(|side| values[side].and(unit_of(plans?[side], key)));
     let [first, second] = units.each_ref().map(|unit| unit.as_ref().map(|(unit, ..)| *unit));
     if values.iter().all(Option::is_some) && first != second {
-        // the requirements in this place are about different quantities
+        // requirements about different quantities
         let [first, _] = said(plans, key, [values[0], None]);
         let [_, second] = said(plans, key, [None, values[1]]);
         return [first, second];
@@ -116,7 +111,7 @@ pub fn said(plans: Option<[&Plan; 2]>, key: &str, values: [Option<&str>; 2]) -> 
     texts.map(|text| text.map(with_unit))
 }
 
-/// A value with `of` of each of its numbers, and whether it is a number or a list of them; anything else as it is.
+/// A value with `of` applied to its numbers, and whether it consists of numbers.
 fn with_numbers(value: &str, of: &dyn Fn(f64) -> f64) -> (String, bool) {
     let inner = value.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
     let numbers: Option<Vec<f64>> = inner.unwrap_or(value).split(", ").map(|number| number.parse().ok()).collect();
@@ -126,7 +121,7 @@ fn with_numbers(value: &str, of: &dyn Fn(f64) -> f64) -> (String, bool) {
     (if inner.is_some() { format!("[{}]", list.join(", ")) } else { list.concat() }, true)
 }
 
-/// The SI unit of the numbers of a key, the one in which people see them, and whether the key names it.
+/// The SI unit of a key's numbers, their display unit, and whether the key names the former.
 fn unit_of(plan: &Plan, key: &str) -> Option<(&'static str, ShownUnit, bool)> {
     let (table, last) = key.rsplit_once('.')?;
     let (name, unit, is_named) =
@@ -154,8 +149,8 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Law: both values of a key are in one unit, in which they differ, and both say it or, where the key names it,
-    /// neither; those of requirements about different quantities are each in its own.
+    /// Law: both values of a key have one unit, in which they differ, shown with both or, if the key names it, with
+    /// neither; requirements about different quantities keep their own.
     #[test]
     fn both_values_are_in_one_unit() {
         let text = include_str!("../../campaigns/net_launch.toml");

@@ -1,8 +1,5 @@
-//! [`Display`]: in which units numbers are shown: `[display]`, and the units in which limits and dispersions are
-//! written.
-//!
-//! Rows, and every file of numbers, stay in the units of their columns; the screen, verdicts, cards, JUnit and figures
-//! show these.
+//! [`Display`]: units on the screen, in reports and figures, from `[display]` and from limits and dispersions as
+//! written. Files of numbers stay in the units of their columns.
 
 use std::collections::BTreeMap;
 
@@ -11,35 +8,33 @@ use super::units;
 use crate::sampling::keys::{Kind, Row, Value};
 use crate::scene::Parameter;
 
-/// In which units numbers are shown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Display {
-    /// Units, each in place of the SI unit that it measures in.
+    /// Display units, at most one for each SI unit.
     units: Vec<&'static str>,
-    /// The units of single columns and parameters, by name.
+    /// Units of individual columns and parameters, by name.
     columns: BTreeMap<String, &'static str>,
 }
 
-/// The unit in which a quantity is shown, and its size in the unit of the column.
+/// A display unit and its size in the column's unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownUnit {
-    /// The unit; empty of a pure number.
+    /// Empty for a pure number.
     pub unit: String,
-    /// Its size in the unit of the column, as a fraction.
+    /// The size as a fraction.
     size: [f64; 2],
 }
 
 impl ShownUnit {
-    /// The unit of a column itself.
+    /// The column's own unit.
     pub fn own(unit: &str) -> Self {
         ShownUnit { unit: unit.to_owned(), size: [1.0; 2] }
     }
 
-    /// The same, or hours or days in place of seconds: the unit in which a person says a time as long as `longest`, if
-    /// `limit` is a short number in it.
+    /// Hours or days instead of seconds for a time up to `longest`, s, if `limit` is a short number in them.
     #[must_use]
     pub fn of_time(self, longest: f64, limit: Option<f64>) -> Self {
-        /// A limit with more digits in a unit is not said in it.
+        /// Most digits of a short limit.
         const DIGITS: usize = 4;
         let is_short = |value: f64| format!("{value:.0$e}", DIGITS - 1).parse() == Ok(value);
         let units = [("days", 86_400.0, 172_800.0), ("h", 3600.0, 7200.0)].into_iter();
@@ -51,20 +46,19 @@ impl ShownUnit {
         }
     }
 
-    /// Whether numbers are shown as they are.
     pub fn is_own(&self) -> bool {
         self.size[0] == self.size[1]
     }
 
-    /// A number of the column, in this unit.
+    /// `value` in this unit.
     pub fn value(&self, value: f64) -> f64 {
         if self.is_own() { value } else { value * self.size[1] / self.size[0] }
     }
 
-    /// The same with the rounding of the way there and back taken away: what was written as 5 deg is 5. What was
-    /// written in another unit has five digits.
+    /// [`ShownUnit::value`] without the rounding of two conversions, so that 5 deg reads as 5; numbers written in
+    /// another unit have five digits.
     pub fn written(&self, value: f64) -> f64 {
-        /// Nobody writes a number with more digits.
+        /// Most digits of a written number.
         const WRITTEN: usize = 9;
         if self.is_own() {
             return value;
@@ -76,15 +70,13 @@ impl ShownUnit {
     }
 }
 
-/// The units in which people say angles and rates, where the file says nothing of them.
+/// Default units of angles and rates.
 const SAID: [&str; 2] = ["deg", "deg/s"];
-/// The unit in which people say the speed of a wheel, where the file says nothing of it.
+/// Default unit of wheel speeds.
 const OF_WHEELS: &str = "rpm";
 
-/// A list of units that texts know.
 const EXAMPLE: &str = "[\"deg\", \"deg/s\"]";
 
-/// The keys of the table.
 pub const ROWS: [Row; 2] = [
     Row::new(
         "units",
@@ -96,8 +88,7 @@ pub const ROWS: [Row; 2] = [
 ];
 
 impl Display {
-    /// Reads `[display]`; `written` are units in which limits and dispersions are written, by the name of what they are
-    /// of.
+    /// Reads `[display]`; `written` has the units of limits and dispersions by name.
     pub(super) fn read(root: &mut Section<'_, '_>, written: Vec<(String, &'static str)>) -> Self {
         let mut display = Display { units: Vec::new(), columns: written.into_iter().collect() };
         root.kept("[display]", &ROWS, |found| {
@@ -112,11 +103,11 @@ impl Display {
         display
     }
 
-    /// The unit in which the column or parameter `name`, of unit `unit`, is shown.
+    /// The display unit of the column or parameter `name` with `unit`.
     pub fn of(&self, name: &str, unit: &str) -> ShownUnit {
         let own = units::named(unit);
         let wanted = self.columns.get(name).or_else(|| {
-            // a file that wants rates as people say them wants wheel speeds so, too
+            // `deg/s` in the file does not apply to wheel speeds
             let is_wheel = is_wheel_speed(name);
             let said = self.units.iter().filter(|unit| !(is_wheel && SAID.contains(unit)));
             let all = said.chain(is_wheel.then_some(&OF_WHEELS)).chain(&SAID);
@@ -132,9 +123,8 @@ impl Display {
     }
 }
 
-/// Whether a column, quantity over time or parameter in rad/s is the speed of a wheel: `rate_<wheel>_...`,
-/// `speed_<wheel>_...` or a key of the wheel. No other rate is called a speed; the rates of estimates are those of the
-/// body.
+/// Whether a quantity in rad/s is a wheel speed: `rate_<wheel>_...`, `speed_<wheel>_...` or a key of the wheel. The
+/// rates of estimates belong to the body.
 fn is_wheel_speed(name: &str) -> bool {
     let is_rate = name.starts_with("rate_") && !name.starts_with("rate_estimate") && !name.starts_with("rate_expected");
     name.starts_with("wheels.") || is_rate || (name.contains("speed_") && name.ends_with("_rad_s"))
@@ -144,7 +134,7 @@ fn allowed() -> String {
     format!("one of {}", units::names().collect::<Vec<_>>().join(", "))
 }
 
-/// The units that `key` lists, without those that are wrong, which are noted.
+/// The valid units that `key` lists.
 pub(super) fn of_quantities(section: &mut Section<'_, '_>, key: &str) -> Vec<&'static str> {
     let mut units: Vec<&'static str> = Vec::new();
     for text in section.texts(key, EXAMPLE).unwrap_or_default() {
@@ -159,7 +149,7 @@ pub(super) fn of_quantities(section: &mut Section<'_, '_>, key: &str) -> Vec<&'s
     units
 }
 
-/// The units in the table `key` by the names of columns and parameters; without those that are wrong, which are noted.
+/// The valid units in the table `key`, by column and parameter.
 pub(super) fn by_name(section: &mut Section<'_, '_>, key: &str) -> BTreeMap<String, &'static str> {
     let mut columns = BTreeMap::new();
     let names: Vec<String> = section.entries(key).into_iter().map(|(name, _)| name).collect();
@@ -193,7 +183,7 @@ pub(super) fn by_name(section: &mut Section<'_, '_>, key: &str) -> BTreeMap<Stri
 mod tests {
     use super::*;
 
-    /// Law: a unit of a column comes before one of its kind; other kinds stay; a number comes back as it was written.
+    /// Law: a column's unit takes precedence over its kind's, other kinds stay, and a number reads as it was written.
     #[test]
     fn columns_come_before_kinds() {
         let columns = BTreeMap::from([("rate_w1".to_owned(), "rpm"), ("tilt".to_owned(), "arcsec")]);
@@ -203,9 +193,7 @@ mod tests {
             ("any", "rad/s", "deg/s"),
             ("rate_w1", "rad/s", "rpm"),
             ("tilt", "rad", "arcsec"),
-            // a unit that is not of the kind of the column
             ("tilt", "kg", "kg"),
-            // a column that is in degrees already
             ("pointing", "deg", "deg"),
             ("any", "J", "J"),
             ("any", "", ""),
@@ -215,10 +203,9 @@ mod tests {
         let degrees = display.of("any", "rad");
         assert!((degrees.value(core::f64::consts::PI) - 180.0).abs() < 1e-12);
         assert_eq!(degrees.written(5.0 * core::f64::consts::PI / 180.0), 5.0);
-        // a derived observable in degrees, shown in arcseconds
         let display = Display { columns: BTreeMap::from([("pointing".to_owned(), "arcsec")]), ..Display::default() };
         assert!((display.of("pointing", "deg").value(1.0) - 3600.0).abs() < 1e-9);
-        // without a word in the file angles are in degrees; one that asks for radians gets them
+        // without `[display]`, angles are in degrees
         let written = |units: Vec<&'static str>| {
             let shown = Display { units, ..Display::default() }.of("x", "rad");
             (shown.unit.clone(), shown.written(0.03))

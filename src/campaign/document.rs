@@ -1,8 +1,7 @@
-//! [`Document`]: a TOML document that is read key by key, collects everything that is wrong, and remembers the line of
-//! each key. Its tables are read by [`super::section`].
+//! [`Document`]: a TOML document read key by key, which collects all problems and knows the line of each key.
 //!
-//! A number that is missing or wrong is read as NaN and reported once; so the lower layers can still check the rest,
-//! and what they report about a key that was reported already is dropped ([`Document::add_from_below`]).
+//! A missing or wrong number is reported once and reads as NaN, so that lower layers can check the rest; their errors
+//! about it are dropped ([`Document::add_from_below`]).
 
 use super::excerpt::Excerpt;
 use super::known_columns::KnownColumns;
@@ -20,14 +19,12 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Problems that are noted; further ones are counted only. More than are shown, since those are the first ones by line.
+/// Noted problems; further ones are counted. More than are shown, which are the first by line.
 const NOTED: usize = 10 * SHOWN;
 
-/// What is said of a text that is not TOML, and has no table of a campaign.
 const NO_CAMPAIGN_FILE: &str = "there is no [campaign] table: is this a campaign file?";
 
-/// What syntax errors say of a word without quotes; of one that begins with t, f, n or i, that it is not `true`,
-/// `false`, `nan` or `inf`.
+/// Parts of TOML's errors about a word without quotes.
 const WORDS: [&str; 4] = ["must be quoted", "invalid boolean", "expected `nan`", "expected `inf`"];
 
 fn syntax_remedy(message: &str) -> &'static str {
@@ -40,48 +37,46 @@ fn syntax_remedy(message: &str) -> &'static str {
     }
 }
 
-/// What is known about a file while it is read.
 #[derive(Debug)]
 pub struct Document<'a> {
     sources: &'a Sources,
-    /// The texts of all sources, one after the other.
+    /// The texts of all sources in turn.
     text: &'a str,
     problems: Vec<Problem>,
-    /// Problems that are counted only.
     more: usize,
-    /// Where each line begins, bytes.
+    /// Start of each line, bytes.
     starts: Vec<usize>,
     pub(super) spans: BTreeMap<String, Spans>,
-    /// The files of numbers and the module that were read, each with the SHA-256 of its bytes.
+    /// Data files and module, each with its SHA-256.
     pub(super) files: Vec<(PathBuf, String)>,
-    /// Problems that are no more than that a file cannot be read now.
+    /// Number of problems that are unreadable files.
     pub(super) unreadable: usize,
-    /// How many tables named a file of numbers, and how many numbers were read.
+    /// Number of data tables, and of numbers read from them.
     pub(super) data: (usize, u64),
-    /// The scene of the document, once it is read: names of parameters are those of its tables.
+    /// The scene, whose tables give parameters their names.
     pub(super) scene: SceneInput,
-    /// The control law that the program brings, or the loop of the file.
+    /// The calling program's control law, or the file's loop.
     pub(super) law: Option<ControlLaw>,
-    /// The law of attitude that the program brings, for phases.
+    /// The calling program's law of attitude.
     pub(super) attitude_law: Option<&'static LawKind>,
-    /// Whether the file has a control loop of which too little could be read to say its columns and parameters.
+    /// Whether problems of the control loop leave its columns and parameters unknown.
     pub(super) is_loop_unknown: bool,
-    /// Keys that are there without effect, a sentence each.
+    /// One sentence for each key without effect.
     pub(super) ignored: Vec<String>,
-    /// What the tables that follow the scene can name, once that is known.
+    /// The columns that later tables can name.
     pub(super) known: Option<KnownColumns>,
-    /// The units in which limits and dispersions are written, by the name of the column or parameter.
+    /// Units of limits and dispersions as written, by column or parameter.
     pub(super) units: Vec<(String, &'static str)>,
-    /// Tables that canonical text has as they were read, in its order.
+    /// Tables for canonical text, in its order.
     pub(super) tables: Vec<(&'static str, Written)>,
 }
 
-/// Where a key is in the text, bytes.
+/// The place of a key in the text, bytes.
 #[derive(Clone, Debug)]
 pub(super) struct Spans {
-    /// Where it is written; of a table of a list, where the table is.
+    /// The key; for a table of a list, the table.
     pub key: Range<usize>,
-    /// Where its value is; empty for a table.
+    /// The value; empty for a table.
     pub value: Range<usize>,
 }
 
@@ -110,21 +105,19 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The same document of a program that brings the control law `law`, or a law of attitude for phases.
     pub fn under(self, law: Option<ControlLaw>, attitude_law: Option<&'static LawKind>) -> Self {
         Document { law, attitude_law, ..self }
     }
 
-    /// The folder from which a path counts that is written at the byte `offset`.
+    /// The base folder of a path at byte `offset`.
     pub(super) fn folder_of(&self, offset: usize) -> &'a Path {
         &self.sources.at(offset).folder
     }
 
-    /// Parses the texts, and lays what is set over the file, and the file over those that it extends.
+    /// Parses the texts and merges settings over the file, and the file over those that it extends.
     ///
     /// # Errors
-    /// Where a text is too large or has too many keys; where it is no TOML, its first syntax error alone; where a
-    /// setting leads nowhere.
+    /// A text that is too large or not TOML (its first syntax error); a setting without a place.
     pub fn parse(&mut self) -> Result<DeTable<'a>, CampaignError> {
         let mut whole = DeTable::new();
         for source in self.sources.list.iter().filter(|source| source.key.is_none()).rev() {
@@ -158,7 +151,7 @@ impl<'a> Document<'a> {
             return Err(CampaignError::of(problem));
         }
         let (table, errors) = DeTable::parse_recoverable(text);
-        // what follows the first error mostly follows from it
+        // later errors mostly follow from the first
         let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
         if let Some(error) = errors.into_iter().min_by_key(start) {
             let span = error.span().unwrap_or_default();
@@ -181,13 +174,12 @@ impl<'a> Document<'a> {
         let table = table.into_inner();
         match size::of_table(file, &table) {
             Some(problem) => Err(CampaignError::of(problem)),
-            // the places of a single file are its own
             None if self.sources.is_single() => Ok(table),
             None => Ok(moved_table(table, source.range.start)),
         }
     }
 
-    /// Whether `key`, or a table that contains it, or a key in it, has a problem already.
+    /// Whether `key`, a table around it or a key in it has a problem.
     pub fn is_reported(&self, key: &str) -> bool {
         let contains = |outer: &str, inner: &str| {
             inner == outer || inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with(['.', '[']))
@@ -195,7 +187,7 @@ impl<'a> Document<'a> {
         self.problems.iter().any(|problem| contains(&problem.key, key) || contains(key, &problem.key))
     }
 
-    /// Notes a problem of `key`, on the line of that key or of the nearest table around it.
+    /// Notes a problem of `key`, at its line or that of the nearest table around it.
     pub fn add(&mut self, key: &str, value: Option<String>, allowed: impl Into<String>, remedy: impl Into<String>) {
         self.note(key, value, allowed.into(), remedy.into(), false);
     }
@@ -213,7 +205,7 @@ impl<'a> Document<'a> {
         let excerpt =
             exact.and_then(|spans| self.excerpt(if spans.value.is_empty() { &spans.key } else { &spans.value }));
         let offset = self.offset_of(key);
-        // a setting has one value, which the message names
+        // the message of a setting shows its value
         let excerpt = excerpt.filter(|_| offset.is_some_and(|offset| self.sources.at(offset).key.is_none()));
         let (file, line) = offset.map_or((self.sources.list[0].name.as_str(), None), |offset| self.place(offset));
         self.problems.push(Problem {
@@ -228,8 +220,7 @@ impl<'a> Document<'a> {
         });
     }
 
-    /// The written key that the key of what is set at the byte `offset` probably means: it, or what follows a table
-    /// that no file has.
+    /// The existing key that the setting at byte `offset` probably means, with or without its first table.
     pub(super) fn setting_meant(&self, offset: usize) -> Option<Meant<'_>> {
         let written = self.sources.at(offset).key.as_deref()?;
         let (_, rest) = written.split_once('.')?;
@@ -241,7 +232,7 @@ impl<'a> Document<'a> {
         self.problems.len()
     }
 
-    /// Forgets the problems after the first `noted`: they follow from one of those.
+    /// Drops the problems after the first `noted`, from which they follow.
     pub(super) fn forget_since(&mut self, noted: usize) {
         self.problems.truncate(noted);
     }
@@ -252,7 +243,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Whether `name` may be a parameter of the control loop, of which too little could be read.
+    /// Whether `name` may be a parameter of an unreadable control loop.
     pub(super) fn may_be_of_loop(&self, name: &str) -> bool {
         self.is_loop_unknown && ["control.", "sensors.", "guidance."].iter().any(|table| name.starts_with(table))
     }
@@ -261,14 +252,14 @@ impl<'a> Document<'a> {
         self.problems.len() >= NOTED
     }
 
-    /// The line of the text in which `span` begins, with what is to be marked in it.
+    /// The line at the start of `span`, with a mark.
     fn excerpt(&self, span: &Range<usize>) -> Option<Excerpt> {
         let line = self.line_at(span.start);
         let start = self.starts[line - 1];
         Excerpt::new(self.line(line), span.start.checked_sub(start)?..span.end.max(span.start) - start)
     }
 
-    /// Notes what a lower layer reports about several keys, except for those that have a problem already.
+    /// Notes problems from a lower layer, except for keys that have one.
     pub fn add_from_below(&mut self, found: Vec<(String, Option<String>, String, String)>) {
         let fresh: Vec<_> = found.into_iter().filter(|(key, ..)| !self.is_reported(key)).collect();
         for (key, value, allowed, remedy) in fresh {
@@ -276,10 +267,8 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Nothing, or everything that is wrong, by line.
-    ///
     /// # Errors
-    /// Where anything is wrong.
+    /// All problems, by line.
     pub fn verdict(self) -> Result<(), CampaignError> {
         let mut problems = self.problems;
         problems.sort_by_key(|problem| problem.line.unwrap_or(usize::MAX));
@@ -290,7 +279,7 @@ impl<'a> Document<'a> {
         Err(CampaignError { problems, more: self.more, note: None, is_unreadable })
     }
 
-    /// Where `key` is, or the nearest table around it.
+    /// The place of `key`, or of the nearest table around it.
     fn offset_of(&self, key: &str) -> Option<usize> {
         let mut key = key;
         loop {
@@ -301,7 +290,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The source that has the byte `offset`, and the line in it; what is set has no lines.
+    /// The source at byte `offset` and the line in it; a setting has no line.
     fn place(&self, offset: usize) -> (&'a str, Option<usize>) {
         let source = self.sources.at(offset);
         let line = self.line_at(offset) + 1 - self.line_at(source.range.start);
@@ -326,9 +315,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Most characters of a key in a message.
 const LONGEST_KEY: usize = 300;
-/// Most characters of a value in a message.
 const LONGEST_VALUE: usize = 60;
 
 fn shortened(text: &str) -> String {

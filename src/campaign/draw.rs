@@ -1,4 +1,4 @@
-//! [`SceneDraws`]: from a plan and the number of a sample to its scene; nothing else draws scenes.
+//! [`SceneDraws`]: the scenes of samples.
 
 use super::plan::Plan;
 use crate::sampling::{SampleId, Sampler};
@@ -12,8 +12,7 @@ pub fn draw(plan: &Plan, sample: SampleId) -> Result<Scene, Vec<SceneError>> {
     SceneDraws::new(plan).scene(sample)
 }
 
-/// Draws the scenes of a plan; owned by one worker. A scene depends on the plan and the sample alone, not on earlier
-/// draws.
+/// Draws the scenes of a plan for one worker; a scene depends on plan and sample alone.
 #[derive(Debug)]
 pub struct SceneDraws<'p> {
     sampler: Sampler<'p>,
@@ -22,7 +21,7 @@ pub struct SceneDraws<'p> {
 }
 
 impl<'p> SceneDraws<'p> {
-    /// Draws of `plan`. Allocates; [`SceneDraws::scene_at`] does not, once each scene is there.
+    /// Allocates; [`SceneDraws::scene_at`] does not once its scenes exist.
     pub fn new(plan: &'p Plan) -> Self {
         SceneDraws {
             sampler: plan.dispersions.sampler(),
@@ -31,13 +30,13 @@ impl<'p> SceneDraws<'p> {
         }
     }
 
-    /// The scene of `sample` as written, physical or not.
+    /// The input of `sample`, physical or not.
     pub fn input(&mut self, sample: SampleId) -> &SceneInput {
         self.sampler.draw(sample, &mut self.input, &mut self.applied);
         &self.input
     }
 
-    /// The scene that the last draw made, as written.
+    /// The input of the last draw.
     pub fn drawn(&self) -> &SceneInput {
         &self.input
     }
@@ -51,8 +50,7 @@ impl<'p> SceneDraws<'p> {
         Scene::resolve(&self.input)
     }
 
-    /// The same into `scenes[index]`, which is reused if it is there and else added; where it is not physical, an
-    /// existing scene stays as it was.
+    /// Draws into `scenes[index]`, or appends; an existing scene is unchanged after an error.
     ///
     /// # Errors
     /// Why the drawn scene is not physical.
@@ -64,7 +62,7 @@ impl<'p> SceneDraws<'p> {
         }
     }
 
-    /// The values that the last draw applied, as [`crate::sampling::Dispersions::columns`] lists them.
+    /// The values of the last draw, in the order of [`crate::sampling::Dispersions::columns`].
     pub fn applied(&self) -> &[f64] {
         &self.applied
     }

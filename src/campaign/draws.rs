@@ -1,6 +1,5 @@
-//! What is drawn: `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read and as canonical text. The keys of
-//! a design and of a distribution are in their own files ([`crate::sampling::design`],
-//! [`crate::sampling::distribution`]).
+//! `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read and as canonical text. Designs and distributions
+//! declare their keys ([`crate::sampling::design`], [`crate::sampling::distribution`]).
 
 use super::lines::Lines;
 use super::numbers::MAX_SAMPLES;
@@ -12,7 +11,6 @@ use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule};
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure, Numbers, Table};
 use crate::scene::Parameter;
 
-/// The keys of `[[correlate]]`.
 pub const CORRELATE: [Row; 5] = [
     Row::new("parameters", Kind::Names, "The dispersed parameters that depend on each other")
         .required_as("an array of texts", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]"),
@@ -22,17 +20,15 @@ pub const CORRELATE: [Row; 5] = [
     Row::new("nearest_psd", Kind::Flag, "Whether to take the nearest matrix of correlations; default: false"),
 ];
 
-/// One of these says how much they depend on each other.
 const MEASURE: Rule = Rule::One(&[&["correlation"], &["rank_correlation"], &["covariance"]], "0.5", ALL_BUT_ONE);
 
-/// The keys of `[[derive]]`.
 pub const DERIVE: [Row; 2] = [
     PARAMETER,
     Row::new("expression", Kind::Text(ANY_TEXT), "Arithmetic over other parameters")
         .required_as("arithmetic over other parameters", "\"wheels.w1.density_kg_m3\""),
 ];
 
-/// Reads one `[[correlate]]` table; `None` where something is wrong, which is then noted.
+/// Reads a `[[correlate]]` table; `None` after a problem.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
     table.right_rows(&CORRELATE[..1]);
     let names = table.texts("parameters", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]");
@@ -71,7 +67,7 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
     }
 }
 
-/// Reads one `[[derive]]` table; `None` where something is wrong, which is then noted.
+/// Reads a `[[derive]]` table; `None` after a problem.
 pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     let target = parameter(table, "parameter");
     let expression = table.right_rows(&DERIVE[1..]).text("expression").map(str::to_owned);
@@ -80,7 +76,7 @@ pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     Some(Derivation { parameter, component, expression })
 }
 
-/// The design of a campaign; `None` where something is wrong, which is then noted. Without the table, the default.
+/// Reads `[design]`; `None` after a problem.
 pub fn design(table: &mut Section<'_, '_>) -> Option<Design> {
     if !table.is_present() {
         return Some(Design::DEFAULT);
@@ -102,7 +98,7 @@ pub fn design(table: &mut Section<'_, '_>) -> Option<Design> {
     Design::of(name, &written?).filter(|_| is_right)
 }
 
-/// Reads one table; `None` where something is wrong, which is then noted.
+/// Reads a `[[disperse]]` table; `None` after a problem.
 pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     let kind = table.plain_text("distribution").and_then(DistributionKind::from_name);
     if kind.is_some_and(DistributionKind::names_parameters) {
@@ -112,7 +108,7 @@ pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
         return Some(Dispersion { parameter, component: Some(component), distribution });
     }
     let target = parameter(table, "parameter");
-    // where the name is wrong, that is told; nobody can say which units were meant
+    // a wrong name is reported; any unit is accepted then
     match target {
         Some((parameter, _)) => table.describes(parameter.name(), parameter.unit()),
         None => table.describes(None, units::UNKNOWN),
@@ -122,8 +118,7 @@ pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     Some(Dispersion { parameter, component, distribution })
 }
 
-/// The tables of draws that could be read, each with its index in the file: errors name a table by its index
-/// among those that could be read.
+/// The valid tables of draws, each with its index in the file: errors of lower layers count valid tables only.
 pub(super) struct DrawTables {
     pub(super) dispersed: (Vec<usize>, Vec<Dispersion>),
     pub(super) correlated: (Vec<usize>, Vec<Correlation>),

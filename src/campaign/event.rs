@@ -1,4 +1,4 @@
-//! [`Event`]: an `[[event]]` table, a quantity over time that crosses a value.
+//! [`Event`]: an `[[event]]` table: a quantity over time that crosses a value.
 
 use super::known_columns::unit_of;
 use super::numbers::FINITE;
@@ -11,7 +11,6 @@ use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::sampling::keys::{Kind, Row, TextLimit, Written, is_name, words};
 
-/// In which direction a quantity crosses the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     Either,
@@ -19,49 +18,41 @@ pub enum Direction {
     Falling,
 }
 
-/// Which crossing of a run its time is of.
+/// Which crossing gives the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
     First,
     Last,
-    /// The last, where the quantity stays on that side to the end of the run; time zero where it is there all the time.
+    /// The last, if the quantity then stays on that side; zero if it always was there.
     Stays,
 }
 
 impl Direction {
-    /// All values with their names in campaign files.
     pub const ALL: [(&'static str, Direction); 3] =
         [("either", Direction::Either), ("rising", Direction::Rising), ("falling", Direction::Falling)];
 }
 
 impl Which {
-    /// All values with their names in campaign files.
     pub const ALL: [(&'static str, Which); 3] =
         [("first", Which::First), ("last", Which::Last), ("stays", Which::Stays)];
 }
 
-/// A quantity over time that crosses a value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     pub name: String,
-    /// The quantity: the name of one over time, or an expression of several.
+    /// A quantity over time, or an expression of several.
     pub quantity: String,
-    /// The value, in its unit.
+    /// In the unit of the quantity.
     pub value: f64,
-    /// In which direction it is crossed.
     pub direction: Direction,
-    /// Which crossing the time is of.
     pub which: Which,
-    /// Whether the run ends there.
     pub ends_run: bool,
 }
 
-/// The column that says what has ended a run, where an event can.
+/// The column with the code of the event that ended a run.
 pub const ENDED_BY: &str = "ended_by";
 
-/// Most events of a file.
 pub(super) const MOST_EVENTS: usize = 16;
-/// What a name must be.
 const NAME: TextLimit = TextLimit {
     allowed: "1 to 40 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like settled",
@@ -70,7 +61,6 @@ const NAME: TextLimit = TextLimit {
 const DIRECTIONS: [&str; 3] = words(&Direction::ALL);
 const WHICH: [&str; 3] = words(&Which::ALL);
 
-/// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 6] = [
     Row::new("name", Kind::Text(NAME), "Its name, with which the names of its columns \
@@ -85,7 +75,7 @@ pub const ROWS: [Row; 6] = [
 ];
 
 impl Event {
-    /// Reads the tables; what is wrong is noted, and left out here. `observed` is what the rows have without events.
+    /// Reads the tables and omits invalid ones. `observed`: the columns without events.
     pub(super) fn read_all(root: &mut Section<'_, '_>, observed: &Request) -> Vec<Event> {
         if !root.has("event") {
             root.know("event");
@@ -149,13 +139,12 @@ impl Event {
         Some(Event { name, quantity, value, direction, which, ends_run })
     }
 
-    /// The expression, and the quantities that are its variables, of runs of `request`; `None` only for what
-    /// [`Event::read_all`] refuses.
+    /// The expression and the quantities that are its variables; `None` only for events that [`Event::read_all`]
+    /// refuses.
     pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
         watched_quantity::parsed(&self.quantity, series)
     }
 
-    /// What happens, in words.
     pub fn says(&self) -> String {
         let how = match self.direction {
             Direction::Either => "crosses",
@@ -165,7 +154,7 @@ impl Event {
         format!("{} {how} {:?}", self.quantity, self.value)
     }
 
-    /// The columns: name, unit and meaning of the time and of the count.
+    /// Its columns: time and count.
     pub fn quantities(&self) -> [Quantity; 2] {
         let (name, says) = (&self.name, self.says());
         let time = match self.which {
@@ -187,8 +176,8 @@ impl Event {
         ]
     }
 
-    /// What ends runs that are watched for `events`, in the order of the codes of the column [`ENDED_BY`], where the
-    /// law of a mission `ends` some, too; nothing where no event does.
+    /// The ends of runs in the order of their codes in [`ENDED_BY`], including a mission's law if it `ends` runs; empty
+    /// unless an event does.
     pub fn ends(events: &[Event], ends: bool) -> Vec<&str> {
         let of_events = events.iter().filter(|event| event.ends_run).map(|event| event.name.as_str());
         let others = ["duration", "mission"];

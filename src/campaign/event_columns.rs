@@ -1,4 +1,4 @@
-//! The columns of rows that say when failures and events happened.
+//! Columns for the times of failures and events.
 
 use super::event::{ENDED_BY, Event};
 use super::failure_tables::failed_device;
@@ -6,7 +6,7 @@ use crate::observables::{ColumnKind, LawColumn};
 use crate::run::Quantity;
 use crate::scene::SceneInput;
 
-/// How many columns each failure has, and each event.
+/// Columns of each failure, and of each event.
 pub const EACH: usize = 2;
 
 pub(super) fn of_failures(scene: &SceneInput) -> Vec<LawColumn> {
@@ -35,8 +35,7 @@ fn column(name: String, unit: &str, meaning: String, kind: ColumnKind) -> LawCol
     LawColumn { quantity: Quantity::named(name, unit.to_owned(), meaning), kind, codes: &[] }
 }
 
-/// The columns of `events`, [`EACH`] of each, and where one ends runs what has ended them: also the law of a mission,
-/// where there is one.
+/// The columns of `events`, and the code of what ended a run: an event or, with `has_law`, a mission's law.
 pub(super) fn of_events(events: &[Event], has_law: bool) -> Vec<LawColumn> {
     let kinds = [ColumnKind::Float, ColumnKind::Count];
     let of = |event: &Event| {

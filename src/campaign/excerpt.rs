@@ -1,31 +1,28 @@
-//! [`Excerpt`]: a line of a campaign file with a mark under what is wrong in it. [`printable`]: text of a file that no
-//! terminal obeys.
+//! [`Excerpt`]: a line of a campaign file with a mark under the problem; [`printable`]: text without control sequences.
 
 use std::borrow::Cow;
 use std::fmt::{self, Display, Formatter, Write};
 use std::ops::Range;
 
-/// Most characters of a line that are shown.
+/// Most characters shown.
 const WIDTH: usize = 100;
-/// Characters before the mark that are shown of a longer line.
+/// Characters shown before the mark in a longer line.
 const BEFORE: usize = 30;
 
-/// A line with a mark.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excerpt {
-    /// The line, or the part of it around the mark, without control characters.
+    /// The line, or its part around the mark, without control characters.
     pub line: String,
     pub before: usize,
-    /// Characters that are marked, at least one.
+    /// At least one.
     pub marked: usize,
 }
 
 impl Excerpt {
-    /// `line` with a mark under its bytes `span`, as far as they are in it; `None` where they begin after its end.
+    /// `line` with a mark under the bytes `span`; `None` if they begin after its end.
     pub(super) fn new(line: &str, span: Range<usize>) -> Option<Self> {
         let (before, rest) = (line.get(..span.start)?, line.get(span.start..)?);
         let marked = rest.get(..span.len().min(rest.len())).unwrap_or(rest).trim_end();
-        // counting stops where more characters would not be shown
         let of_before = before.chars().rev().take(WIDTH).count();
         let is_cut = of_before > BEFORE && line.chars().take(WIDTH + 1).count() > WIDTH;
         let dropped = if is_cut { before.char_indices().nth_back(BEFORE - 1).map_or(0, |(at, _)| at) } else { 0 };
@@ -36,7 +33,7 @@ impl Excerpt {
     }
 }
 
-/// The character as one that takes one column and changes nothing on a terminal.
+/// A harmless character one column wide.
 fn visible(letter: char) -> char {
     match letter {
         '\t' => ' ',
@@ -59,13 +56,12 @@ impl Display for Excerpt {
     }
 }
 
-/// Whether a terminal may obey `letter`, or it changes the order of what is read: control characters, and marks of
-/// writing direction.
+/// Whether a terminal may obey `letter` or change the reading order for it.
 fn is_unsafe(letter: char) -> bool {
     letter.is_control() || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// `text` with escapes, `\u{1b}`, for the characters that a terminal may obey, except for line ends and tabs.
+/// `text` with unsafe characters escaped (`\u{1b}`).
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmless = |letter: char| matches!(letter, '\n' | '\t') || !is_unsafe(letter);
     if text.chars().all(is_harmless) {
@@ -86,7 +82,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 mod tests {
     use super::*;
 
-    /// Law: the mark is under what is marked, of a short line and of a long one, whatever its letters are.
+    /// Law: the mark is under the value in short and long lines with any letters.
     #[test]
     fn the_mark_is_under_the_value() {
         let shown = |line: &str, from: &str| {

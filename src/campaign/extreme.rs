@@ -1,5 +1,5 @@
-//! [`Extreme`]: an `[[extreme]]` table, the largest or smallest value of a quantity over time, between observation
-//! points too.
+//! [`Extreme`]: an `[[extreme]]` table: the largest or smallest value of a quantity over time, also between observation
+//! points.
 
 use super::event::Event;
 use super::meaning::meant;
@@ -11,26 +11,21 @@ use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, TextLimit, is_name};
 
-/// The largest or the smallest value of a quantity over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// The name of its column.
     pub name: String,
-    /// The quantity: the name of one over time, or an expression of several.
+    /// A quantity over time, or an expression of several.
     pub quantity: String,
-    /// Its unit; empty for a pure number, and for an expression.
+    /// Empty for a pure number, and for an expression.
     pub unit: String,
-    /// Whether it is the largest value, or the smallest.
     pub is_highest: bool,
-    /// The name of the event from whose time on it is taken; from the start where there is none.
+    /// The event after which it is taken; `None`: from the start.
     pub after: Option<String>,
-    /// How much later it is taken, s.
+    /// Delay after that, s.
     pub delay_s: f64,
 }
 
-/// Most of them in a file.
 const MOST_EXTREMES: usize = 16;
-/// What a name must be.
 const NAME: TextLimit = TextLimit {
     allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like pointing_error_max_rad",
@@ -38,7 +33,6 @@ const NAME: TextLimit = TextLimit {
 };
 const WHICH: [&str; 2] = ["max", "min"];
 
-/// The keys of the table.
 #[rustfmt::skip]
 pub const ROWS: [Row; 5] = [
     Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed,
@@ -52,8 +46,7 @@ pub const ROWS: [Row; 5] = [
 ];
 
 impl Extreme {
-    /// Reads the tables; what is wrong is noted, and left out here. `observed` is what the rows have without them,
-    /// `events` among it.
+    /// Reads the tables and omits invalid ones. `observed`: the columns without extremes.
     pub(super) fn read_all(root: &mut Section<'_, '_>, observed: &Request, events: &[Event]) -> Vec<Extreme> {
         if !root.has("extreme") {
             root.know("extreme");
@@ -101,7 +94,7 @@ impl Extreme {
         Some(Extreme { name, quantity, unit, is_highest, after, delay_s })
     }
 
-    /// The expression, and the quantities that are its variables; `None` only for what [`Extreme::read_all`] refuses.
+    /// The expression and the quantities that are its variables; `None` only for what [`Extreme::read_all`] refuses.
     pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
         watched_quantity::parsed(&self.quantity, series)
     }
@@ -115,7 +108,6 @@ impl Extreme {
         }
     }
 
-    /// What it is, in words.
     pub fn says(&self) -> String {
         format!(
             "{} of {}{}",

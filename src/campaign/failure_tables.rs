@@ -1,4 +1,4 @@
-//! `[[failure]]`: devices that fail during a run, as a campaign file says them and as canonical text.
+//! `[[failure]]`: devices that fail during a run.
 
 use super::control::turning;
 use super::scene_table::{Field, SceneTable};
@@ -7,18 +7,15 @@ use crate::sampling::keys::{Kind, Row, Value};
 use crate::scene::table::Table;
 use crate::scene::{Device, FailureInput, Name, SceneInput, SensorOutput, WheelMode};
 
-/// Most failures of a file.
 const MOST_FAILURES: usize = 16;
-/// The keys that name the device: a failure has exactly one.
+/// The keys of devices, of which a failure has one.
 const DEVICES: [&str; 4] = ["wheel", "thruster", "torque_rod", "sensor"];
 
-/// The keys that the failure of a device has, by the place of its kind in [`DEVICES`].
+/// The further keys of a failure, in the order of [`DEVICES`].
 const KEYS: [&[&str]; 4] =
     [&FailureInput::OF_WHEELS, &FailureInput::OF_THRUSTERS, &FailureInput::OF_RODS, &FailureInput::OF_SENSORS];
-/// The place of sensors in these lists.
 const SENSOR: usize = 3;
 
-/// A key that names the device.
 macro_rules! device {
     ($kind:literal, $meaning:literal) => {
         Field {
@@ -27,13 +24,13 @@ macro_rules! device {
                 let (key, device) = named(scene, scene.failures[place].device)?;
                 (key == DEVICES[$kind]).then(|| device.as_str().into())
             },
-            // with the other devices, by `check`
+            // set by `check`
             set: |_, _, _| {},
         }
     };
 }
 
-/// The tables of failures, which are read where the devices of the scene are.
+/// Read after the devices of the scene.
 #[rustfmt::skip]
 pub static TABLE: SceneTable = SceneTable::list(&[Table::Failure], MOST_FAILURES, |scene, name| {
     scene.failures.push(FailureInput { name, ..FailureInput::DEFAULT });
@@ -63,7 +60,7 @@ fn check(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     }
 }
 
-/// The device that fails, and the place of its kind; `None` where that is wrong, which is then noted.
+/// The failing device and the index of its kind; `None` after a problem.
 fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool) -> Option<(usize, Device)> {
     let written: Vec<usize> = (0..DEVICES.len()).filter(|kind| section.has(DEVICES[*kind])).collect();
     let kind = match written[..] {
@@ -126,7 +123,7 @@ fn check_keys(section: &mut Section<'_, '_>, kind: usize) {
     }
 }
 
-/// Notes what this device cannot do, and where it has failed before.
+/// Notes failures that this device cannot have, and a second table about it.
 fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, device: Device, has_loop: bool) {
     if let Some(first) = scene.failures.iter().find(|failure| failure.device == device) {
         let key = match device {
@@ -149,7 +146,7 @@ fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, device: Devic
     if let Device::Sensor(place) = device {
         let sensor = &scene.control.sensors[place];
         if sensor.declared.0.is_empty() {
-            // its kind is wrong, which is told
+            // a wrong kind is reported already
             return;
         }
         for key in FailureInput::OF_SENSORS.into_iter().filter(|key| key.starts_with("bias")) {
@@ -179,7 +176,7 @@ fn named(scene: &SceneInput, device: Device) -> Option<(&'static str, Name)> {
     })
 }
 
-/// The device of `scene` in words: `wheel w1`.
+/// The device in words: `wheel w1`.
 pub fn failed_device(scene: &SceneInput, device: Device) -> String {
     named(scene, device).map_or_else(String::new, |(kind, name)| format!("{} {name}", kind.replace('_', " ")))
 }

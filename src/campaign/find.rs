@@ -1,21 +1,20 @@
-//! Which file a name on the command line means.
+//! Campaign files by their names on the command line.
 
 use super::input_file::is_unreadable;
 use super::meaning::meant;
 use std::path::{Path, PathBuf};
 
-/// The folder of shipped campaigns, in which a bare name is looked up.
+/// The folder of shipped campaigns.
 pub const FOLDER: &str = "campaigns";
 
-/// The file that `name` means: the path itself, or for a bare name, with or without `.toml`, the file in `campaigns/`.
+/// The file `name`, with or without `.toml`; for a bare name also in [`FOLDER`].
 ///
 /// # Errors
-/// The paths that were tried, where none is a file.
+/// The paths tried.
 pub fn find(name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
     find_in(Path::new(""), name)
 }
 
-/// The same, relative paths counted from `start`.
 fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
     let is_bare = name.components().count() == 1;
     let mut with_extension = name.as_os_str().to_owned();
@@ -29,7 +28,7 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
             tried.push(start.join(FOLDER).join(&file));
         }
     }
-    // what is neither file nor folder is refused where it is read, by what it is; and so is what cannot be looked at
+    // devices and unreadable files are refused when they are read
     let is_other = |path: &PathBuf| path.metadata().map_or_else(|error| is_unreadable(&error), |found| !found.is_dir());
     match tried.iter().position(|path| path.is_file()).or_else(|| tried.iter().position(is_other)) {
         Some(index) => Ok(tried.swap_remove(index)),
@@ -37,8 +36,7 @@ fn find_in(start: &Path, name: &Path) -> Result<PathBuf, Vec<PathBuf>> {
     }
 }
 
-/// The campaign file that `name` probably means: the nearest name among those in its folder, and for a bare name also
-/// among the shipped ones.
+/// The campaign file with the nearest name in its folder; for a bare name also in [`FOLDER`].
 pub fn nearest_file(name: &Path) -> Option<PathBuf> {
     nearest_in(Path::new(""), name)
 }
@@ -76,7 +74,7 @@ mod tests {
         }
         assert_eq!(find_in(&root, Path::new("elsewhere/burn")).map_err(|tried| tried.len()), Err(2));
         assert_eq!(find_in(&root, Path::new("no_such_campaign")).map_err(|tried| tried.len()), Err(4));
-        // the nearest file in its folder, also a shipped one; none for a name like no other
+        // the nearest file, also a shipped one; none for a name like no other
         std::fs::write(root.join("mine.toml"), "").expect("a file");
         let meant = |name: &str| nearest_in(&root, Path::new(name));
         assert_eq!(meant("brun.toml"), Some(PathBuf::from("campaigns/burn.toml")));

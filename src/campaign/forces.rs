@@ -1,11 +1,11 @@
-//! What acts on the spacecraft and how it is integrated: whether both fit.
+//! Whether the method integrates all forces of the scene.
 
 use super::document::Document;
 use crate::dynamics::effects::{Effect, ForceModel};
 use crate::propagation::Method;
 use crate::scene::{Scene, SceneInput};
 
-/// What a method must be that integrates the effects of `model`, to follow "must be"; `None` where `method` does.
+/// The methods that integrate the effects of `model`, to follow "must be"; `None` if `method` does.
 pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
     if method.integrates(model) {
         return None;
@@ -18,8 +18,7 @@ pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {
     Some(format!("a method that integrates {}: one of {}", left_out.join(" and "), able.join(", ")))
 }
 
-/// Refuses a method that leaves out an effect on `scene`, which is `input`, and a transfer that its orbit does not
-/// allow.
+/// Refuses a method that omits an effect, and a transfer longer than the orbit allows.
 pub(super) fn check(input: &SceneInput, scene: &Scene, method: Method, document: &mut Document<'_>) {
     let model = ForceModel::of(scene);
     if let Some(allowed) = allowed_methods(method, model) {

@@ -1,28 +1,23 @@
-//! [`open`]: files that are handed to the program: regular ones of a bounded size, and nothing that waits or never
-//! ends.
-//!
-//! A link to such a file is followed; what it leads to is what counts. What is opened is what was looked at: the kind
-//! and the size are those of the open file.
+//! [`open`]: regular input files of bounded size. Links are followed; kind and size are those of the open file.
 
 use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 use thiserror::Error;
 
-/// Why a file is not read.
 #[derive(Debug, Error)]
 pub enum InputError {
-    /// It is something else, in words: "a folder".
+    /// Not a regular file: "a folder".
     #[error("{0}, not a regular file")]
     Kind(&'static str),
-    /// It has so many bytes.
+    /// Too many bytes.
     #[error("{0} bytes are too many")]
     Size(u64),
     #[error(transparent)]
     Io(#[from] io::Error),
 }
 
-/// Whether `error` says that a file cannot be read now: not that there is no such file, which a person has to correct.
+/// Whether the file may exist but cannot be read now.
 pub fn is_unreadable(error: &io::Error) -> bool {
     use io::ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
     ![NotFound, NotADirectory, InvalidInput, InvalidFilename].contains(&error.kind())
@@ -45,10 +40,10 @@ fn kind(file: FileType) -> &'static str {
     if file.is_dir() { "a folder" } else { "something that is not a file" }
 }
 
-/// Opens a regular file of at most `most` bytes for reading; the file, and its size.
+/// Opens a regular file of at most `most` bytes; the file and its size. Does not wait.
 ///
 /// # Errors
-/// Where it is something else, larger, or cannot be opened. Nothing is waited for.
+/// Another kind of file, a larger one, or an error of the system.
 pub fn open(path: &Path, most: u64) -> Result<(File, u64), InputError> {
     let found = std::fs::metadata(path)?;
     if !found.is_file() {
@@ -59,7 +54,7 @@ pub fn open(path: &Path, most: u64) -> Result<(File, u64), InputError> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::OpenOptionsExt;
-        // another file may have taken its place since: opening a pipe must not wait
+        // the path may be a pipe by now, and opening must not wait
         options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
     }
     let file = options.open(path)?;
@@ -73,7 +68,7 @@ pub fn open(path: &Path, most: u64) -> Result<(File, u64), InputError> {
 /// The content of a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open`], and where it cannot be read or grows beyond `most` bytes.
+/// As [`open`]; also a file that grows beyond `most` bytes.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
     let (file, size) = open(path, most)?;
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));

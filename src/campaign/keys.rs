@@ -1,4 +1,4 @@
-//! Rows of keys ([`crate::sampling::keys`]) in a table of a campaign file: read from it, and written as canonical text.
+//! Tables of declared keys ([`crate::sampling::keys`]): read from a campaign file and written as canonical text.
 
 use super::known_columns::{KnownColumns, unit_of};
 use super::lines::Lines;
@@ -14,8 +14,7 @@ use crate::sampling::keys::{
 use crate::sampling::{DistributionKind, WrittenDistribution};
 
 impl Section<'_, '_> {
-    /// What the table says of the keys `rows`, which have to do with each other what `rules` say; `None` where
-    /// something is wrong, which is then noted.
+    /// The values of `rows` if all are valid and obey `rules`; problems are noted.
     pub(super) fn rows(&mut self, rows: &[Row], rules: &[Rule]) -> Option<Written> {
         let mut is_right = true;
         for rule in rules {
@@ -29,14 +28,14 @@ impl Section<'_, '_> {
         (is_right && rows.iter().all(is_there)).then_some(written)
     }
 
-    /// The same of all keys of the table.
+    /// [`Section::rows`] for a whole table: further keys are unknown.
     pub(super) fn whole(&mut self, rows: &[Row], rules: &[Rule]) -> Option<Written> {
         let written = self.rows(rows, rules);
         self.finish();
         written
     }
 
-    /// What is right of the table `[header]`, which is kept for canonical text, completed after `change`.
+    /// The valid keys of `[header]` after `change`, kept for canonical text.
     pub(super) fn kept(&mut self, header: &'static str, rows: &[Row], change: impl FnOnce(&mut Written)) -> Written {
         let mut section = self.section(header.trim_matches(['[', ']']));
         let mut written = section.right_rows(rows);
@@ -47,7 +46,7 @@ impl Section<'_, '_> {
         written
     }
 
-    /// What is right of that; without the keys that are wrong, which are noted.
+    /// The values of `rows`, without invalid ones, which are noted.
     pub(super) fn right_rows(&mut self, rows: &[Row]) -> Written {
         let mut written = Written::default();
         for row in rows {
@@ -65,7 +64,7 @@ impl Section<'_, '_> {
         written
     }
 
-    /// The value of one row, if it was written; of a word the first one otherwise.
+    /// The written value of a row; the default word of a missing [`Kind::Word`].
     fn row(&mut self, row: &Row) -> Option<Value> {
         let key = row.key;
         let (of_target, own) = (self.unit, units::in_name(key));
@@ -147,7 +146,7 @@ impl Section<'_, '_> {
             }
             Kind::Units => Some(Value::Words(display::of_quantities(self, key))),
             Kind::UnitsByName => Some(Value::Units(display::by_name(self, key))),
-            // read where it is known what there is
+            // read by the table's own code
             Kind::Name | Kind::Names | Kind::ByName | Kind::Correlations => {
                 self.know(key);
                 None
@@ -197,8 +196,8 @@ impl Section<'_, '_> {
         Some(names)
     }
 
-    /// Remembers the unit in which what the table is about is written, the first one, where that is not its own: it is
-    /// shown in it, and so is what it is over time.
+    /// Remembers the first unit, other than its own, of the quantity that this table is about: reports show the
+    /// quantity, and its course over time, in this unit.
     fn note_unit(&mut self, key: &str) {
         if let Some(unit) = self.unit_written(key).filter(|unit| *unit != self.unit)
             && let Some(name) = self.about.take()
@@ -208,7 +207,6 @@ impl Section<'_, '_> {
         }
     }
 
-    /// Numbers, any count of them; at least one where they have a limit.
     fn list(&mut self, key: &str, unit: &'static str, limit: Option<NumberLimit>) -> Option<Value> {
         let list = self.numbers(key, unit)?;
         if let Some(limit) = limit.filter(|limit| list.is_empty() || !list.iter().all(|x| limit.holds(*x))) {
@@ -227,7 +225,7 @@ impl Section<'_, '_> {
         Some(text)
     }
 
-    /// The unit vector along a direction in F_s, in place of one of `words`.
+    /// A unit vector in F_s instead of one of `words`.
     fn axis(&mut self, key: &str, words: &[&str]) -> Option<Value> {
         let direction = self.direction(key)?;
         let length = norm(direction);
@@ -239,13 +237,13 @@ impl Section<'_, '_> {
             }
             return None;
         }
-        // a unit vector stays as it is, bit for bit
+        // keep the bits of a unit vector
         let is_unit = (length - 1.0).abs() <= 4.0 * f64::EPSILON;
         let axis = if is_unit { direction } else { direction.map(|x| x / length) };
         Some(Value::Numbers(Values::Each(axis.to_vec())))
     }
 
-    /// Whether the table obeys a rule; notes where not. `is_right`: it obeys those before.
+    /// Whether the table obeys `rule`; a violation is noted. `is_right`: it obeys the rules before.
     pub(super) fn obeys(&mut self, rule: &Rule, is_right: bool) -> bool {
         let only = |table: &mut Self, written: &[&'static str], all: &[&'static str], remedy: &str| {
             let Some(second) = written.get(1) else { return true };
@@ -254,7 +252,7 @@ impl Section<'_, '_> {
         };
         match rule {
             Rule::One(ways, example, remedy) => {
-                // a way is called by its first key, or by the first that was written
+                // named by its first written key, else by its first key
                 let name = |way: &&[&'static str]| way.iter().copied().find(|key| self.has(key)).unwrap_or(way[0]);
                 let names: Vec<&'static str> = ways.iter().map(name).collect();
                 let written: Vec<&'static str> = names.iter().copied().filter(|key| self.has(key)).collect();
@@ -290,16 +288,14 @@ impl Section<'_, '_> {
         }
     }
 
-    /// `distribution` and the keys of the distribution that it names.
     pub(super) fn distribution(&mut self) -> Option<WrittenDistribution> {
         let name = self.required_word("distribution", DistributionKind::NAMES, "\"normal\"");
-        // without a distribution nobody can say which other keys belong here
+        // the other keys depend on the distribution
         let kind = DistributionKind::from_name(name?)?;
         let written = self.whole(kind.keys(), kind.rules());
         written.map(|written| WrittenDistribution { kind, written })
     }
 
-    /// The one of `words` that `key` gives; it must be there.
     pub(super) fn required_word(
         &mut self,
         key: &str,
@@ -321,7 +317,7 @@ impl Lines {
         self.written(header, written);
     }
 
-    /// The keys of a table. A distribution among them is a table within `[header]` and comes last.
+    /// A nested distribution becomes a table within `[header]`, after the other keys.
     pub(super) fn written(&mut self, header: &str, written: &Written) {
         for (key, value) in written.entries() {
             match value {

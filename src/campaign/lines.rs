@@ -1,10 +1,9 @@
-//! [`Lines`]: canonical text while it is written, table by table and key by key.
+//! [`Lines`]: canonical text while it is written.
 
 use crate::scene::SceneInput;
 use crate::scene::schema::limit::shown;
 use crate::scene::table::Table;
 
-/// A table's lines while they are written.
 #[derive(Default)]
 pub(super) struct Lines(String);
 
@@ -17,7 +16,7 @@ impl Lines {
         self.0.push('\n');
     }
 
-    /// `value` in its Debug form: of floats, lists of floats, whole numbers and plain text that form is TOML.
+    /// `value` in its Debug form, which is TOML for numbers, lists and plain text.
     pub(super) fn key(&mut self, key: &str, value: impl std::fmt::Debug) {
         self.0.push_str(&format!("{key} = {value:?}\n"));
     }
@@ -26,7 +25,7 @@ impl Lines {
         self.0.push_str(&format!("{key} = {value}\n"));
     }
 
-    /// A key with a text of people: any letters.
+    /// A key with any text.
     pub(super) fn text_key(&mut self, key: &str, text: &str) {
         self.0.push_str(&format!("{key} = {}\n", toml::Value::from(text)));
     }

@@ -1,4 +1,4 @@
-//! Lists of any length in a [`Section`]: numbers, texts, matrices.
+//! Lists of numbers, texts and counts in a [`Section`].
 
 use super::numbers::number;
 use super::section::Section;
@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 impl Section<'_, '_> {
-    /// A list of finite numbers in `unit`, if it was written.
+    /// Finite numbers in `unit`, if written.
     pub fn numbers(&mut self, key: &str, unit: &'static str) -> Option<Vec<f64>> {
         let value = self.take(key)?;
         let list = numbers(value.get_ref(), unit);
@@ -21,7 +21,7 @@ impl Section<'_, '_> {
         list
     }
 
-    /// A list of texts, if it was written.
+    /// Texts, if written.
     pub fn texts(&mut self, key: &str, example: &str) -> Option<Vec<String>> {
         let value = self.take(key)?;
         let text = |item: &DeValue<'_>| item.as_str().map(str::to_owned);
@@ -33,7 +33,7 @@ impl Section<'_, '_> {
         list
     }
 
-    /// One finite number, or rows of equally many of them, if it was written.
+    /// A finite number, or a matrix of them, if written.
     pub fn correlations(&mut self, key: &str) -> Option<Numbers> {
         let value = self.take(key)?;
         let found = match value.get_ref() {
@@ -53,7 +53,7 @@ impl Section<'_, '_> {
         found
     }
 
-    /// A whole number within `range` for all, or a list of them, if it was written.
+    /// A whole number within `range` for all, or a list of them, if written.
     pub fn counts(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<Counts> {
         let value = self.take(key)?;
         let count = |value: &DeValue<'_>| {
@@ -90,7 +90,7 @@ impl Section<'_, '_> {
         samples
     }
 
-    /// Yes or no, if it was written.
+    /// A flag, if written.
     pub fn flag(&mut self, key: &str) -> Option<bool> {
         let value = self.take(key)?;
         let flag = value.get_ref().as_bool();

@@ -1,28 +1,24 @@
-//! [`meant`]: the name that an unknown name probably means: a misspelling, the same key with another unit, or what
-//! another program calls it. A name that resembles a key of another meaning is not taken for it.
+//! [`meant`]: the likely meaning of an unknown name: a misspelling, a key with another unit, or a name from another
+//! program.
 
 use super::units;
 
-/// The name that was probably meant, and what has to be done to the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Meant<'a> {
-    /// The name, one of the candidates.
     pub name: &'a str,
     change: Change,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Change {
-    /// Another name for the same number.
     None,
-    /// The same quantity in this unit.
     Unit(&'static str),
-    /// Another quantity, and how this one follows from it.
+    /// Another quantity, with the conversion.
     Converted(&'static str),
 }
 
 impl Meant<'_> {
-    /// What to do about a key that has the `value`, as it is written.
+    /// The remedy for a key with this value as written.
     pub fn remedy_of_key(&self, value: &str) -> String {
         let name = self.name;
         match self.change {
@@ -33,7 +29,7 @@ impl Meant<'_> {
         }
     }
 
-    /// What to do about a name that is the value of a key.
+    /// The remedy for a name that is a value.
     pub fn remedy(&self) -> String {
         let name = self.name;
         match self.change {
@@ -46,8 +42,8 @@ impl Meant<'_> {
     }
 }
 
-/// Names that other programs and documents have, without units; the name here; what turns the one into the other, empty
-/// where both are the same number. A name matches in a table that has the key.
+/// Names of other programs, without units; the name here; the conversion, empty for equal numbers. A name matches only
+/// in tables that have the key.
 const OTHERS: &[(&[&str], &str, &str)] = &[
     (
         &["mean_anomaly", "mean_anomaly_at_epoch"],
@@ -183,7 +179,7 @@ const OTHERS: &[(&[&str], &str, &str)] = &[
     (&["runs", "trials", "n"], "samples", "the nominal run is one of them"),
 ];
 
-/// Keys whose unit is that of the parameter or column that their table is about.
+/// Keys in the unit of the parameter or column that their table is about.
 const OF_THE_SUBJECT: [&str; 16] = [
     "std",
     "three_sigma",
@@ -203,7 +199,7 @@ const OF_THE_SUBJECT: [&str; 16] = [
     "between",
 ];
 
-/// Words that people write for a unit at the end of a key, and the unit.
+/// Words for units at the end of a key.
 const UNIT_WORDS: [(&str, &str); 12] = [
     ("degrees", "deg"),
     ("degree", "deg"),
@@ -219,21 +215,21 @@ const UNIT_WORDS: [(&str, &str); 12] = [
     ("percent", "%"),
 ];
 
-/// The unit at the end of `key`, and what is before it; `None` where there is none.
+/// The stem of `key` and the unit at its end.
 fn unit_in(key: &str) -> Option<(&str, &'static str)> {
     let stem = |ending: &str| key.strip_suffix(ending)?.strip_suffix('_');
     let as_ending = |unit: &str| unit.to_lowercase().replace(['/', ' ', '('], "_").replace(['^', ')'], "");
     let words = UNIT_WORDS.iter().map(|(word, unit)| ((*word).to_owned(), *unit));
     let endings = words.chain(units::names().map(|unit| (as_ending(unit), unit)));
     let found = endings.filter_map(|(ending, unit)| Some((stem(&ending)?, unit)));
-    // the longest ending: `_deg_s` is no `_s`
+    // the longest ending: `_deg_s` before `_s`
     found.min_by_key(|(stem, _)| stem.len())
 }
 
-/// Names of more bytes than this are not compared: nobody misspelt them, and it would take their product in time.
+/// Longer names, bytes, are not compared: comparison takes time proportional to the product of the lengths.
 const LONGEST_NAME: usize = 300;
 
-/// The candidate that `written` probably means, where there is one.
+/// The candidate that `written` probably means.
 pub fn meant<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<Meant<'a>> {
     let is_short = |name: &&str| name.len() <= LONGEST_NAME && written.len() <= LONGEST_NAME;
     let candidates: Vec<&str> = candidates.into_iter().filter(is_short).collect();
@@ -267,16 +263,15 @@ pub fn meant<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -
     in_unit().or_else(by_a_letter).or_else(other).or_else(near)
 }
 
-/// Whether `unit` is another one than that at the end of `name`, of the same dimension.
+/// Whether `unit` differs from the unit at the end of `name` but has its dimension.
 fn is_other_unit(name: &str, unit: &str) -> bool {
     let own = units::in_name(name);
     unit != own && units::named(unit).is_some_and(|unit| unit.of == own)
 }
 
-/// The candidate that `written` misspells: one that contains it, or else the one with the fewest changes of letters, if
-/// these are at most a third of them.
+/// The misspelt candidate: one that contains `written`, else the nearest, with at most a third of the letters changed.
 fn misspelt<'a>(written: &str, candidates: &[&'a str]) -> Option<&'a str> {
-    // a name that was not written to its end: that which lacks least
+    // an unfinished name: the shortest completion
     let begun = candidates.iter().filter(|c| written.len() > 3 && c.starts_with(written));
     if let Some(whole) = begun.min_by_key(|c| c.len()) {
         return Some(whole);
@@ -288,22 +283,21 @@ fn misspelt<'a>(written: &str, candidates: &[&'a str]) -> Option<&'a str> {
         .min_by_key(|(changes, _)| *changes)
         .filter(|(changes, candidate)| *changes <= (own_part(written, candidate) / 3).max(2))
         .map(|(_, candidate)| candidate);
-    // `angular_velocity` means `initial.angular_velocity_rad_s`; a letter or two mean nothing
+    // not for one or two letters, which mean nothing
     close.or_else(|| {
         let is_within = |c: &&&str| written.len() > 3 && (c.contains(written) || written.contains(**c));
         candidates.iter().find(is_within).copied()
     })
 }
 
-/// Number of letters of `written` without the table that it shares with `candidate`.
+/// Letters of `written` outside the table that it shares with `candidate`.
 fn own_part(written: &str, candidate: &str) -> usize {
     let shared =
         written.rsplit_once('.').filter(|(table, _)| candidate.rsplit_once('.').is_some_and(|c| c.0 == *table));
     shared.map_or(written, |(_, key)| key).chars().count()
 }
 
-/// Whether a word of `written` is replaced by another one in `candidate` that it does not misspell: `min` and `max`,
-/// `mean` and `true`, `inner` and `outer` differ in meaning.
+/// Whether a word of `written` is exchanged for one that it does not misspell: `min` for `max`, `inner` for `outer`.
 fn is_another_word(written: &str, candidate: &str) -> bool {
     let words = |name: &str| name.split(['_', '.']).map(str::to_owned).collect::<Vec<_>>();
     let (written, candidate) = (words(written), words(candidate));
@@ -317,8 +311,7 @@ fn is_another_word(written: &str, candidate: &str) -> bool {
     lacks(&written, &candidate) && lacks(&candidate, &written)
 }
 
-/// Number of letters to insert, delete, replace, or exchange with their neighbour between `a` and `b` (optimal string
-/// alignment; Damerau 1964).
+/// Edit distance with exchanges of neighbours (optimal string alignment; Damerau 1964).
 fn changes(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let first: Vec<usize> = (0..=b.len()).collect();

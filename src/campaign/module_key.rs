@@ -1,4 +1,4 @@
-//! `control.module`: the file of a WebAssembly module, which phases may name as their law.
+//! `control.module`: a WebAssembly module with a law for phases.
 
 use super::data_keys::found;
 use super::input_file::{self, InputError};
@@ -13,7 +13,6 @@ use crate::sampling::Written;
 use crate::sampling::keys::{Condition, Rule};
 use sha2::{Digest, Sha256};
 
-/// A checksum is the one of a module.
 pub(super) const RULE: Rule = Rule::Only {
     keys: &["module_sha256"],
     with: &[Condition::Has("module")],
@@ -21,17 +20,16 @@ pub(super) const RULE: Rule = Rule::Only {
     remedy: "delete it, or add module = \"law.wasm\"",
 };
 
-/// What the file says of a module.
 pub(super) enum ModuleKey {
     /// Nothing.
     Absent,
-    /// Something that is wrong, and told.
+    /// Wrong, and reported.
     Wrong,
     Read(ModuleSpec),
 }
 
 impl ModuleKey {
-    /// The law that it is.
+    /// Its law.
     pub fn kind(&self) -> Option<&'static LawKind> {
         match self {
             ModuleKey::Read(module) => Some(module.code.kind()),
@@ -40,7 +38,7 @@ impl ModuleKey {
     }
 }
 
-/// Reads `module` and `module_sha256` of `[control]`, of which `written` is read; completes the checksum there.
+/// Reads `module` and `module_sha256` of `[control]`; completes the checksum in `written`.
 pub(super) fn read(section: &mut Section<'_, '_>, written: &mut Written) -> ModuleKey {
     let [file, sha256] = ["module", "module_sha256"].map(|key| written.text(key).map(str::to_owned));
     if !section.has("module") {
@@ -59,7 +57,7 @@ pub(super) fn read(section: &mut Section<'_, '_>, written: &mut Written) -> Modu
     }
 }
 
-/// Refuses a module that is given measurements of sensors which the file does not have.
+/// Refuses a module whose sensors the file does not have.
 pub(super) fn check_sensors(root: &mut Section<'_, '_>, module: &ModuleSpec, sensors: &[Option<SensorSpec>]) {
     let has = |sensor: &SensorSpec| (sensor.name.to_string(), sensors::KINDS[sensor.kind].name);
     let there: Vec<(String, &str)> = sensors.iter().flatten().map(has).collect();
@@ -81,8 +79,7 @@ pub(super) fn check_sensors(root: &mut Section<'_, '_>, module: &ModuleSpec, sen
     }
 }
 
-/// The module in the file called `name`, of which `sha256` is the checksum that is written; or the key that is wrong,
-/// what is allowed, and the remedy.
+/// The module in the file `name` with the checksum `sha256`; or the wrong key, its allowed values and the remedy.
 fn module(
     section: &mut Section<'_, '_>,
     name: &str,

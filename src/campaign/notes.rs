@@ -1,5 +1,4 @@
-//! [`Plan::notes`]: what is allowed in a campaign file, and is probably not what was meant, as far as the file alone
-//! says.
+//! [`Plan::notes`]: valid settings that are probably not meant.
 
 use super::plan::{Plan, ROUNDING_OF_PLATES};
 use super::requirement::{Requirement, Subject};
@@ -10,7 +9,7 @@ use crate::sampling::design::{MAX_SAMPLES, Size};
 use crate::scene::Scene;
 
 impl Plan {
-    /// What about this plan a person should know before it is run, one sentence each.
+    /// Notes for the user before a run, one sentence each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.ignored.clone();
         if self.samples > 1 && self.dispersions.columns().is_empty() {
@@ -59,8 +58,7 @@ impl Plan {
         notes
     }
 
-    /// Why no drivers are told from so many `runs`: the design binds inputs to each other ([`Design::bound`]). `None`
-    /// where it does not.
+    /// Why `runs` runs separate no drivers: the design binds inputs to each other ([`Design::bound`]).
     ///
     /// [`Design::bound`]: crate::sampling::Design::bound
     pub fn bound_inputs(&self, runs: u64) -> Option<String> {
@@ -74,7 +72,7 @@ impl Plan {
         ))
     }
 
-    /// That there are fewer samples than the design has points.
+    /// A note on fewer samples than the design has points.
     fn part_of_a_design(&self) -> Option<String> {
         let drawn = self.samples - 1;
         let (points, remedy) = match self.design.size(self.dispersions.dimensions().len()) {

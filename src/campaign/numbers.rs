@@ -1,4 +1,4 @@
-//! Numbers in a [`Section`]: one, a vector, a matrix, with units in text, and what is said where there is none.
+//! Numbers, vectors and matrices of a [`Section`], with units in text.
 
 use super::section::Section;
 use super::units::{self, UnitProblem};
@@ -29,28 +29,26 @@ impl Section<'_, '_> {
         self.every = Some(unit);
     }
 
-    /// Says what this table is about, and in which unit its amounts are.
+    /// Sets the quantity that the table is about, and its unit.
     pub(super) fn describes(&mut self, about: impl Into<Option<String>>, unit: &'static str) {
         (self.about, self.unit) = (about.into(), unit);
     }
 
-    /// The unit in which the numbers of `key` are: that of all numbers of the table, or the one at the end of the key.
+    /// The unit of the numbers of `key`.
     pub(super) fn unit_of(&self, key: &str) -> &'static str {
         self.every.unwrap_or_else(|| units::in_name(key))
     }
 
-    /// The plain number of `key`, if one was written, whether it is allowed or not: for examples near what else was
-    /// written.
+    /// The number of `key`, valid or not, for examples.
     pub fn written(&self, key: &str) -> Option<f64> {
         number(self.value(key)?.get_ref(), self.unit_of(key))
     }
 
-    /// A number, if it was written and is allowed.
+    /// A valid number, if written.
     pub fn number(&mut self, key: &str, limit: NumberLimit) -> Option<f64> {
         self.number_in(key, self.unit_of(key), limit)
     }
 
-    /// The same in `unit`.
     pub(super) fn number_in(&mut self, key: &str, unit: &'static str, limit: NumberLimit) -> Option<f64> {
         let value = self.take(key)?;
         match number(value.get_ref(), unit) {
@@ -67,8 +65,7 @@ impl Section<'_, '_> {
         }
     }
 
-    /// Notes that `value` of `key`, in `unit`, is no number or numbers: what is wrong with a unit in it, if there is
-    /// one, else `allowed` and `remedy`.
+    /// Notes that `value` of `key` is not a number in `unit`: the problem of its unit, else `allowed` and `remedy`.
     pub(super) fn refuse_number(
         &mut self,
         key: &str,
@@ -87,9 +84,8 @@ impl Section<'_, '_> {
         self.require(key, &numbers_in_words(count), example);
     }
 
-    /// Fills `numbers` with the finite numbers of `key`: one, a list, or for nine of them three rows; whether the key
-    /// was written. What is wrong is noted, with numbers as `limit` allows them for example, and the numbers are then
-    /// NaN.
+    /// Fills `numbers` with the finite numbers of `key`: one, a list, or three rows for nine; returns whether the key
+    /// was written. A problem is noted, with an example within `limit`, and gives NaN.
     pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: Limit) -> bool {
         let Some(value) = self.take(key) else { return false };
         let unit = self.unit_of(key);
@@ -113,19 +109,19 @@ impl Section<'_, '_> {
         true
     }
 
-    /// The three finite numbers of a direction, if they were written; NaN each where they are wrong.
+    /// The components of a direction, if written; NaN if wrong.
     pub fn direction(&mut self, key: &str) -> Option<[f64; 3]> {
         let mut vector = [f64::NAN; 3];
         self.fill(key, &mut vector, Limit::Direction).then_some(vector)
     }
 
-    /// A 3x3 matrix of finite numbers by rows, if it was written; NaN where it is wrong.
+    /// A 3x3 matrix by rows, if written; NaN if wrong.
     pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
         let mut matrix = [[f64::NAN; 3]; 3];
         self.fill(key, matrix.as_flattened_mut(), Limit::Finite).then_some(matrix)
     }
 
-    /// One finite number in `unit`, or an array of them, if written.
+    /// A finite number in `unit` or an array of them, if written.
     pub fn values(&mut self, key: &str, unit: &'static str) -> Option<Values> {
         let value = self.take(key)?;
         let values = match value.get_ref() {
@@ -146,7 +142,7 @@ impl Section<'_, '_> {
         values
     }
 
-    /// A whole number within `range`, if it was written.
+    /// A whole number within `range`, if written.
     pub fn count(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
         let value = self.take(key)?;
         let count = value.get_ref().as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
@@ -163,7 +159,7 @@ impl Section<'_, '_> {
     }
 }
 
-/// The number of an integer, a float, or a text with a unit, in the SI unit `unit`; NaN and infinities too.
+/// An integer, float or text with a unit, in the SI unit `unit`; may be NaN or infinite.
 pub(super) fn number(value: &DeValue<'_>, unit: &str) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
@@ -173,7 +169,7 @@ pub(super) fn number(value: &DeValue<'_>, unit: &str) -> Option<f64> {
     }
 }
 
-/// What is wrong with the first text in a value, if it should be a number of the SI unit `unit`.
+/// The problem of the first text in a value that should be a number in `unit`.
 fn unit_problem(value: &DeValue<'_>, unit: &str) -> Option<UnitProblem> {
     match value {
         DeValue::String(text) => units::parsed(text, unit).err(),
@@ -207,35 +203,31 @@ fn remedy_for_text(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-/// Largest number of samples of a campaign: ids stay exact in a double.
 pub const MAX_SAMPLES: u64 = crate::sampling::design::MAX_SAMPLES;
-/// Largest seed: TOML integers are signed.
+/// TOML integers are signed.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
-/// Largest number of observation points: some gigabytes in each thread.
+/// Some gigabytes in each thread.
 pub const MAX_POINTS: u64 = 1_000_000;
 
-/// Tolerances between a few units in the last place and the point where nothing is accurate any more.
+/// From a few units in the last place to useless accuracy.
 pub const TOLERANCE: NumberLimit = NumberLimit {
     allowed: "a number from 1e-16 to 1e-2",
     remedy: "1e-10 is a good start",
     range: between(1e-16, 1e-2),
 };
 
-/// A probability that is neither impossible nor certain.
 pub const PROBABILITY: NumberLimit = NumberLimit {
     allowed: "a number between 0 and 1, neither included",
     remedy: "write it like 0.99",
     range: inside(0.0, 1.0),
 };
 
-/// Confidence of an interval or a decision.
 pub const CONFIDENCE: NumberLimit = NumberLimit {
     allowed: "a number from 0.5 to below 1",
     remedy: "0.95 is usual",
     range: (Bound::Included(0.5), Bound::Excluded(1.0)),
 };
 
-/// A share of the samples.
 pub const FRACTION: NumberLimit = NumberLimit {
     allowed: "a number from 0 to 1",
     remedy: "0.01 runs one sample in a hundred again exactly, 1 all of them",

@@ -5,7 +5,7 @@ use super::section::Section;
 use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row};
 use crate::scene::{EnvironmentInput, LawParameter, Parameter, SceneInput};
 
-/// The key that says what a table is about.
+/// The key for the subject of a table.
 pub const PARAMETER: Row = Row::new("parameter", Kind::Text(ANY_TEXT), "A number of the scene or of the control loop")
     .required_as("a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
 
@@ -25,7 +25,7 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
     found
 }
 
-/// The setting that a key of a table with this header needs in order to act, where `environment` lacks it.
+/// The setting without which a key of the table `header` has no effect.
 pub fn lacking(environment: &EnvironmentInput, header: &str, key: &str) -> Option<&'static str> {
     let (acts, setting) = match (header, key) {
         ("environment", "density_scale") | ("plates", "drag_coefficient") => (environment.drag, "drag = true"),
@@ -40,8 +40,8 @@ pub fn lacking(environment: &EnvironmentInput, header: &str, key: &str) -> Optio
     (!acts).then_some(setting)
 }
 
-/// Why no draw of `parameter` would change a run, and the remedy: its effect does not act, or it is a number that a
-/// filter takes from the file.
+/// Why draws of `parameter` change no run, and the remedy: its effect does not act, or a filter believes the file's
+/// number.
 pub(super) fn without_effect(table: &Section<'_, '_>, parameter: Parameter) -> Option<(String, &'static str)> {
     let (name, environment) = (parameter.name(), &table.document.scene.environment);
     let header = name.split('.').next().unwrap_or_default();
@@ -62,10 +62,9 @@ pub(super) fn without_effect(table: &Section<'_, '_>, parameter: Parameter) -> O
     })
 }
 
-/// What is said of a name that is no parameter: what is allowed, and what was probably meant.
+/// Allowed names and remedy for an unknown parameter.
 pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, String) {
     let names: Vec<String> = Parameter::all(scene).map(Parameter::name).collect();
-    // a component by its index: its name is said
     let indexed = name.strip_suffix(']').and_then(|rest| rest.split_once('[')).and_then(|(stem, index)| {
         let (parameter, _) = Parameter::find(scene, stem)?;
         let component = index.parse().ok().filter(|index: &usize| *index < parameter.width())?;
@@ -78,7 +77,7 @@ pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, Stri
     ("a numeric key of scene or initial state, as a whole or with a component (.x)".to_owned(), remedy)
 }
 
-/// The component that a name means: dotted, or as a column of rows.
+/// The component with this dotted name or name of a column.
 pub(super) fn named(scene: &SceneInput, name: &str) -> Option<(Parameter, usize)> {
     let flat = || {
         Parameter::all(scene).find_map(|parameter| {

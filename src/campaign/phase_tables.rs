@@ -1,4 +1,4 @@
-//! `[[guidance]]`: the phases of a control loop as a campaign file says them, and what follows each.
+//! `[[guidance]]`: the phases of a control loop and their order.
 
 use super::module_key::ModuleKey;
 use super::section::Section;
@@ -16,15 +16,15 @@ use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, LawParameter, Name, SceneInput, WheelMode};
 
-/// The word that stands for the launch of the net where a phase stands else.
+/// A phase name that stands for the launch of the net.
 const LAUNCH: &str = "launch";
-/// The law that may have the term omega x H or not.
+/// The law with an optional term omega x H.
 const GYROSCOPIC: &str = "mrp_feedback";
 const TARGET_NAMES: [&str; TARGETS.len()] = words(&TARGETS);
 const MANEUVER_NAMES: [&str; MANEUVERS.len()] = words(&MANEUVERS);
 const ROD_USE_NAMES: [&str; ROD_USES.len()] = words(&ROD_USES);
 
-/// The keys of `[[guidance]]` that are no parameters.
+/// The keys of `[[guidance]]` that are not parameters.
 #[rustfmt::skip]
 pub const ROWS: [Row; 9] = [
     Row::new("phase", Kind::Text(ANY_TEXT), "Its name").required_as(Name::ALLOWED, "\"hold\""),
@@ -39,7 +39,6 @@ pub const ROWS: [Row; 9] = [
     Row::new("otherwise", Kind::Text(ANY_TEXT), "The phase that follows at once where the condition is not met"),
 ];
 
-/// What they have to do with each other.
 pub const RULES: [Rule; 2] = [
     Rule::Only {
         keys: &["gyroscopic"],
@@ -55,7 +54,7 @@ pub const RULES: [Rule; 2] = [
     },
 ];
 
-/// The law that a phase names among `kinds`. A module that is wrong is told once: here it counts as no law.
+/// The law of a phase; a wrong module, reported already, counts as none.
 fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &ModuleKey) -> Option<&'static LawKind> {
     let is_module = section.value("law").and_then(|value| value.get_ref().as_str()) == Some(flight_code::NAME);
     match module {
@@ -79,8 +78,8 @@ fn meaning<T: Copy>(list: &[(&str, T)], written: &Written, key: &str) -> Option<
     list.iter().find(|(word, _)| written.text(key) == Some(word)).map(|(_, meaning)| *meaning)
 }
 
-/// One table of `[[guidance]]`; its name joins `taken`. `None` where its name is wrong, or a word that other keys
-/// depend on, which are then not known.
+/// Reads one table of `[[guidance]]` and adds its name to `taken`. `None` if its name, or a word on which other keys
+/// depend, is wrong.
 pub(super) fn read_phase(
     section: &mut Section<'_, '_>,
     scene: &mut SceneInput,
@@ -105,7 +104,6 @@ pub(super) fn read_phase(
         }
         None => None,
     };
-    // a table without a name of its own keeps its place in the list
     let own = name.unwrap_or_else(|| Name::number(taken.len()));
     taken.push(own);
     if name.is_some() {
@@ -196,7 +194,7 @@ pub(super) fn read_phase(
     name.map(|_| PhaseSpec { name: own, law, gyroscopic, target, thrust, rods, until, next, otherwise, written })
 }
 
-/// The phases with what follows them. One with a condition and without `next` is followed by the next in the list.
+/// Links the phases; one with a condition and without `next` leads to the next in the list.
 pub(super) fn connected(
     root: &mut Section<'_, '_>,
     phases: Vec<Option<PhaseSpec>>,
@@ -205,7 +203,7 @@ pub(super) fn connected(
     let place = |word: &str| names.iter().position(|name| name.as_str() == word);
     let mut list = Vec::with_capacity(phases.len());
     let count = phases.len();
-    // a wrong name may be the one that a phase is followed by
+    // a phase with a wrong name may be the one meant
     let is_known = phases.iter().all(Option::is_some);
     let mut is_whole = true;
     for (index, phase) in phases.into_iter().enumerate() {

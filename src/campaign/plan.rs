@@ -1,5 +1,4 @@
-//! [`Plan`]: what will run. Defaults are filled in, scene and dispersions are checked; a row is a pure function of the
-//! plan and a sample's id.
+//! [`Plan`]: a resolved and checked campaign. A row is a pure function of the plan and a sample's id.
 
 use super::analysis::Analysis;
 use super::bands;
@@ -34,70 +33,57 @@ use std::path::{Path, PathBuf};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Name of the campaign and of its results folder.
     pub name: String,
-    /// The question that the campaign answers: `campaign.description`, else the first sentence of the comments above
-    /// the file's tables; of a file that says none, that of the file that it extends.
+    /// `campaign.description`, else the first sentence of the comments at the top of the file, else the description of
+    /// the file that it extends.
     pub description: Option<String>,
-    /// Number of samples, at least 1; sample 0 is the nominal scene.
+    /// At least 1; sample 0 is the nominal scene.
     pub samples: u64,
-    /// The samples that run, where these are not all.
+    /// The samples to run; `None` for all.
     pub chosen: Option<Chosen>,
-    /// The number of samples that the file says, where the campaign has ended at another one (`[stop]`); the plan as
-    /// text says this one.
+    /// The file's number of samples, which canonical text keeps, if `[stop]` ended the campaign at another one.
     pub written_samples: Option<u64>,
     pub seed: u64,
-    /// The times at which each run is observed.
     pub grid: Grid,
     pub method: Method,
     pub tolerance: Tolerance,
-    /// The fixed step, s; `Some` exactly where the method has one.
+    /// Step, s; `Some` exactly for fixed-step methods.
     pub step_s: Option<f64>,
-    /// Most steps of one run.
     pub max_steps: u64,
-    /// What is observed, in the order of the columns.
+    /// Observed groups, in the order of the columns.
     pub groups: Vec<Group>,
-    /// Whose angle from the angular momentum nutation is.
+    /// The axis whose angle from the angular momentum is the nutation angle.
     pub nutation_axis: NutationAxis,
     pub nominal: SceneInput,
     pub design: Design,
     pub dispersed: Vec<Dispersion>,
     pub correlated: Vec<Correlation>,
-    /// The derived parameters as written.
     pub derived: Vec<Derivation>,
-    /// The dispersions ready to be drawn.
     pub dispersions: Dispersions,
-    /// Fraction of the samples that are audited: compared with a reference solution.
+    /// Fraction of the samples that are compared with a reference solution.
     pub audit_fraction: f64,
-    /// Number of points at which quantiles over time are counted; 0 for none.
+    /// Points of the quantiles over time; 0 for none.
     pub band_points: usize,
-    /// How many of the first dispersed runs quantiles over time are of ([`Plan::last_counted`]).
+    /// Number of leading dispersed runs in quantiles over time ([`Plan::last_counted`]).
     pub band_runs: u64,
-    /// Compression of the row files.
     pub compression: Compression,
-    /// The control law of every run; its parameters are in the nominal scene.
+    /// The control law; its parameters are in the nominal scene.
     pub law: Option<ControlLaw>,
-    /// The events that runs are watched for.
     pub events: Vec<Event>,
-    /// The extremes that are looked for in them.
     pub extremes: Vec<Extreme>,
-    /// What is made of the rows.
     pub analysis: Analysis,
-    /// Which runs keep their full time series.
     pub retention: Retention,
-    /// The tables of events, extremes, analysis and retention as canonical text has them.
+    /// Tables of events, extremes, analysis and retention, as in canonical text.
     pub tables: Vec<(&'static str, Written)>,
-    /// The keys of the file that have no effect, a sentence each; the plan as text is without them.
+    /// One sentence for each key without effect; canonical text omits these keys.
     pub ignored: Vec<String>,
 }
 
-/// The files that a plan was made from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilesRead {
     pub campaign: PathBuf,
-    /// The files that it extends.
     pub extended: Vec<PathBuf>,
-    /// The files of numbers and the module that it names, each with the SHA-256 of its bytes.
+    /// Data files and module, each with its SHA-256.
     pub data: Vec<(PathBuf, String)>,
 }
 
@@ -111,49 +97,44 @@ impl FilesRead {
     }
 }
 
-/// What the command line says instead of the file, and what a program adds to it.
+/// Values of the command line that replace the file's, and laws of the calling program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
-    /// `--samples`.
     pub samples: Option<u64>,
-    /// `--seed`.
     pub seed: Option<u64>,
-    /// `--audit`.
     pub audit_fraction: Option<f64>,
-    /// `--set`: dotted keys and their values as texts.
+    /// `--set`: dotted keys and values.
     pub settings: Vec<(String, String)>,
-    /// The control law that the program brings: `[control]` of the file has its parameters.
+    /// A control law whose parameters `[control]` sets.
     pub law: Option<ControlLaw>,
-    /// The law of attitude that the program brings: phases may name it.
+    /// A law of attitude that phases may name.
     pub attitude_law: Option<&'static LawKind>,
 }
 
-/// Observation points where the file does not say.
 const POINTS: u64 = 101;
-/// The tolerance down to which the error estimate of runs with plates covers their errors
-/// (`tests/accuracy/error_estimate.rs`): beyond it the rounding of drag and light counts.
+/// Below this tolerance, the rounding of drag and light exceeds the error estimate
+/// (`tests/accuracy/error_estimate.rs`).
 pub(super) const ROUNDING_OF_PLATES: f64 = 1e-12;
-/// Tolerance where the file does not say. A Taylor series of higher order costs little: a run at 1e-14 takes about a
-/// tenth longer than one at 1e-10, and its errors are near rounding. Runge-Kutta methods pay with many more steps.
+/// Default tolerance. A Taylor run at 1e-14 takes a tenth longer than at 1e-10, with errors near rounding; Runge-Kutta
+/// methods need many more steps.
 fn default_tolerance(method: Method, scene: &SceneInput) -> f64 {
     match method {
-        // a Runge-Kutta method is what integrates them
+        // Runge-Kutta integrates them
         Method::Auto if scene.environment.acts_on_plates() => ROUNDING_OF_PLATES,
         Method::Auto | Method::Taylor => 1e-14,
         Method::Gyrostat(_) | Method::NullSpace => 1e-10,
     }
 }
-/// Most steps of a run where the file does not say: minutes of the slowest kernel, so that a run that is stuck ends.
+/// Default limit: minutes of the slowest kernel, so that a stuck run ends.
 const MAX_STEPS: u64 = 10_000_000;
 
 impl Plan {
-    /// The control loop of the campaign file; `None` without one, and of a law that a program brings.
+    /// The file's control loop; `None` without one and for a law of the calling program.
     pub fn loop_spec(&self) -> Option<&LoopSpec> {
         self.law.as_ref().and_then(ControlLaw::spec)
     }
 
-    /// The plan of a campaign that `[stop]` looks at when it has `samples` samples, or at the next number of samples of
-    /// a look; the same without `[stop]`.
+    /// The plan at the first look of `[stop]` with at least `samples` samples; unchanged without `[stop]`.
     #[must_use]
     pub fn at_look(self, samples: u64) -> Plan {
         let look = self.looks().into_iter().find(|look| *look >= samples);
@@ -163,7 +144,7 @@ impl Plan {
         }
     }
 
-    /// The number of samples that the file says: with `[stop]` that of the first look.
+    /// The number of samples in the file, which is the first look's with `[stop]`.
     pub fn first_samples(&self) -> u64 {
         self.written_samples.unwrap_or(self.samples)
     }
@@ -171,24 +152,23 @@ impl Plan {
     /// The plan of the file at `path`.
     ///
     /// # Errors
-    /// That the file cannot be read, or everything that is wrong with it.
     pub fn load(path: &Path, overrides: Overrides) -> Result<Plan, CampaignError> {
         Self::load_with_files(path, overrides).map(|(plan, _)| plan)
     }
 
-    /// The same, and the files that were read.
+    /// [`Plan::load`], with the files read.
     ///
     /// # Errors
-    /// That the file cannot be read, or everything that is wrong with it.
+    /// An unreadable file, or all its problems.
     pub fn load_with_files(path: &Path, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
         let text = size::read(path, &path.display().to_string())?;
         Self::from_text_of(path, &text, overrides)
     }
 
-    /// The same of a file whose text has been read already.
+    /// [`Plan::load_with_files`] for a file whose text is known.
     ///
     /// # Errors
-    /// Everything that is wrong with the text.
+    /// All problems of the text.
     pub fn from_text_of(path: &Path, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
         let file =
             path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
@@ -196,21 +176,20 @@ impl Plan {
         Ok((plan, FilesRead { campaign: path.to_owned(), ..files }))
     }
 
-    /// The plan of a file's text; `file` is its name in messages.
+    /// The plan of a text, called `file` in messages.
     ///
     /// # Errors
-    /// Everything that is wrong with the text.
+    /// All problems of the text.
     pub fn from_text(file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
         Self::from_text_in(Path::new(""), file, text, overrides)
     }
 
-    /// The observables that it requests.
+    /// The requested observables.
     pub fn request(&self) -> Request {
         self.request_over(self.grid.duration())
     }
 
-    /// The observables that it requests of runs of `duration` seconds, which decides which commands of the schedule
-    /// act.
+    /// The observables of runs of `duration` seconds, which decides which commands of the schedule act.
     pub fn request_over(&self, duration: f64) -> Request {
         let acting = acting_scene(duration, &self.nominal, &self.dispersions);
         let mut request =
@@ -220,10 +199,10 @@ impl Plan {
         request
     }
 
-    /// The same of a file in `folder`, from which the paths in the text count.
+    /// [`Plan::from_text`] with paths relative to `folder`.
     ///
     /// # Errors
-    /// Everything that is wrong with the text.
+    /// All problems of the text.
     pub fn from_text_in(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
         read(folder, file, text, overrides).map(|(plan, _)| plan)
     }
@@ -243,8 +222,7 @@ fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(
     Ok((Plan { description, ..plan }, FilesRead { campaign: PathBuf::new(), extended: sources.extended, data }))
 }
 
-/// The nominal scene with the commands that may act in a run of `duration` seconds: without arcs that start later,
-/// unless draws move them.
+/// The nominal scene without arcs that start after `duration` seconds, unless start times are dispersed.
 fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) -> SceneInput {
     let mut acting = scene.clone();
     if !dispersions.columns().iter().any(|column| column.parameter.facts().key.ends_with("_delay_s")) {
@@ -254,7 +232,6 @@ fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) ->
     acting
 }
 
-/// A plan that is missing although no problem was found: impossible, and reported as an error.
 fn unreachable_plan(file: &str) -> CampaignError {
     CampaignError::of(Problem {
         file: file.to_owned(),
@@ -297,8 +274,7 @@ fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document
     overrides.audit_fraction.into_iter().for_each(|fraction| spec.set("audit", "fraction", fraction));
 }
 
-/// Fills in the defaults, checks what needs several keys, and calls the checks of the layers below; `None` where
-/// something is wrong.
+/// Fills in defaults, checks keys against each other and runs the checks of the layers below; `None` after a problem.
 fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     let (campaign, integrator) = (spec.settings("campaign"), spec.settings("integrator"));
     let (seed, duration_s, step_s) =
@@ -326,7 +302,7 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     }
 
     if document.is_loop_unknown {
-        // what can be dispersed, and named in requirements, depends on it
+        // parameters and columns depend on the loop
         return None;
     }
     let drawn = DrawTables::of(&spec.dispersions, &spec.correlations, &spec.derivations);

@@ -1,7 +1,5 @@
-//! The rows of a [`Plan`]: how many there are, and which sample each is. They are all samples in order, or those of
-//! `campaign.only`.
-//!
-//! Parts count rows; a sample is drawn by its number.
+//! The rows of a [`Plan`]: all samples in order, or those of `campaign.only`. Parts count rows; draws depend on sample
+//! numbers.
 
 use super::chosen::{Chosen, MOST_CHOSEN};
 use super::plan::Plan;
@@ -9,31 +7,29 @@ use crate::sampling::SampleId;
 use crate::statistics::looks::looks;
 
 impl Plan {
-    /// Number of rows: of samples that run.
+    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.chosen.as_ref().map_or(self.samples, |chosen| chosen.samples().len() as u64)
     }
 
-    /// The sample of row `row`, which there is.
+    /// The sample of an existing row.
     pub fn sample(&self, row: u64) -> SampleId {
         let of_list = |chosen: &Chosen| usize::try_from(row).ok().and_then(|row| chosen.samples().get(row).copied());
         SampleId(self.chosen.as_ref().map_or(row, |chosen| of_list(chosen).unwrap_or(u64::MAX)))
     }
 
-    /// Number of rows that are not that of the nominal sample.
+    /// Number of rows without the nominal sample.
     pub fn dispersed_rows(&self) -> u64 {
         self.rows() - u64::from(self.rows() > 0 && self.sample(0) == SampleId(0))
     }
 
-    /// The last sample that is counted in quantiles over time: the first ones are, where they represent the others,
-    /// else all.
+    /// The last sample in quantiles over time: of the first ones if these represent all, else the last of all.
     pub fn last_counted(&self) -> SampleId {
         let are_alike = self.chosen.is_none() && self.design.begins_as_it_goes_on();
         SampleId(if are_alike { self.band_runs } else { u64::MAX })
     }
 
-    /// The numbers of samples, sample 0 included, at which it is looked at; the last one ends it. Without `[stop]` it
-    /// is one.
+    /// The numbers of samples, sample 0 included, at which `[stop]` may end the campaign; the last one ends it.
     pub fn looks(&self) -> Vec<u64> {
         match &self.analysis.stop {
             Some(stop) => looks(self.first_samples(), stop.max_samples),
@@ -41,10 +37,10 @@ impl Plan {
         }
     }
 
-    /// The plan that runs `samples` only, which are samples of this one, ascending.
+    /// The plan that runs only `samples`, ascending, of this plan.
     ///
     /// # Errors
-    /// Why there is none.
+    /// A plan with `[stop]`, a missing sample, or too many samples.
     pub fn only(self, samples: Vec<u64>) -> Result<Plan, String> {
         let count = samples.len();
         if self.analysis.stop.is_some() {

@@ -3,27 +3,23 @@
 use super::excerpt::{Excerpt, printable};
 use std::fmt::{self, Display, Formatter};
 
-/// Problems that a message shows; the others are counted.
+/// Problems shown in a message; the others are counted.
 pub const SHOWN: usize = 20;
 
-/// One reason why a campaign cannot run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// The file, as it was named.
     pub file: String,
-    /// The line, from 1; `None` where the file has no line for it (a table that is missing).
+    /// From 1; `None` without a line, as for a missing table.
     pub line: Option<usize>,
-    /// The dotted key, `actuation[1].start_s`.
+    /// Dotted: `actuation[1].start_s`.
     pub key: String,
-    /// The value as written; `None` where the key is missing.
+    /// As written; `None` for a missing key.
     pub value: Option<String>,
-    /// What it must be (to follow the words `must be`); of a key that is unknown, what has no such key (to follow `not
-    /// a key of`).
+    /// Follows `must be`; for an unknown key, `not a key of`.
     pub allowed: String,
     pub remedy: String,
-    /// Whether it is the key that is wrong: nothing has it.
+    /// Whether the key is unknown.
     pub is_unknown: bool,
-    /// The line with a mark under what is wrong, where the file has it.
     pub excerpt: Option<Excerpt>,
 }
 
@@ -45,16 +41,16 @@ impl Display for Problem {
     }
 }
 
-/// Why a campaign file cannot run: everything at once, by line.
+/// All problems of a campaign file, by line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CampaignError {
-    /// The reasons, at least one.
+    /// At least one.
     pub problems: Vec<Problem>,
-    /// Number of further reasons, which are not in the list.
+    /// Number of further problems.
     pub more: usize,
-    /// What that many reasons probably mean.
+    /// A probable cause of all.
     pub note: Option<&'static str>,
-    /// Whether the only reason is that files cannot be read now: nothing is known to be wrong with the campaign.
+    /// Whether all problems are files that are unreadable now.
     pub is_unreadable: bool,
 }
 
@@ -63,7 +59,7 @@ impl CampaignError {
         CampaignError { problems: vec![problem], more: 0, note: None, is_unreadable: false }
     }
 
-    /// The message with the lines of the file, each with a mark under what is wrong in it.
+    /// The message with the marked lines of the file.
     pub fn with_excerpts(&self) -> String {
         self.text(|problem| match &problem.excerpt {
             Some(excerpt) => format!("{problem}\n{excerpt}"),
@@ -71,7 +67,6 @@ impl CampaignError {
         })
     }
 
-    /// The first reasons, each as `shown` has it, and how many more there are.
     fn text(&self, shown: impl Fn(&Problem) -> String) -> String {
         let mut lines: Vec<String> = self.problems.iter().take(SHOWN).map(shown).collect();
         let more = self.more + self.problems.len().saturating_sub(SHOWN);

@@ -1,4 +1,4 @@
-//! [`Requirement`]: a `[[require]]` table, what a campaign must show.
+//! [`Requirement`]: a `[[require]]` table.
 
 use super::numbers::{CONFIDENCE, PROBABILITY};
 use super::section::Section;
@@ -8,82 +8,68 @@ use crate::run::{points_before, points_to};
 use crate::sampling::keys::{Condition, Kind, ListLimit, Presence, Row, Rule};
 use crate::statistics::gate::GateLimit;
 
-/// What must be within the limit.
+/// The statistic that the limit bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Statement {
-    /// This quantile of the runs.
     Quantile(f64),
-    /// Each of this fraction of the runs.
     Fraction(f64),
-    /// The mean of the runs.
     Mean,
 }
 
-/// What a requirement is about.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
-    /// An observable: one number of a run.
     Observable(String),
-    /// A quantity over time: its number at every point of its bands in an interval, each for itself.
+    /// A quantity at each point of its bands in an interval, point by point.
     Band(BandSubject),
-    /// A quantity over time in an interval as a whole: its extreme in a run.
+    /// The extreme of a quantity in an interval of each run.
     AtAllTimes {
-        /// The quantity and the interval.
         band: BandSubject,
-        /// What the rows have of it.
         window: Window,
-        /// The name of the column.
         column: String,
     },
 }
 
-/// A quantity over time, in an interval.
+/// A quantity over time in an interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandSubject {
-    /// Name of the quantity, as in `bands.parquet`.
+    /// Its name in `bands.parquet`.
     pub series: String,
-    /// Start of the interval, s; `None`: of the run.
+    /// Start, s; `None` for the start of the run.
     pub from_s: Option<f64>,
-    /// End of the interval, s; `None`: of the run.
+    /// End, s; `None` for the end of the run.
     pub to_s: Option<f64>,
 }
 
 impl BandSubject {
-    /// Whether the interval has the time `time`, s.
+    /// Whether the interval contains `time`, s.
     pub fn contains(&self, time: f64) -> bool {
         self.from_s.is_none_or(|from| points_before(&[time], from) == 0)
             && self.to_s.is_none_or(|to| points_to(&[time], to) == 1)
     }
 }
 
-/// What a campaign must show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
     pub subject: Subject,
-    /// What of it must be within the limit.
     pub statement: Statement,
-    /// The limit, in the unit of the observable or of the quantity over time.
+    /// In the unit of the subject.
     pub limit: GateLimit,
-    /// Of a mean: between which values every value is known to be.
+    /// For a mean: bounds of every value.
     pub bounded: Option<[f64; 2]>,
-    /// Of a fraction: whether a run without a value, of something that never happens, meets it; otherwise it violates
-    /// it.
+    /// For a fraction: whether a run without a value meets it, because the event never happens.
     pub never_meets: bool,
     pub confidence: f64,
 }
 
-/// Confidence where the file does not say.
 pub const DEFAULT_CONFIDENCE: f64 = 0.95;
-/// What a run without a value does, in the order of `false` and `true`.
+/// For `false` and `true`.
 const NEVER: [&str; 2] = ["violates", "meets"];
-/// The bounds of a mean.
 const BOUNDS: ListLimit = ListLimit {
     allowed: "two numbers, the smaller one first: no run has a value outside of them",
     remedy: "write it like [0.0, 1.0]",
     test: |list| matches!(list, [low, high] if low < high),
 };
 
-/// The keys of a requirement.
 #[rustfmt::skip]
 pub const ROWS: [Row; 13] = [
     Row::new("observable", Kind::Observable, "The observable that must keep the limit"),
@@ -107,7 +93,6 @@ pub const ROWS: [Row; 13] = [
 
 const A_TABLE_EACH: &str = "write a [[require]] table for each";
 
-/// What they have to do with each other.
 pub const RULES: [Rule; 7] = [
     Rule::One(&[&["observable"], &["band"]], "\"energy_error_max\"", A_TABLE_EACH),
     Rule::One(&[&["quantile"], &["fraction"], &["mean"]], "0.99", A_TABLE_EACH),
@@ -139,7 +124,7 @@ pub const RULES: [Rule; 7] = [
 ];
 
 impl Requirement {
-    /// Reads one table; `None` where something is wrong, which is then noted.
+    /// Reads one table; `None` after a problem.
     pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         table.describes(None, units::UNKNOWN);
         let written = table.whole(&ROWS, &RULES)?.completed(&ROWS, &RULES);
@@ -179,12 +164,12 @@ impl Requirement {
         }
     }
 
-    /// Whether a run whose observable has this value meets it; NaN is none.
+    /// Whether a run with this value of the observable, which may be NaN, meets it.
     pub fn is_met(&self, value: f64) -> bool {
         self.limit.is_met(value) || self.never_meets && value.is_nan()
     }
 
-    /// The observable that must keep the limit; `None` where it is about a quantity at each time.
+    /// The observable; `None` for a quantity at each time.
     pub fn observable(&self) -> Option<&str> {
         match &self.subject {
             Subject::Observable(name) | Subject::AtAllTimes { column: name, .. } => Some(name),
@@ -192,7 +177,7 @@ impl Requirement {
         }
     }
 
-    /// What the rows have for it alone.
+    /// The extreme over time that only this requirement adds to the rows.
     pub fn window(&self) -> Option<Window> {
         match &self.subject {
             Subject::AtAllTimes { window, .. } => Some(*window),
@@ -200,7 +185,7 @@ impl Requirement {
         }
     }
 
-    /// The quantity over time that must keep the limit, with the interval.
+    /// The quantity over time and its interval.
     pub fn band(&self) -> Option<&BandSubject> {
         match &self.subject {
             Subject::Observable(_) => None,
@@ -208,7 +193,7 @@ impl Requirement {
         }
     }
 
-    /// The name of what it is about.
+    /// The name of its observable or quantity over time.
     pub fn name(&self) -> &str {
         match &self.subject {
             Subject::Observable(name) => name,
@@ -216,8 +201,8 @@ impl Requirement {
         }
     }
 
-    /// When the limit holds, in words: in each run at all times, or at each time, at which other runs may be beyond it;
-    /// empty without times.
+    /// The times at which the limit holds, in words: in each run at all times, or at each time separately; empty
+    /// without times.
     pub fn times(&self) -> String {
         let Some(band) = self.band() else { return String::new() };
         let which = if self.window().is_some() { "at all times" } else { "at each time" };

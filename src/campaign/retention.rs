@@ -1,37 +1,35 @@
-//! The `[retain]` table: which runs keep their full time series. No row depends on it.
+//! The `[retain]` table. No row depends on it.
 
 use super::section::{Section, choice};
 use crate::sampling::keys::{ANY_TEXT, Kind, Row, Written};
 
-/// Which runs keep their full time series.
+/// Runs that keep their full time series.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Retention {
     #[default]
     None,
-    /// All, the nominal one among them.
+    /// All, including the nominal run.
     All,
-    /// Those that are not `ok`.
+    /// Runs that are not `ok`.
     Failed,
-    /// The dispersed runs with the largest magnitudes of an observable, this many.
+    /// The `count` dispersed runs with the largest magnitudes of an observable.
     Worst { count: u64, observable: String },
-    /// This many dispersed runs, chosen at random.
+    /// This many dispersed runs at random.
     Sample(u64),
 }
 
 const KEY: &str = "trajectories";
 const ALLOWED: &str = "\"none\", \"all\", \"failed\", \"worst:20 by energy_error_max\" or \"sample:100\"";
-/// The keys of the table.
 pub const ROWS: [Row; 1] = [Row::new(
     KEY,
     Kind::Text(ANY_TEXT),
     "Runs whose full time series are kept: `none` (default), `all`, `failed`, `worst:20 by energy_error_max`, \
     `sample:100`",
 )];
-/// Most runs of `worst` and `sample`.
 const MOST: u64 = 1_000_000;
 
 impl Retention {
-    /// Reads the table; `None` without the key, and where it is wrong, which is then noted.
+    /// Reads the table; `None` after a problem.
     pub(super) fn read(section: &mut Section<'_, '_>) -> Option<Self> {
         let written = section.whole(&ROWS, &[])?;
         let retention = written.text(KEY).map_or(Some(Retention::None), |text| parsed(section, text))?;

@@ -1,7 +1,5 @@
-//! The tables that describe the scene: their numbers are declared by [`crate::scene::schema`], their other keys here.
-//!
-//! Here is also what no single key can say: which ways to describe a body exclude each other, what belongs to a body
-//! that is not there, and what has no effect.
+//! The scene's tables: [`crate::scene::schema`] declares their numbers, this file their other keys and the rules
+//! between several keys.
 
 use super::control;
 use super::failure_tables;
@@ -27,7 +25,7 @@ const SHADOWS: [&str; Shadow::ALL.len()] = ["cone", "cylinder"];
 const EPOCH: TextLimit =
     TextLimit { allowed: Epoch::ALLOWED, remedy: "correct the date", test: |text| Epoch::parse(text).is_some() };
 
-/// The tables of the scene but for the control loop and what fails, in the order of canonical text.
+/// All tables of the scene except control loop and failures, in the order of canonical text.
 #[rustfmt::skip]
 pub static TABLES: [SceneTable; 12] = [
     SceneTable::new(&[Table::Body, Table::BodyErrors], |_| true).checked(check_body).with(&[], &[Field {
@@ -95,7 +93,7 @@ pub static TABLES: [SceneTable; 12] = [
     SceneTable::list(&[Table::Plate], MAX_PLATES, |scene, name| {
         scene.plates.push(PlateInput { name, ..PlateInput::DEFAULT });
     }),
-    // each arc is read in the same time, and there are as many as a file may have keys
+    // the number of arcs is limited by the file's number of keys alone
     SceneTable::list(&[Table::Actuation, Table::ArcErrors], usize::MAX, |scene, name| {
         scene.actuation.push(ActuationInput { name, ..ActuationInput::DEFAULT });
     })
@@ -132,7 +130,7 @@ pub(super) fn read(root: &mut Section<'_, '_>) -> SceneInput {
         let content = "a table with the mass properties of the body, or its parts";
         root.document.add("body", None, content, "add a [body] table, or [[body.parts]] tables");
     }
-    // what is said of the body depends on its parts and on the wheels
+    // the checks of the body depend on its parts and on the wheels
     TABLES[1..].iter().for_each(|table| table.read(root, &mut scene));
     if root.has("body") {
         TABLES[0].read(root, &mut scene);
@@ -148,13 +146,12 @@ pub(super) fn write(scene: &SceneInput, lines: &mut Lines, write_law: impl FnOnc
     failure_tables::TABLE.write(scene, lines);
 }
 
-/// Resets the keys of `[environment]` that do not act to their defaults, and notes them.
 fn ignore_idle(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usize) {
     let (written, blank) = (scene.environment, SceneInput::blank());
     let mut idle = Vec::new();
     for key in Table::Environment.keys_in(scene, 0) {
         let (Some(default), Some(numbers)) = (key.read(&blank, 0), key.write(scene, 0)) else { continue };
-        // a wrong number is refused, whether it acts or not
+        // a wrong number is refused even without effect
         let is_valid = numbers.iter().all(|number| number.is_finite() && *number >= 0.0);
         if lacking(&written, "environment", key.facts().key).is_some() && is_valid && numbers != default {
             numbers.copy_from_slice(default);
@@ -185,7 +182,6 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     section.finish();
 }
 
-/// Reads the control loop, where the file has one; refuses what only a loop has where it has none.
 fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     if root.has("control") {
         root.document.law = control::read(root, scene);
@@ -227,7 +223,6 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     }
 }
 
-/// A wheel is a solid cylinder, or given by mass and inertias.
 fn check_wheel(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     let by_mass = WheelInput::MASSES.iter().any(|key| section.has(key));
     let (asked, excluded) =
@@ -237,7 +232,6 @@ fn check_wheel(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usi
             section.refuse(key, "left out where the wheel is given by mass and inertias", "delete this line");
         }
     }
-    // a thin disc has a transverse moment of half its axial one
     let [_, axial, transverse] = WheelInput::MASSES.map(|key| section.written(key));
     let of_mass = [5.0, transverse.map_or(0.01, |moment| 1.6 * moment), axial.map_or(0.006, |moment| 0.6 * moment)];
     for (key, example) in asked.into_iter().zip(if by_mass { of_mass } else { [0.25, 0.1, 2700.0] }) {
@@ -271,7 +265,6 @@ fn check_body(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usi
     }
 }
 
-/// A part has the sizes of its shape, and a density or a mass.
 fn check_part(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     const SIZES: [(&str, &str); 5] = [
         ("outer_radius_m", "1.0"),
@@ -344,7 +337,7 @@ const MOMENTS: &str = "principal_moments_kg_m2";
 const SECOND: &str = "principal_second_moments_kg_m2";
 const TENSOR: &str = "inertia_kg_m2";
 
-/// Of the ways to write an inertia at most one may be used; axes belong to principal moments.
+/// At most one description of the inertia is allowed; axes need principal moments.
 fn exclude_inertias(section: &mut Section<'_, '_>) {
     let written: Vec<&str> = [MOMENTS, SECOND].into_iter().filter(|key| section.has(key)).collect();
     if let [first, second] = written[..] {

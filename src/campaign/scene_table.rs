@@ -1,5 +1,5 @@
-//! [`SceneTable`]: a table of the scene in a campaign file: the numbers that [`crate::scene::schema`] declares, and
-//! other keys as [`Field`]s. Reading and canonical text follow from both.
+//! [`SceneTable`]: a table of the scene: numbers that [`crate::scene::schema`] declares, and other keys as [`Field`]s,
+//! from which reading and canonical text follow.
 
 use std::collections::HashSet;
 
@@ -11,31 +11,29 @@ use crate::sampling::keys::{Row, Value};
 use crate::scene::table::Table;
 use crate::scene::{ArcErrors, Name, SceneInput};
 
-/// A key of the scene that is no number, and where an instance of its table has it.
+/// A key of the scene that is not a number.
 pub struct Field {
     pub row: Row,
-    /// Its value; `None` where canonical text leaves it out.
+    /// Its value; `None` to omit it from canonical text.
     pub get: fn(&SceneInput, usize) -> Option<Value>,
-    /// Takes what was read.
+    /// Sets the value read.
     pub set: fn(&mut SceneInput, usize, &Value),
 }
 
-/// Adds a table of this name to a scene.
 type Add = fn(&mut SceneInput, Name);
 
-/// A table of the scene.
 pub struct SceneTable {
-    /// Where its numbers are in the schema, in their order.
+    /// Its tables of numbers in the schema.
     pub numbers: &'static [Table],
-    /// Its other keys, in canonical text before the numbers and behind them.
+    /// Its other keys, before and behind the numbers in canonical text.
     pub fields: [&'static [Field]; 2],
-    /// How many there may be, where it is a list.
+    /// Most tables of a list.
     pub most: Option<usize>,
-    /// Adds one, where a scene need not have it.
+    /// Adds a table to a scene that need not have it.
     add: Option<Add>,
-    /// Whether canonical text of a scene has it.
+    /// Whether canonical text shows it.
     is_shown: fn(&SceneInput) -> bool,
-    /// Notes what is wrong with several keys together.
+    /// Checks several keys together.
     check: fn(&mut Section<'_, '_>, &mut SceneInput, usize),
 }
 
@@ -45,22 +43,19 @@ impl SceneTable {
         SceneTable { numbers, fields: [&[], &[]], most: None, add: None, is_shown, check: |_, _, _| {} }
     }
 
-    /// A list of at most so many tables.
+    /// A list of at most `most` tables.
     pub const fn list(numbers: &'static [Table], most: usize, add: Add) -> Self {
         SceneTable { most: Some(most), add: Some(add), ..Self::new(numbers, |_| true) }
     }
 
-    /// The same, where a scene need not have it.
     pub const fn optional(self, add: Add) -> Self {
         SceneTable { add: Some(add), ..self }
     }
 
-    /// The same with keys that are no numbers.
     pub const fn with(self, before: &'static [Field], behind: &'static [Field]) -> Self {
         SceneTable { fields: [before, behind], ..self }
     }
 
-    /// The same with a check.
     pub const fn checked(self, check: fn(&mut Section<'_, '_>, &mut SceneInput, usize)) -> Self {
         SceneTable { check, ..self }
     }
@@ -117,7 +112,7 @@ impl SceneTable {
             }
             lines.written(&header, &self.written(0, scene, place));
             for table in self.numbers {
-                // most arcs have none, and a schedule may have many thousands of arcs
+                // a schedule may have thousands of arcs, mostly without errors
                 if *table != Table::ArcErrors || scene.actuation[place].errors != ArcErrors::NONE {
                     lines.keys(*table, place, scene);
                 }
@@ -134,7 +129,7 @@ impl SceneTable {
     }
 }
 
-/// A field that is one of the names of a type.
+/// A field with one of the names of a type.
 macro_rules! word {
     ($row:expr, $Type:ty, $scene:ident, $place:ident => $field:expr) => {
         Field {
@@ -149,7 +144,7 @@ macro_rules! word {
     };
 }
 
-/// A field of `[environment]` that is true or false.
+/// A flag of `[environment]`.
 macro_rules! flag {
     ($key:ident, $meaning:literal) => {
         Field {
@@ -160,7 +155,7 @@ macro_rules! flag {
     };
 }
 
-/// A list of numbers of `[environment]` of any length.
+/// A list of numbers of `[environment]`.
 macro_rules! list {
     ($key:ident, $meaning:literal) => {
         Field {

@@ -1,7 +1,7 @@
-//! [`schema`]: the JSON Schema of campaign files, by which editors complete and check them, within draft 4.
+//! [`schema`]: the JSON Schema (draft 4) of campaign files, with which editors complete and check them.
 //!
-//! It is generated from the declared keys. It does not hold which keys must be written, rules for several keys
-//! together, names of other tables and units in texts: `spindrift check` checks those.
+//! It follows from the declared keys, without required keys, rules between keys, names of other tables and units in
+//! texts, which `spindrift check` checks.
 
 use std::ops::Bound;
 
@@ -23,7 +23,7 @@ use crate::sampling::{Design, DistributionKind};
 use crate::scene::schema::{Facts, Limit, Shape};
 use crate::scene::{LawParameter, Name};
 
-/// The keys of one table, each with what its value may be.
+/// The keys of a table, each with its schema.
 #[derive(Default)]
 struct Keys(Map<String, Json>);
 
@@ -87,13 +87,12 @@ impl Keys {
         keys
     }
 
-    /// A table with these keys and no others.
     fn table(self) -> Json {
         json!({"type": "object", "properties": self.0, "additionalProperties": false})
     }
 }
 
-/// A table for each kind, which `key` names.
+/// One alternative for each kind, named by `key`.
 fn one_of<'k>(key: &str, kinds: impl Iterator<Item = (&'k str, Keys)>) -> Json {
     let table = |(name, mut keys): (&str, Keys)| {
         keys.0.insert(key.to_owned(), json!({"enum": [name]}));
@@ -106,7 +105,7 @@ fn one_of<'k>(key: &str, kinds: impl Iterator<Item = (&'k str, Keys)>) -> Json {
 pub fn schema() -> Json {
     let mut file = Keys::default();
     file.add("extends", json!({"type": "string", "description": "The file that this one changes"}));
-    // a table, or a list of at most so many, where its dotted header leads
+    // adds a table, or a list of at most so many, at its dotted header
     let mut add = |header: &str, most: Option<usize>, table: Json| {
         let value = match most {
             Some(usize::MAX) => json!({"type": "array", "items": table}),
@@ -160,7 +159,7 @@ fn sensor(kind: &SensorKind) -> Keys {
     keys
 }
 
-/// A phase: with a law of this program, or with a law that a module or a program brings, whose keys are not known.
+/// A phase with a law of this program, or with another law, whose keys are unknown.
 fn guidance() -> Json {
     let mut keys = Keys::of(&phase_tables::ROWS);
     for (_, target) in TARGETS {
@@ -179,7 +178,6 @@ fn design(name: &str) -> Keys {
     Design::keys_of(name).map(|(rows, _)| Keys::of(rows)).unwrap_or_default()
 }
 
-/// The distributions that `are_meant`, each with its keys.
 fn distributions(are_meant: fn(DistributionKind) -> bool) -> impl Iterator<Item = (DistributionKind, Keys)> {
     let kinds = DistributionKind::ALL.iter().copied().filter(move |kind| are_meant(*kind));
     kinds.map(|kind| (kind, Keys::of(kind.keys())))
@@ -194,7 +192,7 @@ fn dispersions() -> impl Iterator<Item = (&'static str, Keys)> {
     })
 }
 
-/// A number within `range`, or a text with a number and its unit.
+/// A number within `range`, or a text with a unit.
 fn number(range: Range) -> Json {
     let mut value = json!({"type": ["number", "string"]});
     for (bound, key, exclusive) in [(range.0, "minimum", "exclusiveMinimum"), (range.1, "maximum", "exclusiveMaximum")]

@@ -1,5 +1,4 @@
-//! [`Section`]: one table of a [`Document`] while it is read, key by key: tables, texts and names. Numbers are in
-//! [`super::numbers`].
+//! [`Section`]: one table of a [`Document`] while it is read: tables, texts, names; [`super::numbers`] reads numbers.
 
 use super::document::{Document, Spans};
 use super::meaning::meant;
@@ -7,22 +6,21 @@ use super::units;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// One table of a document while it is read.
 #[derive(Debug)]
 pub struct Section<'d, 'a> {
     pub document: &'d mut Document<'a>,
     path: String,
-    /// What a table of a list is called in messages, once its name is known.
+    /// Name in messages of a named table of a list.
     title: Option<String>,
     table: Option<&'d DeTable<'a>>,
     known: Vec<String>,
-    /// Keys that may be there without effect.
+    /// Keys to accept without effect.
     ignored: Vec<&'static str>,
-    /// The unit of what the table describes and so of its distances, `std`, `min` and so on; `1` where there is none.
+    /// Unit of the quantity that the table is about, and so of `std`, `min` and so on; `1` for none.
     pub(super) unit: &'static str,
-    /// The name of that, where people may see it in another unit.
+    /// Name of this quantity if it may be shown in another unit.
     pub(super) about: Option<String>,
-    /// The unit of every number of the table, where all are of one kind.
+    /// Unit of every number of the table, if they share one.
     pub(super) every: Option<&'static str>,
 }
 
@@ -36,22 +34,19 @@ impl<'d, 'a> Section<'d, 'a> {
         Section { document, path, title: None, table, known, ignored, unit: "1", about: None, every: None }
     }
 
-    /// The dotted path of a key of this table.
     pub fn path(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    /// Whether the table was written.
     pub fn is_present(&self) -> bool {
         self.table.is_some()
     }
 
-    /// Whether `key` was written.
     pub fn has(&self, key: &str) -> bool {
         self.table.is_some_and(|table| table.contains_key(key))
     }
 
-    /// The value of `key` if it was written; the key is known from now on, and so is its line.
+    /// The written value of `key`, which becomes a known key.
     pub(super) fn take(&mut self, key: &str) -> Option<&'d Spanned<DeValue<'a>>> {
         self.know(key);
         self.value(key)
@@ -79,14 +74,13 @@ impl<'d, 'a> Section<'d, 'a> {
         }
     }
 
-    /// Notes that `value`, which `key` led to, is wrong.
+    /// Notes that `value`, which follows from `key`, is wrong.
     pub fn refuse_value(&mut self, key: &str, value: String, allowed: impl Into<String>, remedy: impl Into<String>) {
         self.note_line(key);
         let path = self.path(key);
         self.document.add(&path, Some(value), allowed, remedy);
     }
 
-    /// Notes that the value of `key` is wrong.
     pub fn refuse(&mut self, key: &str, allowed: impl Into<String>, remedy: impl Into<String>) {
         let value = self.value(key).map(|value| self.document.written(value));
         self.note_line(key);
@@ -99,13 +93,13 @@ impl<'d, 'a> Section<'d, 'a> {
         self.document.add(&path, Some(header), allowed, remedy);
     }
 
-    /// The table called `key`; one that was not written reads as empty.
+    /// The table `key`; a missing one reads as empty.
     pub fn section(&mut self, key: &str) -> Section<'_, 'a> {
         let path = self.path(key);
         let table = match self.take(key).map(Spanned::get_ref) {
             Some(DeValue::Table(table)) => Some(table),
             Some(_) => {
-                // `disperse[0]` is how messages name a table of a list, and no TOML
+                // `disperse[0]` is not TOML
                 let remedy = if path.contains('[') {
                     format!("write {key} = {{ distribution = \"uniform\", min = 0, max = 1 }}")
                 } else {
@@ -116,13 +110,12 @@ impl<'d, 'a> Section<'d, 'a> {
             }
             None => None,
         };
-        // a distribution of an angle, `angle_rad = { ... }`, has its own unit
+        // `angle_rad = { ... }` has a unit of its own
         let unit = Some(units::in_name(key)).filter(|unit| *unit != "1").unwrap_or(self.unit);
         Section { unit, ..Section::of(&mut *self.document, path, table) }
     }
 
-    /// The tables `[[key]]`, in order, each read by `read`; of more than `most` the first ones, after the others were
-    /// refused.
+    /// Reads the tables `[[key]]` in order, at most `most` of them; more are refused.
     pub fn sections<T>(&mut self, key: &str, most: usize, mut read: impl FnMut(&mut Section<'_, 'a>) -> T) -> Vec<T> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let tables: Option<Vec<_>> = value.get_ref().as_array().and_then(|list| {
@@ -145,7 +138,7 @@ impl<'d, 'a> Section<'d, 'a> {
         list
     }
 
-    /// Notes that `key` is missing, unless it was written (and is wrong in another way).
+    /// Notes a missing `key`.
     pub fn require(&mut self, key: &str, allowed: &str, example: &str) {
         let is_reported = !self.is_present() && self.document.is_reported(&self.path);
         if !self.has(key) && !is_reported {
@@ -160,7 +153,7 @@ impl<'d, 'a> Section<'d, 'a> {
         }
     }
 
-    /// The unit that the text of `key`, or the first text in it, is written in.
+    /// The unit in the text of `key`, or in the first text of its list.
     pub(super) fn unit_written(&self, key: &str) -> Option<&'static str> {
         let value = self.value(key)?.get_ref();
         let first = value.as_array().and_then(|list| list.iter().find_map(|item| item.get_ref().as_str()));
@@ -177,7 +170,7 @@ impl<'d, 'a> Section<'d, 'a> {
         entries.map(|(key, value)| (key.get_ref().to_string(), self.document.text_of(value).to_owned())).collect()
     }
 
-    /// Says that this table of the list `[[header]]` is known by its name, and no longer by its place.
+    /// Names this table of `[[header]]`, which was known by its place.
     pub(super) fn rename(&mut self, header: &str, name: &str) {
         let path = format!("{header}.{name}");
         if let Some(spans) = self.document.spans.get(&self.path).cloned() {
@@ -195,7 +188,6 @@ impl<'d, 'a> Section<'d, 'a> {
         self.title = Some(format!("[[{header}]] with {key} = \"{name}\""));
     }
 
-    /// Text, if it was written.
     pub fn text(&mut self, key: &str) -> Option<&'d str> {
         let value = self.take(key)?;
         let text = value.get_ref().as_str();
@@ -205,7 +197,7 @@ impl<'d, 'a> Section<'d, 'a> {
         text
     }
 
-    /// One of the names that `parse` knows, if it was written.
+    /// A name that `parse` knows, if written.
     pub fn name<T>(&mut self, key: &str, names: &[&str], parse: impl Fn(&str) -> Option<T>) -> Option<T> {
         let text = self.text(key)?;
         let parsed = parse(text);
@@ -216,8 +208,7 @@ impl<'d, 'a> Section<'d, 'a> {
         parsed
     }
 
-    /// A list of different names that `parse` knows, if it was written; an empty one is told what it is without the
-    /// key.
+    /// A list of different names that `parse` knows, if written. `default` describes the value without the key.
     pub fn names<T: PartialEq>(
         &mut self,
         key: &str,
@@ -254,12 +245,12 @@ impl<'d, 'a> Section<'d, 'a> {
         Some(parsed)
     }
 
-    /// The text of `key`, if it was written as one, without making it a key of this table.
+    /// The text of `key`, which does not become a known key.
     pub(super) fn plain_text(&self, key: &str) -> Option<&'d str> {
         self.value(key)?.get_ref().as_str()
     }
 
-    /// Lets `keys` be there without effect, and notes those that are written with the `setting` that they need.
+    /// Accepts `keys`; written ones are noted as having no effect without `setting`.
     pub(super) fn ignore(&mut self, keys: impl IntoIterator<Item = &'static str>, setting: &str) {
         let written: Vec<&str> = keys.into_iter().filter(|key| self.has(key)).collect();
         if !written.is_empty() {
@@ -270,7 +261,7 @@ impl<'d, 'a> Section<'d, 'a> {
         }
     }
 
-    /// Notes every key that was written and not asked for.
+    /// Notes all unknown keys.
     pub fn finish(&mut self) {
         let Some(table) = self.table else { return };
         for name in table.keys() {
@@ -283,10 +274,9 @@ impl<'d, 'a> Section<'d, 'a> {
                 continue;
             }
             let path = self.path(name);
-            // the key is wrong, and not its value
             let span = self.table.and_then(|table| table.get_key_value(&**name)).map_or(0..0, |(key, _)| key.span());
             let is_root = self.path.is_empty();
-            // of a setting the whole path may be meant otherwise
+            // the whole path of a setting may be wrong
             let of_setting = if is_root { self.document.setting_meant(span.start) } else { None };
             let written = self.value(name).map(|value| self.document.written(value));
             let meant = of_setting.or_else(|| meant(name, self.known.iter().map(String::as_str)));
@@ -303,7 +293,6 @@ impl<'d, 'a> Section<'d, 'a> {
                     "delete it".to_owned()
                 }
             };
-            // the value of a table is its keys, and that of a setting is what was set in it
             let is_table = self.is_table(name) && is_root;
             let value = written.filter(|_| !is_table);
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
@@ -312,7 +301,7 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 }
 
-/// Names that other programs have for what is called otherwise here.
+/// Names of other programs.
 const SYNONYMS: [(&str, &str); 7] = [
     ("gaussian", "normal"),
     ("gauss", "normal"),
@@ -323,7 +312,7 @@ const SYNONYMS: [(&str, &str); 7] = [
     ("ode45", "dormand_prince"),
 ];
 
-/// What a name must be, and which one was probably meant.
+/// The allowed names, and the one that was probably meant.
 pub fn choice(written: &str, names: &[&str]) -> (String, String) {
     let synonym = SYNONYMS.iter().find(|(other, name)| written.eq_ignore_ascii_case(other) && names.contains(name));
     let meant =

@@ -1,4 +1,4 @@
-//! `[[sensors]]`: the sensors of a control loop as a campaign file says them.
+//! `[[sensors]]`: the sensors of a control loop.
 
 use super::numbers::{NOT_NEGATIVE, POSITIVE};
 use super::section::Section;
@@ -11,7 +11,7 @@ use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, Value};
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, Name, SceneInput};
 
-/// The keys of `[[sensors]]` that are no parameters.
+/// The keys of `[[sensors]]` that are not parameters.
 pub const ROWS: [Row; 4] = [
     Row::new("name", Kind::Text(ANY_TEXT), "Its name").required_as(Name::ALLOWED, "\"a1\""),
     Row::new("kind", Kind::Word(&sensors::NAMES), "What it measures").required_as("a kind", "\"rate_gyro\""),
@@ -22,7 +22,6 @@ pub const ROWS: [Row; 4] = [
         .sparse(),
 ];
 
-/// Most control periods from one measurement to the next.
 const MOST_PERIODS: f64 = 1e9;
 
 pub(super) fn read_sensor(
@@ -42,7 +41,6 @@ pub(super) fn read_sensor(
     let declared = kind.map_or(&[][..], |kind| sensors::KINDS[kind].parameters_in(scene));
     scene.control.sensors.push(DeclaredTable::of(name, declared));
     let Some(kind) = kind else {
-        // its keys are not known
         return None;
     };
     let place = scene.control.sensors.len() - 1;
@@ -64,15 +62,14 @@ pub(super) fn read_sensor(
     {
         section.refuse("kind", allowed, remedy);
     }
-    // a wrong number is told, and the columns do not depend on it
+    // a wrong number is reported already and does not change the columns
     let period = own_period.unwrap_or(f64::NAN);
     written =
         written.with("name", name.as_str()).with("kind", Value::Word(sensors::NAMES[kind])).with("period_s", period);
     Some(SensorSpec { name, kind, period, latency, written: written.completed(&ROWS, &[]) })
 }
 
-/// Notes where a sensor that measures every `own` seconds and delivers after `latency` seconds does not fit into a loop
-/// of this period.
+/// Notes a period `own` or a `latency`, s, that does not fit the control `period`.
 fn check_times(section: &mut Section<'_, '_>, period: f64, own: f64, latency: f64) {
     let is_near = period / own <= MOST_TICKS && own / period <= MOST_PERIODS;
     if !is_near || !is_whole(own / period) && !is_whole(period / own) {
@@ -91,17 +88,17 @@ fn check_times(section: &mut Section<'_, '_>, period: f64, own: f64, latency: f6
     }
 }
 
-/// Whether a ratio of two times is a whole number, for all that rounding can do.
+/// Whether a ratio of two times is whole, up to rounding.
 fn is_whole(ratio: f64) -> bool {
     (ratio - ratio.round()).abs() < 1e-9 * ratio.max(1.0) && ratio.round() >= 1.0
 }
 
-/// `number` without the last digits of a product: 0.3 and not 0.30000000000000004.
+/// `number` without rounding of products: 0.3, not 0.30000000000000004.
 fn plain(number: f64) -> f64 {
     format!("{number:.11e}").parse().unwrap_or(number)
 }
 
-/// Notes what the estimator lacks, what a loop has once at most, and where the periods of sensors do not fit together.
+/// Notes sensors that the estimator lacks, duplicates, and periods that do not fit together.
 pub(super) fn check_sensors(
     root: &mut Section<'_, '_>,
     sensors: &[Option<SensorSpec>],

@@ -1,6 +1,5 @@
-//! The keys of `[campaign]`, `[integrator]`, `[observe]`, `[audit]`, `[bands]` and `[output]` as rows, from which
-//! reading, messages, canonical text and the table in the documents follow. What needs several keys is checked in
-//! [`super::plan`].
+//! The keys of `[campaign]`, `[integrator]`, `[observe]`, `[audit]`, `[bands]` and `[output]`, from which reading,
+//! messages, canonical text and documents follow; [`super::plan`] checks them together.
 
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
@@ -11,7 +10,6 @@ use crate::observables::Group;
 use crate::propagation::Method;
 use crate::sampling::keys::{Kind, Row, Rule, TextLimit};
 
-/// The names of all values of a type, in their order.
 macro_rules! names {
     ($Type:ty) => {{
         let mut names = [""; <$Type>::ALL.len()];
@@ -27,13 +25,12 @@ const METHODS: [&str; Method::ALL.len()] = names!(Method);
 const GROUPS: [&str; Group::ALL.len()] = names!(Group);
 const COMPRESSIONS: [&str; Compression::ALL.len()] = names!(Compression);
 
-/// The groups of a campaign that names none, in words.
 fn default_groups() -> String {
     let others = Group::ALL.into_iter().filter(|group| !Group::DEFAULT.contains(group));
     format!("all of them but {}", others.map(Group::name).collect::<Vec<_>>().join(" and "))
 }
 
-/// A name that is a folder's name on every system.
+/// A folder name on every system.
 const NAME: TextLimit = TextLimit {
     allowed: "1 to 100 letters, digits, _, - or . (the first one a letter, a digit or _)",
     remedy: "it names the folder of results, and is a word of commands: write it without spaces and slashes",
@@ -43,7 +40,7 @@ const NAME: TextLimit = TextLimit {
     },
 };
 
-/// The settings above the scene, table by table.
+/// Tables above the scene.
 #[rustfmt::skip]
 pub const HEAD: [(&str, &[Row]); 3] = [
     ("campaign", &[
@@ -80,7 +77,7 @@ pub const HEAD: [(&str, &[Row]); 3] = [
     ]),
 ];
 
-/// The settings below the draws, table by table.
+/// Tables below the draws.
 #[rustfmt::skip]
 pub const TAIL: [(&str, &[Row]); 3] = [
     ("audit", &[
@@ -99,7 +96,7 @@ pub const TAIL: [(&str, &[Row]); 3] = [
     ("output", &[Row::new("compression", Kind::Word(&COMPRESSIONS), "Compression of the row files")]),
 ];
 
-/// The tables of a control loop; their parameters are those of its parts.
+/// Tables of a control loop, without the parameters of its parts.
 pub const LOOPS: [(&str, &[Row], &[Rule]); 4] = [
     ("[control]", &control::ROWS, &control::RULES),
     ("[control.model]", &control::MODEL, &[]),
@@ -107,8 +104,7 @@ pub const LOOPS: [(&str, &[Row], &[Rule]); 4] = [
     ("[[guidance]]", &phase_tables::ROWS, &phase_tables::RULES),
 ];
 
-/// The tables of events and extremes, of what is made of the rows, and of what is kept of runs, with what their keys
-/// have to do with each other.
+/// Tables of events, extremes, analysis and retention, with their rules.
 pub const ANALYSIS: [(&str, &[Row], &[Rule]); 9] = [
     ("[[event]]", &event::ROWS, &[]),
     ("[[extreme]]", &extreme::ROWS, &[]),
@@ -121,12 +117,11 @@ pub const ANALYSIS: [(&str, &[Row], &[Rule]); 9] = [
     ("[retain]", &retention::ROWS, &[]),
 ];
 
-/// Compression of the row files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compression {
-    /// LZ4: nearly as small as Zstandard, twice as fast to write.
+    /// Nearly as small as Zstandard, twice as fast to write.
     Lz4,
-    /// Zstandard, level 1: the smallest.
+    /// Level 1: the smallest.
     Zstd,
     None,
 }
@@ -134,7 +129,6 @@ pub enum Compression {
 impl Compression {
     pub const ALL: [Compression; 3] = [Compression::Lz4, Compression::Zstd, Compression::None];
 
-    /// The name in campaign files.
     pub const fn name(self) -> &'static str {
         match self {
             Compression::Lz4 => "lz4",
@@ -143,7 +137,6 @@ impl Compression {
         }
     }
 
-    /// The compression called `name`.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|compression| compression.name() == name)
     }

@@ -1,19 +1,18 @@
-//! How large a campaign file may be: bytes, keys, and tables within tables. Tables of numbers belong into files of
-//! their own.
+//! Limits on the size of a campaign file; large tables of numbers belong in data files.
 
 use super::input_file::{self, InputError};
 use super::problem::{CampaignError, Problem};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// Most bytes of a campaign file. A schedule of 20,000 arcs has 1.5 MB.
+/// A schedule of 20,000 arcs has 1.5 MB.
 pub const MOST_BYTES: u64 = 8 << 20;
-/// Most keys of a campaign file. A schedule of 20,000 arcs has 100,000.
+/// A schedule of 20,000 arcs has 100,000.
 pub const MOST_KEYS: usize = 400_000;
-/// Most tables of a list such as `[[disperse]]` or `[[require]]`, each of which may be about any other. (Lists that a
-/// scene limits have their own limits, and `[[actuation]]` has none.)
+/// Most tables of a list such as `[[disperse]]`, each of which may be about any other. Lists of the scene have their
+/// own limits, `[[actuation]]` none.
 pub const MOST_TABLES: usize = 1000;
-/// Most levels of tables and arrays within one another, which the TOML parser has.
+/// The TOML parser's limit on nesting.
 const MOST_LEVELS: usize = 80;
 
 pub(super) fn too_large(file: &str, bytes: u64) -> Problem {
@@ -79,7 +78,6 @@ pub(super) fn of_table(file: &str, table: &DeTable<'_>) -> Option<Problem> {
     })
 }
 
-/// Number of keys of a table and of the tables in it, which are at most [`MOST_LEVELS`] deep.
 fn keys_of(table: &DeTable<'_>) -> usize {
     table.iter().map(|(_, value)| 1 + keys_in(value.get_ref())).sum()
 }
@@ -92,7 +90,7 @@ fn keys_in(value: &DeValue<'_>) -> usize {
     }
 }
 
-/// What the TOML parser says, in words that say what to do about the depth of tables.
+/// The TOML parser's message, in plain words about nesting.
 pub(super) fn plain(message: &str) -> String {
     if message.contains("recurs") {
         format!("tables and arrays within one another at most {MOST_LEVELS} deep")

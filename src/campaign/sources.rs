@@ -1,6 +1,5 @@
-//! [`Sources`]: the texts that a campaign is made of: its file, the files that this extends (`extends = "base.toml"`),
-//! and what is set beside them (`--set campaign.duration_s=20`). They are parsed one by one and laid over one another
-//! as one table, in which every value keeps its place.
+//! [`Sources`]: the texts of a campaign: its file, the files that it extends (`extends = "base.toml"`) and settings
+//! (`--set campaign.duration_s=20`), which are merged into one table whose values keep their places.
 
 use super::input_file::is_unreadable;
 use super::problem::{CampaignError, Problem};
@@ -11,36 +10,33 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Most files that extend one another.
 const MOST_FILES: usize = 8;
 
 #[derive(Clone, Debug)]
 pub(super) struct SourceText {
     pub name: String,
-    /// The folder from which its paths count.
+    /// Base folder of its paths.
     pub folder: PathBuf,
-    /// The dotted key that it sets; `None` of a file.
+    /// The dotted key of a setting; `None` for a file.
     pub key: Option<String>,
-    /// Where it is in the text of all.
+    /// Its place in [`Sources::text`].
     pub range: Range<usize>,
 }
 
-/// All of them, what is laid over the others first.
+/// All texts, highest priority first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sources {
     pub list: Vec<SourceText>,
-    /// Their texts, one after the other.
+    /// All texts in turn.
     pub text: String,
-    /// The files that the campaign file extends.
     pub extended: Vec<PathBuf>,
 }
 
 impl Sources {
-    /// The text of `file` in `folder`, the files that it extends, and `settings`, each a dotted key and its value as
-    /// text.
+    /// `text` of `file` in `folder`, the files that it extends, and `settings`: dotted keys and their values.
     ///
     /// # Errors
-    /// Where a file that is extended cannot be read.
+    /// An extended file that cannot be read.
     pub fn read(
         folder: &Path,
         file: &str,
@@ -82,7 +78,7 @@ impl Sources {
             (name, text) = (written, Cow::Owned(base));
         }
         for (key, value) in settings {
-            // what is no value of TOML is meant as text: 20 rpm
+            // a value that is not TOML is text: 20 rpm
             let (_, errors) = DeValue::parse_recoverable(value);
             let quoted = if errors.is_empty() { value.clone() } else { toml::Value::from(value.as_str()).to_string() };
             sources.add(format!("--set {key}"), PathBuf::new(), Some(key.clone()), &quoted);
@@ -97,26 +93,25 @@ impl Sources {
         self.text.push('\n');
     }
 
-    /// The text that has the byte `offset`.
+    /// The source at byte `offset`.
     pub fn at(&self, offset: usize) -> &SourceText {
         let found = self.list.iter().rfind(|source| source.range.start <= offset);
         found.unwrap_or(&self.list[0])
     }
 
-    /// Whether the campaign is one file alone.
     pub fn is_single(&self) -> bool {
         self.list.len() == 1
     }
 }
 
-/// What a text extends, and the line that says so.
+/// The value of `extends` and its line.
 fn extended(text: &str) -> Option<(String, usize)> {
     let (table, _) = DeTable::parse_recoverable(text);
     let (key, value) = table.get_ref().get_key_value("extends")?;
     Some((value.get_ref().as_str()?.to_owned(), text[..key.span().start].lines().count().max(1)))
 }
 
-/// `value` and everything in it, `by` bytes further on.
+/// `value` with all places shifted by `by` bytes.
 fn moved<'a>(value: Spanned<DeValue<'a>>, by: usize) -> Spanned<DeValue<'a>> {
     let span = value.span();
     let inner = match value.into_inner() {
@@ -135,13 +130,13 @@ pub(super) fn moved_table<'a>(table: DeTable<'a>, by: usize) -> DeTable<'a> {
     table.into_iter().map(entry).collect()
 }
 
-/// The value that `text` is, which begins at the byte `by` of all texts.
+/// The value of `text`, at byte `by` of all texts.
 pub(super) fn value_at<'a>(text: &'a str, by: usize) -> Spanned<DeValue<'a>> {
     moved(DeValue::parse_recoverable(text).0, by)
 }
 
-/// Lays `over` over `base`: tables key by key; lists of tables by `name`, `parameter` or `phase`; a table with another
-/// `kind`, `distribution` or `shape`, and everything else, takes the place of what is below.
+/// Merges `over` into `base`: tables key by key, lists of tables by `name`, `parameter` or `phase`. A table with
+/// another `kind`, `distribution` or `shape` and all other values replace the earlier ones.
 pub(super) fn lay_over<'a>(base: &mut DeTable<'a>, over: DeTable<'a>) {
     for (key, value) in over {
         let place = base.remove(key.get_ref().as_ref());
@@ -178,7 +173,6 @@ fn laid<'a>(below: Spanned<DeValue<'a>>, over: Spanned<DeValue<'a>>) -> Spanned<
     Spanned::new(span, inner)
 }
 
-/// Whether a table says anew of which kind it is.
 fn is_other_kind(below: &DeTable<'_>, over: &DeTable<'_>) -> bool {
     let text =
         |table: &DeTable<'_>, key: &str| table.get(key).and_then(|value| value.get_ref().as_str().map(str::to_owned));
@@ -187,7 +181,7 @@ fn is_other_kind(below: &DeTable<'_>, over: &DeTable<'_>) -> bool {
         .any(|key| text(over, key).is_some_and(|kind| text(below, key) != Some(kind)))
 }
 
-/// What a table of a list is known by.
+/// The name of a table of a list.
 fn identity<'v>(item: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
     let table = item.get_ref().as_table()?;
     ["name", "parameter", "phase"].iter().find_map(|key| table.get(*key)?.get_ref().as_str())
@@ -197,11 +191,11 @@ fn is_named(list: &[Spanned<DeValue<'_>>]) -> bool {
     list.iter().all(|item| identity(item).is_some())
 }
 
-/// Puts `value` where the dotted `path` leads: through tables, and through lists of tables by name
-/// (`wheels.w1.rate_rad_s`) or by number from zero (`require[0].at_most`). Tables that are not there are made.
+/// Sets `value` at the dotted `path` through tables and lists of tables, by name (`wheels.w1.rate_rad_s`) or number
+/// (`require[0].at_most`). Missing tables are added.
 ///
 /// # Errors
-/// What is not there, in words.
+/// The missing part of the path.
 pub(super) fn put<'a>(table: &mut DeTable<'a>, path: &str, value: Spanned<DeValue<'a>>) -> Result<(), String> {
     let (first, rest) = match path.split_once('.') {
         Some((first, rest)) => (first, Some(rest)),

@@ -1,7 +1,5 @@
-//! [`Spec`]: a campaign file as written, key by key.
-//!
-//! Every key of the file is read here (those of `[[disperse]]` in [`super::draws`]); a number that is missing or wrong
-//! is NaN here and noted in the document. What is left out stays `None`: the plan fills it in.
+//! [`Spec`]: a campaign file as written. A missing or wrong number is NaN and noted in the document; the plan fills in
+//! defaults.
 
 use super::analysis::Analysis;
 use super::columns::request;
@@ -21,33 +19,27 @@ use crate::sampling::{Correlation, Derivation, Design, Dispersion, Written};
 use crate::scene::SceneInput;
 use toml::de::DeTable;
 
-/// A campaign file as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
-    /// The keys of each table of [`settings::HEAD`] and [`settings::TAIL`]; without those that are wrong.
+    /// The valid keys of each table of [`settings::HEAD`] and [`settings::TAIL`].
     settings: Vec<(&'static str, Written)>,
-    /// The scene; NaN where a number is missing or wrong.
+    /// NaN for missing and wrong numbers.
     pub scene: SceneInput,
-    /// `[design]`; `None` where it is wrong.
+    /// `None` if wrong.
     pub design: Option<Design>,
-    /// `[[disperse]]`; `None` where a table is wrong.
+    /// `None` for each wrong table, also below.
     pub dispersions: Vec<Option<Dispersion>>,
-    /// `[[correlate]]`; `None` where a table is wrong.
     pub correlations: Vec<Option<Correlation>>,
-    /// `[[derive]]`; `None` where a table is wrong.
     pub derivations: Vec<Option<Derivation>>,
-    /// `[[event]]`; without the tables that are wrong.
+    /// The valid tables, also below.
     pub events: Vec<Event>,
-    /// `[[extreme]]`; without the tables that are wrong.
     pub extremes: Vec<Extreme>,
-    /// What is made of the rows; without the tables that are wrong.
     pub analysis: Analysis,
-    /// `retain.trajectories`.
     pub retention: Option<Retention>,
 }
 
 impl Spec {
-    /// Reads the parsed text of a document; what is wrong is noted there.
+    /// Reads a parsed document, which notes the problems.
     pub fn read<'a>(document: &mut Document<'a>, table: &DeTable<'a>) -> Spec {
         let mut root = Section::root(document, table);
         if !root.has("campaign") {
@@ -103,32 +95,32 @@ impl Spec {
         spec.analysis = Analysis::read(&mut root, observed);
         spec.retention = Retention::read(&mut root.section("retain"));
         if root.document.is_loop_unknown {
-            // which columns there are depends on the loop
+            // columns depend on the loop
             root.document.forget_since(noted);
         }
         root.finish();
         spec
     }
 
-    /// The keys of the table `header`, one of the settings.
+    /// The keys of the settings table `header`.
     pub fn settings(&self, header: &str) -> &Written {
         static NONE: Written = Written::NONE;
         self.settings.iter().find(|(known, _)| *known == header).map_or(&NONE, |(_, written)| written)
     }
 
-    /// Says the value of a setting in place of the file.
+    /// Overrides a setting of the file.
     pub(super) fn set(&mut self, header: &str, key: &'static str, value: impl Into<Value>) {
         if let Some((_, written)) = self.settings.iter_mut().find(|(known, _)| *known == header) {
             written.set(key, value);
         }
     }
 
-    /// `integrator.method`; `None` where it is wrong.
+    /// `integrator.method`; `None` if wrong.
     pub fn method(&self) -> Option<Method> {
         self.settings("integrator").text("method").and_then(Method::from_name)
     }
 
-    /// `observe.groups`, in the order of the columns, or those of a file that does not say.
+    /// `observe.groups` or the default, in the order of the columns.
     pub fn groups(&self) -> Vec<Group> {
         match self.settings("observe").get("groups") {
             Some(Value::Words(names)) => Group::ALL.into_iter().filter(|group| names.contains(&group.name())).collect(),

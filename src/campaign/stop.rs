@@ -1,4 +1,4 @@
-//! [`Stop`]: the `[stop]` table, when a campaign has enough samples.
+//! [`Stop`]: the `[stop]` table, which ends a campaign with enough samples.
 
 use super::numbers::POSITIVE;
 use super::numbers::{CONFIDENCE, MAX_SAMPLES, PROBABILITY};
@@ -10,25 +10,24 @@ use crate::statistics::looks::Goal;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum When {
-    /// That a quantile of an observable is known well enough.
+    /// A quantile of an observable is known well enough.
     Precise {
         observable: String,
-        /// Which quantile, and how narrow its interval must be, in the unit of the observable.
+        /// The quantile and the half-width of its interval, in the observable's unit.
         goal: Goal,
     },
-    /// That no requirement is undecided.
+    /// No requirement is undecided.
     Decided,
 }
 
-/// When a campaign has enough samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
     pub when: When,
-    /// Largest number of samples, including sample 0.
+    /// Including sample 0.
     pub max_samples: u64,
 }
 
-/// The keys of the table; those between the first and the last one are of a goal.
+/// The keys between the first and the last belong to a goal.
 #[rustfmt::skip]
 pub const ROWS: [Row; 6] = [
     Row::new("when", Kind::Word(&["precise", "decided"]),
@@ -48,7 +47,6 @@ pub const ROWS: [Row; 6] = [
         .required_as("a whole number above campaign.samples", "100000"),
 ];
 
-/// What a campaign that ends when its requirements are decided does not have.
 pub const RULES: [Rule; 1] = [Rule::Only {
     keys: &["observable", "quantile", "half_width", "confidence"],
     with: &[Condition::IsNot("when", "decided")],
@@ -57,7 +55,7 @@ pub const RULES: [Rule; 1] = [Rule::Only {
 }];
 
 impl Stop {
-    /// Reads the table; `None` where it was not written, or where something is wrong, which is then noted.
+    /// Reads the table; `None` without one, and after a problem.
     pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         if !table.is_present() {
             return None;

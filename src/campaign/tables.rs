@@ -1,5 +1,4 @@
-//! What the tables of the scene and of its control loop have in common: their names, and numbers as the schema has
-//! them.
+//! Names and declared numbers of the tables of scene and control loop.
 
 use std::collections::HashSet;
 
@@ -8,7 +7,7 @@ use crate::scene::table::Table;
 use crate::scene::{LawParameter, Name, SceneInput};
 
 pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
-    // a key that is written may be another way to describe a body
+    // a written key may be another way to describe a body
     for key in table.keys_in(scene, instance).filter(|key| section.has(key.facts().key)) {
         if key.read(scene, instance).is_none() {
             key.open(scene, instance);
@@ -29,8 +28,7 @@ pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: u
     }
 }
 
-/// The name of one of a list of tables, different from those `taken`, to which it is added; the table is called by it
-/// from now on, but for an arc, which may have none.
+/// The name of a table of a list, added to `taken`, under which the document knows it from now on; arcs need none.
 pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &mut HashSet<Name>) -> Name {
     let is_arc = table == Table::Actuation;
     if !is_arc {
@@ -53,8 +51,7 @@ pub(super) fn read_name(section: &mut Section<'_, '_>, table: Table, taken: &mut
     name
 }
 
-/// Lets the keys of the kinds other than that of place `chosen` be there without effect: of a file in which another one
-/// is tried.
+/// Accepts keys of the kinds other than `chosen` without effect, so that a file can try several kinds.
 pub(super) fn ignore_others(
     section: &mut Section<'_, '_>,
     word: &str,

@@ -1,9 +1,8 @@
-//! Units in values: `"5 deg/s"` where a key asks for rad/s, `"5 deg/s / 3"` too. Plain numbers are in the unit of the
-//! key, and need none.
+//! Units in values: `"5 deg/s"` or `"5 deg/s / 3"` for rad/s. Plain numbers are in the unit of the key.
 
 use core::f64::consts::PI;
 
-/// Units that people write, each with the SI unit that it measures in and its size there as a fraction.
+/// Unit, its SI unit, and its size there as a fraction.
 const UNITS: &[(&str, &str, f64, f64)] = &[
     ("deg", "rad", PI, 180.0),
     ("arcmin", "rad", PI, 10_800.0),
@@ -45,7 +44,7 @@ const UNITS: &[(&str, &str, f64, f64)] = &[
     ("%", "1", 1.0, 1e2),
 ];
 
-/// SI units of columns that have no other names here.
+/// SI units without other names here.
 const MORE: [&str; 13] = [
     "J",
     "W",
@@ -62,13 +61,12 @@ const MORE: [&str; 13] = [
     "A m^2 s/T",
 ];
 
-/// A unit that texts know.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
     pub name: &'static str,
-    /// The SI unit that it measures in; itself, of one.
+    /// Its SI unit.
     pub of: &'static str,
-    /// Its size in that unit, as a fraction.
+    /// Its size in the SI unit, as a fraction.
     pub size: [f64; 2],
 }
 
@@ -85,19 +83,19 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|unit| unit.0).chain(si).chain(MORE)
 }
 
-/// The unit that `text`, a number and a unit, is written in.
+/// The unit in `text`.
 pub(super) fn written(text: &str) -> Option<&'static str> {
     let (head, _) = factors(text);
     named(split(head).1).map(|unit| unit.name)
 }
 
-/// The unit `unit`, where a value can be written in it; of a pure number "1".
+/// `unit`, if values can be written in it; "1" for a pure number.
 pub(super) fn known(unit: &str) -> Option<&'static str> {
     let names = UNITS.iter().flat_map(|(name, si, ..)| [*name, *si]);
     if unit.is_empty() { Some("1") } else { names.chain(MORE).find(|name| *name == unit) }
 }
 
-/// The unit at the end of a key; `1` where there is none.
+/// The unit at the end of `key`; `1` without one.
 pub(super) fn in_name(key: &str) -> &'static str {
     const ENDINGS: [(&str, &str); 22] = [
         ("_m3_s2", "m^3/s^2"),
@@ -126,22 +124,20 @@ pub(super) fn in_name(key: &str) -> &'static str {
     ENDINGS.iter().find(|(ending, _)| key.ends_with(ending)).map_or("1", |(_, unit)| unit)
 }
 
-/// What is wrong with a text where a number is wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct UnitProblem {
-    /// What is allowed, to follow "must be".
+    /// Follows "must be".
     pub allowed: String,
     pub remedy: String,
 }
 
-/// In place of the SI unit of what is not known: every unit is accepted.
+/// Accepts every unit.
 pub(super) const UNKNOWN: &str = "";
 
-/// The number that `text`, a number and a unit, means in the SI unit `unit`; with [`UNKNOWN`], in the SI unit of what
-/// is written.
+/// The number of `text` in the SI unit `unit`; with [`UNKNOWN`], in the SI unit of the written one.
 ///
 /// # Errors
-/// What is wrong, where it is no number and unit of that kind.
+/// The problem of the text.
 pub(super) fn parsed(text: &str, unit: &str) -> Result<f64, UnitProblem> {
     let (head, factors) = factors(text.trim());
     let value = single(head, unit, !factors.is_empty())?;
@@ -154,8 +150,7 @@ pub(super) fn parsed(text: &str, unit: &str) -> Result<f64, UnitProblem> {
     Err(UnitProblem { allowed: allowed(unit), remedy: "do not divide by zero".to_owned() })
 }
 
-/// The quantity at the start of a text, and the numbers by which it is then multiplied or (`true`) divided, in their
-/// order.
+/// The quantity at the start of a text, and its factors and (`true`) divisors in order.
 fn factors(text: &str) -> (&str, Vec<(bool, f64)>) {
     let (mut head, mut found) = (text.trim(), Vec::new());
     while let Some(at) = head.rfind(['*', '/'])
@@ -179,7 +174,7 @@ fn split(text: &str) -> (&str, &str) {
     (&text[..end], text[end..].trim())
 }
 
-/// The same of a text without arithmetic; `may_be_plain`: it needs no unit.
+/// [`parsed`] without arithmetic; `may_be_plain`: a unit is optional.
 fn single(text: &str, unit: &str, may_be_plain: bool) -> Result<f64, UnitProblem> {
     let (number, written) = split(text);
     let problem = |remedy: String| Err(UnitProblem { allowed: allowed(unit), remedy });
@@ -193,7 +188,7 @@ fn single(text: &str, unit: &str, may_be_plain: bool) -> Result<f64, UnitProblem
         return problem("write it without quotes, or add the unit".to_owned());
     }
     if let Some((_, of, numerator, denominator)) = UNITS.iter().find(|(name, ..)| *name == unit) {
-        // of an observable that is in another unit than SI
+        // an observable in a unit other than SI
         return single(text, of, false).map(|value| value * denominator / numerator);
     }
     let is_unknown = unit == UNKNOWN;
@@ -208,17 +203,17 @@ fn single(text: &str, unit: &str, may_be_plain: bool) -> Result<f64, UnitProblem
     }
 }
 
-/// Whether the character at `at` belongs to the number at the start of `text`.
+/// Whether the character at `at` belongs to the leading number.
 fn is_of_number(text: &str, at: usize, c: char) -> bool {
     match c {
         '0'..='9' | '.' | '+' | '-' | '_' => true,
-        // the exponent, and not the first letter of a unit
+        // an exponent, not a unit
         'e' | 'E' => text[at + 1..].starts_with(|next: char| next.is_ascii_digit() || next == '+' || next == '-'),
         _ => false,
     }
 }
 
-/// The units in which a value of the SI unit `unit` may be written.
+/// The units of values in the SI unit `unit`.
 fn units(unit: &str) -> Vec<&str> {
     let own = Some(unit).filter(|unit| !["1", UNKNOWN].contains(unit));
     own.into_iter().chain(UNITS.iter().filter(|(_, of, ..)| *of == unit).map(|(name, ..)| *name)).collect()

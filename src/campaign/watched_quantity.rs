@@ -1,4 +1,4 @@
-//! What is watched in a run: a quantity over time, or an expression of several.
+//! Quantities of events and extremes: one over time, or an expression of several.
 
 use super::meaning::meant;
 use super::section::Section;
@@ -6,7 +6,7 @@ use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{Group, Groups, Request};
 use crate::sampling::expression::Expression;
 
-/// The expression that `text` is, and the quantities of `series` that are its variables; `None` where it is wrong.
+/// The expression `text` and its variables among `series`; `None` if wrong.
 pub fn parsed(text: &str, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
     let expression = Expression::parse(text).ok()?;
     let of = |name: &String| series.iter().find(|band| band.quantity.name() == name).cloned();
@@ -14,7 +14,7 @@ pub fn parsed(text: &str, series: &[BandSeries]) -> Option<(Expression, Vec<Band
     Some((expression, variables))
 }
 
-/// The quantities in `text`; `None` where it is wrong, which is then noted.
+/// The quantities in `text`; `None` after a problem.
 pub(super) fn variables(
     table: &mut Section<'_, '_>,
     text: &str,
