@@ -1,14 +1,14 @@
-//! [`Auditor`]: the true error of a run, against the reference solution of its scene.
+//! [`Auditor`]: the true error of a run against the reference solution of its scene.
 //!
-//! The reference solution is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]),
-//! which shares neither method nor periodic folding with the audited run. Long runs have the Taylor method at 1e-16 in
-//! plain doubles instead, noted in the row ([`AuditValue::Tolerance`]); drag and sunlight have no Taylor series.
-//! The audited run is repeated with the states of the comparison; an audit does not change the row of the campaign.
+//! The reference is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]), without
+//! the audited run's method and periodic folding. Long runs use the Taylor method at 1e-16 in plain doubles, as noted
+//! in the row ([`AuditValue::Tolerance`]); drag and sunlight have no Taylor series. The audited run is repeated with
+//! the states of the comparison; the campaign's row stays unchanged.
 //!
-//! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]). The limit
-//! counts units of time of the motion, not seconds of a clock.
+//! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]); the limit
+//! counts the motion's units of time, not seconds.
 //!
-//! Audited samples are drawn from the stream `audit`, independently of threads, parts and other draws.
+//! The stream `audit` selects samples, independently of threads, parts and other draws.
 
 use thiserror::Error;
 
@@ -31,15 +31,15 @@ use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, 
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 
-/// Longer runs, in units of time ([`Gyrostat::time_unit`]), are audited in plain doubles: double-double takes some five
-/// steps of 40 us per unit, so an audit at most one second.
+/// Runs of more units of time ([`Gyrostat::time_unit`]) are audited in plain doubles: double-double takes five steps of
+/// 40 us per unit, so an audit takes at most a second.
 const MOST_UNITS: f64 = 4096.0;
 
-/// Debris integrated in double-double for more units of time is not audited, as `MOST_UNITS`, some four seconds. The
-/// campaign itself has a closed form or a cheap method at any rate, while an audit would take hours.
+/// Debris is not audited beyond this, four seconds: an audit would take hours where the campaign has a closed form or a
+/// cheap method.
 const MOST_UNITS_OF_DEBRIS: f64 = 16_384.0;
 
-/// Tolerance of the reference solution in plain doubles: the smallest of campaigns.
+/// The smallest tolerance of campaigns.
 const PLAIN_TOLERANCE: f64 = 1e-16;
 
 /// Declares the columns of audits: a variant, name, unit, meaning.
@@ -92,13 +92,11 @@ impl AuditValue {
     }
 }
 
-/// A run compared with its reference solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// In the order of [`AuditValue::ALL`]; NaN for the debris of scenes without.
+    /// In the order of [`AuditValue::ALL`]; NaN without debris.
     pub values: Vec<f64>,
-    /// |observed - true| of each observable, in the order of the request's columns; NaN without a reference value, as
-    /// for step statistics.
+    /// |observed - true| in the order of the request's columns; NaN without a reference, as for step statistics.
     pub observables: Vec<f64>,
 }
 
@@ -112,7 +110,6 @@ impl Audit {
     }
 }
 
-/// The reason why a run has no audit.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum NoAudit {
     #[error("the run ended with {}", .0.name())]
@@ -124,7 +121,7 @@ pub enum NoAudit {
         {most} that an audit integrates in double-double"
     )]
     Limit {
-        /// The debris, or a spacecraft whose motion has no Taylor series.
+        /// Debris, or a spacecraft without a Taylor series.
         body: &'static str,
         most: f64,
         /// Units of time of its motion in the run.
@@ -148,11 +145,10 @@ impl Selection {
     }
 }
 
-/// Memory and code to audit runs of one plan on one grid.
 pub struct Auditor {
     isa: Isa,
     grid: Grid,
-    /// Most steps of a reference solution in plain doubles.
+    /// Limit of reference solutions in plain doubles.
     most_steps: u64,
     request: Request,
     engine: Box<dyn Engine>,
@@ -162,7 +158,7 @@ pub struct Auditor {
     reference_request: Request,
     reference_observer: Observer,
     reference_row: Vec<f64>,
-    /// The places of each observable of the campaign in the two rows.
+    /// Indices of each observable in the two rows.
     indices: Vec<(usize, Option<usize>)>,
     estimate: usize,
     debris_estimate: Option<usize>,
@@ -204,16 +200,13 @@ impl Auditor {
         Auditor { most_steps, ..self }
     }
 
-    /// Audits the run of `scene`.
-    ///
     /// # Errors
-    /// The run or its reference solution fails, or is beyond the limit of work.
+    /// A failure of the run or its reference solution, or the limit of work.
     pub fn audit(&mut self, scene: &Scene) -> Result<Audit, NoAudit> {
         self.compare(scene, scene)
     }
 
-    /// Audits the run of `run` against the reference solution of `scene`: the same scene, except in tests of a wrong
-    /// kernel.
+    /// Audits `run` against the reference solution of `scene`, which differs only in tests of a wrong kernel.
     ///
     /// # Errors
     /// As [`Auditor::audit`].

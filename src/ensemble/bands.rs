@@ -1,10 +1,10 @@
-//! [`Bands`]: quantiles over the runs of a campaign of quantities over time; [`PartBands`]: the contribution of a part.
+//! [`Bands`]: quantiles of quantities over time over a campaign's runs; [`PartBands`]: those of a part.
 //!
-//! At some observation points the deviations from the nominal run are counted in buckets
-//! ([`crate::statistics::deviation`]); the relative error of a large energy would hide its spread. Counts of parts add
-//! up in any order, and memory does not grow with the number of runs. Only dispersed `ok` runs count.
+//! Deviations from the nominal run are counted in buckets at some observation points
+//! ([`crate::statistics::deviation`]): the relative error of a large energy would hide its spread. Counts of parts add
+//! up in any order, in memory that does not grow with the number of runs. Only dispersed `ok` runs count.
 //!
-//! Extremes and numbers of values are of all runs. Quantiles of a large campaign are those of its first runs
+//! Extremes and numbers of values cover all runs, quantiles of a large campaign its first ones
 //! ([`crate::campaign::Plan::last_counted`]).
 
 use std::sync::Arc;
@@ -19,23 +19,21 @@ use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, ZERO, ends, ranks};
 use crate::statistics::gate::GateLimit;
 
-/// Runs whose codes are kept before they are counted: the counts of a column, out of the second-level cache by then,
-/// are fetched seldom.
+/// Runs between two counts: a column's counts are seldom fetched into the cache.
 const PENDING: usize = 2048;
 
-/// Runs whose codes are kept run by run before they are moved to their columns: a cache line for each column, and all
-/// codes in the first-level cache.
+/// Runs between two transpositions: a cache line per column, and all codes in the first-level cache.
 const RECENT: usize = 32;
 
-/// Rounding of a nominal value plus a deviation, relative: some units in the last place.
+/// Relative rounding of a nominal value plus a deviation.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandLayout {
     pub series: Vec<(Quantity, Form)>,
-    /// The times of the points, s, ascending.
+    /// s, ascending.
     pub times: Vec<f64>,
-    /// The numbers of the nominal run, series by series and point by point; NaN for none.
+    /// Nominal numbers, series by series and point by point; NaN for none.
     pub nominal: Vec<f64>,
 }
 
@@ -51,7 +49,7 @@ impl BandLayout {
             && bits(&self.nominal) == bits(&other.nominal)
     }
 
-    /// The reference of deviations in a column: the nominal run, or zero.
+    /// The reference of deviations: the nominal number, or zero.
     fn reference(&self, column: usize) -> f64 {
         let nominal = self.nominal[column];
         if nominal.is_nan() { 0.0 } else { nominal }
@@ -62,20 +60,19 @@ impl BandLayout {
     }
 }
 
-/// The bands of a part under way, reused from part to part; adding a run allocates only for a deviation in a new
-/// octave.
+/// Bands of a part, reused; adding a run allocates only for a deviation in a new octave.
 #[derive(Clone, Debug)]
 pub struct PartBands {
     layout: Arc<BandLayout>,
     reader: BandReader,
     runs: u64,
-    /// Counted runs: of samples up to `last_counted`.
+    /// Runs of samples up to `last_counted`.
     counted: u64,
     last_counted: SampleId,
-    /// Codes of the last runs, run by run.
+    /// Codes of the last runs, by run.
     recent: Vec<Code>,
     recent_runs: usize,
-    /// Codes not yet counted, column by column, for up to [`PENDING`] runs.
+    /// Codes to count, by column, of up to [`PENDING`] runs.
     codes: Vec<Code>,
     pending: usize,
     min: Vec<f64>,
@@ -85,7 +82,7 @@ pub struct PartBands {
 }
 
 impl PartBands {
-    /// For runs read by `reader`, with the nominal run of `layout`; samples up to `last_counted` are counted.
+    /// For runs read by `reader`; samples up to `last_counted` are counted.
     ///
     /// # Panics
     /// If the layout has other series or points.
@@ -119,7 +116,7 @@ impl PartBands {
         self.windows.iter_mut().for_each(DeviationWindow::clear);
     }
 
-    /// Adds the run of `sample` with the states `table`, observed last by `observer`, up to the point before `end`.
+    /// Adds the run of `sample`, observed last by `observer`, up to the point before `end`.
     ///
     /// # Panics
     /// If the part has more than 65,535 runs.
@@ -138,7 +135,7 @@ impl PartBands {
         }
     }
 
-    /// Moves the codes of the last runs to their columns, and counts full ones.
+    /// Transposes recent codes, and counts full columns.
     fn move_to_columns(&mut self) {
         let (columns, recent) = (self.reader.columns(), self.recent_runs);
         for (column, codes) in self.codes.chunks_exact_mut(PENDING).enumerate() {
@@ -155,7 +152,7 @@ impl PartBands {
         }
     }
 
-    /// Counts pending runs, after the last run of a part.
+    /// Counts pending runs at the end of a part.
     pub fn count(&mut self) {
         self.move_to_columns();
         self.count_columns();
@@ -179,7 +176,7 @@ impl PartBands {
         [self.runs, self.counted]
     }
 
-    /// A column, of the series times points, and its buckets that are not empty, in ascending order of their codes.
+    /// A column (series times points) and its non-empty buckets, in ascending order.
     ///
     /// # Panics
     /// Before [`PartBands::count`].
@@ -194,7 +191,7 @@ impl PartBands {
 /// All runs at one point of one series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunsOfColumn {
-    /// The smallest and the largest kept number, exactly; `None` without numbers.
+    /// Exact extremes; `None` without numbers.
     pub extremes: Option<[f64; 2]>,
     pub without: u64,
 }
@@ -213,7 +210,6 @@ impl RunsOfColumn {
 #[derive(Clone, Debug, Default)]
 struct BandColumn {
     all: RunsOfColumn,
-    /// Deviations from the nominal run, in the form of the series.
     counts: DeviationWindow<u64>,
 }
 
@@ -232,7 +228,7 @@ impl PartialEq for Bands {
     }
 }
 
-/// An attempt to merge bands of different campaigns.
+/// Bands of different campaigns cannot be merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("these are bands of another campaign: series, times or nominal run differ")]
 pub struct OtherCampaign;
@@ -245,7 +241,7 @@ impl Bands {
     /// Adds the runs of a part, after [`PartBands::count`].
     ///
     /// # Errors
-    /// The bands are of another campaign; nothing is added.
+    /// Bands of another campaign; nothing is added.
     pub fn add(&mut self, part: &PartBands) -> Result<(), OtherCampaign> {
         if !Arc::ptr_eq(&self.layout, part.layout()) && !self.layout.is(part.layout()) {
             return Err(OtherCampaign);
@@ -263,7 +259,7 @@ impl Bands {
         self.runs.iter_mut().zip(runs).for_each(|(sum, runs)| *sum += runs);
     }
 
-    /// Adds to a column, of the series times points, the numbers of all runs and the buckets of counted ones.
+    /// Adds runs and counted buckets to a column (series times points).
     pub fn add_column(&mut self, index: usize, all: RunsOfColumn, buckets: impl Iterator<Item = (Code, u64)>) {
         let column = &mut self.columns[index];
         column.all.add(all);
@@ -319,10 +315,10 @@ impl Bands {
         column.all.extremes.map(|extremes| extremes.map(|kept| self.layout.form(index).shown(kept)))
     }
 
-    /// The `p`-quantile, 0 <= p <= 1, of type 7, of the [counted](Bands::counted) runs with a value.
+    /// The `p`-quantile of type 7, 0 <= p <= 1, of the [counted](Bands::counted) runs with a value.
     ///
-    /// Within [`crate::statistics::deviation::RELATIVE_ERROR`] of its deviation from the nominal run (the larger one of
-    /// the two neighbours between which it is interpolated), and never beyond the extremes.
+    /// Accurate to [`crate::statistics::deviation::RELATIVE_ERROR`] of its deviation from the nominal run (the larger
+    /// of the interpolated neighbours), and within the extremes.
     pub fn quantile(&self, series: usize, point: usize, p: f64) -> Option<f64> {
         self.quantiles(series, point, [p])[0]
     }
@@ -340,8 +336,8 @@ impl Bands {
         })
     }
 
-    /// Least and most number of runs within `limit` at a point. They differ by runs in the bucket of the limit and runs
-    /// that are not counted; a run without a value is not within it.
+    /// Least and most number of runs within `limit` at a point: they differ by runs in the limit's bucket and uncounted
+    /// runs. A run without a value is outside.
     pub fn within(&self, series: usize, point: usize, limit: GateLimit) -> [u64; 2] {
         let (index, column) = self.column(series, point);
         let (form, reference) = (self.layout.form(index), self.layout.reference(index));
@@ -355,7 +351,6 @@ impl Bands {
         let start = form.shown(reference);
         let found = column.counts.buckets().map(|(code, count)| {
             let [low, high] = ends(code).map(|end| start + form.shown(end));
-            // rounding of the deviation, and of its sum with the nominal value
             let slack = ROUNDING * (start.abs() + low.abs().min(high.abs()));
             let are_met = [low - slack, high + slack].map(|end| limit.is_met(end));
             [u64::from(are_met == [true; 2]) * count, u64::from(are_met != [false; 2]) * count]

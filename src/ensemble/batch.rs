@@ -1,4 +1,4 @@
-//! [`Batch`]: scenes that are run together into rows.
+//! [`Batch`]: scenes run together into rows.
 
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,20 +13,20 @@ use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene};
 
-/// Scenes that are run together, observed on one grid. Earlier batches have no influence.
+/// Scenes run together on one grid, independent of earlier batches.
 pub(super) struct Batch<'p> {
     means: Means<'p>,
     grid: Grid,
-    /// Number of points that are points of the campaign: all, unless an event ends the runs.
+    /// Number of the campaign's points: all, unless an event ends the runs.
     of_campaign: usize,
-    /// The scenes, one for each row; more may be left of earlier batches.
+    /// One for each row; more may be left of earlier batches.
     pub scenes: Vec<Scene>,
     pub rows_of_scenes: Vec<usize>,
     pub is_selected: Vec<bool>,
     pub draws_of_laws: Vec<LawDraw>,
     is_done: Vec<bool>,
     ends: Vec<Option<RunEnd>>,
-    /// The arcs flown by audited scenes; empty without a law.
+    /// Arcs of audited scenes; empty without a law.
     flown: Vec<Vec<Arc>>,
     runs: ObservedRuns<'p>,
     places_of_law: Range<usize>,
@@ -37,7 +37,7 @@ pub(super) struct Batch<'p> {
 }
 
 impl<'p> Batch<'p> {
-    /// An empty batch. Running scenes allocates nothing once it is warm, unless an event ends them.
+    /// Running scenes allocates nothing once warm, unless an event ends them.
     pub fn new(means: Means<'p>, grid: Grid) -> Self {
         let Means { plan, request, engines } = means;
         Batch {
@@ -74,9 +74,9 @@ impl<'p> Batch<'p> {
             let auditor = of_end.as_mut().unwrap_or(auditor);
             let status = rows.statuses()[*row];
             let audit = match self.flown.get(index) {
-                // these ends are found outside the engine, which an audit flies alone
+                // the engine alone, which an audit flies, does not find these ends
                 _ if matches!(status, Status::Surface | Status::Diverged) => Err(NoAudit::Run(status)),
-                // decisions of the law are part of the run: its arcs are flown, not the law
+                // the law's decisions are part of the run: fly its arcs
                 Some(arcs) => auditor.audit(&replayed(scene, arcs)),
                 None => auditor.audit(scene),
             };
@@ -88,8 +88,8 @@ impl<'p> Batch<'p> {
         }
     }
 
-    /// Runs the scenes. After a panic, scenes that had not ended are run again one by one in new memory, so that the
-    /// panic ends one run only.
+    /// Runs the scenes. After a panic, unfinished scenes run again one by one in new memory, so that it ends one run
+    /// only.
     pub fn propagate(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
         self.flown.iter_mut().for_each(Vec::clear);
         self.is_done.clear();
@@ -141,7 +141,7 @@ impl<'p> Batch<'p> {
         }
     }
 
-    /// Runs some scenes; those that an event ends are left to [`Batch::end_runs`].
+    /// Runs scenes, except for ends by events ([`Batch::end_runs`]).
     fn propagate_some(&mut self, which: Range<usize>, rows: &mut Rows, report: &mut Report<'_>) {
         let (Means { plan, engines, .. }, first_scene) = (self.means, which.start);
         let has_law = plan.law.is_some();
@@ -165,7 +165,6 @@ impl<'p> Batch<'p> {
             let sample = rows.samples()[row];
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;
-            // a run with an audit is done after the audit
             let is_audited = is_selected.get(first_scene + index).is_some_and(|selected| *selected);
             if is_audited && let Some(flown) = flown.get_mut(first_scene + index) {
                 flown.clear();
@@ -175,7 +174,7 @@ impl<'p> Batch<'p> {
                 report.add(outcome.effort.evaluations);
             }
             if status == Status::Diverged {
-                // the reason follows from the law, after all are flown
+                // the law gives the reason after the flight
             } else if status != Status::Done {
                 rows.set_reason(row, observer.reason(status, outcome, observed));
             } else if sample > SampleId(0)
@@ -196,7 +195,7 @@ impl<'p> Batch<'p> {
         }
     }
 
-    /// Runs the scenes of `which` that an event ends again up to there, each in a batch of its own.
+    /// Flies scenes that events end again up to there, each in its own batch.
     fn end_runs(&mut self, which: Range<usize>, rows: &mut Rows, report: &mut Report<'_>) {
         for scene in which {
             let Some(end) = self.ends[scene].filter(|_| !self.is_done[scene]) else { continue };

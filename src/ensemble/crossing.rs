@@ -1,16 +1,15 @@
-//! Zero crossings of a quantity between two times, from its values at [`nodes`]: interpolated where that is exact, else
-//! narrowed down.
+//! Zero crossings from values at [`nodes`]: interpolated if accurate, else narrowed down.
 
 use core::f64::consts::PI;
 
-/// Degree of the polynomial through the nodes: exact to rounding for motions of up to about a turn.
+/// Exact to rounding for motions of up to about a turn.
 const DEGREE: usize = 16;
-/// Rounding of a quantity over its largest value.
+/// Relative rounding of a quantity.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Halvings of an interval until its ends are neighbours.
+/// Halvings until neighbouring numbers.
 const HALVINGS: usize = 60;
 
-/// The extreme points of the Chebyshev polynomial of degree [`DEGREE`] on [`start`, `end`], ascending, both ends exact.
+/// The extrema of the Chebyshev polynomial of degree [`DEGREE`] on [`start`, `end`], ascending, with exact ends.
 pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
     (0..=DEGREE).map(move |k| match k {
         0 => start,
@@ -22,19 +21,18 @@ pub(super) fn nodes(start: f64, end: f64) -> impl Iterator<Item = f64> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Located {
     At(f64),
-    /// Times before and after the crossing, s, between which to look again.
+    /// Times before and after the crossing, s.
     Between(f64, f64),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Wanted {
     pub is_rising: bool,
-    /// The last one, or else the first.
     pub is_last: bool,
 }
 
 impl Wanted {
-    /// Whether a quantity with these neighbouring values leaves zero between them in the wanted direction.
+    /// Whether a quantity leaves zero in the wanted direction between these values.
     fn is_between(self, before: f64, after: f64) -> bool {
         if self.is_rising { before <= 0.0 && after > 0.0 } else { before >= 0.0 && after < 0.0 }
     }
@@ -46,8 +44,7 @@ impl Wanted {
     }
 }
 
-/// The crossing of a quantity that is held from one of `times` to the next, with these `values`; `is_next` tells
-/// whether no time lies between two times.
+/// The crossing of a quantity held from one of `times` to the next; `is_next`: no time lies between.
 pub(super) fn of_steps(times: &[f64], values: &[f64], wanted: Wanted, is_next: impl Fn(f64, f64) -> bool) -> Located {
     match wanted.place(values) {
         Some(place) if !is_next(times[place], times[place + 1]) => Located::Between(times[place], times[place + 1]),
@@ -56,8 +53,7 @@ pub(super) fn of_steps(times: &[f64], values: &[f64], wanted: Wanted, is_next: i
     }
 }
 
-/// The crossing of a quantity with these `values` at the [`nodes`] `times`, interpolated if the error of its time is at
-/// most `error`, s.
+/// The crossing of a quantity with `values` at the [`nodes`] `times`, interpolated if its error is at most `error`, s.
 pub(super) fn of_curve(times: &[f64], values: &[f64], wanted: Wanted, error: f64) -> Located {
     let Some(place) = wanted.place(values) else { return Located::At(nearest(times, values)) };
     let [start, end] = [times[place], times[place + 1]];
@@ -76,14 +72,14 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], wanted: Wanted, error: f64
     Located::Between(start, end)
 }
 
-/// The end with the value nearest to zero: rounding has moved the crossing onto a point.
+/// The end nearest to zero: rounding moved the crossing onto a point.
 fn nearest(times: &[f64], values: &[f64]) -> f64 {
     let ends = [0, times.len() - 1];
     let [first, last] = ends.map(|end| values[end].abs());
     times[if last < first { ends[1] } else { ends[0] }]
 }
 
-/// The time between `start` and `end` at which `is_after` begins to hold.
+/// The time from which `is_after` holds.
 fn bisect(mut start: f64, mut end: f64, is_after: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (start + end);
@@ -95,7 +91,7 @@ fn bisect(mut start: f64, mut end: f64, is_after: impl Fn(f64) -> bool) -> f64 {
     end
 }
 
-/// The Chebyshev series of the polynomial through the values at the nodes.
+/// The Chebyshev series through values at the nodes.
 pub(super) struct Series([f64; DEGREE + 1]);
 
 impl Series {

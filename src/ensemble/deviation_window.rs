@@ -1,4 +1,4 @@
-//! [`DeviationWindow`]: counts of deviations in one column of bands, cheap to add to.
+//! [`DeviationWindow`]: counts of deviations in a column of bands.
 
 use crate::statistics::deviation::{Code, MANTISSA_BITS, NOT_A_NUMBER, ZERO};
 
@@ -9,25 +9,24 @@ pub(super) struct DeviationWindow<C> {
     zeros: C,
 }
 
-/// Runs that may fill counts of 16 bits.
 pub(super) const FULL: usize = u16::MAX as usize;
 
 const CACHE_LINE: usize = 32;
 
-/// Counts tested together: most blocks in the outer octaves are zero.
+/// Counts tested together: outer octaves are mostly zero.
 const BLOCK: usize = 16;
 
 /// Windows grow by whole octaves, of both signs.
 const OCTAVE: usize = 2 << MANTISSA_BITS;
 
 impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
-    /// The counter of a bucket; `None` beyond the window, and for zero and NaN.
+    /// `None` beyond the window, and for zero and NaN.
     #[inline(always)]
     fn counter(&mut self, code: Code) -> Option<&mut C> {
         self.counts.get_mut(usize::from(code.wrapping_sub(self.first)))
     }
 
-    /// The counter of a bucket beyond the window, which is widened; `None` for NaN, which is in no bucket.
+    /// The counter beyond the window, which grows; `None` for NaN.
     #[inline(never)]
     fn counter_beyond(&mut self, code: Code) -> Option<&mut C> {
         match code {
@@ -40,7 +39,7 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
         }
     }
 
-    /// Widens the window to hold `code`, but never the codes of zero and NaN.
+    /// Widens the window to `code`, without zero and NaN.
     fn include(&mut self, code: usize) {
         let from = (code / OCTAVE * OCTAVE).max(usize::from(NOT_A_NUMBER) + 1);
         let to = (code / OCTAVE + 1) * OCTAVE;
@@ -57,7 +56,7 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
         self.counts.resize(length.max(self.counts.len()), C::default());
     }
 
-    /// The buckets that are not empty, in ascending order of their codes.
+    /// Non-empty buckets in ascending order.
     pub(super) fn buckets(&self) -> impl Iterator<Item = (Code, u64)> {
         let is_empty = |block: &[C]| block.iter().fold(0, |any, count| any | (*count).into()) == 0;
         let blocks = self.counts.chunks(BLOCK).zip((usize::from(self.first)..).step_by(BLOCK));
@@ -68,19 +67,18 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
     }
 }
 
-/// Of one part: 16-bit counts, so that a column fits in the first-level cache.
+/// 16-bit counts of one part: a column fits in the first-level cache.
 impl DeviationWindow<u16> {
     pub(super) fn clear(&mut self) {
         self.counts.fill(0);
         self.zeros = 0;
     }
 
-    /// Counts fewer than [`FULL`] deviations; NaN is in no bucket.
+    /// Counts fewer than [`FULL`] deviations, without NaN.
     pub(super) fn add(&mut self, codes: &[Code]) {
-        // other work has evicted the window from the caches; reading it in order prefetches it
+        // reading in order prefetches the window, which other work has evicted
         std::hint::black_box(self.counts.iter().step_by(CACHE_LINE).fold(0, |any, count| any | count));
         let mut codes = codes.iter();
-        // the window is fixed until a code is beyond it
         loop {
             let (first, counts, zeros) = (self.first, &mut self.counts[..], &mut self.zeros);
             let beyond = codes.find(|code| match counts.get_mut(usize::from(code.wrapping_sub(first))) {

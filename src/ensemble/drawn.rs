@@ -1,4 +1,4 @@
-//! [`DrawnScenes`]: the samples of a campaign as drawn, without runs.
+//! [`DrawnScenes`]: drawn samples without runs.
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::math::symmetric::principal_axes;
@@ -10,29 +10,27 @@ use crate::scene::parameter::{Parameter, Shape};
 use crate::scene::unit_quaternion::unit_quaternion;
 use crate::scene::{Scene, SceneInput};
 
-/// Drawn samples: applied values, and whether the scene is physical.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScenes {
     pub first: SampleId,
-    /// Whether each scene is physical; else its row would have the status `invalid_sample`.
+    /// Whether each scene is physical, or its row `invalid_sample`.
     pub physical: Vec<bool>,
-    /// The applied values, in the order of [`crate::sampling::Dispersions::columns`].
+    /// In the order of [`crate::sampling::Dispersions::columns`].
     pub columns: Vec<Vec<f64>>,
-    /// Mass properties in the order of [`MASS_COLUMNS`], if wanted; NaN for a sample that is not physical.
+    /// In the order of [`MASS_COLUMNS`], if wanted; NaN for unphysical samples.
     pub mass: Vec<Vec<f64>>,
-    /// Magnitudes of vectors and attitudes, in the order of [`magnitudes`].
+    /// In the order of [`magnitudes`].
     pub magnitudes: Vec<Vec<f64>>,
 }
 
-/// The single number that describes a vector or an attitude: the length of a rate or an alignment error, the angle of
-/// an attitude from the nominal one.
+/// The length of a rate or alignment error, or the angle of an attitude from the nominal one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Magnitude {
     pub parameter: Parameter,
 }
 
 impl Magnitude {
-    /// `None` for a parameter that is not an angular velocity, an alignment error, or an attitude.
+    /// `None` for other parameters.
     pub fn of(parameter: Parameter) -> Option<Self> {
         let is_vector = ["rad/s", "rad"].contains(&parameter.unit()) && parameter.width() > 1;
         (is_vector || parameter.shape() == Shape::Quaternion).then_some(Magnitude { parameter })
@@ -46,13 +44,12 @@ impl Magnitude {
         }
     }
 
-    /// Its SI unit.
     pub fn unit(self) -> &'static str {
         if self.parameter.shape() == Shape::Quaternion { "rad" } else { self.parameter.unit() }
     }
 
-    /// Its value in `scene`, SI; NaN if the scene lacks the parameter. The angle is 2 atan2(|v|, |w|) of q_0* (x) q =
-    /// (w, v), accurate for small angles.
+    /// SI; NaN if the scene lacks the parameter. The angle is 2 atan2(|v|, |w|) of q_0* (x) q = (w, v), accurate for
+    /// small angles.
     pub fn value(self, scene: &SceneInput, nominal: &SceneInput) -> f64 {
         let read = |scene: &SceneInput, component| self.parameter.value(scene, component).unwrap_or(f64::NAN);
         if self.parameter.shape() == Shape::Quaternion {
@@ -65,7 +62,7 @@ impl Magnitude {
     }
 }
 
-/// The magnitudes of the dispersed parameters of `plan`, in the order of their first column.
+/// Magnitudes of the dispersed parameters, by first column.
 pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
     let mut list: Vec<Magnitude> = Vec::new();
     for magnitude in plan.dispersions.columns().iter().filter_map(|column| Magnitude::of(column.parameter)) {
@@ -76,7 +73,7 @@ pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
     list
 }
 
-/// The mass properties of a drawn spacecraft: column as in rows, unit, meaning.
+/// Column as in rows, unit, meaning.
 pub const MASS_COLUMNS: [[&str; 3]; 7] = [
     ["mass_kg", "kg", "Mass of the spacecraft, wheels included."],
     ["center_of_mass_x_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
@@ -110,15 +107,15 @@ pub fn mass_properties(scene: &Scene) -> [f64; 7] {
 pub const CHUNK: u64 = 1 << 16;
 
 impl DrawnScenes {
-    /// Draws `count` samples of `plan` from `first` on, or fewer at the end.
+    /// Draws up to `count` samples from `first` on.
     pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
         let mut drawn = DrawnScenes::empty(plan, false);
         drawn.draw(plan, &mut SceneDraws::new(plan), first.0..first.0.saturating_add(count).min(plan.samples));
         drawn
     }
 
-    /// Draws `count` dispersed samples of `plan`: the first ones, or for a design of fixed size, as a grid, one at a
-    /// pseudo-random place in each of `count` equal parts.
+    /// Draws the first `count` dispersed samples, or for a design of fixed size one at a pseudo-random place in each of
+    /// `count` equal parts.
     pub fn spread(plan: &Plan, count: u64) -> Self {
         let dispersed = plan.samples.saturating_sub(1);
         let has_points = plan.design.size(plan.dispersions.dimensions().len()) != Size::Any;
@@ -135,8 +132,7 @@ impl DrawnScenes {
         drawn
     }
 
-    /// Draws all samples of `plan`, at most [`CHUNK`] at a time, and passes them to `seen`; with their mass properties
-    /// if `with_mass`.
+    /// Passes all samples to `seen`, at most [`CHUNK`] at a time, with mass properties if `with_mass`.
     ///
     /// # Errors
     /// The first error of `seen`, which ends the visit.
@@ -190,7 +186,7 @@ mod tests {
     use super::*;
     use crate::observables::{Group, table};
 
-    /// Law: a mass property has the name and the unit of its column in rows.
+    /// Law: mass properties are named and measured as in rows.
     #[test]
     fn mass_properties_are_named_as_in_rows() {
         for [name, unit, _] in MASS_COLUMNS {

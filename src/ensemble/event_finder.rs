@@ -1,11 +1,10 @@
-//! [`EventFinder`]: the times and numbers of crossings of quantities of runs.
+//! [`EventFinder`]: times and numbers of crossings.
 //!
-//! A crossing shows in the values at two neighbouring observation points. Its time is located from values between these
-//! (`lookup`, `crossing`), so that a run without a crossing costs nothing. Time and count are null for a quantity that
-//! is not a number at some point.
+//! A crossing shows between two neighbouring observation points and is then located in repeated flights (`lookup`,
+//! `crossing`), so that a run without one costs nothing. Time and count are null if the quantity is NaN at some point.
 //!
-//! The [`RunEnd`] is found in a run to the end of the campaign, and the run is then flown again up to there: its row is
-//! that of a campaign of this duration, observed at the same points and at its end.
+//! A run with a [`RunEnd`] is flown again up to there: its row is that of a campaign of this duration, with the same
+//! points and its end.
 
 use crate::campaign::event::{Event, Which};
 use crate::campaign::{Plan, event_columns};
@@ -21,26 +20,25 @@ use crate::propagation::CompletedRun;
 use crate::run::{Grid, Status};
 use crate::scene::Scene;
 
-/// Most points between two others at which a quantity of a loop is looked up.
+/// Most ticks looked up between two points.
 const MOST_TICKS: f64 = 64.0;
-/// The shortest run over the duration of the campaign: the order of the errors of times.
+/// Shortest run over the campaign's duration: the order of errors of times.
 const SHORTEST: f64 = 1e-12;
 
-/// An event in a run: its time, NaN if it never happens, and its count, NaN if its quantity is not a number.
+/// Time, NaN if it never happens; count, NaN if the quantity is NaN.
 #[derive(Clone, Copy, Debug)]
 struct Occurrence {
     time: f64,
     count: f64,
 }
 
-/// The events that end runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ends {
     Sought,
     Known(Option<RunEnd>),
 }
 
-/// Finds the events of the runs of a plan, and their extremes, which may begin with events.
+/// Finds events, and extremes, which may begin with events.
 pub struct EventFinder<'p> {
     plan: &'p Plan,
     lookup: Lookup<'p>,
@@ -48,7 +46,6 @@ pub struct EventFinder<'p> {
     ends: Ends,
     found: Vec<Occurrence>,
     pending: Vec<Search<Wanted>>,
-    /// Run by run, whether its law has ended it.
     ended_by_law: Vec<bool>,
     extremes: ExtremeFinder<'p>,
 }
@@ -72,12 +69,11 @@ impl<'p> EventFinder<'p> {
         })
     }
 
-    /// For runs that `end`, or no event, ends at the end of their grid.
+    /// For runs ended by `end`, or by no event, at the end of their grid.
     pub fn ended_by(self, end: Option<RunEnd>) -> Self {
         EventFinder { ends: Ends::Known(end), ..self }
     }
 
-    /// Resets the finder for a new batch of `runs` runs.
     pub fn restart(&mut self, runs: usize) {
         let none = Occurrence { time: f64::NAN, count: 0.0 };
         self.found.clear();
@@ -88,8 +84,8 @@ impl<'p> EventFinder<'p> {
         self.extremes.restart(runs);
     }
 
-    /// Looks at `run`, observed last by `observer` with `status`. Returns whether an event ends it: then nothing else
-    /// is searched, and [`EventFinder::end`] gives the end after [`EventFinder::locate`]. A run may fail after its end.
+    /// Looks at `run`, observed last by `observer`. True if an event ends it: then only its end is searched, which
+    /// [`EventFinder::end`] gives after [`EventFinder::locate`]. A run may fail after its end.
     pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer, status: Status) -> bool {
         let events = &self.plan.events;
         let values = self.lookup.read(observer, run.table);
@@ -161,7 +157,7 @@ impl<'p> EventFinder<'p> {
         earliest.map(|(event, (found, _))| RunEnd { event, time: found.time.max(SHORTEST * self.grid.duration()) })
     }
 
-    /// Locates the crossings and extremes of the runs looked at, of `scenes` with the draws of their laws.
+    /// Locates the crossings and extremes of these runs.
     pub fn locate(&mut self, runs: Runs<'_>) {
         let (events, lookup, found) = (&self.plan.events, &self.lookup, &mut self.found);
         let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]) * self.grid.duration();
@@ -182,7 +178,7 @@ impl<'p> EventFinder<'p> {
                 Located::Between(start, end) => Some([start, end]),
             }
         });
-        // a jump, as near as numbers are
+        // a jump, located to rounding
         for one in left {
             found[one.run * events.len() + one.quantity].time = one.between[1];
         }
@@ -205,13 +201,12 @@ impl<'p> EventFinder<'p> {
     }
 }
 
-/// The places of the columns of events in a row of `request`, after those of failures.
+/// Columns of events in a row of `request`, after those of failures.
 pub fn places(plan: &Plan, request: &Request) -> std::ops::Range<usize> {
     let all = request.places_of_events();
     all.start + event_columns::EACH * plan.nominal.failures.len()..all.end
 }
 
-/// The event that ends a run, and when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunEnd {
     pub event: usize,
@@ -220,7 +215,7 @@ pub struct RunEnd {
 }
 
 impl RunEnd {
-    /// The points of `grid` before this end, and the end; with the number of points of `grid` among them.
+    /// The points of `grid` before this end, and the end; and how many are points of `grid`.
     pub fn grid(self, grid: &Grid) -> (Grid, usize) {
         let before = grid.times().partition_point(|time| *time < self.time);
         let is_point = grid.times().get(before) == Some(&self.time);
@@ -229,14 +224,14 @@ impl RunEnd {
     }
 }
 
-/// Finds the ends of runs of a plan, from its observation points, as its campaign does.
+/// Finds ends of runs as the campaign does.
 pub struct EndFinder<'p> {
     runs: ObservedRuns<'p>,
     events: EventFinder<'p>,
 }
 
 impl<'p> EndFinder<'p> {
-    /// For runs of `plan`; `None` if no event ends them.
+    /// `None` if no event ends runs.
     pub fn new(plan: &'p Plan, engines: Engines) -> Option<Self> {
         if !plan.events.iter().any(|event| event.ends_run) {
             return None;
@@ -245,7 +240,7 @@ impl<'p> EndFinder<'p> {
         Some(EndFinder { runs, events: EventFinder::new(plan, &plan.grid, engines)? })
     }
 
-    /// The end of the run of `scene` under the law of `draw`; `None` if no event ends it.
+    /// The end of one run, if an event ends it.
     pub fn end(&mut self, scene: &Scene, draw: &[LawDraw]) -> Option<RunEnd> {
         let EndFinder { runs, events } = self;
         let one = Runs::one(scene, draw);

@@ -1,8 +1,8 @@
-//! [`ExtremeFinder`]: the largest and smallest values of quantities of runs, also between observation points.
+//! [`ExtremeFinder`]: largest and smallest values, also between observation points.
 //!
-//! A largest value lies near a point that exceeds its neighbours, or at the ends of the interval of time. The sample is
-//! flown again with more points there (`peak`); a quantity of a control loop is looked up at every tick. An extreme is
-//! a value of the quantity itself. It is null if the quantity is not a number at a point of its interval.
+//! A largest value lies near a point above its neighbours or at an end of the interval, where the sample is flown again
+//! with more points (`peak`); quantities of a control loop are looked up at every tick. An extreme is a value of the
+//! quantity itself, null if that is NaN at a point of the interval.
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
@@ -15,22 +15,21 @@ use crate::observables::band_series::event_series;
 use crate::propagation::CompletedRun;
 use crate::run::Grid;
 
-/// Ticks looked up together.
 const TICKS: usize = 4096;
-/// A parabola exceeds its value at a point by an eighth of its second difference there; points are searched if four
-/// times that could make them the largest.
+/// A parabola exceeds its value at a point by an eighth of its second difference; points are searched if four times
+/// that could make them largest.
 const BEYOND: f64 = 0.5;
 
 pub(super) struct ExtremeFinder<'p> {
     plan: &'p Plan,
     lookup: Lookup<'p>,
     times: Vec<f64>,
-    /// Ends of the runs looked at, s; NaN for others.
+    /// Ends of runs, s; NaN for others.
     ends: Vec<f64>,
-    /// Values at the points, run by run and extreme by extreme; negated for a smallest value.
+    /// By run and extreme; negated for smallest values.
     values: Vec<f64>,
     found: Vec<f64>,
-    /// Last time at which the quantity is not a number, s; NaN for never.
+    /// Last time with NaN, s; NaN for never.
     undefined: Vec<f64>,
 }
 
@@ -53,7 +52,6 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Resets the finder for a new batch of `runs` runs.
     pub fn restart(&mut self, runs: usize) {
         let extremes = self.plan.extremes.len();
         for (list, count) in [
@@ -67,7 +65,6 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Keeps the values of `run`, observed last by `observer`.
     pub fn look(&mut self, run: &CompletedRun<'_>, observer: &Observer) {
         let (extremes, points) = (&self.plan.extremes, self.times.len());
         if extremes.is_empty() {
@@ -86,8 +83,7 @@ impl<'p> ExtremeFinder<'p> {
         }
     }
 
-    /// Locates the extremes of the runs looked at, of `scenes` with the draws of their laws; `time_of` is the time of
-    /// an event of a run.
+    /// Locates the extremes; `time_of` gives the time of an event of a run.
     pub fn locate(&mut self, runs: Runs<'_>, time_of: &dyn Fn(usize, usize) -> f64) {
         let mut pending = Vec::new();
         for run in 0..self.ends.len() {
@@ -123,7 +119,7 @@ impl<'p> ExtremeFinder<'p> {
         });
     }
 
-    /// Intervals between `start` and `end` that may hold the largest value of an extreme of a run, besides the points.
+    /// Intervals that may hold the largest value of an extreme, besides the points.
     fn places(&mut self, run: usize, extreme: usize, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         if let Some(period) = self.lookup.period(extreme) {
             let ticks = ticks(period, start, end, f64::INFINITY);
@@ -131,7 +127,6 @@ impl<'p> ExtremeFinder<'p> {
         }
         let (times, extremes) = (&self.times, self.plan.extremes.len());
         let values = &self.values[(run * extremes + extreme) * times.len()..][..times.len()];
-        // points between start and end
         let [first, after] = [times.partition_point(|time| *time <= start), times.partition_point(|time| *time <= end)];
         if first >= after {
             return vec![[start, end]];

@@ -7,7 +7,7 @@ use crate::ensemble::rows::Rows;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
-/// Runs that failed for one reason: the same status, and texts that differ only in numbers.
+/// Runs that failed with one status, and texts that differ only in numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailureReason {
     pub status: Status,
@@ -16,7 +16,7 @@ pub struct FailureReason {
     pub text: String,
 }
 
-/// The reasons of any rows, in whatever order they are added.
+/// Independent of the order of additions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FailureReasons(BTreeMap<(&'static str, String), FailureReason>);
 
@@ -34,7 +34,7 @@ impl FailureReasons {
         }
     }
 
-    /// The reasons, the most frequent first.
+    /// Most frequent first.
     pub fn groups(&self) -> Vec<&FailureReason> {
         let mut groups: Vec<&FailureReason> = self.0.values().collect();
         groups.sort_by_key(|group| (Reverse(group.count), group.first));
@@ -46,7 +46,7 @@ fn without_numbers(text: &str) -> String {
     with_numbers(text, |_| "#".to_owned())
 }
 
-/// `text` with its numbers in the format `shown`. Digits within a name (`w1`) are part of it.
+/// `text` with its numbers as `shown`; digits in a name (`w1`) are no number.
 pub fn with_numbers(text: &str, shown: impl Fn(&str) -> String) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut chars = text.chars().peekable();
@@ -58,7 +58,6 @@ pub fn with_numbers(text: &str, shown: impl Fn(&str) -> String) -> String {
         }
         let mut number = if kept.ends_with('-') { kept.pop().into_iter().collect() } else { String::new() };
         number.push(c);
-        // the sign of an exponent follows its e
         while let Some(next) = chars.next_if(|next| {
             next.is_ascii_digit() || matches!(next, '.' | 'e') || matches!(next, '+' | '-') && number.ends_with('e')
         }) {

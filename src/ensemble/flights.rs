@@ -1,5 +1,4 @@
-//! [`Flights`], [`ObservedRuns`]: propagates runs of a plan, under its control law if it has one; nothing else of the
-//! ensemble does.
+//! [`Flights`], [`ObservedRuns`]: propagate the runs of a plan, under its control law if any.
 
 use std::slice::from_ref;
 
@@ -20,31 +19,30 @@ use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Tel
 use crate::sampling::SampleId;
 use crate::scene::{Arc, ControlInput, Scene, SceneInput};
 
-/// The draws of the law of a run, besides its scene.
+/// The draws of a run's law, besides its scene.
 #[derive(Clone, Debug)]
 pub struct LawDraw {
     pub sample: SampleId,
-    /// The parameters of the law as drawn.
+    /// Drawn parameters of the law.
     pub parameters: ControlInput,
 }
 
 impl LawDraw {
-    /// For the nominal run of `plan`; `None` without a law.
+    /// For the nominal run; `None` without a law.
     pub fn nominal(plan: &Plan) -> Option<Self> {
         Self::of(plan, SampleId(0), &plan.nominal)
     }
 
-    /// For the noise of `sample`, with the parameters in the `drawn` scene; `None` without a law.
+    /// Noise of `sample`, parameters of the `drawn` scene; `None` without a law.
     pub fn of(plan: &Plan, sample: SampleId, drawn: &SceneInput) -> Option<Self> {
         plan.law.as_ref().map(|_| LawDraw { sample, parameters: drawn.control.clone() })
     }
 }
 
-/// Runs to be flown together.
 #[derive(Clone, Copy)]
 pub struct Runs<'a> {
     pub scenes: &'a [Scene],
-    /// The draw of the law of each scene; none without a law.
+    /// One for each scene; none without a law.
     pub draws: &'a [LawDraw],
 }
 
@@ -54,26 +52,23 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// An engine, and the laws of its runs.
 pub struct Flights<'p> {
     plan: &'p Plan,
     engine: Box<dyn Engine>,
-    /// The laws of the plan, with the nominal scene that they know.
+    /// The laws, and the nominal scene that they know.
     laws: Option<(LawRuns, Scene)>,
     over_time: Vec<SharedRecord>,
     times: Vec<f64>,
     end: f64,
     records: bool,
     engines: Engines,
-    /// Whether the surface of the central body ends runs.
     ends_at_surface: bool,
 }
 
-/// Receives a finished run, and the record of its law at the observation points ([`crate::observables::LawSeries`]).
+/// Receives a finished run and its law's record at the observation points ([`crate::observables::LawSeries`]).
 pub type FlightCallback<'a> = dyn FnMut(CompletedRun<'_>, &[f64]) + 'a;
 
 impl<'p> Flights<'p> {
-    /// Runs of `plan` with these settings, by engines of its method on an instruction set, or by those of the caller.
     pub fn new(plan: &'p Plan, settings: &PropagationSettings, engines: Engines) -> Self {
         Flights {
             plan,
@@ -88,7 +83,6 @@ impl<'p> Flights<'p> {
         }
     }
 
-    /// With laws that record what they do.
     pub fn recording(self) -> Self {
         Flights { records: true, ..self }
     }
@@ -144,7 +138,7 @@ impl<'p> Flights<'p> {
                 outcome.status = Status::Diverged;
             }
             let run = CompletedRun { outcome: &outcome, ..run };
-            // before observation: the state of the loop at the end is observed
+            // observation includes the loop's state at the end
             if run.outcome.status == Status::Done {
                 let (body, wheels) = state_at_end(&scenes[run.index], run.table);
                 flown[run.index].end(run.outcome.time, &body, &wheels);
@@ -156,14 +150,14 @@ impl<'p> Flights<'p> {
         });
     }
 
-    /// Writes the report of the law of run `run` of the last flight.
+    /// Writes the law's report on run `run` of the last flight.
     pub fn report(&self, run: usize, values: &mut [f64]) {
         if let Some((laws, _)) = &self.laws {
             laws.report(run, values);
         }
     }
 
-    /// Why the law of run `run` of the last flight ended it as [`Status::Diverged`].
+    /// Why the law ended run `run` of the last flight as [`Status::Diverged`].
     pub fn divergence(&self, run: usize) -> String {
         self.laws.as_ref().and_then(|(laws, _)| laws.shared().get(run)?.divergence()).unwrap_or_default()
     }
@@ -174,7 +168,7 @@ impl<'p> Flights<'p> {
     }
 }
 
-/// The outcome of `run`, observed at `times`, if it reaches the surface of the central body.
+/// The outcome of `run` if it reaches the surface of the central body.
 fn at_surface(plan: &Plan, one: Runs<'_>, run: &CompletedRun<'_>, times: &[f64], engines: Engines) -> Option<Outcome> {
     let scene = &one.scenes[0];
     let last = times[times.len() - 1];
@@ -200,13 +194,13 @@ fn at_surface(plan: &Plan, one: Runs<'_>, run: &CompletedRun<'_>, times: &[f64],
         found
     };
     let time = surface::contact(scene, run, (times, end_of(run)), &mut positions)?;
-    // an event that ends the run before shows at the point after it
+    // an event that ends the run earlier shows at the next point
     let after = usize::from(plan.events.iter().any(|event| event.ends_run));
     let points = run.outcome.points.min(times.partition_point(|other| *other < time) + after);
     Some(Outcome { status: Status::Surface, time, points, ..*run.outcome })
 }
 
-/// The state of body and wheels at the last point of `table`, of a run of `scene` under a law.
+/// The state at the last point of a run under a law.
 fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
     let last = table.points() - 1;
     let body = BodyState {
@@ -224,7 +218,7 @@ fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
     (body, wheels)
 }
 
-/// The attitude of the nominal run at the times of `grid`, if `request` compares runs with it.
+/// The nominal attitude at the times of `grid`, if `request` compares runs with it.
 pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -> Option<NominalAttitude> {
     if !request.groups.contains(Group::Motion) {
         return None;
@@ -237,7 +231,7 @@ pub fn nominal_attitude(plan: &Plan, request: &Request, grid: &Grid, isa: Isa) -
     found
 }
 
-/// Observes a run of `plan` into `row`, with the arcs flown under a law or the schedule, and the failed devices.
+/// Observes a run into `row`, with its arcs under a law or the schedule, and failed devices.
 pub fn observe(
     plan: &Plan,
     observer: &mut Observer,
@@ -266,14 +260,14 @@ pub fn observe(
     status
 }
 
-/// The end of a run, s: of the campaign's grid, or by its law.
+/// The end of a run, s: of the grid, or by its law.
 pub fn end_of(run: &CompletedRun<'_>) -> f64 {
     let of_law = run.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start);
     of_law.map_or(run.outcome.time, |end| end.min(run.outcome.time))
 }
 
-/// The scene with the actuation that a run of `scene` under a law has flown, constant effects included, as its
-/// schedule: its open loop is that run, bit for bit. Effects that change within an arc act on it as on the run.
+/// The scene with the flown arcs, constant effects included, as its schedule: its open loop is that run bit for bit.
+/// Effects that change within an arc still act.
 pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
     Scene {
         schedule: arcs.to_vec(),
@@ -284,7 +278,6 @@ pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
     }
 }
 
-/// The plan, columns and engines of runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Means<'p> {
     pub plan: &'p Plan,
@@ -293,7 +286,7 @@ pub struct Means<'p> {
 }
 
 impl<'p> Means<'p> {
-    /// For the columns of the campaign.
+    /// With the campaign's columns.
     pub fn new(plan: &'p Plan, engines: Engines) -> Self {
         Means { plan, request: plan.request(), engines }
     }
@@ -303,7 +296,7 @@ impl<'p> Means<'p> {
         self.runs_with(grid, self.request.fields(), nominal)
     }
 
-    /// Runs with the states `fields`, compared with the attitude of the `nominal` run, if known.
+    /// Runs with the states `fields`, compared with the `nominal` attitude if known.
     pub fn runs_with(self, grid: &Grid, fields: StateFields, nominal: Option<NominalAttitude>) -> ObservedRuns<'p> {
         let settings = propagator(self.plan, grid.clone(), fields);
         ObservedRuns {
@@ -315,7 +308,7 @@ impl<'p> Means<'p> {
     }
 }
 
-/// Runs of one plan on one grid. Earlier runs have no influence.
+/// Runs of one plan on one grid, independent of earlier ones.
 pub struct ObservedRuns<'p> {
     pub means: Means<'p>,
     pub flights: Flights<'p>,

@@ -1,6 +1,6 @@
-//! [`notes`]: dispersed parameters that change nothing, or no requested column, found by runs of the nominal scene and
-//! some samples with one parameter changed at a time. Properties of the equations (a position changes no energy of
-//! rotation, a thruster never fired changes nothing) need no list.
+//! [`notes`]: dispersed parameters without effect on requested columns, found by runs of the nominal scene and some
+//! samples with one parameter changed. Properties of the equations (a thruster never fired changes nothing) need no
+//! list.
 
 use std::time::Instant;
 
@@ -13,12 +13,11 @@ use crate::run::Status;
 use crate::sampling::{Design, Dispersions, Draws, SampleId};
 use crate::scene::{Parameter, Scene};
 
-/// Draws from which samples are chosen.
 const DRAWN: u64 = 1000;
 /// Longest search, s.
 const LONGEST_S: f64 = 3.0;
 
-/// A sentence for each parameter without draws other than the nominal value, or without effect on a requested column.
+/// A sentence for each parameter that is always nominal or has no effect on a requested column.
 pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let drawn = DrawnScenes::spread(plan, DRAWN);
     let columns = plan.dispersions.columns();
@@ -53,10 +52,10 @@ pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     notes
 }
 
-/// The dispersed parameters of `plan`, or their dispersed components, that leave every requested column unchanged, bit
-/// for bit, when they take the values of some samples in the nominal scene, and the nominal values in these samples.
-/// Inputs of derived parameters and of `[[observable]]` count as effective; parameters without variation are not
-/// judged. `None` if the runs would take too long, or the nominal scene cannot be run.
+/// The dispersed parameters, or components, that leave every requested column unchanged, bit for bit, when they take
+/// values of samples in the nominal scene and nominal values in these samples. Inputs of derived parameters and of
+/// `[[observable]]` count as effective; constant ones are not judged. `None` if runs take too long or the nominal scene
+/// cannot run.
 pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<String>> {
     let mut parameters: Vec<Parameter> = plan.dispersions.columns().iter().map(|column| column.parameter).collect();
     parameters.sort_unstable();
@@ -66,7 +65,6 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     let inputs: Vec<Parameter> = derivations.chain(observables).map(|(parameter, _)| parameter).collect();
     parameters.retain(|parameter| !inputs.contains(parameter));
     if part_of_run(plan).is_some() {
-        // later effects would be missed
         return None;
     }
     let start = Instant::now();
@@ -84,7 +82,6 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
         if !samples.is_empty() && !samples.iter().any(is_seen) {
             unseen.push(dispersed_name(plan, *parameter));
         }
-        // samples may take longer than the nominal run
         if start.elapsed().as_secs_f64() > LONGEST_S {
             return None;
         }
@@ -92,16 +89,16 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     Some(unseen)
 }
 
-/// Whether a row differs if `parameter` has its value among `applied`, those of a sample, instead of the nominal one:
-/// in the nominal scene, whose row is `nominal`, or in that sample. Making a scene unphysical is an effect.
+/// Whether a row differs if `parameter` takes its value among `applied` in the nominal scene, whose row is `nominal`,
+/// or its nominal value in that sample. An unphysical scene is an effect.
 fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal: &[u64]) -> bool {
     let row_with = |is_applied: &dyn Fn(Parameter) -> bool| row_with(plan, isa, applied, is_applied);
     row_with(&|other| other == parameter).is_none_or(|row| row != nominal)
         || row_with(&|_| true).is_some_and(|row| row_with(&|other| other != parameter).is_none_or(|other| other != row))
 }
 
-/// The bits of the requested columns of the nominal scene with some parameters at their values among `applied`; `None`
-/// if it is not physical, or takes too long.
+/// The bits of the nominal scene's row with some parameters from `applied`; `None` if it is not physical or takes too
+/// long.
 fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Parameter) -> bool) -> Option<Vec<u64>> {
     let mut changed = plan.clone();
     for (column, value) in plan.dispersions.columns().iter().zip(applied).filter(|(c, _)| is_applied(c.parameter)) {
@@ -115,7 +112,7 @@ fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Paramete
     (run.outcome.status != Status::StepLimit).then(|| run.row.iter().map(|value| value.to_bits()).collect())
 }
 
-/// The applied values of samples in which a column of `parameter` is largest or smallest, and not nominal.
+/// Samples with the largest or smallest value of a column of `parameter`, other than nominal.
 fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Vec<Vec<f64>> {
     let own = plan.dispersions.columns().iter().zip(&drawn.columns).filter(|(column, _)| column.parameter == parameter);
     let extremes = own.flat_map(|(column, values)| {
@@ -129,7 +126,7 @@ fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Ve
     samples.into_iter().map(|sample| drawn.columns.iter().map(|values| values[sample]).collect()).collect()
 }
 
-/// The name of a parameter, or of its dispersed components if not all are.
+/// The parameter's name, or those of its dispersed components.
 fn dispersed_name(plan: &Plan, parameter: Parameter) -> String {
     let columns = plan.dispersions.columns().iter().filter(|column| column.parameter == parameter);
     let names: Vec<String> = columns.map(|column| parameter.component_name(column.component)).collect();

@@ -1,8 +1,6 @@
-//! [`Lookup`]: quantities of runs at their observation points, and at any other times.
-//!
-//! For other times the sample is flown again with observation points there: observation does not change the
-//! integration, so this works for every engine, effect and control loop. Each run has its own times, so that a few runs
-//! at a time are flown again, in lanes.
+//! [`Lookup`]: quantities of runs at observation points and other times, for which the sample is flown again with
+//! points there: observation does not change the integration of any engine, effect and loop. Each run has its own
+//! times, so a few are flown at once, in lanes.
 
 use crate::campaign::Plan;
 use crate::ensemble::crossing::nodes;
@@ -16,24 +14,23 @@ use crate::run::{Grid, StateFields, StateTable};
 use crate::sampling::expression::Expression;
 use crate::scene::Scene;
 
-/// Runs flown again together: one in each lane.
+/// One in each lane.
 const TOGETHER: usize = 8;
-/// Most times looked up together, beyond those of one query.
+/// Most times of one flight, beyond those of one query.
 const MOST_TIMES: usize = 4096;
 
-/// Rounding of a quantity over its size: of the dozen products and sums from the state to it.
+/// Relative rounding of a dozen products and sums from state to quantity.
 const ROUNDING_OF_VARIABLES: f64 = 16.0 * f64::EPSILON;
 
-/// An expression of quantities over time.
 struct WatchedQuantity {
     expression: Expression,
-    /// The variables of the expression, by their places among those that are read.
+    /// Indices of its variables among the sources.
     variables: Vec<usize>,
-    /// Whether they change only at the ticks of a control loop.
+    /// Whether they only change at ticks of a control loop.
     changes_at_ticks: bool,
 }
 
-/// A query for quantity number `quantity` of run `run` at `times`, s.
+/// Query for a quantity of a run at `times`, s.
 #[derive(Clone, Debug)]
 struct Query {
     run: usize,
@@ -41,12 +38,12 @@ struct Query {
     times: Vec<f64>,
 }
 
-/// Most repeated flights of a search: a jump or a corner between two points an hour apart is then located to rounding.
+/// Most flights of a search: they locate a jump or corner between points an hour apart to rounding.
 const MOST_FLIGHTS: usize = 24;
-/// Limits of the error of a search over the size of what it locates; within them it is that of the integration.
+/// Limits of a search's relative error, which is that of the integration within them.
 pub(super) const ERRORS: [f64; 2] = [1e-13, 1e-9];
 
-/// A search for a time of quantity number `quantity` of run `run` between two times, s.
+/// A search in quantity `quantity` of run `run` between two times, s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Search<T> {
     pub run: usize,
@@ -55,9 +52,8 @@ pub(super) struct Search<T> {
     pub between: [f64; 2],
 }
 
-/// Reads quantities of the runs of a plan.
 pub(super) struct Lookup<'p> {
-    /// The columns of repeated flights are only those of the quantities.
+    /// Requests only the columns of the quantities.
     means: Means<'p>,
     fields: StateFields,
     quantities: Vec<WatchedQuantity>,
@@ -78,21 +74,21 @@ impl PointValues<'_> {
         self.sources[place].form.shown(self.kept[place * self.points + point])
     }
 
-    /// The value of quantity number `quantity` at point `point`; NaN if unknown.
+    /// The value of a quantity at a point; NaN if unknown.
     pub fn at(&self, quantity: usize, point: usize) -> f64 {
         let WatchedQuantity { expression, variables, .. } = &self.quantities[quantity];
         expression.value(|variable: usize| self.source(variables[variable], point))
     }
 
-    /// The points at which quantity number `quantity` is not a number though its sources are known.
+    /// Points at which a quantity is NaN though its sources are known.
     pub fn undefined(&self, quantity: usize) -> impl DoubleEndedIterator<Item = usize> + '_ {
         let variables = &self.quantities[quantity].variables;
         let is_known = move |point: usize| variables.iter().all(|place| !self.source(*place, point).is_nan());
         (0..self.points).filter(move |point| self.at(quantity, *point).is_nan() && is_known(*point))
     }
 
-    /// The effect of rounding on quantity number `quantity` at point `point`: the sum of those of its variables. A
-    /// variable rounds as its largest value in the run, an angle at least as components of unit vectors.
+    /// The rounding of a quantity at a point, summed over its variables: each rounds as its largest value in the run,
+    /// an angle at least as unit vectors.
     pub fn rounding(&self, quantity: usize, point: usize) -> f64 {
         let WatchedQuantity { expression, variables, .. } = &self.quantities[quantity];
         let value = self.at(quantity, point);
@@ -107,7 +103,7 @@ impl PointValues<'_> {
             [change(ROUNDING_OF_VARIABLES * size), change(-ROUNDING_OF_VARIABLES * size)]
         };
         let changes = (0..variables.len()).map(moved).chain([[ROUNDING_OF_VARIABLES * value.abs(); 2]]);
-        // changes that are not finite, at an end of the expression's domain, say nothing of rounding
+        // infinite changes, at an end of the expression's domain, are no rounding
         changes.map(|both| both.into_iter().filter(|change| change.is_finite()).fold(0.0, f64::max)).sum()
     }
 
@@ -116,7 +112,7 @@ impl PointValues<'_> {
     }
 }
 
-/// Takes a search with times of its interval and the values there, and gives an interval for another look, if any.
+/// Takes a search with times of its interval and their values; returns an interval for another look, if any.
 pub type Narrow<'n, T> = dyn FnMut(Search<T>, &[f64], &[f64]) -> Option<[f64; 2]> + 'n;
 
 impl<'p> Lookup<'p> {
@@ -150,21 +146,20 @@ impl<'p> Lookup<'p> {
         }
     }
 
-    /// The period of the ticks at which quantity number `quantity` changes, s; `None` if it changes between them.
+    /// Period of the ticks at which a quantity changes, s; `None` if it also changes between them.
     pub fn period(&self, quantity: usize) -> Option<f64> {
         let spec = self.means.plan.law.as_ref()?.spec()?;
         self.quantities[quantity].changes_at_ticks.then_some(spec.period)
     }
 
-    /// The values of the run with the states `table`, observed last by `observer`.
+    /// The values of the run observed last by `observer`.
     pub fn read(&mut self, observer: &Observer, table: &StateTable) -> PointValues<'_> {
         let points = self.grid.points();
         let kept = self.reader.kept(observer, table, points);
         PointValues { quantities: &self.quantities, sources: &self.sources, kept, points }
     }
 
-    /// Answers `queries`, ordered by run, about `scenes` with the draws of their laws: passes the number of each query
-    /// with the values at its times.
+    /// Answers `queries`, ordered by run: passes the index of each with the values at its times.
     fn answer(&self, queries: &[Query], of_runs: Runs<'_>, take: &mut dyn FnMut(usize, &[f64])) {
         let mut first = 0;
         while first < queries.len() {
@@ -185,8 +180,7 @@ impl<'p> Lookup<'p> {
         }
     }
 
-    /// Narrows down `searches`: `narrow` takes one with the values at times of its interval, and gives an interval for
-    /// another look, if any. Returns the searches without an end.
+    /// Narrows down `searches` by repeated flights; returns those without an end.
     pub fn refine<T: Copy>(
         &self,
         mut searches: Vec<Search<T>>,
@@ -218,7 +212,7 @@ impl<'p> Lookup<'p> {
         searches
     }
 
-    /// Flies the runs `runs` again, with points at the times of `queries`.
+    /// Flies `runs` again with points at the times of `queries`.
     fn fly_again(
         &self,
         runs: &[usize],
@@ -252,7 +246,7 @@ impl<'p> Lookup<'p> {
     }
 }
 
-/// `start`, `end`, and the ticks of a loop between them, evenly thinned to at most `most`.
+/// `start`, `end` and the ticks between, thinned evenly to at most `most`.
 pub(super) fn ticks(period: f64, start: f64, end: f64, most: f64) -> Vec<f64> {
     let [first, last] = [(start / period).floor() + 1.0, (end / period).ceil() - 1.0];
     let count = (last - first + 1.0).max(0.0);
@@ -269,7 +263,6 @@ pub(super) fn ticks(period: f64, start: f64, end: f64, most: f64) -> Vec<f64> {
     times
 }
 
-/// The part of `request` that the quantities `sources` need.
 fn narrowed(mut request: Request, sources: &[BandSeries]) -> Request {
     request.windows = NO_WINDOWS;
     let all = request.groups;

@@ -1,9 +1,7 @@
 //! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! A [`Worker`] draws and flies the samples of a part into [`Rows`], which a [`Sink`] takes; [`run`] gives parts to
-//! threads. [`SingleRun`] is one of these runs with its states.
-//!
-//! Not here: file formats (`storage`), and single runs (`run`, `propagation`).
+//! A [`Worker`] flies the samples of a part into [`Rows`] for a [`Sink`]; [`run`] gives parts to threads. [`SingleRun`]
+//! is one run with its states.
 
 pub mod audit;
 pub mod bands;

@@ -1,49 +1,45 @@
-//! [`Parts`]: the division of a campaign into parts of consecutive samples.
+//! [`Parts`]: a campaign's parts of consecutive samples.
 //!
-//! A part is the work of a thread, the content of a file, and the unit of resuming and sharding. Its boundaries depend
-//! on the rows alone: not on threads, machine, shards, or the number of samples, so that a longer campaign has the same
-//! parts and more. Parts grow with their number, so that all threads share a small campaign and files of a large one
-//! are few.
+//! A part is a thread's work, a file's content and the unit of resuming and sharding. Its boundaries do not depend on
+//! threads, machine, shards or the number of samples: a longer campaign only adds parts. Sizes grow, so that all
+//! threads share a small campaign and a large one has few files.
 
 use crate::sampling::SampleId;
 
-/// The size of the first parts: below, creating a file costs more than the runs.
+/// First size: below, creating a file costs more than the runs.
 const SMALLEST: u64 = 256;
 
-/// The largest part: rows of a hundred columns take some 10 MB per thread.
+/// Rows of a hundred columns take some 10 MB per thread.
 const LARGEST: u64 = 16_384;
 
-/// Number of parts of one size before it doubles.
 const OF_ONE_SIZE: u64 = 16;
 
-/// The size of the next [`OF_THE_USUAL_SIZE`] parts: rows of two threads fit in a shared cache, and memory is constant
-/// from a hundred thousand to ten million samples. Beyond, the number of files matters more.
+/// Size of the next [`OF_THE_USUAL_SIZE`] parts: rows of two threads fit in a shared cache, and memory is constant from
+/// a hundred thousand to ten million samples; beyond, the number of files matters more.
 const USUAL: u64 = 4096;
 
-/// Parts of the size [`USUAL`].
 const OF_THE_USUAL_SIZE: u64 = 2560;
 
-/// The number of a part, from zero.
+/// From zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartId(pub u64);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     pub id: PartId,
-    /// Its first sample, counted among those that run.
+    /// First sample, counted among those that run.
     pub first: SampleId,
-    /// Number of samples, at least one.
+    /// At least one.
     pub count: usize,
 }
 
 impl Part {
-    /// Its samples, counted among those that run.
+    /// Counted among those that run.
     pub fn samples(self) -> impl Iterator<Item = SampleId> {
         (self.first.0..self.first.0 + self.count as u64).map(SampleId)
     }
 }
 
-/// The division of a campaign into parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     samples: u64,
@@ -51,23 +47,21 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// Parts of a campaign of `samples` short runs.
     pub fn of(samples: u64) -> Self {
         Self::up_to(samples, LARGEST)
     }
 
-    /// Parts of a campaign of `samples` samples, none larger than `largest` (at least 1).
+    /// Parts of at most `largest` (at least 1) samples.
     pub fn up_to(samples: u64, largest: u64) -> Self {
         Parts { samples, largest: largest.clamp(1, LARGEST) }
     }
 
-    /// The parts for a different number of samples.
     #[must_use]
     pub fn with_samples(self, samples: u64) -> Self {
         Parts { samples, ..self }
     }
 
-    /// Sizes with their number of parts, in order; the last has no end.
+    /// Sizes and numbers of parts; the last has no end.
     fn sizes(self) -> impl Iterator<Item = (u64, Option<u64>)> {
         let mut size = SMALLEST.min(self.largest);
         std::iter::from_fn(move || {
@@ -78,7 +72,6 @@ impl Parts {
         })
     }
 
-    /// Most samples of a part.
     pub fn largest(self) -> u64 {
         self.largest
     }
@@ -115,7 +108,7 @@ impl Parts {
         None
     }
 
-    /// The part with sample `sample`; `None` after the last.
+    /// The part of a sample; `None` after the last.
     pub fn with(self, sample: SampleId) -> Option<Part> {
         let (mut first, mut id) = (0_u64, 0_u64);
         for (size, many) in self.sizes() {

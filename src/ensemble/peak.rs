@@ -1,26 +1,23 @@
-//! The largest value of a quantity between two times, from its values at [`super::crossing::nodes`]: interpolated where
-//! that is exact, else narrowed down.
+//! The largest value between two times from values at [`super::crossing::nodes`]: interpolated if accurate, else
+//! narrowed down.
 
 use super::crossing::{ROUNDING, Series};
 
-/// Samples of a polynomial in the search of its largest value: several between two extremes.
+/// Samples of the polynomial, several between extremes.
 const SAMPLES: usize = 128;
-/// Steps of golden-section search: to rounding.
+/// Golden-section steps, to rounding.
 const DIVISIONS: usize = 80;
-/// The kept share of an interval.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The result of a search for a largest value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Peak {
     Value(f64),
-    /// The largest one so far, and the times between which to look again, s: one time at the peak of a polynomial,
-    /// which may exceed all values of the quantity.
+    /// The largest so far, and the times to look between, s: one time at the peak of a polynomial, which may exceed the
+    /// quantity.
     Between(f64, [f64; 2]),
 }
 
-/// The largest of a quantity with these `values` at the nodes `times`, or at one time, to a share `error` of its size;
-/// NaN is unknown.
+/// The largest of `values` at the nodes `times`, or at one time, to a share `error` of its size; NaN is unknown.
 pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
     let Some((best, largest)) = known.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { return Peak::Value(f64::NAN) };
@@ -48,7 +45,6 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     if is_flat || is_narrow { Peak::Value(*largest) } else { Peak::Between(*largest, [start, end]) }
 }
 
-/// The place of the polynomial's largest value on [-1, 1].
 fn peak(series: &Series) -> f64 {
     let at = |sample: usize| -1.0 + 2.0 * sample as f64 / SAMPLES as f64;
     let value = |x: f64| series.value(x);

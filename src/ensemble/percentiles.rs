@@ -1,4 +1,4 @@
-//! [`Percentiles`]: quantiles of drawn columns, exact for few samples, from sketches for more.
+//! [`Percentiles`]: quantiles of drawn columns, from sketches beyond [`CHUNK`] samples.
 
 use crate::campaign::Plan;
 use crate::ensemble::drawn::{CHUNK, DrawnScenes, magnitudes};
@@ -6,8 +6,7 @@ use crate::sampling::SampleId;
 use crate::statistics::quantile::quantile;
 use crate::statistics::sketch::Sketch;
 
-/// Quantiles of the columns of the samples of a plan, then of their magnitudes ([`magnitudes`]). The nominal sample 0
-/// does not count.
+/// Quantiles of columns, then of [`magnitudes`], without the nominal sample.
 #[derive(Clone, Debug)]
 pub struct Percentiles {
     count: u64,
@@ -19,12 +18,11 @@ pub struct Percentiles {
 #[derive(Clone, Debug)]
 enum HeldColumns {
     Values(Vec<Vec<f64>>),
-    /// Sketches about the nominal values.
+    /// About the nominal values.
     Sketches(Vec<Sketch>),
 }
 
 impl Percentiles {
-    /// For the samples of `plan`, none counted yet.
     pub fn new(plan: &Plan) -> Self {
         let columns = plan.dispersions.columns().iter().map(|column| column.nominal);
         let magnitudes = magnitudes(plan).into_iter().map(|magnitude| magnitude.value(&plan.nominal, &plan.nominal));
@@ -37,10 +35,8 @@ impl Percentiles {
         Percentiles { count: 0, invalid: 0, nominal, columns }
     }
 
-    /// Counts the samples of `drawn`.
     pub fn add(&mut self, drawn: &DrawnScenes) {
         self.invalid += drawn.physical.iter().filter(|physical| !**physical).count() as u64;
-        // of the nominal sample alone nothing is drawn
         let from = usize::from(drawn.first == SampleId(0)).min(drawn.count());
         self.count += (drawn.count() - from) as u64;
         match &mut self.columns {
@@ -55,7 +51,6 @@ impl Percentiles {
         }
     }
 
-    /// The nominal value of each column.
     pub fn nominal(&self) -> &[f64] {
         &self.nominal
     }
@@ -64,19 +59,18 @@ impl Percentiles {
         self.count
     }
 
-    /// Number of samples that are not physical, the nominal one included.
+    /// Unphysical samples, the nominal one included.
     pub fn invalid(&self) -> u64 {
         self.invalid
     }
 
-    /// Whether quantiles are exact; else they are within 0.05% of their distance from the nominal value
+    /// Whether quantiles are exact, or within 0.05% of their distance from nominal
     /// ([`crate::statistics::sketch::RELATIVE_ERROR`]).
     pub fn is_exact(&self) -> bool {
         matches!(self.columns, HeldColumns::Values(_))
     }
 
-    /// Quantiles of each column and magnitude at the fractions `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50
-    /// (1996) 361); none without samples.
+    /// Quantiles of each column and magnitude at `p`, of type 7 of R. J. Hyndman & Y. Fan (*Am. Stat.* 50 (1996) 361).
     pub fn quantiles(&self, p: &[f64]) -> Vec<Option<Vec<f64>>> {
         let all = |of: &dyn Fn(f64) -> Option<f64>| p.iter().map(|p| of(*p)).collect();
         match &self.columns {

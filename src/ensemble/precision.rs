@@ -1,9 +1,8 @@
-//! [`Precision`]: run time against error for methods and settings, on samples of a campaign.
+//! [`Precision`]: work-precision diagrams of methods and settings on samples of a campaign (E. Hairer, S. P. Norsett &
+//! G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.10).
 //!
-//! Errors are against the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that propagates
-//! batches as a campaign does, with the states at every observation point, without observation and files.
-//! Work-precision diagrams: E. Hairer, S. P. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993,
-//! section II.10.
+//! Errors are relative to the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that
+//! propagates a campaign's batches with states at all observation points, without observation and files.
 
 use rayon::prelude::*;
 
@@ -23,13 +22,12 @@ use crate::run::{Grid, StateField, StateFields, StateTable, Status};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
-/// Shortest timed repetition, s: thousands of times the resolution of the clock.
+/// Shortest repetition, s: thousands of ticks of the clock.
 const SHORTEST: f64 = 5e-3;
 
-/// Excess over the limit at which a first pass is stopped as mispredicted.
+/// Excess over the limit that stops a first pass.
 const EXCESS: f64 = 2.0;
 
-/// The setting of one point of a diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
     /// Relative and absolute tolerance of an adaptive method.
@@ -38,14 +36,14 @@ pub enum Setting {
     Step(f64),
 }
 
-/// Maximum and root mean square of an error over samples and observation points.
+/// Over samples and observation points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     pub max: f64,
     pub rms: f64,
 }
 
-/// One method at one setting. Errors are `None` if their states are not integrated, or all runs failed.
+/// Errors are `None` if their states are not integrated or all runs failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     pub method: Method,
@@ -53,13 +51,13 @@ pub struct Measurement {
     /// CPU time of a run, s: median and minimum of the repetitions.
     pub cpu: [f64; 2],
     pub repeats: usize,
-    /// Numbers of runs, and of failed ones.
+    /// All, and failed ones.
     pub runs: [usize; 2],
-    /// Mean number of accepted steps of a run.
+    /// Mean accepted steps of a run.
     pub steps: f64,
-    /// |omega - reference| relative to the run's largest |omega|.
+    /// |omega - reference| over the run's largest |omega|.
     pub rate: Option<Deviation>,
-    /// Twice the distance of the attitude quaternions, rad: the angle between them if the norm is kept.
+    /// Twice the distance of the quaternions, rad: the angle if the norm is kept.
     pub attitude: Option<Deviation>,
     /// Relative error of the energy balance.
     pub energy: Option<Deviation>,
@@ -67,12 +65,11 @@ pub struct Measurement {
     pub momentum: Option<Deviation>,
 }
 
-/// A setting that was not measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Skipped {
     pub method: Method,
     pub setting: Setting,
-    /// Predicted time of a pass over the samples, s.
+    /// Predicted time of a pass, s.
     pub predicted: f64,
 }
 
@@ -80,18 +77,17 @@ pub struct Skipped {
 pub enum States {
     /// All states of the scene, as in `simulate`.
     All,
-    /// States of the campaign's groups of observables, and omega.
+    /// States of the campaign's groups, and omega.
     Observed,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     pub repeats: usize,
-    /// CPU time that one pass over the samples may take, s.
+    /// CPU time of a pass, s.
     pub limit: f64,
 }
 
-/// Samples of a campaign with their reference solutions.
 pub struct Precision<'p> {
     plan: &'p Plan,
     isa: Isa,
@@ -102,10 +98,10 @@ pub struct Precision<'p> {
 }
 
 impl<'p> Precision<'p> {
-    /// The first `samples` physical samples of `plan`, with reference solutions computed on all cores.
+    /// The first `samples` physical samples with reference solutions, on all cores.
     ///
     /// # Errors
-    /// A sample whose reference solution fails, and why.
+    /// A sample whose reference solution fails.
     pub fn new(plan: &'p Plan, isa: Isa, samples: usize, integrated: States) -> Result<Self, (SampleId, Status)> {
         let mut draws = SceneDraws::new(plan);
         let drawn: Vec<(SampleId, Scene)> = (0..plan.samples)
@@ -136,8 +132,8 @@ impl<'p> Precision<'p> {
         self.scenes.len()
     }
 
-    /// The settings of `method` for `tolerances`: these, or as many fixed steps, each half of the one before, from the
-    /// power of two near the time scale of the first sample's motion.
+    /// `tolerances`, or as many fixed steps, each half of the one before, from twice the time scale of the first
+    /// sample's motion.
     pub fn settings(&self, method: Method, tolerances: &[f64]) -> Vec<Setting> {
         if !method.has_fixed_step() {
             return tolerances.iter().map(|tolerance| Setting::Tolerance(*tolerance)).collect();
@@ -154,8 +150,8 @@ impl<'p> Precision<'p> {
             .collect()
     }
 
-    /// Measures `method` at `settings`, from coarse to fine, until a pass is predicted to exceed the limit. `report`
-    /// receives each measurement. Returns the skipped settings.
+    /// Measures `method` from coarse to fine `settings` until a pass is predicted to exceed the limit; returns the
+    /// skipped settings.
     pub fn sweep(
         &self,
         method: Method,
@@ -194,7 +190,7 @@ impl<'p> Precision<'p> {
     fn engine(&self, method: Method, setting: Setting) -> Option<Box<dyn Engine>> {
         let (tolerance, step) = match setting {
             Setting::Tolerance(tolerance) => (tolerance, None),
-            // Gauss-Legendre iterates its stages to this tolerance, here rounding
+            // Gauss-Legendre iterates stages to this tolerance
             Setting::Step(step) => (f64::EPSILON, Some(step)),
         };
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
@@ -203,7 +199,7 @@ impl<'p> Precision<'p> {
         Some(PropagationSettings::new(method, control, self.plan.grid.clone(), self.fields, nominal).engine(self.isa))
     }
 
-    /// Every sample once, against its reference solution; `None` if it takes too long.
+    /// Every sample once; `None` if it takes too long.
     fn first_pass(&self, method: Method, setting: Setting, limits: Limits) -> Option<Pass> {
         let mut engine = self.engine(method, setting)?;
         let mut observer = Observer::new(self.request, &self.plan.grid);
@@ -242,7 +238,7 @@ impl<'p> Precision<'p> {
         Some(pass)
     }
 
-    /// Median and minimum CPU time of a run, and the number of repetitions.
+    /// Median and minimum CPU time of a run, and number of repetitions.
     fn timed(&self, method: Method, setting: Setting, limits: Limits, pass: f64) -> ([f64; 2], usize) {
         let Some(mut engine) = self.engine(method, setting) else { return ([f64::NAN; 2], 0) };
         // batches of a campaign's size, unless the samples alone take long enough
@@ -269,8 +265,7 @@ impl<'p> Precision<'p> {
     }
 }
 
-/// The predicted time of the next pass: the last one times the ratio of the last two (1.5 at first), at most three
-/// times the last.
+/// The predicted time of the next pass: growth as before (1.5 at first), at most threefold.
 fn prediction(passes: &[f64]) -> f64 {
     match passes {
         [] => 0.0,
@@ -279,7 +274,6 @@ fn prediction(passes: &[f64]) -> f64 {
     }
 }
 
-/// Errors and cost of a pass over the samples.
 #[derive(Default)]
 struct Pass {
     seconds: f64,
@@ -292,7 +286,6 @@ struct Pass {
 }
 
 impl Pass {
-    /// Adds the errors of one run.
     fn compare(&mut self, reference: &ReferenceSolution, grid: &Grid, table: &StateTable) {
         for error in rotation_errors(reference, grid, table) {
             self.rate.add(error.omega);

@@ -1,5 +1,4 @@
-//! [`RunProbe`], [`AuditProbe`]: the time of a run and of an audit, from the first samples of a campaign, in about a
-//! second.
+//! [`RunProbe`], [`AuditProbe`]: times of a run and an audit, from the first samples.
 
 use std::time::Instant;
 
@@ -18,19 +17,17 @@ use crate::sampling::SampleId;
 /// Duration of a probe, s.
 const DURATION_S: f64 = 0.5;
 
-/// Growth of the number of samples while time is left.
 const GROWTH: usize = 8;
 
 const MOST_SAMPLES: usize = 512;
 
 const MOST_POINTS: usize = 20_001;
 
-/// Most ticks of a control loop in a run of a probe, some half a second; only the first [`FEW_TICKS`] of a longer run
-/// are flown.
+/// Most ticks of a probe's run, some half a second; of a longer run only the first [`FEW_TICKS`] are flown.
 const MOST_TICKS: f64 = 25_000.0;
 const FEW_TICKS: f64 = 2000.0;
 
-/// The duration of a run of a probe, s, if the run of `plan` has too many ticks.
+/// Duration of a probe's run, s, if the plan's has too many ticks.
 pub fn part_of_run(plan: &Plan) -> Option<f64> {
     let period = plan.law.as_ref()?.spec()?.period;
     (plan.grid.duration() > MOST_TICKS * period).then_some(FEW_TICKS * period)
@@ -43,7 +40,6 @@ pub fn limited(plan: &Plan) -> Plan {
     Plan { max_steps: plan.max_steps.min(PACE_STEPS), grid, audit_fraction: 0.0, ..plan.clone() }
 }
 
-/// A sample whose run is longer than a probe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LongRun {
     pub sample: SampleId,
@@ -51,18 +47,17 @@ pub struct LongRun {
     pub reached: f64,
 }
 
-/// The first runs of a campaign.
 #[derive(Clone, Debug)]
 pub struct RunProbe {
-    /// Time of a run on one core, without its audit, s; meaningless if one is too long.
+    /// Time of a run on one core without audit, s; meaningless after a run that is too long.
     pub seconds: f64,
     pub rows: Rows,
-    /// A run that is too long; its row has failed.
+    /// A run that is too long, with a failed row.
     pub too_long: Option<LongRun>,
 }
 
 impl RunProbe {
-    /// Runs growing numbers of the first samples of `ensemble` for about half a second.
+    /// Runs growing numbers of first samples for half a second.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let (whole, isa) = (ensemble.plan(), ensemble.isa());
         let plan = limited(whole);
@@ -70,7 +65,6 @@ impl RunProbe {
         let most = usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_SAMPLES);
         let mut rows = ensemble.rows(most);
         let mut worker = ensemble.worker();
-        // beyond the points that are tried, the time is that of the points
         let points = whole.grid.points() as f64 / plan.grid.points() as f64;
         let longer = whole.grid.duration() / plan.grid.duration();
         let (mut count, mut total) = (1, 0.0);
@@ -101,13 +95,13 @@ impl RunProbe {
         self.rows.part().count
     }
 
-    /// Number of failed runs; none if one is too long to know its end.
+    /// 0 if a run is too long to know its end.
     pub fn failed(&self) -> usize {
         let failed = self.rows.statuses().iter().filter(|status| **status != Status::Done).count();
         if self.too_long.is_some() { 0 } else { failed }
     }
 
-    /// Whether no run for statistics is `ok`: all failed, or all but the nominal.
+    /// Whether all runs failed, or all but the nominal.
     pub fn is_hopeless(&self) -> bool {
         self.failed() == self.count()
             || self.failed() > 0
@@ -122,7 +116,6 @@ impl RunProbe {
     }
 }
 
-/// The first audits of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AuditProbe {
     pub seconds: f64,
@@ -130,10 +123,10 @@ pub struct AuditProbe {
 }
 
 impl AuditProbe {
-    /// Audits the first samples of `ensemble` for about half a second.
+    /// Audits the first samples for half a second.
     ///
     /// # Errors
-    /// The first sample whose audit is longer than a probe.
+    /// A sample whose audit takes longer.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, SampleId> {
         let whole = ensemble.plan();
         let plan = &Plan { grid: whole.grid.clone(), ..limited(whole) };
@@ -143,7 +136,6 @@ impl AuditProbe {
         let (mut count, mut sample) = (0_u32, 0);
         while sample < plan.samples && start.elapsed().as_secs_f64() < DURATION_S {
             if let Ok(scene) = draws.scene(SampleId(sample)) {
-                // its time counts, whatever the result
                 if let Err(NoAudit::Run(Status::StepLimit) | NoAudit::Reference(Status::StepLimit)) =
                     auditor.audit(&scene)
                 {

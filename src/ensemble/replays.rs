@@ -1,4 +1,4 @@
-//! [`replayed`]: runs again, with their states and series, for the page.
+//! [`replayed`]: runs with states and series for the page.
 
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
@@ -9,16 +9,15 @@ use crate::observables::Group;
 use crate::run::{Grid, StateField, points_before, points_to};
 use crate::sampling::SampleId;
 
-/// Intervals of a run in the page, at least where the campaign's grid is coarser.
+/// Fewest intervals, also for a coarser grid of the campaign.
 const FEWEST: usize = 240;
-/// Intervals of a run in the page, at most.
 const MOST: usize = 600;
-/// Runs that are flown side by side: as many as the widest vectors hold.
+/// Runs side by side: the widest vectors.
 const BESIDE: usize = 8;
-/// A turn between two pictures, rad: enough pictures that a motion is seen as such.
+/// Turn between two pictures, rad.
 const TURN: f64 = 0.6;
 
-/// The groups whose series the page and plots show.
+/// Groups with series in page and plots.
 pub const GROUPS: [Group; 8] = [
     Group::EnergyConservation,
     Group::MomentumConservation,
@@ -30,8 +29,7 @@ pub const GROUPS: [Group; 8] = [
     Group::Orbit,
 ];
 
-/// Flies `samples` side by side, on the grid of the page with the times `ends` at which their missions end; those that
-/// are physical.
+/// Flies `samples` on the page's grid, which includes the missions' `ends`; returns physical ones.
 pub fn replayed(
     plan: &Plan,
     samples: &[SampleId],
@@ -47,14 +45,13 @@ pub fn replayed(
     flown.filter_map(|(sample, run)| Some((sample, run.ok()?))).collect()
 }
 
-/// The times of the runs in the page: the campaign's, with divided intervals where it is coarse or the motion fast.
+/// The campaign's grid, divided where it is coarse or the motion fast.
 fn grid(plan: &Plan, isa: Isa) -> Grid {
     let given = plan.grid.points().saturating_sub(1).max(1);
-    // of a mission, whose phases are shorter than its longest duration, as many as there are
+    // phases of a mission are short: as many as possible
     if plan.law.is_some() {
         return Grid::uniform(plan.grid.duration(), given.min(MOST) * (MOST / given).max(1) + 1);
     }
-    // the memory of the page does not depend on the campaign's grid
     let looked_at = Grid::uniform(plan.grid.duration(), given.min(MOST) + 1);
     let nominal = || SingleRuns::replays(plan, looked_at, isa, &[]).run(SampleId(0));
     let fastest = nominal().map_or(0.0, |run| {
@@ -67,7 +64,7 @@ fn grid(plan: &Plan, isa: Isa) -> Grid {
     Grid::uniform(plan.grid.duration(), intervals + 1)
 }
 
-/// `grid` with one more time; `None` where it has this one, or ends before it.
+/// `grid` with one more time; `None` if it has it or ends before.
 fn with_time(grid: &Grid, time: f64) -> Option<Grid> {
     let place = points_before(grid.times(), time);
     if place == grid.points() || points_to(grid.times(), time) > place {

@@ -1,7 +1,4 @@
-//! [`Rows`]: the rows of one part, column by column.
-//!
-//! A worker reuses one block from part to part, so that memory does not grow with the campaign. Columns are numbers by
-//! index; the plan's dispersions and the table of observables give their meaning.
+//! [`Rows`]: the rows of one part by columns, in memory that a worker reuses.
 
 use crate::ensemble::audit::Audit;
 use crate::ensemble::bands::PartBands;
@@ -17,14 +14,12 @@ pub struct Shape {
     pub observables: usize,
 }
 
-/// Rows of consecutive samples: status, dispersed values as applied, observables.
 #[derive(Clone, Debug)]
 pub struct Rows {
     part: Part,
     shape: Shape,
     capacity: usize,
-    /// Distance of neighbouring columns: not a multiple of a large power of two, which would map a row to few cache
-    /// sets.
+    /// Distance of columns: not a multiple of a large power of two, which maps a row to few cache sets.
     stride: usize,
     samples: Vec<SampleId>,
     statuses: Vec<Status>,
@@ -37,7 +32,6 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// A block for parts of up to `capacity` samples, without a part.
     pub fn new(shape: Shape, capacity: usize) -> Self {
         let stride = capacity.next_multiple_of(CACHE_LINE) + CACHE_LINE;
         Rows {
@@ -61,7 +55,7 @@ impl Rows {
         Rows { bands, ..self }
     }
 
-    /// Clears the block for `part`: an unwritten row is an invalid sample without numbers.
+    /// Clears the block for `part`: unwritten rows are invalid samples.
     ///
     /// # Panics
     /// If the part is larger than the block.
@@ -69,7 +63,7 @@ impl Rows {
         self.start_with(part, part.samples());
     }
 
-    /// [`Rows::start`] for a part with the samples `samples`.
+    /// [`Rows::start`] with the samples of a part.
     ///
     /// # Panics
     /// If the part is larger than the block, or has a different number of samples.
@@ -104,13 +98,12 @@ impl Rows {
         &self.statuses[..self.part.count]
     }
 
-    /// The dispersed value `index`, sample by sample.
     pub fn parameter(&self, index: usize) -> &[f64] {
         assert!(index < self.shape.parameters);
         self.column(index)
     }
 
-    /// The observable `index`, sample by sample; NaN for none. Infinite numbers are absent, as in files.
+    /// NaN for none; infinite numbers are absent, as in files.
     pub fn observable(&self, index: usize) -> &[f64] {
         assert!(index < self.shape.observables);
         self.column(self.shape.parameters + index)
@@ -155,7 +148,7 @@ impl Rows {
         self.reasons.push((row, reason));
     }
 
-    /// The rows that are not `ok`, with reasons, in any order.
+    /// Reasons of rows that are not `ok`, in any order.
     pub fn reasons(&self) -> &[(usize, String)] {
         &self.reasons
     }
@@ -177,7 +170,7 @@ impl Rows {
         self.seconds[1] += audits;
     }
 
-    /// CPU time of the runs and of their audits, s; measured with audits only.
+    /// CPU time of runs and audits, s; only measured with audits.
     pub fn seconds(&self) -> [f64; 2] {
         self.seconds
     }

@@ -1,7 +1,5 @@
-//! [`parts`]: the parts of a plan, sized by the cost of its runs.
-//!
-//! The cost is the work of the nominal run, which does not depend on the machine, times the longest time of a unit of
-//! work on a slow core. A clock would give different parts on another machine, or an hour later.
+//! [`parts`]: a plan's parts, sized by the cost of its runs: the counted work of the nominal run times the time of a
+//! unit on a slow core. A clock would give different parts on another machine or an hour later.
 
 use crate::campaign::Plan;
 use crate::control::laws::callback::is_law_of;
@@ -13,11 +11,11 @@ use crate::ode::{Control, PACE_STEPS};
 use crate::propagation::Method;
 use crate::run::{Grid, Outcome};
 
-/// Work of one thread that a stopped campaign may lose, s.
+/// Most work that a stopped thread loses, s.
 const LOST_S: f64 = 10.0;
-/// Most counted steps of the nominal run; a longer one is extrapolated.
+/// Most counted steps; the cost of a longer run is extrapolated.
 const COUNTED_STEPS: u64 = PACE_STEPS;
-/// Time of an evaluation, s, three times that of a lone one in its vector on the reference machine (`cargo bench -p
+/// Time of an evaluation, s: three times that alone in its vector on the reference machine (`cargo bench -p
 /// spindrift-benches --bench kernels`).
 const fn evaluation_seconds(method: Method) -> f64 {
     match method {
@@ -26,18 +24,17 @@ const fn evaluation_seconds(method: Method) -> f64 {
     }
 }
 const POINTS: usize = 101;
-/// Time of a tick of a control loop, with its sensors, estimator and law, s (`detumble_magnetic`: 1.4e-5).
+/// Time of a control tick, s (`detumble_magnetic`: 1.4e-5).
 const TICK_S: f64 = 1.5e-5;
-/// Time of an observed point with all columns, s.
+/// Time of an observed point, s.
 const POINT_S: f64 = 5e-7;
-/// Work of an audit over that of its run: a reference solution in double-double at a tolerance of 1e-28.
+/// Work of an audit over its run's: double-double at a tolerance of 1e-28.
 const AUDIT: f64 = 300.0;
 
-/// Samples of a part under a callback that serves many runs at once: parts are flown side by side, and more parts make
-/// larger calls.
+/// Samples of a part under a callback that serves many runs at once: more parts make larger calls.
 const SERVED: u64 = 64;
 
-/// Whether the law of `plan` is a callback, which serves many runs at once and whose work is unknown.
+/// Whether the law is a callback of unknown work.
 fn has_callback(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
@@ -53,12 +50,12 @@ pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
     Parts::up_to(plan.rows(), if has_callback(plan) { SERVED } else { (LOST_S / seconds) as u64 })
 }
 
-/// The longest time of a run of `plan` on one core, s: a function of the plan, not of the machine.
+/// The longest time of a run on one core, s: a function of the plan alone.
 pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
-    // ticks are steps, which no limit of steps ends
+    // the limit of steps does not count ticks
     let counted = plan.loop_spec().map_or(f64::NAN, |spec| spec.period * COUNTED_STEPS as f64);
     let duration = if plan.grid.duration() > 2.0 * counted { counted } else { plan.grid.duration() };
-    // the work is in the steps; points would only take memory
+    // points would only take memory
     let grid = Grid::uniform(duration, plan.grid.points().min(POINTS));
     let mut settings = propagator(plan, grid, plan.request().fields());
     settings.control = Control { max_steps: plan.max_steps.min(COUNTED_STEPS), ..settings.control };
@@ -76,20 +73,20 @@ pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     run * (1.0 + AUDIT * plan.audit_fraction)
 }
 
-/// Time of a page besides a tenth of its campaign, s, less its time without any run.
+/// Time of a page, s, besides a tenth of its campaign.
 const PAGE_S: f64 = 0.15;
-/// Time of an evaluation in a run flown beside others, with law and observation, s: 5e-6 in `net_launch_orbit`, 1.6e-5
-/// in `spin_sweep`.
+/// Time of an evaluation beside other runs, with law and observation, s: 5e-6 in `net_launch_orbit`, 1.6e-5 in
+/// `spin_sweep`.
 const EVALUATION_BESIDE_OTHERS_S: f64 = 1e-5;
 
-/// Number of runs that may be flown again for the page of a campaign of `rows` runs with this mean number of
-/// `evaluations`: a tenth of them, and those of `PAGE_S`. Counted work makes the page a function of the result.
+/// Number of runs that may be flown again for the page of `rows` runs with this mean number of `evaluations`: a tenth,
+/// and those of `PAGE_S`. Counted work makes the page a function of the result.
 pub fn replays(rows: u64, evaluations: f64) -> usize {
     let each = evaluations.max(1.0) * EVALUATION_BESIDE_OTHERS_S;
     (0.1 * rows as f64 + PAGE_S / each) as usize
 }
 
-/// CPU time of this thread, s, to the nanosecond.
+/// CPU time of this thread, s.
 #[cfg(unix)]
 pub fn thread_seconds() -> f64 {
     let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);

@@ -1,7 +1,7 @@
 //! [`run`]: parts of a campaign over threads.
 //!
-//! A free thread takes the next part in order and works in memory of its own; no row depends on the thread. Rayon's
-//! parallel iterators split ranges in halves and were rejected: completed parts would be scattered over the campaign.
+//! A free thread takes the next part and works in its own memory; no row depends on the thread. Rayon's parallel
+//! iterators, which halve ranges, would scatter completed parts over the campaign.
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
@@ -22,7 +22,7 @@ pub enum RunError<E> {
     Sink(E),
 }
 
-/// Number of threads with work of the `wanted` ones (`None`: one per core) for so many parts.
+/// Number of `wanted` threads (`None`: one per core) with work for so many parts.
 pub fn threads(wanted: Option<NonZeroUsize>, parts: usize) -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     wanted.map_or_else(cores, NonZeroUsize::get).min(parts.max(1))
@@ -31,15 +31,15 @@ pub fn threads(wanted: Option<NonZeroUsize>, parts: usize) -> usize {
 /// Starts rayon's shared threads, one for each core.
 ///
 /// # Errors
-/// They could not be started, or had been before.
+/// A failure, or threads started before.
 pub fn start_threads() -> Result<(), ThreadPoolBuildError> {
     ThreadPoolBuilder::new().build_global()
 }
 
-/// Runs `parts` of `ensemble` and passes the rows to `sink`, each part once, on the `wanted` [`threads`].
+/// Passes the rows of each of `parts` to `sink`, on the `wanted` [`threads`].
 ///
 /// # Errors
-/// Threads could not be started, or the first error of the sink; no part is started after it.
+/// A failure to start threads, or the first error of the sink, after which no part starts.
 pub fn run<S: Sink>(
     ensemble: &Ensemble<'_>,
     parts: impl IntoIterator<Item = Part>,
@@ -54,7 +54,7 @@ pub fn run<S: Sink>(
     let failure: Mutex<Option<S::Error>> = Mutex::new(None);
     let is_on = || !supervision.stop.load(Ordering::Relaxed) && !is_failed.load(Ordering::Relaxed);
     let share = || {
-        // allocated on the thread that uses it, once it has a part
+        // allocated by its thread, once it has a part
         let mut memory = None;
         while is_on()
             && let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed))
@@ -71,7 +71,7 @@ pub fn run<S: Sink>(
     };
     pool.broadcast(|_| {
         if !parts.is_empty() {
-            // the bands need the nominal run: made before the worker's memory, where runs take no turns
+            // made before the worker's memory, as runs take no turns here
             ensemble.bands();
         }
         supervision.crew.work(&share);
@@ -82,15 +82,11 @@ pub fn run<S: Sink>(
     }
 }
 
-/// Takes the rows of finished parts.
-///
-/// Called from several threads, once for each part, in any order; the result must not depend on earlier parts.
+/// Takes finished parts, from several threads, once each and in any order; the result must not depend on it.
 pub trait Sink: Sync {
     type Error: Send;
 
-    /// Takes the rows of one part. An error starts no further part.
-    ///
     /// # Errors
-    /// The rows could not be stored.
+    /// A failure to store rows; no further part starts.
     fn take(&self, rows: &Rows) -> Result<(), Self::Error>;
 }

@@ -1,4 +1,4 @@
-//! The settings of the engine for a plan ([`propagator`]) and its nominal scene ([`nominal()`]).
+//! Engine settings of a plan ([`propagator`]) and its nominal scene ([`nominal()`]).
 
 use crate::campaign::Plan;
 use crate::ensemble::surface::leaves_orbit;
@@ -8,7 +8,6 @@ use crate::propagation::{Engine, PropagationSettings};
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::Scene;
 
-/// Makes an engine for given settings on an instruction set.
 pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +26,7 @@ impl Engines {
     }
 }
 
-/// The states that a law receives at the end of a run.
+/// States for a law at the end of a run.
 const SEEN_BY_LAWS: StateFields = StateFields::NONE
     .with(StateField::Rate)
     .with(StateField::Attitude)
@@ -36,11 +35,11 @@ const SEEN_BY_LAWS: StateFields = StateFields::NONE
     .with(StateField::ComPosition)
     .with(StateField::ComVelocity);
 
-/// The settings for scenes of `plan` with states `fields` at the times of `grid`, and those for the law.
+/// Settings for scenes of `plan` with `fields` at the times of `grid`, and the law's states.
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
     let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));
-    // a run that leaves its orbit may end at the surface
+    // it may end at the surface
     let place = StateFields::NONE.with(StateField::ComPosition).with(StateField::ComVelocity);
     let fields = if leaves_orbit(plan) { fields.union(place) } else { fields };
     match &plan.law {

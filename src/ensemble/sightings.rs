@@ -1,13 +1,12 @@
-//! [`Seen`]: the crossings in the values of a run at its observation points.
+//! [`Seen`]: crossings in the values at observation points.
 
 use crate::campaign::event::Direction;
 
-/// The start of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
     /// Between this point and the next.
     Crossing { before: usize, is_rising: bool },
-    /// At this point, before which the quantity is unknown.
+    /// At this point, unknown before.
     Point(usize),
 }
 
@@ -17,20 +16,19 @@ pub(super) struct Seen {
     pub count: u32,
     pub first: Option<Place>,
     pub last: Option<Place>,
-    /// The start of the stay on the side of the event until the end.
+    /// Start of the final stay on the event's side.
     pub stays: Option<Place>,
     pub has_gap: bool,
 }
 
 impl Seen {
-    /// Crossings in `direction`, each a change of the side of zero. Zero is on neither side: a quantity that starts
-    /// there, or touches it, does not cross. A quantity that starts or ends within `rounding` of zero, which may move
-    /// the value at a point, starts or ends at zero. NaN is unknown and no crossing; the quantity starts again after
-    /// it.
+    /// Crossings in `direction`, changes of the side of zero. Zero is on neither side: a quantity that starts there or
+    /// touches it does not cross, and one that starts or ends within `rounding` of zero starts or ends at zero. After
+    /// NaN, unknown, the quantity starts again.
     pub fn of(values: impl Iterator<Item = f64>, direction: Direction, rounding: impl Fn(usize) -> f64) -> Self {
         let mut seen = Seen { count: 0, first: None, last: None, stays: None, has_gap: false };
         let mut before: Option<bool> = None;
-        // the last point at zero since the start, and the rounding of the start
+        // last point at zero since the start, rounding there
         let mut at_start: Option<(usize, f64)> = None;
         let mut values = values.enumerate().peekable();
         while let Some((point, value)) = values.next() {

@@ -1,5 +1,5 @@
-//! [`SingleRun`]: one sample of a campaign with all its states, as in `simulate`; [`run_each`]: several of them. Drawn
-//! and propagated by the code of campaigns, so that the states are those behind the row.
+//! [`SingleRun`]: a sample with all its states; [`run_each`]: several. They are drawn and propagated as in campaigns,
+//! so that the states are those behind the row.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -19,7 +19,6 @@ use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Tel
 use crate::sampling::SampleId;
 use crate::scene::{Arc, Scene, SceneError};
 
-/// The groups with a time series.
 const GROUPS: [Group; 6] = [
     Group::EnergyConservation,
     Group::MomentumConservation,
@@ -32,22 +31,22 @@ const GROUPS: [Group; 6] = [
 #[derive(Clone, Debug)]
 pub struct SingleRun {
     pub scene: Scene,
-    /// The times of the table's points, from zero.
+    /// From zero.
     pub grid: Grid,
     pub table: StateTable,
     pub arcs: Vec<Arc>,
     pub outcome: Outcome,
     pub reason: String,
-    /// Energies and conservation errors at the points reached.
+    /// Up to the points reached.
     pub series: Vec<(Series, Vec<f64>)>,
     pub telemetry: Telemetry,
-    /// The row of the sample in a campaign on this grid, with the columns of [`SingleRun::request`].
+    /// The row in a campaign on this grid, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
     pub request: Request,
 }
 
 impl SingleRun {
-    /// Runs sample `sample` of `plan`, observed at the times of `grid`, also beyond the campaign's duration.
+    /// Runs `sample` at the times of `grid`, also beyond the campaign's duration.
     ///
     /// # Errors
     /// The drawn scene is not physical.
@@ -69,11 +68,10 @@ impl SingleRun {
         SingleRuns::new(plan, grid, isa, groups).run(sample)
     }
 
-    /// Compares the run of `plan`, on its own grid, with the reference solution. Decisions of a control law are part of
-    /// the run: the reference solution flies its arcs.
+    /// Compares the run with the reference solution, which flies the arcs of a control law.
     ///
     /// # Errors
-    /// The run or its reference solution fails, or is beyond the limit of work.
+    /// A failure of the run or its reference solution, or the limit of work.
     pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
         let mut auditor = Auditor::new(plan, isa, &self.grid);
         match plan.law {
@@ -86,7 +84,7 @@ impl SingleRun {
     }
 }
 
-/// Memory for single runs of one plan on one grid. Earlier runs have no influence.
+/// Runs of one plan on one grid, independent of earlier ones.
 pub struct SingleRuns<'p> {
     draws: SceneDraws<'p>,
     grid: Grid,
@@ -103,12 +101,12 @@ pub struct SingleRuns<'p> {
 }
 
 impl<'p> SingleRuns<'p> {
-    /// Runs of `plan` with the series of `groups`, observed at the times of `grid`.
+    /// Runs with the series of `groups` at the times of `grid`.
     pub fn new(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         Self::of_kind(plan, grid, isa, groups, false)
     }
 
-    /// Runs without differences from the nominal run and times of events, which only rows have.
+    /// Without differences from the nominal run and times of events, which only rows have.
     pub fn replays(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
         Self::of_kind(plan, grid, isa, groups, true)
     }
@@ -120,7 +118,7 @@ impl<'p> SingleRuns<'p> {
         SingleRuns { ends, ..Self::without_ends(plan, grid, isa, [request, shown], is_replay) }
     }
 
-    /// Runs with one request for rows and one for series; no event ends them.
+    /// For requests of rows and of series; no event ends the runs.
     fn without_ends(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2], is_replay: bool) -> Self {
         let [request, shown] = requests;
         let nominal =
@@ -146,8 +144,6 @@ impl<'p> SingleRuns<'p> {
         }
     }
 
-    /// Runs a sample.
-    ///
     /// # Errors
     /// The drawn scene is not physical.
     pub fn run(&mut self, sample: SampleId) -> Result<SingleRun, Vec<SceneError>> {
@@ -172,7 +168,7 @@ impl<'p> SingleRuns<'p> {
         Ok(ended.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0))
     }
 
-    /// Runs samples side by side, faster than one after another and with the same bits.
+    /// Runs samples side by side, faster and with the same bits.
     pub fn run_all(&mut self, samples: &[SampleId]) -> Vec<Result<SingleRun, Vec<SceneError>>> {
         if self.ends.is_some() {
             return samples.iter().map(|sample| self.run(*sample)).collect();
@@ -251,17 +247,16 @@ impl<'p> SingleRuns<'p> {
         flown
     }
 
-    /// The draw of the last run, in the order of [`crate::sampling::Dispersions::columns`].
+    /// The last draw, in the order of [`crate::sampling::Dispersions::columns`].
     pub fn applied(&self) -> &[f64] {
         self.draws.applied()
     }
 }
 
-/// The results of `job` on each of `samples`, in order, with memory for runs of `plan` on its own grid; on `threads`
-/// threads (`None`: one per core).
+/// The results of `job` on `samples`, in order, on `threads` threads (`None`: one per core).
 ///
 /// # Errors
-/// Threads could not be started, or the first error of `job`, after which none is started.
+/// A failure to start threads, or the first error of `job`, after which no job starts.
 pub fn run_each<T: Send, E: Send>(
     plan: &Plan,
     samples: &[SampleId],

@@ -1,18 +1,18 @@
-//! [`Supervision`]: stops and progress of a running campaign; [`Report`]: progress within a batch; [`Crew`]: the work
-//! of one thread.
+//! [`Supervision`]: stops and progress of a campaign; [`Report`]: progress within a batch; [`Crew`]: the work of a
+//! thread.
 
 use std::sync::atomic::AtomicBool;
 
 #[derive(Clone, Copy)]
 pub struct Supervision<'a> {
-    /// Receives, from any thread, the number of samples completed there since its last call.
+    /// Receives the number of samples completed since the thread's last call.
     pub progress: &'a (dyn Fn(u64) + Sync),
     pub stop: &'a AtomicBool,
     pub abandon: &'a AtomicBool,
     pub crew: &'a dyn Crew,
 }
 
-/// Evaluations of equations of motion between reports, some 10 ms; a report of each run would slow a fast campaign.
+/// Evaluations between reports, some 10 ms: a report of each run would slow a fast campaign.
 const REPORTED_AFTER: u64 = 4096;
 
 pub struct Report<'a> {
@@ -51,7 +51,7 @@ impl<'a> Report<'a> {
 /// Does the work of a thread, possibly several times side by side.
 pub trait Crew: Sync {
     /// Calls `work`, which flies parts until none is left, at least once on this thread, and returns after all calls.
-    /// Calls may take turns: a run yields the thread only while it waits for its law.
+    /// Calls may take turns: a run only yields while it waits for its law.
     fn work(&self, work: &(dyn Fn() + Sync));
 }
 
@@ -87,7 +87,7 @@ mod tests {
         reports.into_inner().unwrap()
     }
 
-    /// Law: every sample is reported once: long runs one by one, short ones together, samples without a run at the end.
+    /// Law: every sample is reported once: long runs one by one, short ones together, others at the end.
     #[test]
     fn progress_follows_the_work() {
         assert_eq!(reports(3, &[u64::MAX, REPORTED_AFTER, REPORTED_AFTER + 1]), [1, 1, 1]);

@@ -1,10 +1,10 @@
-//! [`contact`]: the time at which a run reaches the surface of the central body, the sphere of `orbit.body_radius_m`,
-//! which also carries the heights of the air and casts the shadow.
+//! [`contact`]: the time at which a run reaches the sphere of `orbit.body_radius_m`, which also carries the heights of
+//! the air and casts the shadow.
 //!
-//! The osculating orbit at a point bounds the distance until the next point: by its periapsis, less the effects of the
-//! flattening ([`Orbit::lowest`]) and of thrusters. Air only lowers the periapsis, which the later point shows. If the
-//! bound is below the surface, the sample is flown again with points between; else a run costs a few operations a
-//! point, and nothing if it cannot leave its orbit.
+//! The osculating orbit at a point bounds the distance until the next one: by its periapsis, less the effects of
+//! flattening ([`Orbit::lowest`]) and thrusters; air only lowers the periapsis, which the later point shows. If the
+//! bound is below the surface, the sample is flown again with points between; other runs cost a few operations a point,
+//! or nothing in a fixed orbit.
 
 use std::f64::consts::PI;
 
@@ -15,20 +15,19 @@ use crate::propagation::CompletedRun;
 use crate::run::{Outcome, StateField, Status};
 use crate::scene::{Orbit, Scene};
 
-/// Refinements of the points, sixteenfold each: five hours become a third of a second.
+/// Sixteenfold refinements: five hours become a third of a second.
 const LEVELS: usize = 4;
-/// Most narrowings of a crossing, at a corner of the motion.
+/// Most narrowings, at a corner of the motion.
 const NARROWINGS: usize = 24;
-/// Error of the time over the duration: that of an event at a tolerance of 1e-9.
+/// Relative error of the time, as of an event at a tolerance of 1e-9.
 const ERROR: f64 = 1e-9;
-/// A velocity change dv, m/s, lowers the periapsis of an orbit of mean motion n by at most this times dv/n: 4 for a
-/// circle, twice that for an ellipse.
+/// A velocity change dv lowers the periapsis of an orbit of mean motion n by at most this times dv/n: 4 for a circle,
+/// twice that for an ellipse.
 const LOWERED: f64 = 8.0;
 
-/// Positions and velocities of a run at times, s; NaN beyond its end.
+/// Positions and velocities at times, s; NaN beyond the end.
 pub(super) type Positions<'a> = dyn FnMut(&[f64]) -> Vec<[[f64; 3]; 2]> + 'a;
 
-/// Whether runs of `plan` may leave their initial orbit.
 pub(super) fn leaves_orbit(plan: &Plan) -> bool {
     plan.nominal.orbit.is_some() && (plan.request().actuated.thrusters || plan.nominal.environment.moves())
 }
@@ -39,7 +38,7 @@ struct Place {
     distance: f64,
     speed: f64,
     is_rising: bool,
-    /// Lower bound of the distance on the osculating orbit, m.
+    /// Lower bound on the osculating orbit, m.
     lowest: f64,
     half_period: f64,
 }
@@ -56,7 +55,7 @@ impl Place {
     }
 }
 
-/// The accumulated velocity change by the thrusters of a run.
+/// Accumulated velocity change by thrusters.
 struct Pushes(Vec<[f64; 2]>);
 
 impl Pushes {
@@ -84,12 +83,12 @@ struct Search<'a> {
     orbit: &'a Orbit,
     pushes: Pushes,
     places: Vec<Place>,
-    /// The time of a failure of the run, s; else NaN.
+    /// Time of a failure, s; else NaN.
     failed: f64,
 }
 
 impl Search<'_> {
-    /// Intervals that may hold the first contact, in order, up to the contact; and whether it is there.
+    /// Intervals that may hold the first contact, in order; the last may be certain.
     fn suspects(&self) -> Vec<([f64; 2], bool)> {
         let surface = self.orbit.body_radius;
         let mut found = Vec::new();
@@ -122,7 +121,6 @@ impl Search<'_> {
         self.places.dedup_by_key(|place| place.time);
     }
 
-    /// The first contact within `between`, s.
     fn located(&self, mut between: [f64; 2], positions: &mut Positions<'_>) -> f64 {
         let error = ERROR * between[1];
         for _ in 0..NARROWINGS {
@@ -138,8 +136,7 @@ impl Search<'_> {
     }
 }
 
-/// The time, s, at which `run` of `scene`, observed at `times`, reaches the surface before its end at `end`.
-/// `positions` gives more points.
+/// The time, s, of contact before the run's end at `end`; `positions` gives more points.
 pub(super) fn contact(
     scene: &Scene,
     run: &CompletedRun<'_>,
@@ -152,7 +149,6 @@ pub(super) fn contact(
         return None;
     }
     let Outcome { status, time: reached, points, .. } = *run.outcome;
-    // up to one point at the end or beyond
     let filled = (times.partition_point(|time| *time < end) + 1).min(points);
     let failed = if status == Status::Done { f64::NAN } else { reached };
     let mut search = Search { orbit, pushes: Pushes::of(scene, run), places: Vec::new(), failed };

@@ -1,5 +1,4 @@
-//! [`Surroundings`]: what is around a spacecraft on an orbit, as page and figures show it: nadir, the Sun and the
-//! Earth's shadow, the magnetic field, and the place on the Earth below it.
+//! [`Surroundings`]: nadir, Sun, Earth's shadow, magnetic field and ground track for page and figures.
 
 use core::f64::consts::TAU;
 
@@ -11,53 +10,52 @@ use crate::math::vector::{cross, dot, norm, scaled};
 use crate::run::StateField;
 use crate::scene::Scene;
 
-/// What is around a spacecraft of one scene, at any time (s) and place (F_e, m).
+/// At any time (s) and place (F_e, m).
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings {
     light: Option<Light<f64>>,
     field: Option<MagneticField<f64>>,
-    /// How the Earth is turned at time zero, turns; `None` without a date.
+    /// Earth rotation at time zero, turns; `None` without a date.
     turns: Option<f64>,
 }
 
 impl Surroundings {
-    /// That of `scene`; `None` where it is not on an orbit.
+    /// `None` without an orbit.
     pub fn of(scene: &Scene) -> Option<Self> {
         let orbit = scene.orbit.as_ref()?;
         let (light, field) = (Light::of(0.0, scene), MagneticField::of(scene));
         Some(Surroundings { light, field, turns: orbit.epoch.map(turns_at) })
     }
 
-    /// The unit vector to the Earth's centre, F_e.
+    /// Unit vector to the Earth's centre, F_e.
     pub fn nadir(position: [f64; 3]) -> [f64; 3] {
         scaled(-1.0 / norm(position), position)
     }
 
-    /// The unit vector to the Sun, F_e, and the share of it that the Earth hides; `None` without a date.
+    /// Unit vector to the Sun, F_e, and its share hidden by the Earth; `None` without a date.
     pub fn sun(&self, time: f64, position: [f64; 3]) -> Option<([f64; 3], f64)> {
         let (sun, lit) = self.light?.at(time, position);
         Some((sun.direction, 1.0 - lit))
     }
 
-    /// The magnetic field, F_e, T; `None` of a scene without one.
+    /// F_e, T; `None` without a field.
     pub fn field(&self, time: f64, position: [f64; 3]) -> Option<[f64; 3]> {
         Some(self.field?.at(time, position))
     }
 
-    /// Longitude, from -180 to 180, and geocentric latitude of the place below, deg; `None` without a date.
+    /// Longitude (-180 to 180) and geocentric latitude below, deg; `None` without a date.
     pub fn below(&self, time: f64, [x, y, z]: [f64; 3]) -> Option<[f64; 2]> {
         let turned = libm::atan2(y, x) / TAU - (self.turns? + TURNS_PER_SECOND * time);
         Some([360.0 * (turned - libm::round(turned)), libm::atan2(z, libm::hypot(x, y)).to_degrees()])
     }
 }
 
-/// How fast the line from the Earth's centre to a body with this position (m) and velocity (m/s) turns: |r x v|/r^2,
-/// rad/s.
+/// The rate of the line from the Earth's centre to a body (m, m/s): |r x v|/r^2, rad/s.
 pub fn turning_rate(position: [f64; 3], velocity: [f64; 3]) -> f64 {
     norm(cross(position, velocity)) / dot(position, position)
 }
 
-/// The share of the Sun that the Earth hides at the first `points` points of `run`; `None` where that is not known.
+/// The hidden share of the Sun at the first `points` points; `None` if unknown.
 pub fn hidden(run: &SingleRun, points: usize) -> Option<Vec<f64>> {
     let around = Surroundings::of(&run.scene)?;
     let at = |point: usize| {

@@ -1,4 +1,4 @@
-//! [`notes`]: quantities of events and extremes that are not a number somewhere in the first samples, which are flown.
+//! [`notes`]: quantities of events and extremes that are NaN in the first samples.
 
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::event_finder::EndFinder;
@@ -12,7 +12,7 @@ use crate::sampling::SampleId;
 
 const TRIED: u64 = 8;
 
-/// The number of runs in which a quantity is not a number, and the first one with its time, s.
+/// Runs in which a quantity is NaN, and the first with its time, s.
 #[derive(Clone, Copy)]
 struct Undefined {
     runs: usize,
@@ -20,8 +20,7 @@ struct Undefined {
     time_s: f64,
 }
 
-/// A sentence for each quantity of events and extremes of `plan` that is not a number at some observation point of the
-/// first samples.
+/// A sentence for each quantity that is NaN at an observation point of the first samples.
 pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let series = event_series(&plan.request());
     let events = plan.events.iter().map(|one| ("event", &one.name, &one.quantity, one.parsed(&series)));

@@ -21,15 +21,14 @@ use crate::observables::band_series::band_series;
 use crate::propagation::PropagationSettings;
 use crate::sampling::SampleId;
 
-/// Scenes drawn and propagated together: enough to keep lanes busy (each of eight is loaded 16 times), few enough for
-/// the second-level cache.
+/// Scenes propagated together: each of eight lanes is loaded 16 times, and all fit the second-level cache.
 pub const BATCH: usize = 128;
 
 #[derive(Debug)]
 pub struct Ensemble<'p> {
     means: Means<'p>,
     propagator: PropagationSettings,
-    /// Bands without runs, made on first use: they need the nominal run.
+    /// Bands without runs, made on first use by the nominal run.
     bands: OnceLock<Option<PartBands>>,
 }
 
@@ -40,8 +39,7 @@ impl<'p> Ensemble<'p> {
         Ensemble { means, propagator, bands: OnceLock::new() }
     }
 
-    /// With engines of the caller for every run, also the nominal one of the bands; audits keep their reference
-    /// solution. An engine must give a run that depends on its scene alone.
+    /// With the caller's engines for all runs; audits keep their reference. A run must depend on its scene alone.
     pub fn with_engines(mut self, new_engine: EngineMaker) -> Self {
         self.means.engines.own = Some(new_engine);
         self
@@ -71,7 +69,7 @@ impl<'p> Ensemble<'p> {
         Rows::new(self.shape(), capacity).with_bands(self.bands().cloned())
     }
 
-    /// Bands without runs; `None` if the plan has none.
+    /// Bands without runs, if the plan has any.
     pub fn bands(&self) -> Option<&PartBands> {
         self.bands.get_or_init(|| self.no_bands()).as_ref()
     }
@@ -97,7 +95,7 @@ impl<'p> Ensemble<'p> {
         Some(PartBands::new(layout, reader, plan.last_counted()))
     }
 
-    /// Memory for one thread; running samples does not allocate once it is warm.
+    /// Running samples does not allocate once warm.
     pub fn worker(&self) -> Worker<'_> {
         let plan = self.plan();
         let is_audited = plan.audit_fraction > 0.0;
@@ -111,7 +109,7 @@ impl<'p> Ensemble<'p> {
     }
 }
 
-/// The memory of one thread. Earlier samples have no influence.
+/// The memory of one thread, independent of earlier samples.
 pub struct Worker<'c> {
     campaign: &'c Ensemble<'c>,
     draws: SceneDraws<'c>,
@@ -120,7 +118,7 @@ pub struct Worker<'c> {
 }
 
 impl Worker<'_> {
-    /// Runs the samples of `part` and writes their rows; false if it was given up.
+    /// Runs the samples of `part` into `rows`; false if abandoned.
     pub fn run(&mut self, part: Part, rows: &mut Rows, supervision: Supervision<'_>) -> bool {
         let plan = self.campaign.plan();
         rows.start_with(part, part.samples().map(|row| plan.sample(row.0)));
@@ -145,7 +143,7 @@ impl Worker<'_> {
         true
     }
 
-    /// Draws the samples of `batch`. Samples that are not physical keep the row of [`Rows::start`]: `invalid_sample`.
+    /// Draws samples; unphysical ones keep the row of [`Rows::start`]: `invalid_sample`.
     fn draw(&mut self, batch: std::ops::Range<usize>, rows: &mut Rows) {
         self.batch.rows_of_scenes.clear();
         for row in batch {

@@ -1,8 +1,7 @@
-//! [`Correlation`]: a `[[correlate]]` table as written; `copulas`: the dependence that all of them specify.
+//! [`Correlation`]: a `[[correlate]]` table; `copulas`: the dependence that all tables specify.
 //!
-//! A table correlates all pairs of components of its parameters (a square matrix), or each component of one parameter
-//! with each of another (a block; one number for two components). Tables with a common component make one matrix; other
-//! pairs are independent.
+//! A table correlates all components of its parameters (a square matrix), or each component of one with each of another
+//! (a block, or one number). Tables with a common component form one matrix; other pairs are independent.
 
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::{Distribution, Quantile};
@@ -12,7 +11,6 @@ use crate::scene::Parameter;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Correlations of the normal scores, and of normal values.
     Scores,
     Ranks,
     Covariance,
@@ -32,9 +30,9 @@ impl Measure {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Numbers {
-    /// One, for two components.
+    /// For two components.
     One(f64),
-    /// Rows: a square matrix of all components, or the block of one parameter with another.
+    /// A square matrix of all components, or the block of one parameter with another.
     Rows(Matrix),
 }
 
@@ -42,9 +40,9 @@ pub enum Numbers {
 pub struct Correlation {
     pub parameters: Vec<(Parameter, Option<usize>)>,
     pub measure: Measure,
-    /// The numbers, in the order of the parameters and their components.
+    /// In the order of the parameters and their components.
     pub numbers: Numbers,
-    /// Whether a matrix that is not positive semidefinite is replaced by the nearest one that is.
+    /// Whether to replace a matrix that is not positive semidefinite by the nearest one.
     pub nearest_psd: bool,
 }
 
@@ -55,7 +53,7 @@ pub struct Replaced {
     pub used: Matrix,
 }
 
-/// Two numbers that differ by more are not one number in two roundings.
+/// Relative difference of equal numbers.
 const SAME: f64 = 1e-9;
 
 type Drawn<'d> = (usize, &'d Distribution);
@@ -66,12 +64,12 @@ struct Pairs {
     shown: String,
     nearest_psd: bool,
     components: Vec<(usize, String)>,
-    /// Two dimensions and the correlation of their normal scores.
+    /// Pairs of dimensions with the correlation of their normal scores.
     scores: Vec<(usize, usize, f64)>,
 }
 
-/// The dependence that the tables of `list` specify, the replaced matrices, and the errors. `drawn` gives the dimension
-/// and the distribution of a component that has a distribution of one number.
+/// The dependence, the replaced matrices and the errors of `list`. `drawn`: dimension and distribution of a component
+/// with a distribution of one number.
 pub(super) fn copulas<'d>(
     list: &[Correlation],
     drawn: impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
@@ -105,7 +103,7 @@ pub(super) fn copulas<'d>(
     (copulas, replaced, errors)
 }
 
-/// The dependence of the components of tables that share some; and the matrix that was replaced.
+/// The dependence of a group of tables with common components, and the replaced matrix.
 fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError> {
     let mut components: Vec<&(usize, String)> = Vec::new();
     for component in group.iter().flat_map(|pairs| &pairs.components) {
@@ -140,7 +138,7 @@ fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError
 }
 
 impl Pairs {
-    /// The error of a pair of components that an earlier table correlates too.
+    /// A pair that an earlier table correlates too.
     fn named_twice(&self, earlier: &[Pairs]) -> Option<DispersionError> {
         let same =
             |(a, b, _): &(usize, usize, f64), (c, d, _): &(usize, usize, f64)| (a, b) == (c, d) || (a, b) == (d, c);
@@ -178,7 +176,6 @@ impl Correlation {
         let n = components.len();
         let first = self.parameters.first().map_or(0, |parameter| components_of(parameter).len());
         let is_pair = self.parameters.len() == 2;
-        // rows and columns that the numbers are for
         let (rows, matrix) = match &self.numbers {
             Numbers::One(number) if n == 2 => (0..1, vec![vec![*number]]),
             Numbers::One(number) => {
@@ -267,7 +264,7 @@ impl Correlation {
         Ok(found)
     }
 
-    /// The divisor that makes each number a correlation, after a check of the diagonal of a `square` matrix.
+    /// The divisors that turn numbers into correlations; checks the diagonal of a `square` matrix.
     fn scales(
         &self,
         index: usize,
@@ -310,8 +307,7 @@ impl Correlation {
         Ok(scales)
     }
 
-    /// The correlation of the normal scores of two distributions for the number `r`; or what it must be, and the
-    /// remedy.
+    /// The correlation of the normal scores for the number `r`; or its allowed values and the remedy.
     fn score(&self, r: f64, a: &Distribution, b: &Distribution) -> Result<f64, (String, &'static str)> {
         if r.abs() > 1.0 + SAME {
             let remedy = match self.measure {

@@ -1,4 +1,4 @@
-//! [`Derivation`]: a `[[derive]]` table as written; [`Derived`]: a column computed from others.
+//! [`Derivation`]: a `[[derive]]` table; [`Derived`]: a column computed from others.
 
 use super::columns::Columns;
 use super::correlation::components_of;
@@ -39,7 +39,6 @@ enum DerivedInput {
 }
 
 impl Derived {
-    /// The value, given the values of other columns.
     pub fn value(&self, column: impl Fn(usize) -> f64) -> f64 {
         self.expression.value(|index| match self.sources[index] {
             DerivedInput::Column(index) => column(index),
@@ -48,11 +47,10 @@ impl Derived {
     }
 }
 
-/// Allowed relative difference between the expression at the nominal scene and the nominal value.
+/// Relative difference between the expression in the nominal scene and the nominal value.
 const NOMINAL_SLACK: f64 = 1e-9;
 
-/// The columns of `list`, added to `columns`, each after its sources; and the errors. `is_drawn` tells whether a
-/// component has a distribution.
+/// Adds the columns of `list` to `columns`, each after its sources; returns them and the errors.
 pub(super) fn derived(
     list: &[Derivation],
     columns: &mut Columns,
@@ -61,7 +59,6 @@ pub(super) fn derived(
 ) -> (Vec<Derived>, Vec<DispersionError>) {
     let mut found = Vec::new();
     let mut errors = Vec::new();
-    // index of the table, parameter and component, expression
     let mut open: Vec<(usize, (Parameter, usize), Expression, &str)> = Vec::new();
     for (index, derivation) in list.iter().enumerate() {
         let parameter = derivation.parameter;
@@ -142,7 +139,7 @@ pub(super) fn derived(
         let at_nominal = derived.value(|column| columns.list()[column].nominal);
         let written = columns.list()[column].nominal;
         let near = (at_nominal - written).abs() <= NOMINAL_SLACK * at_nominal.abs().max(written.abs());
-        // a nominal that is not a number is the scene's error
+        // NaN is the scene's error
         if !at_nominal.is_finite() && written.is_finite() {
             let allowed = "a finite number in the nominal scene".to_owned();
             let remedy = "a division by zero, or a root or logarithm of a negative number: change the expression";
@@ -160,7 +157,7 @@ pub(super) fn derived(
     (found, errors)
 }
 
-/// The parameter behind a name in an expression, and its nominal value; or what it must be and the remedy.
+/// The parameter of a name in an expression and its nominal value; or allowed names and the remedy.
 fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64), (String, String)> {
     let Some((parameter, component)) = Parameter::find(nominal, name) else {
         let allowed = "a numeric key of scene or initial state, one component of it".to_owned();

@@ -1,5 +1,4 @@
-//! [`Dispersions`]: the dispersions of a campaign, checked against the nominal scene and ready for a
-//! [`super::Sampler`].
+//! [`Dispersions`]: a campaign's dispersions, checked against the nominal scene.
 
 use super::columns::{Column, Columns};
 use super::copula::Copula;
@@ -16,11 +15,10 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersion {
-    /// The parameter; the first one of a distribution that names its parameters.
+    /// The first of several.
     pub parameter: Parameter,
     /// One component; `None` for all.
     pub component: Option<usize>,
-    /// The distribution of each component, or of all together.
     pub distribution: WrittenDistribution,
 }
 
@@ -33,11 +31,10 @@ impl Dispersion {
     }
 }
 
-/// The draws of a campaign, as written.
 #[derive(Clone, Copy, Debug)]
 pub struct Draws<'a> {
     pub seed: u64,
-    /// Number of samples in the file, sample 0 included.
+    /// As in the file, sample 0 included.
     pub samples: Option<u64>,
     pub design: &'a Design,
     pub disperse: &'a [Dispersion],
@@ -60,10 +57,10 @@ pub struct Dispersions {
 }
 
 impl Dispersions {
-    /// Checks `draws` against the `nominal` scene; all errors at once.
+    /// Checks `draws` against the `nominal` scene.
     ///
     /// # Errors
-    /// All that is wrong with `draws`.
+    /// All problems.
     pub fn new(draws: Draws<'_>, nominal: &SceneInput) -> Result<Self, Vec<DispersionError>> {
         let mut these = Dispersions {
             seed: draws.seed,
@@ -84,7 +81,6 @@ impl Dispersions {
         for column in draws.design.columns() {
             errors.extend(these.add_tabled(column, nominal).err());
         }
-        // without all distributions the rest gives follow-up errors
         if errors.is_empty() {
             let scalar = |component| match these.distribution_at(component) {
                 Some(Assigned { first, map: Transform::Scalar(distribution), .. })
@@ -114,7 +110,7 @@ impl Dispersions {
         self.columns.list()
     }
 
-    /// Number of samples, sample 0 included: from the file, or the size of the design.
+    /// Number of samples in the file or of the design, sample 0 included.
     pub fn samples(&self) -> u64 {
         self.samples
     }
@@ -123,7 +119,7 @@ impl Dispersions {
         &self.design
     }
 
-    /// The distribution of a column; a component of a quaternion may only follow the others.
+    /// A component of a quaternion may only follow the others.
     pub fn distribution_of(&self, column: usize) -> Option<&Transform> {
         self.assigned_to(column).map(|assigned| &assigned.map)
     }
@@ -159,7 +155,7 @@ impl Dispersions {
         &self.dimensions
     }
 
-    /// The distribution of each dimension, numbered from zero without gaps.
+    /// The distribution of each dimension, by consecutive indices.
     pub fn factors(&self) -> Vec<usize> {
         let random = self.assigned.iter().map(|assigned| assigned.map.dimensions()).filter(|count| *count > 0);
         random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()
@@ -230,7 +226,7 @@ impl Dispersions {
         Ok(())
     }
 
-    /// The column of a component; quaternions are normalised, and so recorded, as a whole.
+    /// Quaternions are normalised, and recorded, as a whole.
     fn add_column(&mut self, (parameter, component): (Parameter, usize), nominal: &SceneInput) -> usize {
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
@@ -297,7 +293,7 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
             let allowed = format!("a design of at most {MAX_SAMPLES} samples");
             refused(Table::Design, "kind", format!("{name:?}"), allowed, "write fewer levels")
         }
-        // a file without a number that needs one is refused by its reader
+        // its reader refuses a file that needs a number
         (None, Size::Any) => Ok(1),
         (Some(samples), Size::Points(points)) if samples - 1 > points => {
             let allowed =
@@ -308,13 +304,12 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
     }
 }
 
-/// A distribution with the u that it takes and the columns that it writes.
+/// A distribution with its dimensions and columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assigned {
     pub table: usize,
-    /// Its first dimension; further ones follow.
     pub first: usize,
-    /// Its columns, in the order of the distribution's values.
+    /// In the order of the distribution's values.
     pub columns: Vec<usize>,
     pub map: Transform,
 }

@@ -1,9 +1,8 @@
-//! [`Expression`]: arithmetic over parameters, as in `expression = "0.5 * wheel1.density_kg_m3"`.
+//! [`Expression`]: arithmetic over parameters, such as `0.5 * wheel1.density_kg_m3`.
 //!
 //! An operator-precedence parser (V. R. Pratt, *Top down operator precedence*, 1973) compiles to a stack machine. No
-//! crate fits: names hold dots, functions must be those of `libm` (the same bits everywhere), and a draw may not
-//! allocate. `exmex` (regex, `lazy_static`) takes the platform's functions, `evalexpr` is AGPL, `meval` and `fasteval`
-//! are unmaintained.
+//! crate fits: names have dots, functions must be those of `libm` for equal bits everywhere, and draws may not
+//! allocate. `exmex` uses the platform's functions, `evalexpr` is AGPL, `meval` and `fasteval` are unmaintained.
 //!
 //! | | |
 //! | --- | --- |
@@ -12,9 +11,8 @@
 //! | truth | every number other than 0 |
 //! | constants | `pi`, numbers such as `2`, `0.5`, `1e-3` |
 //!
-//! Unknown numbers (NaN) propagate through arithmetic and comparisons. Conditions follow Kleene's three-valued logic:
-//! `0 and unknown` is 0, `1 or unknown` is 1. `if` with an unknown condition is unknown; with a known one it is the
-//! chosen part, whatever the other part is.
+//! NaN, unknown, propagates through arithmetic and comparisons. Conditions follow Kleene's three-valued logic: `0 and
+//! unknown` is 0, `1 or unknown` is 1. `if` with an unknown condition is unknown, else the chosen part.
 
 mod bounds;
 
@@ -46,8 +44,7 @@ enum Binary {
     NotEqual,
 }
 
-/// A function of one or two numbers; only its name identifies it, since one function may have several addresses, and
-/// one address several functions.
+/// A function of one or two numbers, compared by name, since its address is not unique.
 #[derive(Clone, Copy, Debug)]
 enum Function {
     One(&'static str, fn(f64) -> f64),
@@ -94,12 +91,10 @@ pub struct Expression {
     variables: Vec<String>,
 }
 
-/// What an expression must be, to follow the words `must be`.
+/// Follows `must be`.
 pub type ExpressionError = String;
 
 impl Expression {
-    /// Reads `text`.
-    ///
     /// # Errors
     /// The expected text, and its place.
     pub fn parse(text: &str) -> Result<Self, ExpressionError> {
@@ -113,12 +108,12 @@ impl Expression {
         if these.depth() > DEEPEST { Err(format!("nested at most {DEEPEST} deep")) } else { Ok(these) }
     }
 
-    /// The names in it, each once, in the order of their first use.
+    /// Its variables, each once, in the order of their first use.
     pub fn variables(&self) -> &[String] {
         &self.variables
     }
 
-    /// The value; `variable` gives the value at each place of [`Expression::variables`]. Allocates nothing.
+    /// The value for the values of [`Expression::variables`], by index. Allocates nothing.
     pub fn value(&self, variable: impl Fn(usize) -> f64) -> f64 {
         let mut stack = [0.0; DEEPEST + 2];
         let mut top = 0;
@@ -168,8 +163,7 @@ impl Expression {
     }
 }
 
-/// A function of two numbers that is unknown if either is: some functions of `libm` ignore one (min(NaN, 1) is 1, NaN^0
-/// is 1).
+/// NaN if either number is: `libm` has min(NaN, 1) = 1 and NaN^0 = 1.
 fn strict([a, b]: [f64; 2], function: impl Fn(f64, f64) -> f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { function(a, b) }
 }
@@ -200,7 +194,7 @@ impl Binary {
     }
 }
 
-/// The operators: text, meaning, binding strengths on the left and on the right. Longer texts first.
+/// Text, meaning, binding strengths on the left and on the right; longer texts first.
 const OPERATORS: [(&str, Binary, u8, u8); 13] = [
     ("or", Binary::Or, 1, 2),
     ("and", Binary::And, 3, 4),
@@ -216,9 +210,9 @@ const OPERATORS: [(&str, Binary, u8, u8); 13] = [
     ("/", Binary::Divide, 9, 10),
     ("^", Binary::Power, 14, 13),
 ];
-/// Binding strength of a sign: -x^2 is -(x^2), -x*y is (-x)*y.
+/// -x^2 is -(x^2), -x*y is (-x)*y.
 const SIGN: u8 = 11;
-/// Most characters: deeper nesting would overflow the parser's own stack.
+/// Longer texts could overflow the parser's stack.
 const DEEPEST_TEXT: usize = 1000;
 
 struct Parser<'a> {
@@ -316,7 +310,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A function, `pi`, or a parameter with dots and a component in brackets.
+    /// A function, `pi`, or a parameter with a component in brackets.
     fn name(&mut self) -> Result<(), ExpressionError> {
         let letters = |text: &str| text.bytes().take_while(|b| b.is_ascii_alphanumeric() || b"_.".contains(b)).count();
         let mut end = letters(self.rest());
@@ -407,8 +401,8 @@ mod tests {
         assert_eq!(Expression::parse("x.y + z[0] + x.y").map(|e| e.variables), Ok(vec!["x.y".into(), "z[0]".into()]));
     }
 
-    /// Law: conditions follow Kleene's three-valued logic, with `n` unknown, `t` true and `f` false; everything else
-    /// computed from an unknown number is unknown. The counter-test: with `n` known every value is known.
+    /// Law: conditions follow Kleene's three-valued logic (`n` unknown, `t` true, `f` false); other results of an
+    /// unknown number are unknown, and none is once `n` is known.
     #[test]
     fn what_is_computed_from_an_unknown_number_is_unknown() {
         let nan = f64::NAN;

@@ -1,15 +1,12 @@
-//! The keys of a table of a campaign file as data: [`Row`], one key; [`Rule`], what several keys have to do with each
-//! other; [`Written`], what a file says.
-//!
-//! A distribution and a design list their rows. Reading, error messages, canonical text and the tables of the documents
-//! follow from them.
+//! Declared keys of campaign tables: [`Row`], one key; [`Rule`], a relation of several keys; [`Written`], the values of
+//! a file. Reading, messages, canonical text and documents follow from them.
 
 use crate::scene::{Name, Parameter};
 use std::collections::BTreeMap;
 use std::ops::{Bound, RangeBounds};
 use std::sync::Arc;
 
-/// The words of a list of words and what they mean.
+/// The words of a list of words and their meanings.
 pub const fn words<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'static str; N] {
     let (mut words, mut place) = ([""; N], 0);
     while place < N {
@@ -19,151 +16,139 @@ pub const fn words<T, const N: usize>(list: &[(&'static str, T); N]) -> [&'stati
     words
 }
 
-/// What a number may be.
 #[derive(Clone, Copy, Debug)]
 pub struct NumberLimit {
-    /// In words, to follow `must be`.
+    /// Follows `must be`.
     pub allowed: &'static str,
     pub remedy: &'static str,
     pub range: Range,
 }
 
 impl NumberLimit {
-    /// Whether a number is allowed.
     pub fn holds(&self, number: f64) -> bool {
         self.range.contains(&number)
     }
 }
 
-/// The ends of a range of numbers.
 pub type Range = (Bound<f64>, Bound<f64>);
 
-/// All numbers.
 pub const ANY: Range = (Bound::Unbounded, Bound::Unbounded);
 
-/// Numbers above `least`.
 pub const fn above(least: f64) -> Range {
     (Bound::Excluded(least), Bound::Unbounded)
 }
 
-/// Numbers from `least` on.
 pub const fn at_least(least: f64) -> Range {
     (Bound::Included(least), Bound::Unbounded)
 }
 
-/// Numbers from `least` to `most`.
 pub const fn between(least: f64, most: f64) -> Range {
     (Bound::Included(least), Bound::Included(most))
 }
 
-/// Numbers between `least` and `most`, which are not among them.
+/// Both ends are excluded.
 pub const fn inside(least: f64, most: f64) -> Range {
     (Bound::Excluded(least), Bound::Excluded(most))
 }
 
-/// What a text may be.
 #[derive(Clone, Copy, Debug)]
 pub struct TextLimit {
-    /// In words, to follow `must be`.
+    /// Follows `must be`.
     pub allowed: &'static str,
     pub remedy: &'static str,
-    /// Whether a text is allowed.
     pub test: fn(&str) -> bool,
 }
 
 pub const ANY_TEXT: TextLimit = TextLimit { allowed: "text", remedy: "write it in quotes", test: |_| true };
 
-/// Whether `text` is a name of at most `most` lower-case letters, digits and underscores, the first a letter.
+/// Whether `text` is at most `most` lower-case letters, digits and underscores, the first a letter.
 pub fn is_name(text: &str, most: usize) -> bool {
     let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     text.starts_with(|c: char| c.is_ascii_lowercase()) && text.chars().all(is_letter) && text.len() <= most
 }
 
-/// What several numbers may be together.
 #[derive(Clone, Copy, Debug)]
 pub struct ListLimit {
-    /// In words, to follow `must be`.
+    /// Follows `must be`.
     pub allowed: &'static str,
     pub remedy: &'static str,
-    /// Whether finite numbers are allowed.
+    /// For finite numbers.
     pub test: fn(&[f64]) -> bool,
 }
 
-/// What the value of a key is.
+/// The type of a key's value.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
-    /// A finite number, in the unit of what the table is about.
+    /// A finite number in the unit of the table's subject.
     Amount,
     Numbers(ListLimit),
-    /// The name of an observable; the table is about it.
+    /// The name of an observable, which becomes the table's subject.
     Observable,
     Observables,
-    /// The name of a quantity over time that has bands; the table is about it.
+    /// The name of a quantity with bands, which becomes the table's subject.
     Band,
     Expression,
-    /// `true` or `false`.
     Flag,
-    /// `true`, where it is written.
+    /// Only `true`.
     Yes,
     Units,
-    /// A table with the units of columns and parameters.
+    /// Units by column and parameter.
     UnitsByName,
-    /// A finite number, or an array of one for each component, in the unit of what is dispersed.
+    /// A finite number, or an array of one for each component, in the unit of the dispersed parameter.
     Amounts,
-    /// The same of pure numbers, or in the unit at the end of the key.
+    /// As `Amounts`, of pure numbers or in the unit at the end of the key.
     Values,
-    /// An array of finite numbers, in the unit of what is dispersed.
+    /// Finite numbers in the unit of the dispersed parameter.
     AmountList,
-    /// An array of pure finite numbers.
+    /// Pure finite numbers.
     List,
     Number,
     Vector,
-    /// Three rows of three finite numbers.
     Matrix,
-    /// A whole number between these two.
+    /// Both ends are included.
     Count([u64; 2]),
-    /// Whole numbers from 1 to this one: one for all dimensions, or a list.
+    /// From 1: one for all dimensions, or a list.
     Counts(u64),
-    /// Different numbers of samples, ascending, at most so many.
+    /// Sample numbers, ascending, at most so many.
     Samples(usize),
     Text(TextLimit),
-    /// One of these words; the first one where the key is left out.
+    /// One of these words, by default the first.
     Word(&'static [&'static str]),
-    /// The name of a table of the file.
+    /// The name of a table.
     Name,
-    /// Different names of tables of the file.
+    /// Different names of tables.
     Names,
-    /// One correlation of all pairs, or a row of numbers for each parameter.
+    /// One correlation, or a row of numbers for each parameter.
     Correlations,
-    /// A table of numbers by the names of tables of the file.
+    /// Numbers by the names of tables.
     ByName,
-    /// One of the kinds of a list, as far as the file can have them.
+    /// One of the kinds that the file can have.
     OneOf(fn() -> Vec<&'static str>),
-    /// Different ones of these words, at least one; and what holds where the key is left out, in words.
+    /// At least one of these words; and the default in words.
     Words(&'static [&'static str], fn() -> String),
-    /// One of these words, or three numbers of a direction; the first word where the key is left out.
+    /// One of these words, by default the first, or the components of a direction.
     WordOrDirection(&'static [&'static str]),
     /// A table with a distribution of one number.
     Distribution,
-    /// A file of numbers: with the keys `sha256` and `column`, one column of it.
+    /// A data file, with `sha256` and `column`.
     Column,
-    /// A file of numbers: with the keys `sha256`, `parameters` and `columns`, the columns of it that are parameters.
+    /// A data file for parameters, with `sha256`, `parameters` and `columns`.
     Columns,
 }
 
-/// Whether a key must be written, and what holds where it is not.
+/// Whether a key is required, and its default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
     Required {
-        /// What it must be, in words.
+        /// Follows `must be`.
         allowed: &'static str,
         example: &'static str,
     },
-    /// It may be left out; the meaning, or a rule of the table, says what holds then.
+    /// Its meaning or a rule states the default.
     Optional,
-    /// Where it is left out, this number holds.
+    /// The default.
     Or(f64),
-    /// Where it is left out, the nominal value holds.
+    /// The nominal value is the default.
     OrNominal,
 }
 
@@ -172,24 +157,23 @@ pub enum Presence {
 pub struct Row {
     pub key: &'static str,
     pub kind: Kind,
-    /// Whether it must be written.
     pub presence: Presence,
-    /// What its numbers must satisfy, beside being finite.
+    /// Limit of its finite numbers.
     pub limit: Option<NumberLimit>,
-    /// Where its numbers are multiples of those of another key: that key, and what they are divided by.
+    /// For a multiple of another key: that key and the divisor.
     pub multiple_of: Option<(&'static str, f64)>,
     pub meaning: &'static str,
-    /// Whether canonical text leaves it out where it has its default.
+    /// Whether canonical text omits its default.
     pub is_sparse: bool,
 }
 
 impl Row {
-    /// A key that may be left out.
+    /// An optional key.
     pub const fn new(key: &'static str, kind: Kind, meaning: &'static str) -> Self {
         Row { key, kind, presence: Presence::Optional, limit: None, multiple_of: None, meaning, is_sparse: false }
     }
 
-    /// Numbers in the unit of what is dispersed.
+    /// Numbers in the unit of the dispersed parameter.
     pub const fn amounts(key: &'static str, meaning: &'static str) -> Self {
         Row::new(key, Kind::Amounts, meaning)
     }
@@ -199,34 +183,33 @@ impl Row {
         Row::new(key, Kind::Values, meaning)
     }
 
-    /// The same row of a key that must be written, with the example `example`.
+    /// A required key of one number, or one for each component.
     #[must_use]
     pub const fn required(self, example: &'static str) -> Self {
         self.required_as("a finite number, or an array of one for each component", example)
     }
 
-    /// The same where the value is not one number or one for each component; `allowed` says what it is.
+    /// A required key of other values, which `allowed` describes.
     #[must_use]
     pub const fn required_as(mut self, allowed: &'static str, example: &'static str) -> Self {
         self.presence = Presence::Required { allowed, example };
         self
     }
 
-    /// The same row where a number or the nominal value holds for a key that is left out.
     #[must_use]
     pub const fn or(mut self, presence: Presence) -> Self {
         self.presence = presence;
         self
     }
 
-    /// The same row, which canonical text leaves out where it has its default.
+    /// Canonical text omits the default.
     #[must_use]
     pub const fn sparse(mut self) -> Self {
         self.is_sparse = true;
         self
     }
 
-    /// The number, flag or word that holds where the key is left out.
+    /// The default number, flag or word.
     pub fn default(&self) -> Option<Value> {
         match (self.kind, self.presence) {
             (_, Presence::Or(number)) => Some(number.into()),
@@ -237,34 +220,29 @@ impl Row {
         }
     }
 
-    /// The same row with a limit.
     #[must_use]
     pub const fn within(mut self, allowed: &'static str, remedy: &'static str, range: Range) -> Self {
         self.limit = Some(NumberLimit { allowed, remedy, range });
         self
     }
 
-    /// The same row with a limit that has a name.
     #[must_use]
     pub const fn limited(mut self, limit: NumberLimit) -> Self {
         self.limit = Some(limit);
         self
     }
 
-    /// The same row of zero or more.
     #[must_use]
     pub const fn not_negative(self) -> Self {
         self.within(">= 0", "drop the minus sign", at_least(0.0))
     }
 
-    /// The same row of a scale, which is above zero.
     #[must_use]
     pub const fn scale(self) -> Self {
         self.within("> 0", "write it in the parameter's unit", above(0.0))
     }
 }
 
-/// The key of a file with columns that are parameters.
 pub const FILE_OF_PARAMETERS: Row = Row::new(
     "file",
     Kind::Columns,
@@ -272,41 +250,38 @@ pub const FILE_OF_PARAMETERS: Row = Row::new(
     parameters), and `sha256`, the checksum of the file",
 );
 
-/// What several keys of a table have to do with each other.
+/// A relation of several keys of a table.
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
-    /// Exactly one of several ways to say something is written, each with one or several keys; an example for the first
-    /// key, and what to do where there are several.
+    /// Exactly one of several ways to give a value, each with its keys; an example for the first key, and the remedy
+    /// for several ways.
     One(&'static [&'static [&'static str]], &'static str, &'static str),
-    /// At most one of these is written.
     AtMostOne(&'static [&'static str]),
-    /// All of these are written, or none; each with an example.
+    /// All or none, each with an example.
     Together([(&'static str, &'static str); 2]),
-    /// Some keys have a meaning under conditions alone.
+    /// Keys that only have a meaning under conditions.
     Only {
         keys: &'static [&'static str],
-        /// The conditions, all of which hold.
+        /// All of them must hold.
         with: &'static [Condition],
-        /// What the keys must be otherwise: `left out ...`.
+        /// Otherwise: `left out ...`.
         allowed: &'static str,
         remedy: &'static str,
     },
 }
 
-/// What to do where only one of several keys may be there.
 pub const ALL_BUT_ONE: &str = "delete all but one of them";
 
 #[derive(Clone, Copy, Debug)]
 pub enum Condition {
     Has(&'static str),
-    /// The key does not say this word.
+    /// The key has another word.
     IsNot(&'static str, &'static str),
-    /// The key says this word.
     Is(&'static str, &'static str),
 }
 
 impl Condition {
-    /// Whether it holds in a table that `has` keys, which say a `word`.
+    /// Whether it holds in a table with these keys and words.
     pub fn holds<'t>(&self, has: impl Fn(&str) -> bool, word: impl Fn(&str) -> Option<&'t str>) -> bool {
         match self {
             Condition::Has(key) => has(key),
@@ -316,16 +291,14 @@ impl Condition {
     }
 }
 
-/// One number for all components, or one for each.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     All(f64),
-    /// One each, in the order of the components.
+    /// In the order of the components.
     Each(Vec<f64>),
 }
 
 impl Values {
-    /// As in a campaign file.
     pub fn text(&self) -> String {
         match self {
             Values::All(value) => format!("{value:?}"),
@@ -340,7 +313,6 @@ impl Values {
         }
     }
 
-    /// The numbers divided by `divisor`.
     pub fn over(self, divisor: f64) -> Self {
         match self {
             Values::All(value) => Values::All(value / divisor),
@@ -349,62 +321,56 @@ impl Values {
     }
 }
 
-/// One whole number for all dimensions, or one for each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Counts {
     All(u64),
-    /// One each, in the order of the file.
+    /// In the order of the file.
     Each(Vec<u64>),
 }
 
-/// A column of a file of numbers.
+/// A column of a data file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
-    /// The file, as written.
+    /// As written.
     pub file: String,
-    /// SHA-256 of the file's bytes, hexadecimal.
     pub sha256: String,
-    /// The column's name; the name of the number that it is for, where the two are one.
+    /// Its name in the file; without `target`, also that of its number.
     pub column: String,
-    /// The number of the scene that it is for, where its table names several.
+    /// Its number of the scene, if the table names several.
     pub target: Option<(Parameter, usize)>,
-    /// Its numbers, in the order of the file.
+    /// In the order of the file.
     pub values: Arc<[f64]>,
 }
 
 impl DataColumn {
-    /// The name of the number that it is for.
+    /// The name of its number.
     pub fn target_name(&self) -> String {
         self.target.map_or_else(|| self.column.clone(), |(parameter, component)| parameter.component_name(component))
     }
 }
 
-/// The value of a key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Numbers: one, one for each component, a list, a vector.
+    /// One number, one for each component, a list or a vector.
     Numbers(Values),
     Matrix([[f64; 3]; 3]),
     Counts(Counts),
     Text(String),
     Word(&'static str),
     Words(Vec<&'static str>),
-    /// A distribution: its name and its keys.
+    /// Name and keys.
     Distribution(&'static str, Written),
-    /// A column of a file.
     Column(DataColumn),
-    /// Columns of one file, each for one number of the scene.
+    /// Of one file, each for one number of the scene.
     Columns(Vec<DataColumn>),
     Flag(bool),
-    /// Numbers by name.
     ByName(Vec<(Name, f64)>),
     Texts(Vec<String>),
-    /// Units by the names of what is shown in them.
+    /// By column and parameter.
     Units(BTreeMap<String, &'static str>),
 }
 
 impl Value {
-    /// The text or the word.
     pub fn text(&self) -> Option<&str> {
         match self {
             Value::Text(text) => Some(text),
@@ -413,7 +379,6 @@ impl Value {
         }
     }
 
-    /// Whether it is an empty list or text.
     fn is_empty(&self) -> bool {
         match self {
             Value::Text(text) => text.is_empty(),
@@ -455,26 +420,24 @@ impl From<&str> for Value {
     }
 }
 
-/// What a campaign file says of the keys of a table, in the order of their rows.
+/// The written keys of a table, in the order of their rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Written(Vec<(&'static str, Value)>);
 
 impl Written {
     pub const NONE: Written = Written(Vec::new());
 
-    /// The same table in which `key` is written.
+    /// The table with `key` set.
     #[must_use]
     pub fn with(mut self, key: &'static str, value: impl Into<Value>) -> Self {
         self.set(key, value);
         self
     }
 
-    /// Writes the keys of `other`, too.
     pub fn extend(&mut self, other: Written) {
         other.0.into_iter().for_each(|(key, value)| self.set(key, value));
     }
 
-    /// Writes `key`, instead of what was there.
     pub fn set(&mut self, key: &'static str, value: impl Into<Value>) {
         let value = value.into();
         match self.0.iter_mut().find(|(known, _)| *known == key) {
@@ -483,8 +446,8 @@ impl Written {
         }
     }
 
-    /// The keys `rows` in their order, as canonical text has them: with the defaults of those that have a meaning under
-    /// `rules`; without empty lists and texts, and without keys that are sparse and have their default.
+    /// The keys of canonical text, in the order of `rows`: with the defaults that act under `rules`, without empty
+    /// lists and texts and without sparse keys at their default.
     #[must_use]
     pub fn completed(&self, rows: &[Row], rules: &[Rule]) -> Written {
         let acts = |row: &Row| {
@@ -504,37 +467,31 @@ impl Written {
         Written(rows.iter().filter_map(entry).collect())
     }
 
-    /// Whether `key` is written.
     pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
     }
 
-    /// The value of `key`.
     pub fn get(&self, key: &str) -> Option<&Value> {
         self.0.iter().find(|(known, _)| *known == key).map(|(_, value)| value)
     }
 
-    /// The numbers of `key`.
     pub fn values(&self, key: &str) -> Option<&Values> {
         self.get(key).and_then(|value| if let Value::Numbers(values) = value { Some(values) } else { None })
     }
 
-    /// The numbers of `key`, one after the other.
     pub fn numbers(&self, key: &str) -> Option<&[f64]> {
         self.values(key).map(Values::numbers)
     }
 
-    /// The rows of the matrix of `key`.
     pub fn matrix(&self, key: &str) -> Option<[[f64; 3]; 3]> {
         if let Value::Matrix(rows) = self.get(key)? { Some(*rows) } else { None }
     }
 
-    /// The three numbers of `key`.
     pub fn vector(&self, key: &str) -> Option<[f64; 3]> {
         self.numbers(key)?.try_into().ok()
     }
 
-    /// The columns of a file that are parameters.
+    /// The columns of a file for parameters.
     pub fn columns(&self) -> &[DataColumn] {
         let columns = self.0.iter().find_map(|(_, value)| match value {
             Value::Columns(columns) => Some(columns.as_slice()),
@@ -543,32 +500,27 @@ impl Written {
         columns.unwrap_or_default()
     }
 
-    /// The number of `key`.
     pub fn number(&self, key: &str) -> Option<f64> {
         if let Value::Numbers(Values::All(number)) = self.get(key)? { Some(*number) } else { None }
     }
 
-    /// The whole number of `key`.
     pub fn count(&self, key: &str) -> Option<u64> {
         if let Value::Counts(Counts::All(count)) = self.get(key)? { Some(*count) } else { None }
     }
 
-    /// Whether `key` says yes.
+    /// Whether `key` is true.
     pub fn flag(&self, key: &str) -> bool {
         self.get(key) == Some(&Value::Flag(true))
     }
 
-    /// The text or the word of `key`.
     pub fn text(&self, key: &str) -> Option<&str> {
         self.get(key)?.text()
     }
 
-    /// The texts of `key`; none where it is not written.
     pub fn texts(&self, key: &str) -> &[String] {
         if let Some(Value::Texts(texts)) = self.get(key) { texts } else { &[] }
     }
 
-    /// The keys that are written.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, &Value)> {
         self.0.iter().map(|(key, value)| (*key, value))
     }

@@ -1,7 +1,7 @@
 //! [`Sampler`]: draws samples of [`Dispersions`] into scenes, in blocks of eight.
 //!
-//! Recorded values are applied values: written into the scene, made valid as a whole (a quaternion is renormalised) and
-//! read back. A physically impossible draw is not repeated: the scene refuses it later.
+//! Recorded values are read back from the scene after quaternions are renormalised. An unphysical draw is not repeated:
+//! the scene refuses it later.
 
 use super::columns::Column;
 use super::design::{BLOCK, PointSource, Points};
@@ -12,28 +12,27 @@ use super::stream::SampleId;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
-/// Draws samples, for one worker. State only makes neighbours cheap: a draw depends on the sample alone.
+/// The memory of one worker; a draw depends on the sample alone.
 #[derive(Debug)]
 pub struct Sampler<'a> {
     dispersions: &'a Dispersions,
     points: Points,
     block: Option<u64>,
-    /// Numbers u of the block, dimension by dimension.
     u: Vec<[f64; BLOCK]>,
-    /// Dimensions at their nominal values; only in a design of one at a time.
+    /// Dimensions at nominal values, in one-at-a-time designs.
     nominal: Vec<[bool; BLOCK]>,
-    /// Normal scores of the block; arbitrary for dimensions without a copula.
+    /// Arbitrary for dimensions without a copula.
     scores: Vec<[f64; BLOCK]>,
     correlated: Vec<bool>,
     values: Vec<[f64; BLOCK]>,
     together: Vec<f64>,
     normalised: Vec<Parameter>,
-    /// Parameters among them that a file gives as a whole: recorded values keep their bits.
+    /// Quaternions that a file gives as a whole: recorded values keep their bits.
     recorded: Vec<Parameter>,
 }
 
 impl Dispersions {
-    /// A sampler for one worker. Allocates; drawing does not.
+    /// Allocates; drawing does not.
     pub fn sampler(&self) -> Sampler<'_> {
         Sampler::new(self)
     }
@@ -58,7 +57,7 @@ impl<'a> Sampler<'a> {
     }
 
     /// Writes the dispersed numbers of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and
-    /// the applied values into `applied`, one a column. Sample 0 is nominal.
+    /// the applied values, one a column. Sample 0 is nominal.
     ///
     /// # Panics
     /// If `applied` is not as long as [`Dispersions::columns`].
@@ -90,7 +89,7 @@ impl<'a> Sampler<'a> {
         self.read_back(scene, applied);
     }
 
-    /// Records parameters that were normalised as they are in `scene`.
+    /// Records normalised parameters as in `scene`.
     fn read_back(&self, scene: &SceneInput, applied: &mut [f64]) {
         for parameter in &self.normalised {
             let columns = self.dispersions.columns().iter();
@@ -158,8 +157,8 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Notes dimensions at their nominal value and puts the median there: while one dimension of a joint distribution
-    /// varies, the others are at their median.
+    /// Marks dimensions at their nominal value and sets them to the median, which the other dimensions of a joint
+    /// distribution keep.
     fn note_nominals(&mut self) {
         for (u, nominal) in self.u.iter_mut().zip(&mut self.nominal) {
             for (u, nominal) in u.iter_mut().zip(nominal) {
@@ -171,7 +170,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Gives columns nominal values if no dimension of their distribution varies.
+    /// Restores nominal values if no dimension of a distribution varies.
     fn keep_nominals(&mut self) {
         for assigned in self.dispersions.assigned.iter().filter(|assigned| assigned.map.dimensions() > 0) {
             let dimensions = assigned.first..assigned.first + assigned.map.dimensions();
@@ -200,7 +199,7 @@ fn most_together(dispersions: &Dispersions) -> usize {
     dispersions.assigned.iter().map(|assigned| assigned.columns.len()).max().unwrap_or(0)
 }
 
-/// The quaternions that a file gives as a whole.
+/// Quaternions that a file gives as a whole.
 fn recorded(dispersions: &Dispersions) -> Vec<Parameter> {
     let is_row = |column| matches!(dispersions.distribution_of(column), Some(Transform::Joint(Joint::Bootstrap(_))));
     let tabled = dispersions.columns().iter().enumerate();
@@ -211,7 +210,6 @@ fn recorded(dispersions: &Dispersions) -> Vec<Parameter> {
     normalised(dispersions).into_iter().filter(is_whole).collect()
 }
 
-/// The quaternions among the columns, each once.
 fn normalised(dispersions: &Dispersions) -> Vec<Parameter> {
     let first = |column: &&Column| column.component == 0 && column.parameter.shape() == Shape::Quaternion;
     dispersions.columns().iter().filter(first).map(|column| column.parameter).collect()

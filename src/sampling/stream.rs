@@ -9,10 +9,9 @@
 //! | 8..24 | FNV-1a, 128 bits, of the component's name (`initial.angular_velocity_rad_s.y`), little-endian |
 //! | 24..32 | the ASCII text `sampling` |
 //!
-//! and sample k takes the k-th little-endian 64-bit word of the key stream: a draw depends on (seed, sample, name)
-//! alone, any sample is reached at once, eight neighbours share a block, and any implementation of ChaCha gives the
-//! same numbers. Counters of sample *and* parameter under one key were rejected: a new parameter would renumber the
-//! others.
+//! Sample k takes the k-th little-endian 64-bit word of the key stream: a draw depends on (seed, sample, name) alone,
+//! and eight neighbours share a block. Counters of sample and parameter under one key were rejected, since a new
+//! parameter would renumber the others.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};

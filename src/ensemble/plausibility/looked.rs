@@ -8,13 +8,13 @@ use crate::scene::{Parameter, Scene, SceneError};
 use crate::statistics::quantile::quantile;
 
 const DRAWS: u64 = 1000;
-/// The fraction of the draws that may be beyond a limit.
+/// Fraction of draws beyond a limit.
 const FEW: f64 = 0.01;
 
 pub struct Looked<'p> {
     pub plan: &'p Plan,
     pub scene: Result<Scene, Vec<SceneError>>,
-    /// The first draws, or some from all over a design.
+    /// The first draws, or some of a fixed design.
     pub drawn: DrawnScenes,
 }
 
@@ -37,8 +37,7 @@ impl<'p> Looked<'p> {
         values.fold(0.0, libm::hypot)
     }
 
-    /// The distance of one draw in a hundred from the nominal value of `parameter`; `None` for an attitude, or without
-    /// dispersion.
+    /// The distance of one draw in a hundred from nominal; `None` for an attitude or without dispersion.
     pub fn spread(&self, parameter: Parameter) -> Option<f64> {
         let columns = self.plan.dispersions.columns().iter().zip(&self.drawn.columns);
         let own: Vec<_> = columns.filter(|(column, _)| column.parameter == parameter).collect();

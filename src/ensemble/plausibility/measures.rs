@@ -1,4 +1,4 @@
-//! Sizes judged by rules that are no parameters: from the nominal scene, from draws, or from the file.
+//! Sizes computed from several numbers of the nominal scene, draws or the file.
 
 use std::f64::consts::{PI, TAU};
 
@@ -20,12 +20,9 @@ use crate::scene::parameter::Shape;
 use crate::scene::{LocalFrame, Orbit, OrbitInput, Parameter, WheelMode};
 
 const YEAR: f64 = 365.25 * 86_400.0;
-/// Most observation points that a note suggests.
 const MANY_POINTS: f64 = 1e7;
-/// Least draws that show the range of a distribution.
 const RANGE_DRAWS: usize = 30;
 const RATES: u64 = 1000;
-/// Draws of orbits, each a scene to be resolved.
 const ORBITS: u64 = 200;
 
 /// Takes a size and the start of its note.
@@ -47,7 +44,7 @@ pub fn scalar_last(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// The turn of one draw in a hundred, rad, of quaternions with a distribution for each component.
+/// The turn in one draw of a hundred, rad, of quaternions dispersed by components.
 pub fn drawn_by_components(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let turns: Vec<_> = magnitudes(looked.plan).into_iter().zip(&looked.drawn.magnitudes).collect();
     for Dispersion { parameter, distribution, .. } in &looked.plan.dispersed {
@@ -109,7 +106,7 @@ pub fn periods(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// The rates to which the schedule drives wheels that are below `limit` at the start, rad/s.
+/// Rates to which the schedule drives wheels that start below `limit`, rad/s.
 pub fn driven_wheels(looked: &Looked<'_>, limit: f64, note: &mut Note<'_>) {
     let Ok(scene) = &looked.scene else { return };
     let turning = looked.plan.nominal.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).enumerate();
@@ -124,7 +121,7 @@ pub fn driven_wheels(looked: &Looked<'_>, limit: f64, note: &mut Note<'_>) {
     }
 }
 
-/// Mass, kg, and principal moments of the spacecraft, ascending, kg m^2.
+/// Mass, kg, and principal moments, ascending, kg m^2.
 fn inertia(looked: &Looked<'_>) -> Option<(f64, [f64; 3])> {
     let [mass, _, _, _, a, b, c] = mass_properties(looked.scene.as_ref().ok()?);
     Some((mass, [a, b, c]))
@@ -136,7 +133,7 @@ pub fn mass(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// The radius of gyration about the axis of the largest moment, over the cube root of the mass, m/kg^(1/3).
+/// Largest radius of gyration over the cube root of the mass, m/kg^(1/3).
 pub fn radius_of_gyration(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let Some((mass, [_, _, largest])) = inertia(looked) else { return };
     let radius = libm::sqrt(largest / mass);
@@ -148,7 +145,7 @@ pub fn radius_of_gyration(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     note(radius / libm::cbrt(mass), what);
 }
 
-/// The excess of the two smaller principal moments over the largest, relative to it.
+/// Relative excess of the two smaller principal moments over the largest.
 pub fn flatness(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let Some((_, moments @ [a, b, c])) = inertia(looked) else { return };
     let excess = (a + b - c) / c;
@@ -164,7 +161,7 @@ pub fn area(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// The torque limit of each wheel over the smallest principal moment, rad/s^2.
+/// Torque limit of each wheel over the smallest principal moment, rad/s^2.
 pub fn wheel_torque(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let Some((_, [smallest, ..])) = inertia(looked) else { return };
     for wheel in &looked.plan.nominal.wheels {
@@ -176,7 +173,7 @@ pub fn wheel_torque(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// Spreads relative to the nominal value, also of nested distributions.
+/// Relative spreads, also of nested distributions.
 pub fn wide_spreads(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     fn of(name: &str, written: &Written, note: &mut Note<'_>) {
         for (key, value) in written.entries() {
@@ -194,7 +191,7 @@ pub fn wide_spreads(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// The distance of nominal values from the range of their draws, over that range: the largest of each parameter.
+/// Distance of a nominal value outside the range of its draws, over that range; the largest of each parameter.
 pub fn nominal_outside(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let mut notes: Vec<(Parameter, f64, String)> = Vec::new();
     if looked.drawn.count() < RANGE_DRAWS {
@@ -221,8 +218,8 @@ pub fn nominal_outside(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     notes.into_iter().for_each(|(_, size, what)| note(size, what));
 }
 
-/// The angle between the local orbital frames of drawn orbits and of the nominal one, with the drift of their mean
-/// motions until the end, if flight software uses the nominal one; rad.
+/// Angle between the local orbital frames of drawn orbits and the nominal one, plus the drift of their mean motions, if
+/// flight software uses the nominal one; rad.
 pub fn unknown_orbit(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let plan = looked.plan;
     let columns = plan.dispersions.columns().iter().map(|column| column.parameter.name());
@@ -230,7 +227,7 @@ pub fn unknown_orbit(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     dispersed.dedup();
     let is_used = looked.spec().is_some_and(|spec| {
         let is_orbital = |target| matches!(target, Target::Orbital(_) | Target::Nadir | Target::OrbitalVelocity);
-        // such a measurement is compared with its prediction at the believed place
+        // its measurement is predicted at the believed place
         let is_of_place = |sensor: &SensorSpec| sensors::KINDS[sensor.kind].needs.is_some();
         let is_measured = spec.has_filter() && spec.sensors.iter().any(is_of_place);
         !spec.knows_the_truth() && (is_measured || spec.phases.iter().any(|phase| is_orbital(phase.target)))
@@ -255,14 +252,14 @@ pub fn unknown_orbit(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     note(size, what);
 }
 
-/// The attitude of the local orbital frame at the start, and the mean motion, rad/s.
+/// Attitude of the local orbital frame at the start, and mean motion, rad/s.
 fn flown(orbit: &OrbitInput) -> ([f64; 4], f64) {
     let Orbit { mu, position, velocity, .. } = Orbit::of(orbit);
     let inverse_axis = 2.0 / norm(position) - dot(velocity, velocity) / mu;
     (LocalFrame::at(position, velocity).q_eo, libm::sqrt(mu * inverse_axis.powi(3)))
 }
 
-/// The angle of the principal axis from s3, deg, if nutation is measured from s3: that part is no motion.
+/// Angle of the principal axis from s3, deg, if nutation is measured from s3.
 pub fn nutation(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let plan = looked.plan;
     let is_observed = plan.groups.contains(&Group::Motion) && plan.nutation_axis == NutationAxis::SpinAxis;
@@ -272,7 +269,7 @@ pub fn nutation(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     note(angle, format!("the principal axis is {} deg off s3", digits(angle)));
 }
 
-/// The turn of the body from one observation point to the next, rad.
+/// Turn of the body between observation points, rad.
 pub fn coarse_grid(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let (grid, initial) = (&looked.plan.grid, &looked.plan.nominal.initial);
     let step = grid.duration() / (grid.points().max(2) - 1) as f64;
@@ -284,9 +281,8 @@ pub fn coarse_grid(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     note(turn, format!("observe.points = {points}: the body makes {turns} turns from one point to the next{enough}"));
 }
 
-/// The turn of the body over the lag of B-dot, rad, at the largest initial rate. The dipole opposes the change of the
-/// field half an interval of measurements before, and is held; its mean power is that of a prompt dipole times the
-/// cosine of the turn.
+/// Turn of the body over the lag of B-dot at the largest initial rate, rad. The held dipole opposes the field's change
+/// half a measurement interval before, so that its mean power is that of a prompt dipole times the cosine of the turn.
 pub fn late_rods(looked: &Looked<'_>, most: f64, note: &mut Note<'_>) {
     let rods = looked.spec().and_then(|spec| {
         let phase = spec.phases.iter().find(|phase| phase.rods == RodUse::BDot)?;
@@ -318,14 +314,14 @@ pub fn late_rods(looked: &Looked<'_>, most: f64, note: &mut Note<'_>) {
     note(rate * lag, what);
 }
 
-/// The ends of the table of the air in the file of `plan`, as distances from the centre, m.
+/// Ends of the air table, as distances from the centre, m.
 pub fn ends_of_air(plan: &Plan) -> Option<[f64; 2]> {
     let heights = plan.nominal.environment.air_heights_m.filter(|_| plan.nominal.environment.drag)?;
     let surface = plan.nominal.orbit.as_ref()?.body_radius_m;
     Some([heights.first()?, heights.last()?].map(|height| surface + height))
 }
 
-/// The distance of the nominal orbit beyond the table of the air, m.
+/// Distance of the nominal orbit beyond the air table, m.
 pub fn beyond_air(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let ends = ends_of_air(looked.plan).zip(looked.plan.nominal.orbit.as_ref());
     let Some(([low, high], orbit)) = ends else { return };
@@ -337,7 +333,7 @@ pub fn beyond_air(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     }
 }
 
-/// The start of the first arc after the end of the run, s, from that end.
+/// Start of the first arc after the end of the run, s, from that end.
 pub fn late_arcs(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     let duration = looked.plan.grid.duration();
     let mut arcs = looked.plan.nominal.actuation.iter().map(|arc| arc.start_s).enumerate();

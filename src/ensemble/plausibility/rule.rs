@@ -1,4 +1,4 @@
-//! [`Rule`]: a size, its limit, and the note.
+//! [`Rule`]: a size, its limit and the note.
 
 use std::collections::BTreeSet;
 
@@ -7,10 +7,9 @@ use super::measures::Note;
 use crate::scene::Parameter;
 
 pub enum Look {
-    /// The numbers of the keys `table.key`, or with `table.*` of all keys of the table in the unit of the rule: nominal
-    /// values, and the distance of one draw in a hundred from them.
+    /// Nominal values of the keys `table.key`, or with `table.*` of all in the rule's unit, and the distance of one
+    /// draw in a hundred from them.
     Keys(&'static [&'static str]),
-    /// Sizes computed from several numbers and the limit.
     Sizes(fn(&Looked<'_>, f64, &mut Note<'_>)),
 }
 
@@ -21,11 +20,11 @@ pub enum Limit {
 }
 
 pub struct Rule {
-    /// The size, for the documents.
+    /// For the documents.
     pub subject: &'static str,
     pub look: Look,
     pub limit: Limit,
-    /// The SI unit, `1` for a pure number; the usual unit and its number in one SI unit.
+    /// The SI unit, `1` for a pure number; the usual unit and its size in SI.
     pub unit: &'static str,
     pub known: (&'static str, f64),
     pub source: &'static str,
@@ -34,7 +33,7 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// The notes on broken limits, without parameters that are judged already.
+    /// Notes on broken limits, without parameters judged already.
     pub fn notes(&self, looked: &Looked<'_>, judged: &mut BTreeSet<String>) -> Vec<String> {
         let mut found: Vec<String> = Vec::new();
         match self.look {

@@ -1,5 +1,5 @@
-//! [`RULES`]: sizes that are noted from a limit on, with the source of the limit, usual values, and the remedy. Limits
-//! are beyond real spacecraft, so that notes are rarely false, and below the effect of a wrong unit on a usual value.
+//! [`RULES`]: limits with their source, usual values and the remedy. They lie beyond real spacecraft, so that notes are
+//! rarely false, and below the effect of a wrong unit on a usual value.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,7 +21,7 @@ const RPM: Units = ("rad/s", ("rpm", 60.0 / TAU));
 const BEYOND_A_TURN: f64 = TAU * (1.0 + 1e-9);
 const TEN_YEARS: f64 = 315_576_000.0;
 
-/// The remedy of a number in another unit: the unit's name, and an example.
+/// Remedy: the unit's name, and an example.
 macro_rules! in_unit {
     ($unit:literal, $example:literal) => {
         concat!($unit, " are written with their unit, \"", $example, "\"")

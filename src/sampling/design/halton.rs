@@ -1,10 +1,9 @@
 //! `halton`: Halton's sequence (*Numer. Math.* 2 (1960) 84) with random digit permutations.
 //!
-//! The number of a point in the dimension of base b is its radical inverse, each digit replaced by its image under an
-//! independent random permutation of 0..b (A. B. Owen, *A randomized Halton algorithm in R* (2017)). Unscrambled,
-//! neighbouring large bases are nearly proportional; a random line a d + c for each digit is cheaper, but leaves
-//! correlations of 0.5 between pairs in 12 dimensions with 256 points. Digits continue beyond those of the point, down
-//! to about 2^-52.
+//! In base b the number of a point is its radical inverse, each digit permuted by an independent random permutation of
+//! 0..b (A. B. Owen, *A randomized Halton algorithm in R* (2017)). Unscrambled, neighbouring large bases are nearly
+//! proportional; a random line a d + c for each digit is cheaper, but leaves correlations of 0.5 between pairs in 12
+//! dimensions with 256 points. Digits continue below those of the point, to about 2^-52.
 
 use super::hash::{below, keyed};
 use super::replicates::Sequence;

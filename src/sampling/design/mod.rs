@@ -1,7 +1,7 @@
-//! [`Design`]: the placement of samples in the unit cube; [`PointSource`]: u in (0, 1) of each sample and random
-//! dimension, which distributions map to values. A new design needs its file and a row of the list below.
+//! [`Design`]: the samples in the unit cube; [`PointSource`]: u in (0, 1) of each sample and random dimension, which
+//! distributions map to values. A new design needs its file and a row of the list below.
 //!
-//! Sample 0 is the nominal scene; sample k >= 1 is point k - 1. Each number follows from the sample's id alone, without
+//! Sample 0 is the nominal scene, sample k >= 1 is point k - 1. Numbers follow from the sample's id alone, without
 //! stored permutations or earlier points.
 //!
 //! | design | file | earlier rows stay when samples are added | draws stay when a dispersion is added or moved |
@@ -16,7 +16,7 @@
 //!
 //! Latin hypercube, Sobol and Halton designs may consist of independently scrambled [`replicates`].
 //!
-//! Dimensions are known by name (the component's, or the parameter's with a number). Blocks of eight samples
+//! Dimensions are known by the name of the component, or of the parameter with a number. Blocks of eight samples
 //! ([`BLOCK`]) match a block of ChaCha and a call of the quantiles.
 
 pub mod grid;

@@ -1,10 +1,10 @@
 //! `sobol`: Sobol's sequence with the direction numbers of Joe and Kuo and nested uniform scrambling.
 //!
 //! Directions: S. Joe & F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
-//! Comput. 30 (2008) 2635, file new-joe-kuo-6, its first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted
-//! (t,m,s)-nets and (t,s)-sequences* (1995): a hash of the dimension's key and of the bits above decides whether a bit
-//! is flipped, bit by bit for the leading 32, by one hash for the bits below. Point 0 is used (A. B. Owen, *On dropping
-//! the first Sobol' point*, 2020): the sequence is best in 2^m points, which are 2^m + 1 samples with the nominal one.
+//! Comput. 30 (2008) 2635, new-joe-kuo-6, first 512 dimensions. Scrambling: A. B. Owen, *Randomly permuted (t,m,s)-nets
+//! and (t,s)-sequences* (1995): a hash of the dimension's key and the bits above flips each of the leading 32 bits, one
+//! hash the bits below. Point 0 is used (A. B. Owen, *On dropping the first Sobol' point*, 2020): the sequence is best
+//! in 2^m points, 2^m + 1 samples with the nominal one.
 
 use std::collections::HashMap;
 
@@ -86,9 +86,9 @@ const BITS: [u32; 2] = [3, 2];
 /// Correlation of two functions of leading bits above which their dimensions are bound: a sixteenth of the variance.
 const BOUND: f64 = 0.25;
 
-/// Three dimensions (the last two may be one) whose leading bits are bound in the first `points` points: those of the
-/// first equal the product of the others', or its opposite. Scrambling flips leading bits of all points alike and keeps
-/// this, so an input without effect appears to have the effect of an interaction of the other two.
+/// Three dimensions (the last two may be equal) whose leading bits are bound in the first `points` points: those of the
+/// first equal the product of the others' or its opposite. Scrambling flips the leading bits of all points alike and
+/// keeps this: an input without effect appears to have the effect of an interaction of the others.
 pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
     // the parity of some leading bits of a dimension is the parity of these bits of the point's number
     let parities = |directions: &[u64; 64], bits: u32| -> Vec<u64> {
@@ -151,8 +151,8 @@ mod tests {
         (0..count).map(|k| format!("d{k}")).collect()
     }
 
-    /// Points 1, 2, 3 and 1000 in the dimensions 1, 2, 3, 10, 100, 512 of scipy.stats.qmc.Sobol(512, scramble=False,
-    /// bits=62), in the order of Gray's code (point k ^ (k >> 1)), times 2^20.
+    /// Points 1, 2, 3 and 1000 of scipy.stats.qmc.Sobol(512, scramble=False, bits=62) in the dimensions 1, 2, 3, 10,
+    /// 100, 512, in the order of Gray's code (point k ^ (k >> 1)), times 2^20.
     #[test]
     fn unscrambled_points_are_those_of_scipy() {
         let sobol = Sobol::new(0, &names(512));
@@ -170,8 +170,8 @@ mod tests {
         (1000, [97280, 168960, 472064, 128000, 525312, 683008]),
     ];
 
-    /// Known, from another program: the largest number of dimensions none of which is bound among so many points. Law:
-    /// the mean product of the signs of leading bits is 1 for bound dimensions and less for others.
+    /// Known from another program: the largest number of dimensions none of which is bound among so many points. Law:
+    /// the mean product of the signs of leading bits is 1 for bound dimensions, less for others.
     #[test]
     fn bound_dimensions_are_known() {
         for (points, most) in [(32, 2), (64, 2), (128, 3), (256, 3), (512, 5), (1024, 6), (2048, 10), (4096, 13)] {

@@ -1,8 +1,8 @@
-//! `uniform_direction`, `cone`, `von_mises_fisher`: direction and magnitude of a vector separately.
+//! `uniform_direction`, `cone`, `von_mises_fisher`: direction and magnitude of a vector separately, with `axis`
+//! (default: the nominal vector) and `[disperse.magnitude]` (default: the nominal length).
 //!
-//! All three have an `axis` (default: the nominal vector) and a distribution of the magnitude, `[disperse.magnitude]`
-//! (default: the nominal one). Isotropy is uniform in solid angle, that is in the cosine of the angle to the axis;
-//! uniform components or a uniform angle are not isotropic (test `usual_mistakes_are_caught`).
+//! Isotropic means uniform in solid angle, that is in the cosine of the angle to the axis, and not in components or the
+//! angle (test `usual_mistakes_are_caught`).
 
 use super::target::JointTarget;
 use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};

@@ -1,4 +1,4 @@
-//! [`Target`]: the components of a distribution of one number, with common checks; [`JointTarget`]: the target of a
+//! [`Target`]: the components of a distribution of one number, and common checks; [`JointTarget`]: the target of a
 //! joint distribution.
 
 use crate::sampling::error::{DispersionError, error};
@@ -7,19 +7,15 @@ use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
 use crate::scene::schema::Limit;
 
-/// The components that have a distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Target<'a> {
-    /// The `[[disperse]]` table, counted from zero.
+    /// Index of the `[[disperse]]` table.
     pub index: usize,
-    /// One value for each component.
     pub nominals: &'a [f64],
-    /// The keys of the distribution.
     pub rows: &'static [Row],
     pub written: &'a Written,
 }
 
-/// The remedy for the logarithm of a number that is not positive.
 pub(super) const LOGARITHM: &str = "a logarithm needs a positive number";
 
 pub(super) type Numbers = Result<Vec<f64>, DispersionError>;
@@ -39,7 +35,7 @@ impl Target<'_> {
         (0..self.nominals.len()).map(of).collect()
     }
 
-    /// The numbers of `key`, or their default, one for each component, within the limit of the row.
+    /// The numbers of `key` or their default, one for each component, within the row's limit.
     pub(super) fn each(&self, key: &'static str) -> Numbers {
         let row = self.rows.iter().find(|row| row.key == key);
         let list = match (self.written.values(key), row.map(|row| row.presence)) {
@@ -72,7 +68,7 @@ impl Target<'_> {
         }
     }
 
-    /// The medians, all above zero: the numbers of `key`, if it gives medians, else the nominal values.
+    /// Positive medians: the numbers of `key` if it gives medians, else the nominal values.
     pub(super) fn positive_or_nominal(&self, key: &'static str) -> Numbers {
         let is_median = |row: &Row| row.key == key && row.presence == Presence::OrNominal;
         if self.written.has(key) && self.rows.iter().any(is_median) {
@@ -88,7 +84,7 @@ impl Target<'_> {
         }
     }
 
-    /// The numbers of `absolute` in the parameter's unit, or `relative` times the nominal values.
+    /// The numbers of `absolute`, or `relative` times the nominal values.
     pub(super) fn amounts(&self, absolute: &'static str, relative: &'static str) -> Numbers {
         if self.written.has(absolute) {
             return self.each(absolute);
@@ -127,15 +123,13 @@ impl Target<'_> {
     }
 }
 
-/// The vector or attitude that has a joint distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct JointTarget<'a> {
-    /// The `[[disperse]]` table, counted from zero.
+    /// Index of the `[[disperse]]` table.
     pub index: usize,
     pub parameter: Parameter,
-    /// The component that the file names; wrong for a joint distribution.
+    /// A written component, which is wrong for a joint distribution.
     pub component: Option<usize>,
-    /// The nominal values of all components.
     pub nominals: &'a [f64],
     pub written: &'a Written,
 }
@@ -151,7 +145,7 @@ impl JointTarget<'_> {
         Err(error(self.index, key, value, allowed, remedy))
     }
 
-    /// An error of this target: a missing key.
+    /// A missing key.
     pub(super) fn lacks<T>(
         &self,
         key: &'static str,
@@ -161,7 +155,7 @@ impl JointTarget<'_> {
         Err(DispersionError { value: None, ..error(self.index, key, "", allowed, remedy) })
     }
 
-    /// The nominal attitude of a target that is a whole attitude.
+    /// The nominal value of a whole attitude.
     pub(super) fn attitude(&self, distribution: &str) -> Result<[f64; 4], DispersionError> {
         match <[f64; 4]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && self.parameter.shape() == Shape::Quaternion => Ok(nominal),
@@ -169,7 +163,7 @@ impl JointTarget<'_> {
         }
     }
 
-    /// The nominal vector of a target that is a whole vector.
+    /// The nominal value of a whole vector.
     pub(super) fn vector(&self, distribution: &str) -> Result<[f64; 3], DispersionError> {
         let parameter = self.parameter;
         let is_vector = parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"];
@@ -183,7 +177,7 @@ impl JointTarget<'_> {
         }
     }
 
-    /// Whether the length has no effect: an axis of a wheel, a direction of a thruster.
+    /// Whether only the direction counts: of a wheel's axis, a thruster's direction.
     pub(super) fn is_direction(&self) -> bool {
         self.parameter.facts().limit == Limit::Direction
     }
@@ -195,7 +189,7 @@ impl JointTarget<'_> {
         self.refused("parameter", format!("{name:?}"), allowed, remedy)
     }
 
-    /// `axis`, which is not zero, scaled by its largest component if its square would overflow or vanish.
+    /// `axis`, refused if zero; scaled by its largest component if its square would overflow or vanish.
     pub(super) fn axis(&self, axis: [f64; 3]) -> Result<[f64; 3], DispersionError> {
         let largest = axis.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
         if largest == 0.0 {
