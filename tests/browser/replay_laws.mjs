@@ -116,7 +116,7 @@ export async function checkFullScreen(page, name) {
       return Boolean(document.fullscreenElement?.matches(".replay")) === full && (full ? height > known : Math.abs(height - known) <= 2);
     };
     // the picture follows in one of the next frames, which software rendering makes slowly
-    await page.waitForFunction(isRight, { timeout: 15_000 }, isFull, before).catch(() => problems.push(`${name}: ${isFull ? "full screen is not larger" : "full screen is not left"}`));
+    await page.waitForFunction(isRight, { timeout: 60_000 }, isFull, before).catch(() => problems.push(`${name}: ${isFull ? "full screen is not larger" : "full screen is not left"}`));
   };
   await toggle(true);
   await toggle(false);
