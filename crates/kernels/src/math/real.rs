@@ -127,8 +127,8 @@ pub trait Real:
     /// Writes the numbers to the start of a slice, as [`Real::lane`].
     fn write(self, values: &mut [f64]);
 
-    /// The result of `work`; for lanes in a function of its own, compiled for their instruction set, for long work
-    /// needed in several places; `self` only determines the type.
+    /// The result of `work`, in a function of its own for lanes (compiled for their instruction set) and for `f64`
+    /// (compiled for the target's baseline): for long work needed in several places. `self` only determines the type.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()
@@ -144,6 +144,11 @@ pub trait Real:
 impl Real for f64 {
     type Mask = bool;
     const LANES: usize = 1;
+
+    #[inline(never)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
 
     #[inline(always)]
     fn splat(self, value: f64) -> Self {
