@@ -2,10 +2,10 @@
 //! can store and its thrusters unload.
 
 use super::allocation::{ThrustAllocation, WheelTorque};
-use crate::control::observes::Observes;
-use crate::control::sensor_spec::SensorSpec;
-use crate::control::spec::LoopSpec;
-use crate::control::vector::{difference, dot, norm, product, scaled, sum};
+use super::observes::Observes;
+use super::sensor_spec::SensorSpec;
+use super::spec::LoopSpec;
+use super::vector::{difference, dot, norm, product, scaled, sum};
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 

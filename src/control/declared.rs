@@ -30,10 +30,9 @@ macro_rules! declared {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name {
-            $(#[doc = concat!("Of the key `", stringify!($row), "`.")] pub $field: $type,)+
+            $(pub $field: $type,)+
         }
 
-        #[doc = concat!("The keys of [`", stringify!($name), "`].")]
         pub static $rows: [$crate::scene::LawParameter; [$(stringify!($field)),+].len()] = [$($row),+];
 
         impl $name {

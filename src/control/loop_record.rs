@@ -6,7 +6,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::control::guidance::target::AttitudeError;
+use super::guidance::target::AttitudeError;
 use crate::observables::{LawSeries, Series};
 
 /// Quantities at a time.

@@ -1,6 +1,9 @@
 //! Layer 4: control in the loop, between the engines' interface to laws ([`crate::dynamics::actuation`]) and
 //! `campaign`, which reads the files.
 //!
+//! Quantities are in SI units and radians. Suffixes name their frames: `_s` is F_s of the spacecraft, `_d` F_d of the
+//! debris, `_e` the inertial F_e; `q_es` turns F_s to F_e, scalar first.
+//!
 //! - [`spec`], [`parameters`], `declared`: the structure of a loop in a campaign file, and its numbers.
 //! - [`law`], [`context`], [`runs`]: the law of a plan, its settings for one run, and the laws of runs that share an
 //!   engine.

@@ -34,11 +34,13 @@ pub struct Applied {
 
 pub struct Plant {
     spec: Arc<LoopSpec>,
-    drawn: Scene,
+    /// The flown scene.
+    pub drawn: Scene,
     debris: Option<DebrisMotion>,
     sensors: Vec<SampledSensor>,
     wheel_drives: Vec<WheelDrive>,
-    is_on_off: bool,
+    /// True if thrusters are on or off.
+    pub is_on_off: bool,
     /// Duration of the campaign and end of the run.
     duration: f64,
     end: f64,
@@ -49,37 +51,30 @@ pub struct Plant {
 
 impl Plant {
     /// A run of `drawn` over `duration` seconds that ends at `end`, with a drive for each turning wheel.
-    pub fn new(
-        spec: &Arc<LoopSpec>,
-        drawn: Scene,
-        (sensors, wheel_drives): (Vec<SampledSensor>, Vec<WheelDrive>),
-        [duration, end]: [f64; 2],
-    ) -> Self {
+    pub fn new(spec: &Arc<LoopSpec>, drawn: Scene, sensors: Vec<SampledSensor>, [duration, end]: [f64; 2]) -> Self {
         Plant {
             debris: DebrisMotion::of(&drawn),
             delivered: Vec::with_capacity(sensors.len()),
+            wheel_drives: WheelDrive::of(&drawn),
             is_on_off: super::actuators::modulation::is_on_off(spec.modulation),
             spec: spec.clone(),
             drawn,
             sensors,
-            wheel_drives,
             duration,
             end,
             state: None,
         }
     }
 
-    pub fn scene(&self) -> &Scene {
-        &self.drawn
-    }
-
-    pub fn is_on_off(&self) -> bool {
-        self.is_on_off
-    }
-
     /// The true state for the engine's motion at `time`; times do not descend.
     pub fn truth(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Truth {
-        Truth::new(&self.drawn, time, body, wheels, self.debris.as_mut())
+        Truth {
+            time,
+            body: *body,
+            r_cp_s: self.drawn.mass.center,
+            wheel_rates: wheels.rates,
+            debris: self.debris.as_mut().map(|motion| motion.at(time)),
+        }
     }
 
     /// The measurements delivered at tick `tick`; ticks are in order.
@@ -101,7 +96,7 @@ impl Plant {
 
     /// True gyro bias in F_s, if there is a gyro.
     pub fn gyro_bias_s(&self) -> Option<[f64; 3]> {
-        self.sensors.iter().find_map(|sensor| sensor.sensor().bias_s())
+        self.sensors.iter().find_map(|sensor| sensor.sensor.bias_s())
     }
 
     /// The failure of `device` by `time`.

@@ -1,25 +1,24 @@
 //! [`Recorder`]: telemetry of a run under a loop at its control ticks: phase, estimates, commands, measurements and
 //! module telemetry.
 
+use super::bus::Commanded;
 use super::estimate::{DebrisState, Estimate};
+use super::flight_code::module::FlightCode;
 use super::measurement::Measurement;
+use super::outcome::estimation::Consistency;
 use super::sensors::{Components, KINDS as SENSORS};
 use super::spec::LoopSpec;
+use super::tick_times::SAME_TIME;
 use super::vector::difference;
-use crate::control::bus::Commanded;
-use crate::control::flight_code::module::FlightCode;
-use crate::control::outcome::estimation::Consistency;
-use crate::control::tick_times::SAME_TIME;
 use crate::run::{Quantity, Telemetry};
-use crate::scene::MAX_WHEELS;
+use crate::scene::Name;
 
 /// Component names of vectors and quaternions.
 const XYZ: &[&str] = &["x", "y", "z"];
 const WXYZ: &[&str] = &["w", "x", "y", "z"];
 
-#[derive(Debug)]
 pub struct Recorder {
-    telemetry: Telemetry,
+    pub telemetry: Telemetry,
     groups: Vec<Group>,
 }
 
@@ -31,12 +30,6 @@ struct Group {
 }
 
 type Values = Box<dyn Fn(&Tick<'_>, &mut Vec<f64>) + Send + Sync>;
-
-impl std::fmt::Debug for Group {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Group").field(&self.quantities).finish()
-    }
-}
 
 #[derive(Clone, Copy, Debug)]
 pub struct Tick<'a> {
@@ -58,10 +51,6 @@ impl Recorder {
         let quantities = groups.iter().flat_map(|group| group.quantities.clone()).collect();
         let same = SAME_TIME * spec.period;
         Recorder { telemetry: Telemetry { quantities, times: Vec::new(), rows: Vec::new(), same }, groups }
-    }
-
-    pub fn telemetry(&self) -> &Telemetry {
-        &self.telemetry
     }
 
     pub fn tick(&mut self, tick: &Tick<'_>) {
@@ -96,9 +85,11 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         Box::new(move |tick, row| row.extend(of(tick.estimate)))
     }
     let rate = ["rad/s", "rad_s"];
-    let (wheels, thrusters) = (&spec.wheels, &spec.thrusters);
-    let wheel_names: Vec<&str> = wheels.iter().map(|place| spec.wheel_names[*place].as_str()).collect();
-    let thruster_names: Vec<&str> = thrusters.iter().map(|place| spec.thruster_names[*place].as_str()).collect();
+    fn names<'a>(places: &[usize], names: &'a [Name]) -> Vec<&'a str> {
+        places.iter().map(|place| names[*place].as_str()).collect()
+    }
+    let wheels = &spec.wheels;
+    let wheel_names = names(wheels, &spec.wheel_names);
     add("phase", &[""], [""; 2], "Place of the phase of guidance.", one(|tick| tick.phase as f64));
     let meaning = "Angle of the rotation from the estimated attitude to the target.";
     add("estimated_pointing_error", &[""], ["rad"; 2], meaning, one(|tick| tick.pointing_error));
@@ -108,12 +99,12 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
     add("estimated_omega_se_s", XYZ, rate, meaning, estimated(|estimate| estimate.omega_se_s));
     let meaning = "Estimated bias of the gyro, in F_s.";
     add("estimated_gyro_bias_s", XYZ, rate, meaning, estimated(|estimate| estimate.gyro_bias_s));
-    let of_wheels = |value: fn(&Tick<'_>) -> [f64; MAX_WHEELS]| -> Values {
-        let wheels = wheels.clone();
-        Box::new(move |tick, row| row.extend(wheels.iter().map(|place| value(tick)[*place])))
-    };
+    fn of_places<const N: usize>(places: &[usize], value: fn(&Tick<'_>) -> [f64; N]) -> Values {
+        let places = places.to_vec();
+        Box::new(move |tick, row| row.extend(places.iter().map(|place| value(tick)[*place])))
+    }
     let meaning = "Estimated rate of this wheel relative to the body.";
-    add("estimated_rate", &wheel_names, rate, meaning, of_wheels(|tick| tick.estimate.wheel_rates));
+    add("estimated_rate", &wheel_names, rate, meaning, of_places(wheels, |tick| tick.estimate.wheel_rates));
     if spec.has_debris {
         let meaning = "Estimated position of the debris relative to the centre of mass, in F_e.";
         let value = of_debris(|debris, estimate| difference(debris.r_gdo_e, estimate.r_co_e));
@@ -175,18 +166,14 @@ fn groups(spec: &LoopSpec) -> Vec<Group> {
         }
     }
     let meaning = "Commanded torque of the motor of this wheel.";
-    add("commanded_torque", &wheel_names, ["N m", "n_m"], meaning, of_wheels(|tick| tick.commanded.motor_torque));
-    let places = thrusters.clone();
-    let values: Values =
-        Box::new(move |tick, row| row.extend(places.iter().map(|place| tick.commanded.thrust[*place])));
+    let values = of_places(wheels, |tick| tick.commanded.motor_torque);
+    add("commanded_torque", &wheel_names, ["N m", "n_m"], meaning, values);
     let meaning = "Commanded mean thrust of this thruster over the control period.";
-    add("commanded_thrust", &thruster_names, ["N", "n"], meaning, values);
-    let rod_names: Vec<&str> = spec.rods.iter().map(|place| spec.rod_names[*place].as_str()).collect();
-    let places = spec.rods.clone();
-    let values: Values =
-        Box::new(move |tick, row| row.extend(places.iter().map(|place| tick.commanded.dipoles[*place])));
+    let values = of_places(&spec.thrusters, |tick| tick.commanded.thrust);
+    add("commanded_thrust", &names(&spec.thrusters, &spec.thruster_names), ["N", "n"], meaning, values);
     let meaning = "Commanded dipole of this torque rod.";
-    add("commanded_dipole", &rod_names, ["A m^2", "a_m2"], meaning, values);
+    let values = of_places(&spec.rods, |tick| tick.commanded.dipoles);
+    add("commanded_dipole", &names(&spec.rods, &spec.rod_names), ["A m^2", "a_m2"], meaning, values);
     for (place, declared) in spec.code().map_or(&[][..], FlightCode::telemetry).iter().enumerate() {
         let value: Values = Box::new(move |tick, row| row.push(tick.telemetry.get(place).map_or(f64::NAN, |one| *one)));
         let meaning = format!(

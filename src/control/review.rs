@@ -1,11 +1,11 @@
 //! [`notes`]: likely mistakes in the structure of a control loop (numbers: `ensemble::plausibility`).
 
 use super::guidance::phase::Next;
+use super::laws::interface::LawSettings;
+use super::observes::Observes;
 use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::beyond_limit;
-use crate::control::laws::interface::LawSettings;
-use crate::control::observes::Observes;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::sampling::SampleId;
 use crate::scene::{ControlInput, DeclaredTable, Scene};

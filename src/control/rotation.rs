@@ -1,6 +1,6 @@
 //! Rotation vectors and modified Rodrigues parameters, besides the quaternions of [`super::vector`].
 
-use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, scaled, sum};
+use super::vector::{cross, dcm_from_quaternion, dot, norm, scaled, sum};
 
 /// The quaternion of the rotation vector `v` (angle times axis, rad).
 pub fn quaternion_of(v: [f64; 3]) -> [f64; 4] {

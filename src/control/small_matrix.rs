@@ -77,29 +77,3 @@ pub fn solved<const N: usize>(l: &[[f64; N]; N], b: [f64; N]) -> [f64; N] {
     }
     y
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: a matrix times its inverse is the identity; a Cholesky factor reproduces its matrix and solves with it.
-    #[test]
-    fn factors_and_inverses() {
-        let a = [[4.0, 1.0, -0.5], [1.0, 3.0, 0.25], [-0.5, 0.25, 2.0]];
-        let one = multiplied(&a, &inverse(a));
-        for (i, row) in one.iter().enumerate() {
-            for (j, entry) in row.iter().enumerate() {
-                assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-15);
-            }
-        }
-        let l = cholesky(&a).expect("positive definite");
-        let back = multiplied(&l, &transposed(&l));
-        let x = solved(&l, [1.0, -2.0, 0.5]);
-        for i in 0..3 {
-            assert!((0..3).all(|j| (back[i][j] - a[i][j]).abs() < 1e-15));
-            let b: f64 = (0..3).map(|j| a[i][j] * x[j]).sum();
-            assert!((b - [1.0, -2.0, 0.5][i]).abs() < 1e-15);
-        }
-        assert!(cholesky(&[[1.0, 2.0], [2.0, 1.0]]).is_none());
-    }
-}

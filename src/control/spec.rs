@@ -1,6 +1,8 @@
 //! [`LoopSpec`]: the structure of a control loop in a campaign file. Its dispersible numbers are parameters of the
 //! scene.
 
+use super::estimators::estimator::EstimatorKind;
+use super::flight_code::module::FlightCode;
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
@@ -8,8 +10,6 @@ use super::laws::LawKind;
 use super::laws::rod_law::RodUse;
 use super::observes::Observes;
 use super::sensor_spec::SensorSpec;
-use crate::control::estimators::estimator::EstimatorKind;
-use crate::control::flight_code::module::FlightCode;
 use crate::observables::{LawSeries, Series};
 use crate::sampling::Written;
 use crate::scene::{Name, Scene};

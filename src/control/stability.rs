@@ -17,13 +17,13 @@
 use super::actuators::modulation;
 use super::allocation::{ThrustAllocation, WheelTorque};
 use super::guidance::target::Target;
+use super::laws::interface::{KnownBody, LawInput, digits};
+use super::laws::{AttitudeLaw, callback};
 use super::rotation::quaternion_of;
 use super::small_matrix::{added, inverse, multiplied};
 use super::spec::{LoopSpec, PhaseSpec};
+use super::tick_times::SAME_TIME;
 use super::vector::{dot, product, scaled};
-use crate::control::laws::interface::{KnownBody, LawInput, digits};
-use crate::control::laws::{AttitudeLaw, callback};
-use crate::control::tick_times::SAME_TIME;
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 
@@ -40,25 +40,16 @@ const HALVINGS: usize = 40;
 /// Smallest share of its torque at which a law is tried.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// Gains of a law about one axis: acceleration, rad/s^2, per radian of error and per rad/s of rate, and the same per
-/// tick.
+/// Gains of a law about one axis: stiffness k, 1/s^2; damping c, 1/s; and per tick the integrals i of the angle, 1/s^2,
+/// and j of the rate, 1/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AxisGains {
-    /// k, 1/s^2.
-    pub stiffness: f64,
-    /// c, 1/s.
-    pub damping: f64,
-    /// i, 1/s^2 per tick.
-    pub integral: f64,
-    /// j, 1/s per tick: integral of the rate.
-    pub rate_integral: f64,
-}
+pub struct AxisGains(pub [f64; 4]);
 
 impl AxisGains {
     /// True if small errors decay at a period of `period` and a delay of `delay` seconds.
     pub fn is_stable(&self, period: f64, delay: f64) -> bool {
-        let (k, c) = (self.stiffness * period * period, self.damping * period);
-        let (i, j) = (self.integral * period * period, self.rate_integral * period);
+        let [k, c, i, j] = self.0;
+        let (k, c, i, j) = (k * period * period, c * period, i * period * period, j * period);
         let whole = (delay / period + SAME_TIME).floor();
         let f = (delay / period - whole).max(0.0);
         let (d, b) = (vec![1.0 - f, f], vec![0.5 * (1.0 - f) * (1.0 - f), f - 0.5 * f * f]);
@@ -95,12 +86,7 @@ impl AxisGains {
     }
 
     fn times(self, share: f64) -> Self {
-        AxisGains {
-            stiffness: share * self.stiffness,
-            damping: share * self.damping,
-            integral: share * self.integral,
-            rate_integral: share * self.rate_integral,
-        }
+        AxisGains(self.0.map(|gain| share * gain))
     }
 }
 
@@ -155,9 +141,7 @@ pub fn axis_gains(
         let along = |columns: &[[f64; 3]; 3]| (0..3).map(|i| dot(columns[i], direction) * turn[i]).sum::<f64>();
         let found = [&stiffness, &damping, &integral, &rate_integral].map(along);
         let least = NO_GAIN * found.iter().fold(0.0_f64, |most, gain| most.max(gain.abs()));
-        let [stiffness, damping, integral, rate_integral] =
-            found.map(|gain| if gain.abs() > least { gain } else { 0.0 });
-        AxisGains { stiffness, damping, integral, rate_integral }
+        AxisGains(found.map(|gain| if gain.abs() > least { gain } else { 0.0 }))
     });
     gains.collect()
 }
@@ -234,7 +218,7 @@ mod tests {
     use super::*;
 
     /// Largest angle and rate, early and late, of a double integrator under held torque, flown from instant to instant.
-    fn flown(gains: AxisGains, period: f64, delay: f64) -> [f64; 2] {
+    fn flown(AxisGains([k, c, i, j]): AxisGains, period: f64, delay: f64) -> [f64; 2] {
         const TICKS: usize = 6000;
         let (mut angle, mut rate, mut summed, mut summed_rate) = (1.0, 0.3 / period, 0.0, 0.0);
         let mut commands: Vec<(f64, f64)> = Vec::new();
@@ -243,10 +227,7 @@ mod tests {
         for tick in 0..TICKS {
             let (time, end) = (tick as f64 * period, (tick + 1) as f64 * period);
             (summed, summed_rate) = (summed + angle, summed_rate + rate);
-            let wanted = -gains.stiffness * angle
-                - gains.damping * rate
-                - gains.integral * summed
-                - gains.rate_integral * summed_rate;
+            let wanted = -k * angle - c * rate - i * summed - j * summed_rate;
             commands.push((time + delay, wanted));
             let mut now = time;
             while now < end {
@@ -257,7 +238,7 @@ mod tests {
                 let h = until - now;
                 (angle, rate, now) = (angle + h * rate + 0.5 * h * h * acting, rate + h * acting, until);
             }
-            let size = if gains.stiffness == 0.0 { rate.abs() * period } else { angle.abs() + rate.abs() * period };
+            let size = if k == 0.0 { rate.abs() * period } else { angle.abs() + rate.abs() * period };
             match tick {
                 1000..2000 => sizes[0] = sizes[0].max(size),
                 5000.. => sizes[1] = sizes[1].max(size),
@@ -287,12 +268,7 @@ mod tests {
                     (0.05, 0.0, 0.05),
                     (0.05, 0.0005, 0.05),
                 ] {
-                    let shape = AxisGains {
-                        stiffness: k / (period * period),
-                        damping: 0.4 / period,
-                        integral: i / (period * period),
-                        rate_integral: j / period,
-                    };
+                    let shape = AxisGains([k / (period * period), 0.4 / period, i / (period * period), j / period]);
                     let large = shape.times(1e3);
                     let share = match stable_share(|share| vec![large.times(share)], period, delay * period) {
                         Some(share) if share > 0.0 => share,

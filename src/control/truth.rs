@@ -1,10 +1,10 @@
 //! [`Truth`]: the true state of a run at a tick, for models of sensors and actuators only.
 
-use crate::control::estimate::{DebrisState, Estimate};
-use crate::control::measurement::PointMotion;
-use crate::control::rotation::quaternion_of;
-use crate::control::vector::{cross, dcm_from_quaternion, difference, hamilton, product, scaled, sum};
-use crate::dynamics::actuation::{BodyState, WheelState};
+use super::estimate::{DebrisState, Estimate};
+use super::measurement::PointMotion;
+use super::rotation::quaternion_of;
+use super::vector::{cross, dcm_from_quaternion, difference, hamilton, product, scaled, sum};
+use crate::dynamics::actuation::BodyState;
 use crate::dynamics::debris::is_isotropic;
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::relative_orbit::RelativeOrbit;
@@ -120,22 +120,6 @@ impl DebrisMotion {
 }
 
 impl Truth {
-    pub fn new(
-        scene: &Scene,
-        time: f64,
-        body: &BodyState,
-        wheels: &WheelState,
-        debris: Option<&mut DebrisMotion>,
-    ) -> Self {
-        Truth {
-            time,
-            body: *body,
-            r_cp_s: scene.mass.center,
-            wheel_rates: wheels.rates,
-            debris: debris.map(|motion| motion.at(time)),
-        }
-    }
-
     /// The state as an ideal sensor delivers it.
     pub fn state(&self) -> Estimate {
         Estimate {

@@ -57,27 +57,3 @@ pub fn dcm_from_quaternion(q: [f64; 4]) -> [[f64; 3]; 3] {
         [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), (ww + zz) - (xx + yy)],
     ]
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::math::vector as fused;
-
-    /// Law: operations agree with the kernels to rounding.
-    #[test]
-    fn operations_are_those_of_the_kernels() {
-        let (a, b) = ([0.3, -1.2, 0.7], [2.0, 0.25, -0.5]);
-        let (p, q) = ([0.5, -0.1, 0.7, 0.5], [0.1, 0.9, -0.3, 0.3]);
-        let m = [a, b, [1.0, 4.0, -2.0]];
-        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).for_each(|(a, b)| assert!((a - b).abs() < 2e-15, "{a} {b}"));
-        near(&super::cross(a, b), &fused::cross(a, b));
-        near(&super::product(m, a), &fused::product(m, a));
-        near(&super::transposed_product(m, a), &fused::transposed_product(m, a));
-        near(&super::hamilton(p, q), &fused::hamilton(p, q));
-        for (a, b) in super::dcm_from_quaternion(p).iter().zip(&fused::dcm_from_quaternion(p)) {
-            near(a, b);
-        }
-        assert_eq!((super::sum(a, b), super::difference(a, b)), (fused::sum(a, b), fused::difference(a, b)));
-        assert_eq!((super::conjugate(p), super::scaled(2.0, a)), (fused::conjugate(p), fused::scaled(2.0, a)));
-        near(&[super::norm(a), super::dot(a, b)], &[fused::norm(a), fused::dot(a, b)]);
-    }
-}

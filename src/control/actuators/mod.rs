@@ -7,5 +7,5 @@ pub mod thruster_drive;
 pub mod wheel_drive;
 
 pub use delay::DelayQueue;
-pub use thruster_drive::{Pulse, PulseState, ThrustMode, ThrusterDrive};
+pub use thruster_drive::{Pulse, PulseState, ThrustMode};
 pub use wheel_drive::{Driven, WheelDrive};

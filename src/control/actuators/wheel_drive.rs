@@ -3,23 +3,16 @@
 //! Torques are constant over the arc, so that friction and limits are exact to first order in its length. The final
 //! rate is predicted from the torque on the wheel alone; other rotation of the body is seen at the next arc.
 
+use crate::control::small_matrix::inverse;
 use crate::control::vector::{dot, product};
-use crate::scene::FailureInput;
+use crate::scene::{FailureInput, Scene, WheelModel};
 
 /// A wheel's motor and bearing. Torques are about its axis and act on the wheel; the body takes the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelDrive {
     /// Torque over the change of the rate relative to the body, kg m^2: [`relative_inertia`].
     pub inertia: f64,
-    /// Largest motor torque; may be infinite.
-    pub torque_limit: f64,
-    /// Largest rate to which the motor accelerates; may be infinite.
-    pub speed_limit: f64,
-    pub coulomb: f64,
-    pub viscous: f64,
-    pub torque_scale: f64,
-    /// Added to any nonzero command.
-    pub torque_bias: f64,
+    pub model: WheelModel,
 }
 
 /// Torques on a wheel over an arc.
@@ -36,41 +29,35 @@ pub struct Driven {
 
 /// J/(1 + J a.K^-1 a) of a wheel with the axial inertia J = `axial` about a = `axis` in F_s: its motor also turns the
 /// body, omega' = -K^-1 a tau, so that Omega' = tau (1/J + a.K^-1 a). `inverse` is K^-1, F_s.
-pub fn relative_inertia(axial: f64, axis: [f64; 3], inverse: [[f64; 3]; 3]) -> f64 {
+fn relative_inertia(axial: f64, axis: [f64; 3], inverse: [[f64; 3]; 3]) -> f64 {
     axial / (1.0 + axial * dot(axis, product(inverse, axis)))
 }
 
 impl WheelDrive {
-    /// Without limits, friction and errors.
-    pub const fn ideal(inertia: f64) -> Self {
-        WheelDrive {
-            inertia,
-            torque_limit: f64::INFINITY,
-            speed_limit: f64::INFINITY,
-            coulomb: 0.0,
-            viscous: 0.0,
-            torque_scale: 1.0,
-            torque_bias: 0.0,
-        }
+    /// The drives of all turning wheels of `scene`.
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let inverse = inverse(scene.mass.inertia_rotating());
+        let wheels = scene.mass.wheels.iter().zip(scene.actuators.wheels);
+        wheels
+            .map(|(wheel, model)| WheelDrive { inertia: relative_inertia(wheel.axial, wheel.axis, inverse), model })
+            .collect()
     }
 
     /// The drive after `failure`, whose factor scales torque and torque limit.
     #[must_use]
     pub fn failed(self, failure: &FailureInput) -> Self {
-        let scale = failure.torque_scale.unwrap_or(1.0);
-        WheelDrive {
-            torque_scale: scale * self.torque_scale,
-            torque_bias: scale * self.torque_bias,
+        let (scale, model) = (failure.torque_scale.unwrap_or(1.0), self.model);
+        let torque_limit = model.torque_limit;
+        let model = WheelModel {
+            torque_scale: scale * model.torque_scale,
+            torque_bias: scale * model.torque_bias,
             // an infinite limit stays: zero times infinity is NaN
-            torque_limit: if self.torque_limit.is_finite() {
-                scale.abs() * self.torque_limit
-            } else {
-                self.torque_limit
-            },
-            coulomb: failure.coulomb_friction_n_m.unwrap_or(self.coulomb),
-            viscous: failure.viscous_friction_n_m_s.unwrap_or(self.viscous),
-            ..self
-        }
+            torque_limit: if torque_limit.is_finite() { scale.abs() * torque_limit } else { torque_limit },
+            coulomb_friction: failure.coulomb_friction_n_m.unwrap_or(model.coulomb_friction),
+            viscous_friction: failure.viscous_friction_n_m_s.unwrap_or(model.viscous_friction),
+            ..model
+        };
+        WheelDrive { model, ..self }
     }
 
     /// Torques over an arc of `length` > 0 seconds from the relative rate `rate` on, under the command `commanded`.
@@ -80,25 +67,26 @@ impl WheelDrive {
     /// friction opposes the final motion and viscous friction is zero. A wheel at rest stays so under a motor weaker
     /// than Coulomb friction.
     pub fn over(&self, commanded: f64, rate: f64, length: f64) -> Driven {
-        let bias = if commanded == 0.0 { 0.0 } else { self.torque_bias };
-        let asked = self.torque_scale * commanded + bias;
-        let within = asked.clamp(-self.torque_limit, self.torque_limit);
+        let WheelModel { torque_limit, speed_limit, coulomb_friction, viscous_friction, .. } = self.model;
+        let bias = if commanded == 0.0 { 0.0 } else { self.model.torque_bias };
+        let wanted = self.model.torque_scale * commanded + bias;
+        let within = wanted.clamp(-torque_limit, torque_limit);
         // the torque that changes the rate by 1 rad/s over the arc
         let per_rate = self.inertia / length;
         // largest motor torque in a direction with the rate `along`: up to the speed limit, against friction
-        let friction = |along: f64| if along > 0.0 { self.coulomb + self.viscous * along } else { 0.0 };
-        let most = |along: f64| (per_rate * (self.speed_limit - along) + friction(along)).max(0.0);
+        let friction = |along: f64| if along > 0.0 { coulomb_friction + viscous_friction * along } else { 0.0 };
+        let most = |along: f64| (per_rate * (speed_limit - along) + friction(along)).max(0.0);
         let motor = within.clamp(-most(-rate), most(rate));
         // if the motor reverses the wheel, viscous friction changes sign on the way
         let to_stop = rate * per_rate + motor;
         let viscous =
-            if to_stop * rate > 0.0 { (self.viscous * rate).abs().min(to_stop.abs()).copysign(-rate) } else { 0.0 };
-        let friction = viscous - (to_stop + viscous).clamp(-self.coulomb, self.coulomb);
+            if to_stop * rate > 0.0 { (viscous_friction * rate).abs().min(to_stop.abs()).copysign(-rate) } else { 0.0 };
+        let friction = viscous - (to_stop + viscous).clamp(-coulomb_friction, coulomb_friction);
         Driven {
             torque: motor + friction,
             motor,
-            excess: (asked - motor).abs(),
-            is_torque_limited: within != asked,
+            excess: (wanted - motor).abs(),
+            is_torque_limited: within != wanted,
             is_speed_limited: motor != within,
         }
     }
@@ -108,7 +96,9 @@ impl WheelDrive {
 mod tests {
     use super::*;
 
-    const WHEEL: WheelDrive = WheelDrive::ideal(0.5);
+    fn drive(model: WheelModel) -> WheelDrive {
+        WheelDrive { inertia: 0.5, model }
+    }
 
     /// Rates after each of `arcs` arcs of `length` seconds under the commands `command`.
     fn rates(
@@ -130,7 +120,7 @@ mod tests {
     /// motor.
     #[test]
     fn coulomb_friction_stops_a_wheel() {
-        let wheel = WheelDrive { coulomb: 0.02, ..WHEEL };
+        let wheel = drive(WheelModel { coulomb_friction: 0.02, ..WheelModel::IDEAL });
         for start in [3.0, -3.0, 2.9997] {
             // 3 rad/s at 0.04 rad/s^2: 75 s
             let found = rates(&wheel, start, 0.7, 200, |_| 0.0);
@@ -152,7 +142,8 @@ mod tests {
     /// commands within both limits are met.
     #[test]
     fn limits_hold() {
-        let wheel = WheelDrive { torque_limit: 0.3, speed_limit: 2.0, coulomb: 0.01, viscous: 0.004, ..WHEEL };
+        let friction = WheelModel { coulomb_friction: 0.01, viscous_friction: 0.004, ..WheelModel::IDEAL };
+        let wheel = drive(WheelModel { torque_limit: 0.3, speed_limit: 2.0, ..friction });
         let mut state = 1_u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

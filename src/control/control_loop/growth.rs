@@ -41,13 +41,13 @@ impl Growth {
         (actuation, applied): (&Actuation, &Applied),
         field_s: [f64; 3],
     ) -> Option<f64> {
-        let scene = plant.scene();
+        let scene = &plant.drawn;
         let mut torque = cross(actuation.dipole, field_s);
         for (wheel, motor) in scene.mass.wheels.iter().zip(actuation.motor_torque) {
             torque = difference(torque, scaled(motor, wheel.axis));
         }
         // a pulse ends before the period does
-        let pulse = if plant.is_on_off() { applied.length.min(self.period) } else { self.period };
+        let pulse = if plant.is_on_off { applied.length.min(self.period) } else { self.period };
         let impulse = scaled(pulse, scene.thruster_torque_s(actuation.thrust));
         let change = norm(product(self.inverse, sum(scaled(self.period, torque), impulse)));
         (change > self.most).then_some(change)

@@ -3,16 +3,20 @@
 
 use std::sync::Arc;
 
+use crate::control::context::LawContext;
+use crate::control::declared::limit;
 use crate::control::failure::Failure;
 use crate::control::flight_software::{FlightSoftware, Guided};
+use crate::control::guidance::Progress;
 use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
-use crate::control::guidance::{Guidance, Progress};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
-use crate::control::net_launch::launch::centers_of;
+use crate::control::net_launch::geometry::LaunchState;
+use crate::control::net_launch::launch::{PlumeCone, centers_of};
+use crate::control::net_launch::parameters::DebrisNumbers;
 use crate::control::outcome::MissionOutcome;
-use crate::control::outcome::columns::OutcomeColumns;
 use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::outcome::estimation::{Consistency, EstimateErrors};
+use crate::control::parameters::{LoopNumbers, ThrusterNumbers};
 use crate::control::plant::{Applied, Plant};
 use crate::control::recorder::{Recorder, Tick};
 use crate::control::spec::LoopSpec;
@@ -21,14 +25,13 @@ use crate::control::truth::Truth;
 use crate::control::vector::{difference, norm};
 use crate::dynamics::actuation::{Actuation, BodyState, WheelState};
 use crate::observables::Series;
-use crate::run::Telemetry;
 use crate::scene::{MAX_WHEELS, WheelMode};
 
 pub struct Mission {
     spec: Arc<LoopSpec>,
     pub(super) criteria: MissionCriteria,
     pub(super) outcome: MissionOutcome,
-    recorder: Option<Recorder>,
+    pub(super) recorder: Option<Recorder>,
     /// Quantities over time, and their record.
     over_time: KnownOverTime,
     record: Option<SharedRecord>,
@@ -40,22 +43,27 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// Judges a run under `spec` by `criteria`; it fails after `saturation_timeout` seconds at a wheel's speed limit.
-    pub fn new(
-        spec: &Arc<LoopSpec>,
-        criteria: MissionCriteria,
-        saturation_timeout: f64,
-        (recorder, record): (Option<Recorder>, Option<SharedRecord>),
-    ) -> Self {
+    /// Judges the run of `context`.
+    pub fn new(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Self {
+        let numbers = &context.parameters.law;
+        let (of_loop, near_debris) = (LoopNumbers::of(numbers), DebrisNumbers::of(numbers));
         Mission {
             spec: spec.clone(),
-            criteria,
-            outcome: MissionOutcome::new(),
-            recorder,
+            criteria: MissionCriteria {
+                launch: LaunchState::of(numbers, context.drawn.orbit.as_ref()),
+                keep_out: near_debris.keep_out,
+                plume: PlumeCone { range: near_debris.plume_range, half_angle: near_debris.plume_half_angle },
+                settling_band: of_loop.settling_band,
+                stability: [of_loop.stability_from, of_loop.stability_window],
+                period: spec.period,
+                isp: ThrusterNumbers::of(numbers).isp,
+            },
+            outcome: MissionOutcome::default(),
+            recorder: context.records.then(|| Recorder::new(spec)),
             over_time: NOTHING_KNOWN,
-            record,
+            record: context.record.cloned().inspect(|record| record.lock().restart()),
             motor_places: std::array::from_fn(|wheel| place(Series::MotorTorque.of_wheel(wheel))),
-            saturation_timeout,
+            saturation_timeout: limit(of_loop.saturation_timeout),
             saturated_since: f64::NAN,
         }
     }
@@ -91,10 +99,10 @@ impl Mission {
             let geometry = centers_of(truth).map(|centers| self.criteria.launch.geometry(&centers));
             let to_go = software.velocity_to_go(geometry.as_ref(), truth.time);
             let (r_e, v_e) = (truth.body.r_co_e, truth.body.v_co_e);
-            let orbit = plant.scene().orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, truth.time, r_e, v_e));
+            let orbit = plant.drawn.orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, truth.time, r_e, v_e));
             target.error(truth.body.q_es, &TargetInput { geometry: geometry.as_ref(), to_go: &to_go, orbit })
         });
-        let errors = if knows { EstimateErrors::NONE } else { EstimateErrors::of(software.estimate(), truth) };
+        let errors = if knows { EstimateErrors::NONE } else { EstimateErrors::of(&software.estimate, truth) };
         self.over_time.error = error;
         for (series, value) in [
             (Series::AttitudeEstimateError, errors.attitude),
@@ -112,7 +120,7 @@ impl Mission {
         }
         self.over_time.values[place(Series::Impulse)] = self.outcome.impulse_total();
         if is_judged {
-            self.outcome.tick(plant.scene(), truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
+            self.outcome.tick(&plant.drawn, truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
         }
     }
 
@@ -120,13 +128,13 @@ impl Mission {
         if let Some(recorder) = &mut self.recorder {
             recorder.tick(&Tick {
                 time: truth.time,
-                phase: software.guidance().phase,
+                phase: software.guidance.phase,
                 pointing_error: guided.error.angle(),
-                estimate: software.estimate(),
+                estimate: &software.estimate,
                 consistency: &consistency(plant, truth, software),
-                commanded: software.latest_commands(),
+                commanded: software.latest,
                 // no law steps at the end of the mission
-                telemetry: if guided.progress == Progress::Flies { software.telemetry() } else { &[] },
+                telemetry: if guided.progress == Progress::Flies { software.law.telemetry() } else { &[] },
                 measurements: plant.measurements(truth.time).delivered,
             });
         }
@@ -140,7 +148,7 @@ impl Mission {
         (actuation, applied): (&Actuation, &Applied),
         (body, wheels): (&BodyState, &WheelState),
     ) {
-        for (i, wheel) in plant.scene().mass.wheels.iter().enumerate() {
+        for (i, wheel) in plant.drawn.mass.wheels.iter().enumerate() {
             if wheel.mode == WheelMode::Free {
                 self.over_time.values[self.motor_places[i]] = actuation.motor_torque[i];
             }
@@ -155,9 +163,9 @@ impl Mission {
             let thrust = plant.thrust(time, actuation);
             let hits = self.spec.approaches() && {
                 let truth = plant.truth(time, body, wheels);
-                self.criteria.plume.hits(plant.scene(), &truth, &thrust)
+                self.criteria.plume.hits(&plant.drawn, &truth, &thrust)
             };
-            self.outcome.fires(plant.scene(), applied.length, thrust, hits);
+            self.outcome.fires(&plant.drawn, applied.length, thrust, hits);
         }
     }
 
@@ -167,16 +175,8 @@ impl Mission {
             record.lock().take(time, &self.over_time);
         }
     }
-
-    pub fn report(&self, columns: &OutcomeColumns, guidance: &Guidance, values: &mut [f64]) {
-        columns.report(&self.outcome, guidance, &self.criteria, values);
-    }
-
-    pub fn telemetry(&self) -> Option<&Telemetry> {
-        self.recorder.as_ref().map(Recorder::telemetry)
-    }
 }
 
 pub(super) fn consistency(plant: &Plant, truth: &Truth, software: &FlightSoftware) -> Consistency {
-    Consistency::of(&software.filters(), software.estimate(), truth, plant.gyro_bias_s())
+    Consistency::of(&software.estimator.filters(), &software.estimate, truth, plant.gyro_bias_s())
 }

@@ -17,15 +17,15 @@ use std::sync::Arc;
 
 use self::growth::Growth;
 use self::mission::{Mission, consistency};
+use super::failure::Failure;
 use super::flight_software::FlightSoftware;
+use super::guidance::Progress;
+use super::laws::interface::digits;
 use super::outcome::columns::OutcomeColumns;
 use super::plant::Plant;
 use super::stability::beyond_limit;
 use super::tick_times::SAME_TIME;
 use super::truth::Truth;
-use crate::control::failure::Failure;
-use crate::control::guidance::Progress;
-use crate::control::laws::interface::digits;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
 use crate::run::Telemetry;
 
@@ -41,22 +41,6 @@ struct Clock {
     /// Control period and end of the run.
     period: f64,
     end: f64,
-}
-
-impl Clock {
-    fn is_control(&self) -> bool {
-        self.tick.is_multiple_of(self.ticks_per_period)
-    }
-
-    fn advance(&mut self) {
-        self.tick += 1;
-        self.next = self.tick as f64 * self.tick_period;
-    }
-
-    /// True for the last judged control tick.
-    fn is_final(&self, time: f64) -> bool {
-        time + (1.0 + SAME_TIME) * self.period >= self.end
-    }
 }
 
 pub struct ControlLoop {
@@ -78,10 +62,11 @@ impl ControlLoop {
 
     fn at_tick(&mut self, truth: &Truth, is_last: bool) {
         self.flight_software.tick(&self.plant.measure(self.clock.tick, truth));
-        if self.clock.is_control() {
+        if self.clock.tick.is_multiple_of(self.clock.ticks_per_period) {
             self.control(truth, is_last);
         }
-        self.clock.advance();
+        self.clock.tick += 1;
+        self.clock.next = self.clock.tick as f64 * self.clock.tick_period;
     }
 
     fn control(&mut self, truth: &Truth, is_last: bool) {
@@ -106,14 +91,15 @@ impl ControlLoop {
             && let Some(failure) = ends
         {
             let Mission { outcome, criteria, .. } = &mut self.mission;
-            outcome.ends(self.plant.scene(), truth, failure, &criteria.launch);
+            outcome.ends(&self.plant.drawn, truth, failure, &criteria.launch);
         }
         if is_judged && guided.progress == Progress::Flies {
-            self.mission.outcome.take_telemetry(self.flight_software.telemetry());
+            self.mission.outcome.take_telemetry(self.flight_software.law.telemetry());
         }
         self.mission.record((&self.plant, truth), &self.flight_software, &guided);
         // rows have the last tick's value only
-        if is_judged && (self.has_ended || self.clock.is_final(truth.time)) {
+        let is_final = truth.time + (1.0 + SAME_TIME) * self.clock.period >= self.clock.end;
+        if is_judged && (self.has_ended || is_final) {
             self.mission.outcome.consistency = consistency(&self.plant, truth, &self.flight_software);
         }
     }
@@ -123,7 +109,9 @@ impl ControlLoop {
         commands.until = commands.until.min(self.clock.next);
         let mut actuation = Actuation::none(commands.until);
         let applied = self.plant.apply(time, &commands, wheels, &mut actuation);
-        if let Some(change) = self.growth.beyond(&self.plant, (&actuation, &applied), self.flight_software.field_s()) {
+        if let Some(change) =
+            self.growth.beyond(&self.plant, (&actuation, &applied), self.flight_software.field.field_s)
+        {
             self.has_ended = true;
             self.divergence = Some(self.diverged(time, change));
             // poisons the state at once, since no arc follows
@@ -142,7 +130,7 @@ impl ControlLoop {
     fn diverged(&self, time: f64, change: f64) -> String {
         let FlightSoftware { spec, believed, guidance, laws, delay, .. } = &self.flight_software;
         let place = guidance.phase;
-        let known = beyond_limit((spec, place), (believed, self.plant.scene()), &laws[place], *delay);
+        let known = beyond_limit((spec, place), (believed, &self.plant.drawn), &laws[place], *delay);
         let why = known.unwrap_or_else(|| {
             "no limit of its gains is known to be exceeded: check their signs, and the noise and the lag of what \
              its input"
@@ -176,7 +164,8 @@ impl ActuationLaw for ControlLoop {
     }
 
     fn report(&self, values: &mut [f64]) {
-        self.mission.report(&self.columns, self.flight_software.guidance(), values);
+        let Mission { outcome, criteria, .. } = &self.mission;
+        self.columns.report(outcome, &self.flight_software.guidance, criteria, values);
     }
 
     fn divergence(&self) -> Option<String> {
@@ -184,6 +173,6 @@ impl ActuationLaw for ControlLoop {
     }
 
     fn telemetry(&self) -> Option<&Telemetry> {
-        self.mission.telemetry()
+        self.mission.recorder.as_ref().map(|recorder| &recorder.telemetry)
     }
 }

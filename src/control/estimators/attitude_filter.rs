@@ -8,10 +8,10 @@
 
 use std::sync::Arc;
 
+use super::attitude_innovation::AttitudeSensor;
 use super::attitude_innovation::{AttitudeInnovation, WholeAttitude};
 use super::delayed::Filter;
 use super::kalman::{NormalizedSquare, blocks, corners, halves, symmetric};
-use crate::control::estimators::attitude_innovation::AttitudeSensor;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::GyroNoise;
 use crate::control::rotation::quaternion_of;
@@ -137,51 +137,6 @@ pub(super) fn normalized(q: [f64; 4]) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::control::estimators::delayed::Delayed;
-
-    const REST: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
-
-    /// Steady-state variances about one axis (R. L. Farrenkopf, 1978; F. L. Markley & R. G. Reynolds, J. Guidance
-    /// 23(6), 2000): attitude before and after the update, its covariance with the bias, and bias before it, for gyro
-    /// noise sv, su and attitude noise sn every T seconds.
-    fn farrenkopf(sv: f64, su: f64, sn: f64, t: f64) -> [f64; 4] {
-        let (u, v) = (su * t * t.sqrt() / sn, sv * t.sqrt() / sn);
-        let g = (1.0 + v * v / 4.0 + u * u / 48.0).sqrt();
-        let z = g + u / 4.0 + 0.5 * (2.0 * g * u + v * v + u * u / 3.0).sqrt();
-        let square = sn * sn;
-        [
-            square * (z * z - 1.0),
-            square * (1.0 - 1.0 / (z * z)),
-            -square * z * u / t,
-            square / (t * t) * u * (z - 1.0 / z + 0.5 * u),
-        ]
-    }
-
-    /// Law: at rest with equal noise the covariance converges to the closed form before and after the update, about
-    /// every axis, to 3e-14 (measured: 3.3e-15), and axes do not mix.
-    #[test]
-    fn the_covariance_converges_to_the_closed_form() {
-        for (sv, su, sn, t) in [(1e-4, 1e-5, 5e-4, 0.5), (1e-6, 2e-7, 2.5e-5, 2.0)] {
-            let noise = GyroNoise { angular_random_walk: sv, bias_random_walk: su };
-            let mut filter = AttitudeFilter::new(REST, 1e-2, 1e-4, noise);
-            let seen = AttitudeObservation::whole(REST, diagonal([sn * sn; 3]));
-            let mut before = filter.covariance;
-            for _ in 0..1_500 {
-                filter.propagate(&GyroStep { rotation_s: [0.0; 3], rate_s: [0.0; 3], interval: t });
-                before = filter.covariance;
-                filter.update(&seen).expect("a positive definite covariance");
-            }
-            let [tt_before, tt_after, tb, bb] = farrenkopf(sv, su, sn, t);
-            for i in 0..3 {
-                let found = [before[i][i], filter.covariance[i][i], before[i][i + 3], before[i + 3][i + 3]];
-                for (found, expected) in found.iter().zip([tt_before, tt_after, tb, bb]) {
-                    assert!((found / expected - 1.0).abs() < 3e-14, "{found} for {expected}");
-                }
-                for j in (0..6).filter(|j| j % 3 != i) {
-                    assert_eq!((before[i][j], before[i + 3][j]), (0.0, 0.0));
-                }
-            }
-        }
-    }
 
     /// Output of tests/golden/attitude_filter.py.
     #[derive(serde::Deserialize)]

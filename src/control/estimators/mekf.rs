@@ -10,17 +10,17 @@
 use std::sync::Arc;
 
 use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroStep};
+use super::attitude_innovation::AttitudeSensor;
 use super::delayed::Delayed;
+use super::estimator::{
+    Confidence, Covariance, Estimator, EstimatorContext, EstimatorKind, FILTERS, FilterPlace, Filters, KnownSensor,
+    Update, center_of,
+};
 use super::kalman::{NormalizedSquare, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use crate::control::declared::declared;
 use crate::control::estimate::{DebrisState, Estimate};
-use crate::control::estimators::attitude_innovation::AttitudeSensor;
-use crate::control::estimators::estimator::{
-    Confidence, Covariance, Estimator, EstimatorContext, EstimatorKind, FILTERS, FilterPlace, Filters, KnownSensor,
-    Update, center_of,
-};
 use crate::control::laws::interface::wheel_momenta;
 use crate::control::measurement::{Measurement, PointMotion, part};
 use crate::control::observes::{GyroNoise, Observes};

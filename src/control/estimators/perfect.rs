@@ -1,7 +1,7 @@
 //! Perfect knowledge of the state, though not of the true parameters.
 
+use super::estimator::{Estimator, EstimatorKind, Update};
 use crate::control::estimate::Estimate;
-use crate::control::estimators::estimator::{Estimator, EstimatorKind, Update};
 
 pub(super) const KIND: EstimatorKind = EstimatorKind {
     name: "perfect",

@@ -4,8 +4,8 @@
 //! The rate is the gyro's, bias included, or without a gyro the rotation between the last two attitudes over their
 //! interval.
 
+use super::estimator::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
 use crate::control::estimate::Estimate;
-use crate::control::estimators::estimator::{Estimator, EstimatorContext, EstimatorKind, Update, center_of};
 use crate::control::measurement::{PointMotion, part};
 use crate::control::observes::Observes;
 use crate::control::rotation::vector_of;

@@ -4,7 +4,6 @@
 //! Only the call depth at which it traps depends on the processor ([`MOST_STACK`]). Bounds are checked by instructions,
 //! since signals belong to the process.
 
-use std::fmt;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use wasmtime::{
@@ -352,11 +351,5 @@ impl Clone for ModuleLaw {
     fn clone(&self) -> Self {
         let (compiled, parameters) = (self.compiled.clone(), self.parameters.clone());
         ModuleLaw { compiled, parameters, telemetry: Vec::new(), running: None, failure: None, ..*self }
-    }
-}
-
-impl fmt::Debug for ModuleLaw {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ModuleLaw").field("parameters", &self.parameters).finish_non_exhaustive()
     }
 }

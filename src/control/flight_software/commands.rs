@@ -59,7 +59,8 @@ impl FlightSoftware {
             let mut pulses = Pulses { begin, ..NO_PULSES };
             for &i in &self.spec.thrusters {
                 let period = self.spec.period;
-                let pulse = self.thruster_drives[i].over(thrust[i], period, &mut self.pulses[i]);
+                let valve = &self.believed.actuators.thrusters[i];
+                let pulse = self.thrust_mode.over(valve, thrust[i], period, &mut self.pulses[i]);
                 (pulses.thrust[i], pulses.on_time[i]) = (pulse.thrust, pulse.on_time);
                 mean[i] = pulse.thrust * pulse.on_time / period;
             }

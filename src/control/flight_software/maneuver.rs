@@ -54,7 +54,7 @@ impl FlightSoftware {
     }
 
     /// Attitude relative to the phase's target, and velocity to go in F_e.
-    pub(in crate::control) fn wanted(&self, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
+    pub fn wanted(&self, geometry: Option<&LaunchGeometry>, time: f64) -> (AttitudeError, [f64; 3]) {
         let estimate = &self.estimate;
         let mut to_go = self.velocity_to_go(geometry, time);
         let Phase { target, thrust, .. } = self.phases[self.guidance.phase];

@@ -3,34 +3,34 @@
 //! hold the truth.
 
 mod commands;
+mod construction;
 mod maneuver;
 pub mod under_way;
 
 use std::sync::Arc;
 
 use self::under_way::CommandsUnderWay;
-use super::actuators::{PulseState, ThrusterDrive};
+use super::actuators::{PulseState, ThrustMode};
 use super::allocation::rods::RodAllocation;
 use super::allocation::thrust::ThrustAllocation;
 use super::allocation::wheel_torque::WheelTorque;
 use super::bus::{Commanded, Measurements};
 use super::estimate::Estimate;
+use super::estimators::estimator::{Estimator, Update};
 use super::failure::Failure;
 use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
 use super::guidance::target::{AttitudeError, OrbitMotion};
 use super::guidance::{Guidance, Progress};
-use super::laws::callback::is_law_of;
+use super::laws::AttitudeLaw;
+use super::laws::interface::KnownBody;
 use super::laws::rod_law::MeasuredField;
+use super::measurement::{Measurement, PointMotion, Reading, part};
 use super::net_launch::geometry::{Centers, LaunchGeometry, LaunchState};
+use super::observes::Observes;
 use super::spec::LoopSpec;
 use super::tick_times::TickTimes;
-use crate::control::estimators::estimator::{Estimator, Filters, Update};
-use crate::control::laws::AttitudeLaw;
-use crate::control::laws::interface::KnownBody;
-use crate::control::measurement::{Measurement, PointMotion, Reading, part};
-use crate::control::observes::Observes;
-use crate::control::vector::{dcm_from_quaternion, norm, product, scaled, sum};
+use super::vector::{dcm_from_quaternion, norm, product, scaled, sum};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
@@ -75,26 +75,26 @@ const NO_IMPULSE: CommandedImpulse =
     CommandedImpulse { force_s: [0.0; 3], torque_s: [0.0; 3], motors: [0.0; MAX_WHEELS] };
 
 pub struct FlightSoftware {
-    pub(in crate::control) spec: Arc<LoopSpec>,
-    pub(in crate::control) ticks: TickTimes,
-    pub(in crate::control) believed: Scene,
+    pub spec: Arc<LoopSpec>,
+    pub ticks: TickTimes,
+    pub believed: Scene,
     body: KnownBody,
-    estimator: Box<dyn Estimator>,
-    pub(in crate::control) estimate: Estimate,
-    pub(in crate::control) phases: Vec<Phase>,
+    pub estimator: Box<dyn Estimator>,
+    pub estimate: Estimate,
+    pub phases: Vec<Phase>,
     /// The phase's law, and those of all phases in their initial states.
-    law: AttitudeLaw,
-    pub(in crate::control) laws: Vec<AttitudeLaw>,
-    pub(in crate::control) guidance: Guidance,
+    pub law: AttitudeLaw,
+    pub laws: Vec<AttitudeLaw>,
+    pub guidance: Guidance,
     wheels: Option<WheelTorque>,
     thrusters: Option<ThrustAllocation>,
     rods: Option<RodAllocation>,
-    field: MeasuredField,
+    pub field: MeasuredField,
     /// Last measurement of each sensor; empty if no law reads them.
     readings: Vec<Reading>,
     /// Projection onto the torques that thrusters give in both directions.
     two_sided: [[f64; 3]; 3],
-    thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
+    thrust_mode: ThrustMode,
     pulses: [PulseState; MAX_THRUSTERS],
     launch: LaunchState,
     orbit: Option<OrbitPath>,
@@ -103,10 +103,10 @@ pub struct FlightSoftware {
     /// Time without the debris in sight after which it is lost; may be infinite.
     lost_target_timeout: f64,
     is_recorded: bool,
-    pub(in crate::control) delay: f64,
-    pub(in crate::control) under_way: CommandsUnderWay,
+    pub delay: f64,
+    pub under_way: CommandsUnderWay,
     /// Commands of the last control tick in a recorded run.
-    latest: Commanded,
+    pub latest: Commanded,
     commanded: CommandedImpulse,
     /// Time of the last measurement of the debris.
     debris_seen: f64,
@@ -115,66 +115,7 @@ pub struct FlightSoftware {
     last_update: f64,
 }
 
-/// Parts of flight software.
-pub struct Parts {
-    pub believed: Scene,
-    pub estimator: Box<dyn Estimator>,
-    pub phases: Vec<(Phase, AttitudeLaw)>,
-    pub launch: LaunchState,
-    pub thruster_drives: [ThrusterDrive; MAX_THRUSTERS],
-    pub lost_target_timeout: f64,
-    pub delay: f64,
-    pub start: Estimate,
-    pub is_recorded: bool,
-}
-
 impl FlightSoftware {
-    pub fn new(spec: &Arc<LoopSpec>, parts: Parts) -> Self {
-        let Parts { believed, estimator, phases, launch, start, .. } = parts;
-        let (phases, laws): (Vec<Phase>, Vec<AttitudeLaw>) = phases.into_iter().unzip();
-        let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
-        let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
-        let thrusters =
-            (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels));
-        FlightSoftware {
-            body: KnownBody::of(&believed.mass),
-            estimator,
-            estimate: start,
-            guidance: Guidance::new(&phases),
-            law: laws[0].clone(),
-            laws,
-            phases,
-            wheels,
-            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
-            thrusters,
-            rods: (!spec.rods.is_empty()).then(|| RodAllocation::of_loop(&believed, &spec.rods)),
-            field: MeasuredField::NONE,
-            readings: if is_law_of(spec) || spec.code().is_some_and(|code| !code.sensors().is_empty()) {
-                vec![Reading::NONE; spec.sensors.len()]
-            } else {
-                Vec::new()
-            },
-            thruster_drives: parts.thruster_drives,
-            pulses: [PulseState::default(); MAX_THRUSTERS],
-            launch,
-            orbit: believed.orbit.as_ref().map(OrbitPath::new),
-            geometry: None,
-            lost_target_timeout: parts.lost_target_timeout,
-            is_recorded: parts.is_recorded,
-            delay: parts.delay,
-            under_way: CommandsUnderWay::new(parts.delay, spec.period, !spec.rods.is_empty()),
-            latest: Commanded::NOTHING,
-            commanded: NO_IMPULSE,
-            debris_seen: 0.0,
-            has_camera: spec.has_camera(),
-            started: false,
-            last_update: 0.0,
-            believed,
-            ticks: TickTimes::new(spec.period, spec.ticks_per_period()),
-            spec: spec.clone(),
-        }
-    }
-
     /// Updates the estimate by the measurements of a tick and the commands since the last.
     pub fn tick(&mut self, measurements: &Measurements<'_>) {
         self.note_debris(measurements);
@@ -287,7 +228,7 @@ impl FlightSoftware {
     }
 
     /// The orbit as flight software knows it: nominal, or with perfect knowledge the true one.
-    pub(in crate::control) fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
+    pub fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
         let (orbit, nominal) = self.orbit.as_ref().zip(self.believed.orbit.as_ref())?;
         if self.spec.knows_the_truth() {
             return Some(OrbitMotion::of(nominal, time, self.estimate.r_co_e, self.estimate.v_co_e));
@@ -296,33 +237,7 @@ impl FlightSoftware {
         Some(OrbitMotion::of(nominal, time, position, velocity))
     }
 
-    pub fn estimate(&self) -> &Estimate {
-        &self.estimate
-    }
-
-    pub fn guidance(&self) -> &Guidance {
-        &self.guidance
-    }
-
     pub fn phase(&self) -> &Phase {
         &self.phases[self.guidance.phase]
-    }
-
-    /// Last measured magnetic field.
-    pub fn field_s(&self) -> [f64; 3] {
-        self.field.field_s
-    }
-
-    pub fn latest_commands(&self) -> Commanded {
-        self.latest
-    }
-
-    /// Telemetry of the phase's law at its last tick.
-    pub fn telemetry(&self) -> &[f64] {
-        self.law.telemetry()
-    }
-
-    pub fn filters(&self) -> Filters {
-        self.estimator.filters()
     }
 }

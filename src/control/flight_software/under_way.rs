@@ -9,7 +9,7 @@ use crate::scene::MAX_WHEELS;
 pub struct CommandsUnderWay {
     pub(super) motors: DelayQueue<MotorCommand>,
     /// Empty in a loop without thrusters.
-    pub(in crate::control) thrust: DelayQueue<Pulses>,
+    pub thrust: DelayQueue<Pulses>,
     /// Empty in a loop without torque rods.
     pub(super) rods: DelayQueue<RodCommand>,
 }

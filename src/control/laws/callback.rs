@@ -92,12 +92,6 @@ struct CallbackLaw {
     callback: Option<Arc<dyn Callback>>,
 }
 
-impl std::fmt::Debug for CallbackLaw {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("CallbackLaw").field("sample", &self.sample).finish_non_exhaustive()
-    }
-}
-
 impl PhaseLaw for CallbackLaw {
     fn torque(&mut self, _body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {
         match (&self.callback, input.estimate) {

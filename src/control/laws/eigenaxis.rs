@@ -1,7 +1,7 @@
 //! [`Eigenaxis`]: a slew about one axis fixed in the body and in space.
 
 use super::integral::{self, Integral};
-use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, digits};
+use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
 use super::slew::Slew;
 use crate::control::declared::{declared, limit};
 use crate::control::vector::{norm, product, scaled, sum};
@@ -48,22 +48,23 @@ declared! {
     }
 }
 
-pub(super) const KIND: LawKind =
-    LawKind { name: "eigenaxis", parameters: &PARAMETERS, make: &|settings| AttitudeLaw::new(Eigenaxis::of(settings)) };
-
-impl Eigenaxis {
-    fn of(settings: &LawSettings<'_>) -> Self {
+pub(super) const KIND: LawKind = LawKind {
+    name: "eigenaxis",
+    parameters: &PARAMETERS,
+    make: &|settings| {
         let numbers = EigenaxisNumbers::of(settings.table);
         let (bandwidth, damping) = (numbers.bandwidth, numbers.damping);
-        Eigenaxis {
+        AttitudeLaw::new(Eigenaxis {
             largest_rate: limit(numbers.max_rate),
             largest_torque: limit(numbers.max_torque),
             integral: Integral::new(numbers.integral_gain, limit(numbers.integral_limit)),
             slew: Slew::new(settings.period, settings.delay),
             ..Eigenaxis::new(2.0 * bandwidth * bandwidth, 2.0 * damping * bandwidth)
-        }
-    }
+        })
+    },
+};
 
+impl Eigenaxis {
     /// Without limits and integral.
     pub fn new(stiffness: f64, damping: f64) -> Self {
         let (largest_rate, largest_torque) = (f64::INFINITY, f64::INFINITY);

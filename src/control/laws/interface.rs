@@ -32,32 +32,21 @@ pub trait PhaseLaw {
 }
 
 /// A [`PhaseLaw`] that can be cloned as an object.
-trait ClonedLaw: PhaseLaw + fmt::Debug + Send {
+trait ClonedLaw: PhaseLaw + Send {
     fn cloned(&self) -> Box<dyn ClonedLaw>;
-    fn as_law(&self) -> &(dyn PhaseLaw + 'static);
-    fn as_law_mut(&mut self) -> &mut (dyn PhaseLaw + 'static);
 }
 
-impl<L: PhaseLaw + Clone + fmt::Debug + Send + 'static> ClonedLaw for L {
+impl<L: PhaseLaw + Clone + Send + 'static> ClonedLaw for L {
     fn cloned(&self) -> Box<dyn ClonedLaw> {
         Box::new(self.clone())
-    }
-
-    fn as_law(&self) -> &(dyn PhaseLaw + 'static) {
-        self
-    }
-
-    fn as_law_mut(&mut self) -> &mut (dyn PhaseLaw + 'static) {
-        self
     }
 }
 
 /// Any attitude law in a run, with its state.
-#[derive(Debug)]
 pub struct AttitudeLaw(Box<dyn ClonedLaw>);
 
 impl AttitudeLaw {
-    pub fn new(law: impl PhaseLaw + Clone + fmt::Debug + Send + 'static) -> Self {
+    pub fn new(law: impl PhaseLaw + Clone + Send + 'static) -> Self {
         AttitudeLaw(Box::new(law))
     }
 }
@@ -72,13 +61,13 @@ impl Deref for AttitudeLaw {
     type Target = dyn PhaseLaw;
 
     fn deref(&self) -> &(dyn PhaseLaw + 'static) {
-        self.0.as_law()
+        &*self.0
     }
 }
 
 impl DerefMut for AttitudeLaw {
     fn deref_mut(&mut self) -> &mut (dyn PhaseLaw + 'static) {
-        self.0.as_law_mut()
+        &mut *self.0
     }
 }
 
@@ -164,7 +153,7 @@ pub struct LawSettings<'a> {
 }
 
 /// Rounds to four significant digits.
-pub(in crate::control) fn digits(value: f64) -> f64 {
+pub fn digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 

@@ -1,6 +1,6 @@
 //! [`MrpFeedback`]: feedback of modified Rodrigues parameters, rate and an integral.
 
-use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, digits};
+use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
 use crate::control::declared::{declared, limit};
 use crate::control::rotation::mrp_of;
 use crate::control::vector::{cross, difference, product, scaled, sum};
@@ -49,26 +49,22 @@ declared! {
 pub(super) const KIND: LawKind = LawKind {
     name: "mrp_feedback",
     parameters: &PARAMETERS,
-    make: &|settings| AttitudeLaw::new(MrpFeedback::of(settings)),
+    make: &|settings| {
+        let numbers = MrpNumbers::of(settings.table);
+        AttitudeLaw::new(MrpFeedback {
+            integral: numbers.integral,
+            integral_limit: limit(numbers.integral_limit),
+            gyroscopic: settings.gyroscopic,
+            ..MrpFeedback::new(numbers.stiffness, numbers.damping)
+        })
+    },
 };
 
 impl MrpFeedback {
-    fn of(settings: &LawSettings<'_>) -> Self {
-        let numbers = MrpNumbers::of(settings.table);
-        let law = MrpFeedback::new(numbers.stiffness, numbers.damping);
-        let law = law.with_integral(numbers.integral, limit(numbers.integral_limit));
-        MrpFeedback { gyroscopic: settings.gyroscopic, ..law }
-    }
-
     /// Without integral and omega x H.
     pub fn new(stiffness: f64, damping: f64) -> Self {
         let (integral, integral_limit) = (0.0, f64::INFINITY);
         MrpFeedback { stiffness, damping, integral, integral_limit, gyroscopic: false, summed: [0.0; 3] }
-    }
-
-    #[must_use]
-    pub fn with_integral(self, integral: f64, limit: f64) -> Self {
-        MrpFeedback { integral, integral_limit: limit, ..self }
     }
 }
 
@@ -131,7 +127,7 @@ mod tests {
             (0.0, 0.0, with_wheels, [proportional; 3]),
             (0.0, 0.0, [0.0; 3], [alone; 3]),
         ] {
-            let mut law = MrpFeedback::new(0.15, 150.0).with_integral(integral, limit);
+            let mut law = MrpFeedback { integral, integral_limit: limit, ..MrpFeedback::new(0.15, 150.0) };
             let input = LawInput {
                 q_ts: [(1.0 - square) / (1.0 + square), x, y, z],
                 omega_se_s,

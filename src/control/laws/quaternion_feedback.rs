@@ -1,7 +1,7 @@
 //! [`QuaternionFeedback`]: feedback of the error quaternion and the rate.
 
 use super::integral::{self, Integral};
-use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, digits};
+use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
 use crate::control::declared::{declared, limit};
 use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
@@ -33,17 +33,15 @@ declared! {
 pub(super) const KIND: LawKind = LawKind {
     name: "quaternion_feedback",
     parameters: &PARAMETERS,
-    make: &|settings| AttitudeLaw::new(QuaternionFeedback::of(settings)),
-};
-
-impl QuaternionFeedback {
-    fn of(settings: &LawSettings<'_>) -> Self {
+    make: &|settings| {
         let QuaternionNumbers { bandwidth, damping, integral_gain, integral_limit } =
             QuaternionNumbers::of(settings.table);
         let integral = Integral::new(integral_gain, limit(integral_limit));
-        QuaternionFeedback { bandwidth, damping, integral }
-    }
+        AttitudeLaw::new(QuaternionFeedback { bandwidth, damping, integral })
+    },
+};
 
+impl QuaternionFeedback {
     pub fn new(bandwidth: f64, damping: f64) -> Self {
         QuaternionFeedback { bandwidth, damping, integral: Integral::NONE }
     }

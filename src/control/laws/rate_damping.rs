@@ -1,7 +1,7 @@
 //! [`RateDamping`]: a torque against the rate.
 
 use super::integral::{self, Integral};
-use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, digits};
+use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
 use crate::control::declared::{declared, limit};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
@@ -26,15 +26,11 @@ declared! {
 pub(super) const KIND: LawKind = LawKind {
     name: "rate_damping",
     parameters: &PARAMETERS,
-    make: &|settings| AttitudeLaw::new(RateDamping::of(settings)),
-};
-
-impl RateDamping {
-    fn of(settings: &LawSettings<'_>) -> Self {
+    make: &|settings| {
         let RateDampingNumbers { gain, integral_gain, integral_limit } = RateDampingNumbers::of(settings.table);
-        RateDamping { gain, integral: Integral::new(integral_gain, limit(integral_limit)) }
-    }
-}
+        AttitudeLaw::new(RateDamping { gain, integral: Integral::new(integral_gain, limit(integral_limit)) })
+    },
+};
 
 impl PhaseLaw for RateDamping {
     fn torque(&mut self, _body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {

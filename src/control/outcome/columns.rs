@@ -1,70 +1,41 @@
 //! [`OutcomeColumns`]: the outcome of a run under a loop as columns, each one row of a table.
 
+use super::criteria::MissionCriteria;
+use super::{MissionOutcome, STANDARD_GRAVITY};
 use crate::control::failure::Failure;
 use crate::control::flight_code::module::FlightCode;
 use crate::control::guidance::Guidance;
 use crate::control::net_launch::launch::AtLaunch;
-use crate::control::outcome::criteria::MissionCriteria;
-use crate::control::outcome::{MissionOutcome, STANDARD_GRAVITY};
 use crate::control::spec::LoopSpec;
 use crate::observables::{ColumnKind, LawColumn, LawColumns};
 use crate::run::Quantity;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Needs {
-    Nothing,
-    Launch,
-    Target,
-    Approach,
-    LaunchAtDebris,
-    LaunchWithWheels,
-    Thrusters,
-    Plumes,
-    Rods,
-    Wheels,
-    Filter,
-    FilterOfMotion,
-    Telemetry,
-}
+/// Needs of a column, in words and as a test.
+struct Needs(&'static str, fn(&LoopSpec) -> bool);
 
-impl Needs {
-    fn words(self) -> &'static str {
-        match self {
-            Needs::Nothing => "",
-            Needs::Launch => "needs a phase with next = \"launch\"",
-            Needs::Target => "needs a phase with a target",
-            Needs::Approach => "needs debris, and a phase that points or moves relative to it",
-            Needs::LaunchAtDebris => "needs debris, and a phase with next = \"launch\"",
-            Needs::LaunchWithWheels => "needs debris, a phase with next = \"launch\", and wheels",
-            Needs::Thrusters => "needs thrusters in control.thrusters",
-            Needs::Plumes => "needs debris that a phase approaches, and thrusters in control.thrusters",
-            Needs::Rods => "needs torque rods in control.torque_rods",
-            Needs::Wheels => "needs wheels in control.wheels",
-            Needs::Filter => "needs an estimator with a filter: mekf",
-            Needs::FilterOfMotion => "needs an estimator with a filter: mekf, and debris that a phase approaches",
-            Needs::Telemetry => "needs a module that declares telemetry",
-        }
-    }
-
-    fn are_met(self, spec: &LoopSpec) -> bool {
-        let (approaches, has_thrusters) = (spec.approaches(), !spec.thrusters.is_empty());
-        match self {
-            Needs::Nothing => true,
-            Needs::Launch => spec.launches(),
-            Needs::Target => spec.points(),
-            Needs::Approach => approaches,
-            Needs::LaunchAtDebris => approaches && spec.launches(),
-            Needs::LaunchWithWheels => approaches && spec.launches() && !spec.wheels.is_empty(),
-            Needs::Thrusters => has_thrusters,
-            Needs::Plumes => approaches && has_thrusters,
-            Needs::Rods => !spec.rods.is_empty(),
-            Needs::Wheels => !spec.wheels.is_empty(),
-            Needs::Filter => spec.has_filter(),
-            Needs::FilterOfMotion => spec.has_filter() && approaches,
-            Needs::Telemetry => spec.code().is_some_and(|code| !code.telemetry().is_empty()),
-        }
-    }
-}
+const NOTHING: Needs = Needs("", |_| true);
+const LAUNCH: Needs = Needs("needs a phase with next = \"launch\"", LoopSpec::launches);
+const TARGET: Needs = Needs("needs a phase with a target", LoopSpec::points);
+const APPROACH: Needs = Needs("needs debris, and a phase that points or moves relative to it", LoopSpec::approaches);
+const LAUNCH_AT_DEBRIS: Needs =
+    Needs("needs debris, and a phase with next = \"launch\"", |spec| spec.approaches() && spec.launches());
+const LAUNCH_WITH_WHEELS: Needs = Needs("needs debris, a phase with next = \"launch\", and wheels", |spec| {
+    spec.approaches() && spec.launches() && !spec.wheels.is_empty()
+});
+const THRUSTERS: Needs = Needs("needs thrusters in control.thrusters", |spec| !spec.thrusters.is_empty());
+const PLUMES: Needs = Needs("needs debris that a phase approaches, and thrusters in control.thrusters", |spec| {
+    spec.approaches() && !spec.thrusters.is_empty()
+});
+const RODS: Needs = Needs("needs torque rods in control.torque_rods", |spec| !spec.rods.is_empty());
+const WHEELS: Needs = Needs("needs wheels in control.wheels", |spec| !spec.wheels.is_empty());
+const FILTER: Needs = Needs("needs an estimator with a filter: mekf", LoopSpec::has_filter);
+const FILTER_OF_MOTION: Needs =
+    Needs("needs an estimator with a filter: mekf, and debris that a phase approaches", |spec| {
+        spec.has_filter() && spec.approaches()
+    });
+const MODULE: Needs = Needs("needs a module that declares telemetry", |spec| {
+    spec.code().is_some_and(|code| !code.telemetry().is_empty())
+});
 
 struct Run<'a> {
     outcome: &'a MissionOutcome,
@@ -146,99 +117,99 @@ macro_rules! innovation {
 
 #[rustfmt::skip]
 static TABLE: [Row; 43] = [
-    row("launched", "", Needs::Launch, |run, _| f64::from(u8::from(run.outcome.has_launched())),
+    row("launched", "", LAUNCH, |run, _| f64::from(u8::from(run.outcome.has_launched())),
         "Whether the net was launched: 1 or 0."),
-    row("failure", "", Needs::Nothing, |run, _| run.outcome.failure.code(), "Why the mission failed: <failures>."),
-    row("phase_final", "", Needs::Nothing, |run, _| run.guidance.phase as f64,
+    row("failure", "", NOTHING, |run, _| run.outcome.failure.code(), "Why the mission failed: <failures>."),
+    row("phase_final", "", NOTHING, |run, _| run.guidance.phase as f64,
         "The phase in which the run ended: <phases>."),
-    row("end_time_s", "s", Needs::Nothing, |run, _| run.outcome.end,
+    row("end_time_s", "s", NOTHING, |run, _| run.outcome.end,
         "Time at which the mission launched or failed; null if it did neither."),
-    row("phase_<phase>_begin_s", "s", Needs::Nothing, |run, phase| run.guidance.first_begun[phase],
+    row("phase_<phase>_begin_s", "s", NOTHING, |run, phase| run.guidance.first_begun[phase],
         "Time at which phase <phase> first began; null if it never did."),
-    row("pointing_error_final_rad", "rad", Needs::Target, |run, _| run.outcome.pointing_error,
+    row("pointing_error_final_rad", "rad", TARGET, |run, _| run.outcome.pointing_error,
         "Rotation angle from the true attitude to the target of the last phase that had one, at the last tick."),
-    row("settling_time_s", "s", Needs::Target, |run, _| run.outcome.settled_since - run.outcome.pointing_since,
+    row("settling_time_s", "s", TARGET, |run, _| run.outcome.settled_since - run.outcome.pointing_since,
         "Time from the beginning of the last phase with a target until the pointing error stayed within \
         control.settling_band_rad; null if it never did."),
-    row("overshoot_rad", "rad", Needs::Target, |run, _| run.outcome.overshoot_of_target(),
+    row("overshoot_rad", "rad", TARGET, |run, _| run.outcome.overshoot_of_target(),
         "Largest angle beyond the target, against the direction of the error with which the last phase with a target \
         began."),
-    row("mission_settling_time_s", "s", Needs::Target, |run, _| run.outcome.stability.settled_since(),
+    row("mission_settling_time_s", "s", TARGET, |run, _| run.outcome.stability.settled_since(),
         "Time from the start of the run until the pointing error stayed within control.settling_band_rad to the end, \
         in all phases from then on; null if it never did."),
-    row("relative_performance_error_rms_rad", "rad", Needs::Target, |run, _| run.outcome.stability.rms(run.criteria),
+    row("relative_performance_error_rms_rad", "rad", TARGET, |run, _| run.outcome.stability.rms(run.criteria),
         "Relative performance error (ECSS-E-ST-60-10C): root mean square magnitude of the rotation vector from the \
         target to the true attitude less its mean over the ticks of the window of control.stability_from_s and \
         control.stability_window_s; null if the run does not complete the window, or a phase in it has no target."),
-    row("relative_performance_error_peak_to_peak_rad", "rad", Needs::Target,
+    row("relative_performance_error_peak_to_peak_rad", "rad", TARGET,
         |run, _| run.outcome.stability.peak_to_peak(run.criteria),
         "Relative performance error (ECSS-E-ST-60-10C): largest peak to peak, about any body axis, of the rotation \
         vector from the target to the true attitude less its mean over the ticks of the window of \
         control.stability_from_s and control.stability_window_s; null if the run does not complete the window, or a \
         phase in it has no target."),
-    row("debris_distance_min_m", "m", Needs::Approach, |run, _| finite(run.outcome.debris_distance),
+    row("debris_distance_min_m", "m", APPROACH, |run, _| finite(run.outcome.debris_distance),
         "Smallest distance between the centres of mass of spacecraft and debris at the ticks."),
-    row("pointing_error_launch_rad", "rad", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.pointing_error),
+    row("pointing_error_launch_rad", "rad", LAUNCH_AT_DEBRIS, |run, _| run.launch(|at| at.pointing_error),
         "Angle between s3 and the line to the debris at the launch; null if not launched."),
-    row("axis_offset_launch_m", "m", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.axis_offset),
+    row("axis_offset_launch_m", "m", LAUNCH_AT_DEBRIS, |run, _| run.launch(|at| at.axis_offset),
         "Distance of the centre of mass from the line through the debris along its velocity at the launch; null if not \
         launched."),
-    row("distance_error_launch_m", "m", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.distance_error),
+    row("distance_error_launch_m", "m", LAUNCH_AT_DEBRIS, |run, _| run.launch(|at| at.distance_error),
         "Distance behind the debris along that line less control.launch_distance_m at the launch; null if not \
         launched."),
-    row("relative_speed_launch_m_s", "m/s", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.relative_speed),
+    row("relative_speed_launch_m_s", "m/s", LAUNCH_AT_DEBRIS, |run, _| run.launch(|at| at.relative_speed),
         "Speed relative to the debris at the launch; null if not launched."),
-    row("body_rate_launch_rad_s", "rad/s", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.body_rate),
+    row("body_rate_launch_rad_s", "rad/s", LAUNCH_AT_DEBRIS, |run, _| run.launch(|at| at.body_rate),
         "Magnitude of the angular velocity of the body relative to F_e at the launch; null if not launched."),
-    row("tumble_axis_angle_launch_rad", "rad", Needs::LaunchAtDebris, |run, _| run.launch(|at| at.momentum_angle),
+    row("tumble_axis_angle_launch_rad", "rad", LAUNCH_AT_DEBRIS, |run, _| run.launch(|at| at.momentum_angle),
         "Angle, 0 to pi/2, between the angular momentum of the debris and the launch axis at the launch; null if not \
         launched."),
-    row("wheel_speed_margin_launch_rad_s", "rad/s", Needs::LaunchWithWheels,
+    row("wheel_speed_margin_launch_rad_s", "rad/s", LAUNCH_WITH_WHEELS,
         |run, _| run.launch(|at| finite(at.speed_margin)),
         "Smallest difference between a wheel's speed limit and its speed at the launch; null if not launched."),
-    row("impulse_<thruster>_n_s", "N s", Needs::Thrusters, |run, thruster| run.outcome.impulse[thruster],
+    row("impulse_<thruster>_n_s", "N s", THRUSTERS, |run, thruster| run.outcome.impulse[thruster],
         "Impulse of thruster <thruster>, fired by the loop."),
-    row("impulse_total_n_s", "N s", Needs::Thrusters, |run, _| run.outcome.impulse_total(),
+    row("impulse_total_n_s", "N s", THRUSTERS, |run, _| run.outcome.impulse_total(),
         "Sum of the impulses of all thrusters, fired by the loop."),
-    row("delta_v_m_s", "m/s", Needs::Thrusters, |run, _| run.outcome.velocity_change,
+    row("delta_v_m_s", "m/s", THRUSTERS, |run, _| run.outcome.velocity_change,
         "Integral of the magnitude of the acceleration from thrust."),
-    row("propellant_kg", "kg", Needs::Thrusters,
+    row("propellant_kg", "kg", THRUSTERS,
         |run, _| finite(run.outcome.impulse_total() / (STANDARD_GRAVITY * run.criteria.isp)),
         "Propellant used at control.isp_s; null if that is not known. The mass of the spacecraft is constant."),
-    row("plume_time_s", "s", Needs::Plumes, |run, _| run.outcome.plume_time,
+    row("plume_time_s", "s", PLUMES, |run, _| run.outcome.plume_time,
         "Time during which a thruster fired at debris within control.plume_range_m and control.plume_half_angle_rad of \
         its plume's axis, by the state at the start of each arc."),
-    row("speed_peak_<wheel>_rad_s", "rad/s", Needs::Wheels, |run, wheel| run.outcome.speed_peak[wheel],
+    row("speed_peak_<wheel>_rad_s", "rad/s", WHEELS, |run, wheel| run.outcome.speed_peak[wheel],
         "Largest magnitude of the rate of wheel <wheel> relative to the body at the ticks."),
-    row("wheel_momentum_peak_n_m_s", "N m s", Needs::Wheels, |run, _| run.outcome.momentum_peak,
+    row("wheel_momentum_peak_n_m_s", "N m s", WHEELS, |run, _| run.outcome.momentum_peak,
         "Largest magnitude of the wheels' momentum relative to the body at the ticks."),
-    row("torque_saturated_s", "s", Needs::Wheels, |run, _| run.outcome.saturated[0],
+    row("torque_saturated_s", "s", WHEELS, |run, _| run.outcome.saturated[0],
         "Time during which a motor gave less than was commanded because of its torque limit."),
-    row("speed_saturated_s", "s", Needs::Wheels, |run, _| run.outcome.saturated[1],
+    row("speed_saturated_s", "s", WHEELS, |run, _| run.outcome.saturated[1],
         "Time during which a motor gave less than was commanded because of its wheel's speed limit."),
-    row("torque_excess_max_n_m", "N m", Needs::Wheels, |run, _| run.outcome.torque_excess,
+    row("torque_excess_max_n_m", "N m", WHEELS, |run, _| run.outcome.torque_excess,
         "Largest difference between the commanded torque and what a motor gave, because of its torque limit or its \
         wheel's speed limit."),
-    row("rod_dipole_max_a_m2", "A m^2", Needs::Rods, |run, _| run.outcome.rod_dipole,
+    row("rod_dipole_max_a_m2", "A m^2", RODS, |run, _| run.outcome.rod_dipole,
         "Largest magnitude of the dipole of all torque rods together."),
-    row("rod_saturated_time_s", "s", Needs::Rods, |run, _| run.outcome.rod_saturated,
+    row("rod_saturated_time_s", "s", RODS, |run, _| run.outcome.rod_saturated,
         "Time during which the limit of a torque rod cut what the law commanded."),
-    row("attitude_estimate_error_final_rad", "rad", Needs::Nothing, |run, _| run.outcome.attitude_error[0],
+    row("attitude_estimate_error_final_rad", "rad", NOTHING, |run, _| run.outcome.attitude_error[0],
         "Angle between estimated and true attitude at the last tick."),
-    row("attitude_estimate_error_max_rad", "rad", Needs::Nothing, |run, _| run.outcome.attitude_error[1],
+    row("attitude_estimate_error_max_rad", "rad", NOTHING, |run, _| run.outcome.attitude_error[1],
         "Largest angle between estimated and true attitude at the ticks."),
-    row("relative_position_estimate_error_final_m", "m", Needs::Approach, |run, _| run.outcome.relative_error[0],
+    row("relative_position_estimate_error_final_m", "m", APPROACH, |run, _| run.outcome.relative_error[0],
         "Distance between estimated and true position relative to the debris at the last tick."),
-    row("relative_velocity_estimate_error_final_m_s", "m/s", Needs::Approach, |run, _| run.outcome.relative_error[1],
+    row("relative_velocity_estimate_error_final_m_s", "m/s", APPROACH, |run, _| run.outcome.relative_error[1],
         "Magnitude of the error in the estimated velocity relative to the debris at the last tick."),
-    nees!(0, "attitude", Needs::Filter, "attitude and gyro bias (or rate)"),
-    innovation!(0, "attitude", Needs::Filter, "attitude and gyro bias (or rate)"),
-    nees!(1, "motion", Needs::FilterOfMotion, "position and velocity"),
-    innovation!(1, "motion", Needs::FilterOfMotion, "position and velocity"),
-    nees!(2, "debris_motion", Needs::FilterOfMotion, "position and velocity of the debris"),
-    innovation!(2, "debris_motion", Needs::FilterOfMotion, "position and velocity of the debris"),
-    nees!(3, "debris_attitude", Needs::FilterOfMotion, "attitude and rate of the debris"),
-    innovation!(3, "debris_attitude", Needs::FilterOfMotion, "attitude and rate of the debris"),
+    nees!(0, "attitude", FILTER, "attitude and gyro bias (or rate)"),
+    innovation!(0, "attitude", FILTER, "attitude and gyro bias (or rate)"),
+    nees!(1, "motion", FILTER_OF_MOTION, "position and velocity"),
+    innovation!(1, "motion", FILTER_OF_MOTION, "position and velocity"),
+    nees!(2, "debris_motion", FILTER_OF_MOTION, "position and velocity of the debris"),
+    innovation!(2, "debris_motion", FILTER_OF_MOTION, "position and velocity of the debris"),
+    nees!(3, "debris_attitude", FILTER_OF_MOTION, "attitude and rate of the debris"),
+    innovation!(3, "debris_attitude", FILTER_OF_MOTION, "attitude and rate of the debris"),
 ];
 
 /// Columns of each telemetry number that a module declares, appended to its own unit and meaning.
@@ -246,7 +217,7 @@ static TELEMETRY: [Row; 2] = [
     row(
         "module_<telemetry>_final",
         "",
-        Needs::Telemetry,
+        MODULE,
         |run, place| run.telemetry(place)[0],
         "telemetry of the module at the last tick at which it was asked; null if it never was, or if this is not a \
         finite number.",
@@ -254,7 +225,7 @@ static TELEMETRY: [Row; 2] = [
     row(
         "module_<telemetry>_max",
         "",
-        Needs::Telemetry,
+        MODULE,
         |run, place| run.telemetry(place)[1],
         "largest magnitude of that telemetry of the module at the ticks; null if it was never asked, or if one of them \
         is not a finite number.",
@@ -292,12 +263,6 @@ impl Row {
 /// The outcome columns of a loop, with their rows and indices.
 pub struct OutcomeColumns(Vec<(Quantity, &'static Row, usize)>);
 
-impl std::fmt::Debug for OutcomeColumns {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("OutcomeColumns").field(&self.0.len()).finish()
-    }
-}
-
 impl OutcomeColumns {
     pub fn of(spec: &LoopSpec) -> Self {
         let names = |places: &[usize], names: &[crate::scene::Name]| {
@@ -309,7 +274,7 @@ impl OutcomeColumns {
             ("<thruster>", names(&spec.thrusters, &spec.thruster_names)),
             ("<wheel>", names(&spec.wheels, &spec.wheel_names)),
         ];
-        let mut columns = Self::named(&names, |needs| needs.are_met(spec));
+        let mut columns = Self::named(&names, |Needs(_, are_met)| are_met(spec));
         for (place, declared) in spec.code().map_or(&[][..], FlightCode::telemetry).iter().enumerate() {
             columns.0.extend(TELEMETRY.iter().zip(["_final", "_max"]).map(|(row, of)| {
                 let meaning = format!("{}: {}", declared.meaning, row.meaning);
@@ -320,9 +285,9 @@ impl OutcomeColumns {
         columns
     }
 
-    fn named(names: &Names, is_there: impl Fn(Needs) -> bool) -> Self {
+    fn named(names: &Names, is_there: impl Fn(&Needs) -> bool) -> Self {
         let of = |row: &'static Row| row.columns(names).into_iter().map(move |(column, place)| (column, row, place));
-        OutcomeColumns(TABLE.iter().filter(|row| is_there(row.needs)).flat_map(of).collect())
+        OutcomeColumns(TABLE.iter().filter(|row| is_there(&row.needs)).flat_map(of).collect())
     }
 
     /// Columns of any loop, each with its needs; placeholders stand for names.
@@ -330,7 +295,7 @@ impl OutcomeColumns {
         let names = ["<phase>", "<thruster>", "<wheel>"].map(|mark| (mark, vec![(0, mark.to_owned())]));
         let of_loop = Self::named(&names, |_| true).0.into_iter().map(|(column, row, _)| (column, row));
         let of_module = TELEMETRY.iter().map(|row| (Quantity::new(row.name, row.unit, row.meaning), row));
-        of_loop.chain(of_module).map(|(column, row)| (column, row.needs.words())).collect()
+        of_loop.chain(of_module).map(|(column, row)| (column, row.needs.0)).collect()
     }
 
     pub fn columns(&self) -> LawColumns {

@@ -8,14 +8,14 @@ mod stability;
 use self::criteria::MissionCriteria;
 use self::estimation::{Consistency, EstimateErrors};
 use self::stability::Stability;
+use super::failure::Failure;
 use super::guidance::target::AttitudeError;
 use super::net_launch::geometry::LaunchState;
 use super::net_launch::launch::AtLaunch;
 use super::plant::Applied;
+use super::rotation::vector_of;
 use super::truth::Truth;
-use crate::control::failure::Failure;
-use crate::control::rotation::vector_of;
-use crate::control::vector::{dot, norm, scaled};
+use super::vector::{dot, norm, scaled};
 use crate::dynamics::actuation::Actuation;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
@@ -55,8 +55,8 @@ pub struct MissionOutcome {
     pub consistency: Consistency,
 }
 
-impl MissionOutcome {
-    pub fn new() -> Self {
+impl Default for MissionOutcome {
+    fn default() -> Self {
         MissionOutcome {
             failure: Failure::None,
             end: f64::NAN,
@@ -83,7 +83,9 @@ impl MissionOutcome {
             consistency: Consistency::NONE,
         }
     }
+}
 
+impl MissionOutcome {
     /// Adds a tick. `error` is the true attitude relative to the phase's target, if it has one; `begins` marks the
     /// first tick of a phase.
     pub fn tick(
@@ -187,11 +189,5 @@ impl MissionOutcome {
         if failure == Failure::None {
             self.at_launch = AtLaunch::of(scene, truth, launch);
         }
-    }
-}
-
-impl Default for MissionOutcome {
-    fn default() -> Self {
-        Self::new()
     }
 }

@@ -3,7 +3,7 @@
 //! Source: ECSS-E-ST-60-10C, *Control performance*, 2008, section 3.2: the performance error e(t) is the rotation
 //! vector from the target to the true attitude; the relative one is e(t) less its mean over the interval.
 
-use crate::control::outcome::criteria::MissionCriteria;
+use super::criteria::MissionCriteria;
 use crate::control::vector::norm;
 
 #[derive(Clone, Copy, Debug)]

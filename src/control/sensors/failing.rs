@@ -1,7 +1,7 @@
 //! [`FailingSensor`]: a sensor that fails during the run.
 
+use super::sensor::{Sensor, SensorContext, SensorKind};
 use crate::control::measurement::Values;
-use crate::control::sensors::sensor::{Sensor, SensorContext, SensorKind};
 use crate::control::tick_times::SAME_TIME;
 use crate::control::truth::Truth;
 use crate::scene::{DeclaredTable, FailureInput, SensorOutput};

@@ -1,11 +1,9 @@
 //! A ground radar: positions and velocities in F_e of the base point p and of the debris's centre of mass.
 
+use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, XYZ, optional};
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::Observes;
-use crate::control::sensors::sensor::{
-    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, optional,
-};
 use crate::control::truth::Truth;
 use crate::control::vector::sum;
 
@@ -24,7 +22,14 @@ pub(super) const KIND: SensorKind = SensorKind {
     }),
     needs: None,
     replaced_by_epoch: None,
-    make: |context| Box::new(GroundRadar::new(context)),
+    make: |context| {
+        let noise = |point: &str| PointNoise {
+            position: context.normal(&format!("{point}_position"), AXES),
+            velocity: context.normal(&format!("{point}_velocity"), AXES),
+        };
+        let numbers = RadarNumbers::of(context.parameters);
+        Box::new(GroundRadar { numbers, base: noise("base"), debris: noise("debris") })
+    },
 };
 
 declared! {
@@ -48,26 +53,14 @@ struct PointNoise {
 }
 
 struct GroundRadar {
-    position: f64,
-    velocity: f64,
+    numbers: RadarNumbers,
     base: PointNoise,
     debris: PointNoise,
 }
 
-impl GroundRadar {
-    fn new(context: &SensorContext<'_>) -> Self {
-        let noise = |point: &str| PointNoise {
-            position: context.normal(&format!("{point}_position"), AXES),
-            velocity: context.normal(&format!("{point}_velocity"), AXES),
-        };
-        let RadarNumbers { position, velocity } = RadarNumbers::of(context.parameters);
-        GroundRadar { position, velocity, base: noise("base"), debris: noise("debris") }
-    }
-}
-
 impl Sensor for GroundRadar {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
-        let (position, velocity) = ([self.position; 3], [self.velocity; 3]);
+        let (position, velocity) = ([self.numbers.position; 3], [self.numbers.velocity; 3]);
         let measured = |noise: &mut PointNoise, r_e, v_e| {
             [sum(r_e, noise.position.scaled(count, position)), sum(v_e, noise.velocity.scaled(count, velocity))]
         };

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
+use super::sensor::{Components, MeasuredQuantity, Need, SensorKind, axes, optional};
 use super::two_angles::{Believed, Direction, DirectionSensor, TwoAngles};
 use crate::control::declared::declared;
 use crate::control::observes::Observes;
-use crate::control::sensors::sensor::{Components, MeasuredQuantity, Need, SensorKind, axes, optional};
 use crate::control::truth::Truth;
 use crate::control::vector::{norm, scaled};
 use crate::dynamics::orbit_path::OrbitPath;

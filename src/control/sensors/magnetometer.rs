@@ -3,21 +3,18 @@
 
 use std::sync::Arc;
 
+use super::sensor::{AXES, MeasuredQuantity, Need, NormalErrors, Sensor, SensorKind, XYZ, axes};
 use crate::control::declared::declared;
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::observes::Observes;
 use crate::control::rotation::{from_s3_to, quaternion_of};
-use crate::control::sensors::sensor::{
-    AXES, MeasuredQuantity, Need, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, axes,
-};
 use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, sum, transposed_product};
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, Scene};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "magnetometer",
@@ -28,10 +25,22 @@ pub(super) const KIND: SensorKind = SensorKind {
         ["T", "t"],
         "Magnetic field measured by a magnetometer, in F_s",
     )],
-    observes: Observes::Field(|table, nominal| Arc::new(Believed::of(table, nominal))),
+    observes: Observes::Field(|table, nominal| {
+        let orbit = nominal.orbit.as_ref().map(OrbitPath::new);
+        let noise = MagnetometerNumbers::of(table).noise;
+        Arc::new(Believed { field: orbit.zip(MagneticField::of(nominal)), noise })
+    }),
     needs: Some(Need::MagneticField),
     replaced_by_epoch: None,
-    make: |context| Box::new(Magnetometer::new(context)),
+    make: |context| {
+        let numbers = MagnetometerNumbers::of(context.parameters);
+        Box::new(Magnetometer {
+            field: MagneticField::of(context.drawn),
+            numbers,
+            c_sm: dcm_from_quaternion(quaternion_of(numbers.misalignment)),
+            noise: context.normal("noise", AXES),
+        })
+    },
 };
 
 declared! {
@@ -51,13 +60,6 @@ struct Believed {
     /// `None` without a field: no information.
     field: Option<(OrbitPath, MagneticField<f64>)>,
     noise: [f64; 3],
-}
-
-impl Believed {
-    fn of(table: &DeclaredTable, nominal: &Scene) -> Self {
-        let orbit = nominal.orbit.as_ref().map(OrbitPath::new);
-        Believed { field: orbit.zip(MagneticField::of(nominal)), noise: MagnetometerNumbers::of(table).noise }
-    }
 }
 
 impl AttitudeSensor for Believed {
@@ -84,18 +86,6 @@ struct Magnetometer {
     /// Its axes -> F_s.
     c_sm: [[f64; 3]; 3],
     noise: NormalErrors<3>,
-}
-
-impl Magnetometer {
-    fn new(context: &SensorContext<'_>) -> Self {
-        let numbers = MagnetometerNumbers::of(context.parameters);
-        Magnetometer {
-            field: MagneticField::of(context.drawn),
-            numbers,
-            c_sm: dcm_from_quaternion(quaternion_of(numbers.misalignment)),
-            noise: context.normal("noise", AXES),
-        }
-    }
 }
 
 impl Sensor for Magnetometer {

@@ -8,7 +8,7 @@ pub mod failing;
 mod ground_radar;
 mod horizon_sensor;
 mod magnetometer;
-pub mod rate_gyro;
+mod rate_gyro;
 mod relative_camera;
 mod sampled;
 pub mod sensor;
@@ -17,7 +17,6 @@ mod sun_sensor;
 mod tachometers;
 mod two_angles;
 
-pub use rate_gyro::RateGyro;
 pub use sampled::SampledSensor;
 
 pub use sensor::{Components, MeasuredQuantity, Need, NormalErrors, Sensor, SensorContext, SensorKind};
@@ -32,16 +31,16 @@ pub static KINDS: [SensorKind; 8] = [
     relative_camera::KIND,
     tachometers::KIND,
 ];
-pub const NAMES: [&str; 8] = [
-    rate_gyro::KIND.name,
-    star_tracker::KIND.name,
-    sun_sensor::KIND.name,
-    horizon_sensor::KIND.name,
-    magnetometer::KIND.name,
-    ground_radar::KIND.name,
-    relative_camera::KIND.name,
-    tachometers::KIND.name,
-];
+/// The names of all kinds.
+pub const NAMES: [&str; KINDS.len()] = {
+    let mut names = [""; KINDS.len()];
+    let mut place = 0;
+    while place < names.len() {
+        names[place] = KINDS[place].name;
+        place += 1;
+    }
+    names
+};
 
 pub fn kind(name: &str) -> Option<&'static SensorKind> {
     KINDS.iter().find(|kind| kind.name == name)

@@ -5,17 +5,15 @@
 //! and the rotation has the variance sv^2 T + su^2 T^3/12 about the mean of the initial and final bias. A turn beyond
 //! half a revolution per sample reads as the shorter one.
 
+use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, XYZ, axes, optional};
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::{GyroNoise, Observes};
 use crate::control::rotation::{turned, vector_of};
-use crate::control::sensors::sensor::{
-    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, XYZ, axes, optional,
-};
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, hamilton, scaled, sum};
+use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "rate_gyro",
@@ -29,10 +27,26 @@ pub(super) const KIND: SensorKind = SensorKind {
             "Rotation measured by a gyro over its interval, in F_s",
         )
     }],
-    observes: Observes::Rotation(GyroNoise::of),
+    observes: Observes::Rotation(|table| {
+        let GyroNumbers { angular_random_walk, bias_random_walk, .. } = GyroNumbers::of(table);
+        GyroNoise { angular_random_walk, bias_random_walk }
+    }),
     needs: None,
     replaced_by_epoch: None,
-    make: |context| Box::new(RateGyro::new(context)),
+    make: |context| {
+        let (period, numbers) = (context.period, GyroNumbers::of(context.parameters));
+        let (white, walk) = (numbers.angular_random_walk, numbers.bias_random_walk);
+        Box::new(RateGyro {
+            period,
+            numbers,
+            white_deviation: (white * white * period + walk * walk * period.powi(3) / 12.0).sqrt(),
+            walk_deviation: walk * period.sqrt(),
+            white: context.normal("angular_random_walk", AXES),
+            walk: context.normal("bias_random_walk", AXES),
+            before: None,
+            rest: [0.0; 3],
+        })
+    },
 };
 
 declared! {
@@ -61,24 +75,13 @@ declared! {
     }
 }
 
-impl GyroNoise {
-    fn of(table: &DeclaredTable) -> Self {
-        let GyroNumbers { angular_random_walk, bias_random_walk, .. } = GyroNumbers::of(table);
-        GyroNoise { angular_random_walk, bias_random_walk }
-    }
-}
-
-#[derive(Debug)]
-pub struct RateGyro {
+struct RateGyro {
     period: f64,
+    /// As declared, but for the bias, which walks.
+    numbers: GyroNumbers,
     /// Standard deviations of the rotation about that of the mean bias, and of the bias from sample to sample.
     white_deviation: f64,
     walk_deviation: f64,
-    bias: [f64; 3],
-    scale: [f64; 3],
-    misalignment: [f64; 3],
-    count_angle: f64,
-    max_rate: f64,
     white: NormalErrors<3>,
     walk: NormalErrors<3>,
     /// Attitude at the last sample.
@@ -88,35 +91,16 @@ pub struct RateGyro {
 }
 
 impl RateGyro {
-    pub fn new(context: &SensorContext<'_>) -> Self {
-        let period = context.period;
-        let numbers = GyroNumbers::of(context.parameters);
-        let (white, walk) = (numbers.angular_random_walk, numbers.bias_random_walk);
-        RateGyro {
-            period,
-            white_deviation: (white * white * period + walk * walk * period.powi(3) / 12.0).sqrt(),
-            walk_deviation: walk * period.sqrt(),
-            bias: numbers.bias,
-            scale: numbers.scale,
-            misalignment: numbers.misalignment,
-            count_angle: numbers.count_angle,
-            max_rate: numbers.max_rate,
-            white: context.normal("angular_random_walk", AXES),
-            walk: context.normal("bias_random_walk", AXES),
-            before: None,
-            rest: [0.0; 3],
-        }
-    }
-
     /// The measured rotation about an axis: limited, then counted.
     fn counted(&mut self, axis: usize, rotation: f64) -> f64 {
-        let largest = if self.max_rate > 0.0 { self.max_rate * self.period } else { f64::INFINITY };
+        let GyroNumbers { max_rate, count_angle, .. } = self.numbers;
+        let largest = if max_rate > 0.0 { max_rate * self.period } else { f64::INFINITY };
         let limited = rotation.clamp(-largest, largest);
-        if self.count_angle == 0.0 {
+        if count_angle == 0.0 {
             return limited;
         }
         let total = self.rest[axis] + limited;
-        let counted = self.count_angle * (total / self.count_angle).round();
+        let counted = count_angle * (total / count_angle).round();
         self.rest[axis] = total - counted;
         counted
     }
@@ -127,18 +111,19 @@ impl Sensor for RateGyro {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let now = truth.body.q_es;
         let before = self.before.replace(now)?;
-        let rotation = turned(vector_of(hamilton(conjugate(before), now)), self.misalignment.map(|angle| -angle));
-        let after = sum(self.bias, self.walk.scaled(count, [self.walk_deviation; 3]));
-        let of_bias = scaled(0.5 * self.period, sum(self.bias, after));
-        self.bias = after;
+        let GyroNumbers { bias, scale, misalignment, .. } = self.numbers;
+        let rotation = turned(vector_of(hamilton(conjugate(before), now)), misalignment.map(|angle| -angle));
+        let after = sum(bias, self.walk.scaled(count, [self.walk_deviation; 3]));
+        let of_bias = scaled(0.5 * self.period, sum(bias, after));
+        self.numbers.bias = after;
         let noise = self.white.scaled(count, [self.white_deviation; 3]);
         let errors = sum(of_bias, noise);
-        let rotation_s: [f64; 3] = std::array::from_fn(|i| self.counted(i, self.scale[i] * rotation[i] + errors[i]));
+        let rotation_s: [f64; 3] = std::array::from_fn(|i| self.counted(i, scale[i] * rotation[i] + errors[i]));
         Some(values(&[&rotation_s]))
     }
 
     fn bias_s(&self) -> Option<[f64; 3]> {
-        Some(self.bias)
+        Some(self.numbers.bias)
     }
 }
 

@@ -1,12 +1,10 @@
 //! A camera on the spacecraft: relative attitude and rate of the debris, within a range.
 
+use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, WXYZ, XYZ, optional};
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::Observes;
 use crate::control::rotation::quaternion_of;
-use crate::control::sensors::sensor::{
-    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, XYZ, optional,
-};
 use crate::control::truth::Truth;
 use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
 
@@ -33,7 +31,13 @@ pub(super) const KIND: SensorKind = SensorKind {
     }),
     needs: None,
     replaced_by_epoch: None,
-    make: |context| Box::new(RelativeCamera::new(context)),
+    make: |context| {
+        Box::new(RelativeCamera {
+            numbers: CameraNumbers::of(context.parameters),
+            attitude_errors: context.normal("attitude_noise", AXES),
+            rate_errors: context.normal("rate_noise", AXES),
+        })
+    },
 };
 
 declared! {
@@ -51,37 +55,23 @@ declared! {
 }
 
 struct RelativeCamera {
-    attitude: f64,
-    rate: f64,
-    max_range: f64,
-    attitude_noise: NormalErrors<3>,
-    rate_noise: NormalErrors<3>,
-}
-
-impl RelativeCamera {
-    fn new(context: &SensorContext<'_>) -> Self {
-        let numbers = CameraNumbers::of(context.parameters);
-        RelativeCamera {
-            attitude: numbers.attitude_noise,
-            rate: numbers.rate_noise,
-            max_range: numbers.max_range,
-            attitude_noise: context.normal("attitude_noise", AXES),
-            rate_noise: context.normal("rate_noise", AXES),
-        }
-    }
+    numbers: CameraNumbers,
+    attitude_errors: NormalErrors<3>,
+    rate_errors: NormalErrors<3>,
 }
 
 impl Sensor for RelativeCamera {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
         let (body, debris) = (&truth.body, truth.debris?);
-        if self.max_range > 0.0 && norm(difference(debris.r_gdo_e, body.r_co_e)) > self.max_range {
+        let CameraNumbers { attitude_noise, rate_noise, max_range } = self.numbers;
+        if max_range > 0.0 && norm(difference(debris.r_gdo_e, body.r_co_e)) > max_range {
             return None;
         }
         let q_sd = hamilton(conjugate(body.q_es), debris.q_ed);
         let c_ds = dcm_from_quaternion(conjugate(q_sd));
         let omega_ds_d = difference(debris.omega_de_d, product(c_ds, body.omega_se_s));
-        let seen = hamilton(quaternion_of(self.attitude_noise.scaled(count, [self.attitude; 3])), q_sd);
-        let rate = sum(omega_ds_d, self.rate_noise.scaled(count, [self.rate; 3]));
+        let seen = hamilton(quaternion_of(self.attitude_errors.scaled(count, [attitude_noise; 3])), q_sd);
+        let rate = sum(omega_ds_d, self.rate_errors.scaled(count, [rate_noise; 3]));
         Some(values(&[&seen, &rate]))
     }
 }

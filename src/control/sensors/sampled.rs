@@ -2,13 +2,13 @@
 
 use std::collections::VecDeque;
 
+use super::sensor::Sensor;
 use crate::control::measurement::{Measurement, Values};
-use crate::control::sensors::sensor::Sensor;
 use crate::control::truth::Truth;
 
 /// A sensor that measures every `every` ticks and delivers a fixed number of ticks later.
 pub struct SampledSensor {
-    sensor: Box<dyn Sensor>,
+    pub sensor: Box<dyn Sensor>,
     every: u64,
     latency: u64,
     age: f64,
@@ -31,9 +31,5 @@ impl SampledSensor {
         }
         let (_, values) = self.waiting.pop_front_if(|(due, _)| *due <= tick)?;
         Some(Measurement { sensor, values, age: self.age })
-    }
-
-    pub fn sensor(&self) -> &dyn Sensor {
-        &*self.sensor
     }
 }

@@ -4,9 +4,7 @@
 //! Aerospace and Electronic Systems 38(2), 2002); the others are s1 and s2, turned with s3 to the boresight the
 //! shortest way.
 
-use crate::control::sensors::sensor::{
-    AXES, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, WXYZ, axes, optional,
-};
+use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, WXYZ, axes, optional};
 use std::sync::Arc;
 
 use crate::control::declared::declared;
@@ -32,7 +30,15 @@ pub(super) const KIND: SensorKind = SensorKind {
     observes: Observes::Attitude(|table| Arc::new(WholeAttitude(covariance_s(table)))),
     needs: None,
     replaced_by_epoch: None,
-    make: |context| Box::new(StarTracker::new(context)),
+    make: |context| {
+        let numbers = TrackerNumbers::of(context.parameters);
+        Box::new(StarTracker {
+            numbers,
+            c_st: from_s3_to(numbers.boresight),
+            bias: quaternion_of(numbers.bias),
+            noise: context.normal("noise", AXES),
+        })
+    },
 };
 
 declared! {
@@ -61,35 +67,20 @@ fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
 }
 
 struct StarTracker {
-    /// About the tracker's axes.
-    deviations: [f64; 3],
+    numbers: TrackerNumbers,
     /// F_t -> F_s.
     c_st: [[f64; 3]; 3],
-    /// Constant error.
     bias: [f64; 4],
-    max_rate: f64,
     noise: NormalErrors<3>,
-}
-
-impl StarTracker {
-    fn new(context: &SensorContext<'_>) -> Self {
-        let numbers = TrackerNumbers::of(context.parameters);
-        StarTracker {
-            deviations: numbers.noise,
-            c_st: from_s3_to(numbers.boresight),
-            bias: quaternion_of(numbers.bias),
-            max_rate: numbers.max_rate,
-            noise: context.normal("noise", AXES),
-        }
-    }
 }
 
 impl Sensor for StarTracker {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
-        if self.max_rate > 0.0 && norm(truth.body.omega_se_s) > self.max_rate {
+        let TrackerNumbers { noise, max_rate, .. } = self.numbers;
+        if max_rate > 0.0 && norm(truth.body.omega_se_s) > max_rate {
             return None;
         }
-        let noise_s = product(self.c_st, self.noise.scaled(count, self.deviations));
+        let noise_s = product(self.c_st, self.noise.scaled(count, noise));
         let error = hamilton(self.bias, quaternion_of(noise_s));
         Some(values(&[&hamilton(truth.body.q_es, error)]))
     }

@@ -1,11 +1,9 @@
 //! Tachometers of the wheels: their rates relative to the body.
 
+use super::sensor::{Components, MeasuredQuantity, NormalErrors, Sensor, SensorKind, optional};
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::Observes;
-use crate::control::sensors::sensor::{
-    Components, MeasuredQuantity, NormalErrors, Sensor, SensorContext, SensorKind, optional,
-};
 use crate::control::truth::Truth;
 use crate::scene::schema::Limit;
 use crate::scene::{LawParameter, MAX_WHEELS};
@@ -22,7 +20,14 @@ pub(super) const KIND: SensorKind = SensorKind {
     observes: Observes::WheelRates,
     needs: None,
     replaced_by_epoch: None,
-    make: |context| Box::new(Tachometers::new(context)),
+    make: |context| {
+        let names: [String; MAX_WHEELS] = std::array::from_fn(|wheel| (wheel + 1).to_string());
+        let TachometerNumbers { noise, scale } = TachometerNumbers::of(context.parameters);
+        let mut deviations = [0.0; MAX_WHEELS];
+        deviations[..context.drawn.mass.wheels.len()].fill(noise);
+        let noise = context.normal("noise", std::array::from_fn(|wheel| names[wheel].as_str()));
+        Box::new(Tachometers { deviations, scale, noise })
+    },
 };
 
 declared! {
@@ -36,20 +41,6 @@ struct Tachometers {
     deviations: [f64; MAX_WHEELS],
     scale: f64,
     noise: NormalErrors<MAX_WHEELS>,
-}
-
-impl Tachometers {
-    fn new(context: &SensorContext<'_>) -> Self {
-        let names: [String; MAX_WHEELS] = std::array::from_fn(|wheel| (wheel + 1).to_string());
-        let numbers = TachometerNumbers::of(context.parameters);
-        let mut deviations = [0.0; MAX_WHEELS];
-        deviations[..context.drawn.mass.wheels.len()].fill(numbers.noise);
-        Tachometers {
-            deviations,
-            scale: numbers.scale,
-            noise: context.normal("noise", std::array::from_fn(|wheel| names[wheel].as_str())),
-        }
-    }
 }
 
 impl Sensor for Tachometers {

@@ -4,10 +4,10 @@
 //! u in F_t has the angles atan(u1/u3) and atan(u2/u3), as by two crossed slits (J. R. Wertz, *Spacecraft Attitude
 //! Determination and Control*, 1978, section 7.1). The rotation about it is not observed.
 
+use super::sensor::{NormalErrors, Sensor, SensorContext};
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::rotation::from_s3_to;
-use crate::control::sensors::sensor::{NormalErrors, Sensor, SensorContext};
 use crate::control::small_matrix::{multiplied, transposed};
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, transposed_product};
