@@ -1,7 +1,4 @@
-//! [`Accumulator`]: gathers data from rows in one pass over their parts.
-//!
-//! A part is counted on any thread and merged in the order of the parts: no bit depends on threads, nor on the source
-//! of the rows.
+//! [`Accumulator`]: one pass over the parts of a campaign. Parts are counted on any thread and merged in order, so that results depend neither on threads nor on the source of the rows.
 
 use std::num::NonZeroUsize;
 
@@ -16,8 +13,7 @@ pub trait Accumulator: Sync {
 
     /// Counts a part, on any thread, once.
     ///
-    /// # Errors
-    /// Where a column cannot be read.
+    /// # Errors If a column cannot be read.
     fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError>;
 
     /// Adds the next part, in the order of the parts.
@@ -45,8 +41,7 @@ impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
 
 /// Runs `accumulator` over the files of `reader`, on `threads` threads (`None`: one per core).
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn of_files<A: Accumulator>(
     accumulator: &A,
     reader: &RowsReader,

@@ -1,4 +1,4 @@
-//! [`Analysed`]: statistics, sensitivities and verdicts of a campaign; a function of its plan and files.
+//! [`Analysed`]: statistics, sensitivities and verdicts of a campaign, a function of its plan and files.
 
 use std::num::NonZeroUsize;
 
@@ -40,8 +40,7 @@ impl Analysed {
 
 /// Analyses the data `gathered` from the rows of `plan`.
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn computed(
     plan: &Plan,
     reader: &RowsReader,

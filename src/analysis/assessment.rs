@@ -8,43 +8,43 @@ use crate::statistics::looks::adjusted;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assessment {
     pub requirement: Requirement,
-    /// The confidences of a pass (and of the bounds) and of a failure, corrected for several looks and requirements.
+    /// Confidences of a pass (and of the bounds) and of a failure, corrected for looks and requirements.
     pub confidences: [f64; 2],
     /// Unit of its limit; empty for a pure number.
     pub unit: String,
     pub shown: ShownUnit,
-    /// Decision, estimate and one-sided bounds: of the fraction of runs within the limit, or of the mean.
+    /// Decision, estimate and one-sided bounds, of the fraction of runs within the limit or of the mean.
     pub gate: Gate,
-    /// The two-sided interval of the estimate, at the confidence of the statistics; NaN if there is none.
+    /// Two-sided interval of the estimate at the confidence of the statistics; NaN if there is none.
     pub interval: [f64; 2],
-    /// The quantile, counting runs without a value as violations, or the mean over runs with a value; `None` for
-    /// fractions, and for a quantile at a run without a value.
+    /// The quantile, with missing values as violations, or the mean of the values; `None` for fractions, and if the
+    /// quantile is a missing value.
     pub value: Option<f64>,
     /// Dispersed, physical runs.
     pub runs: u64,
-    /// Runs not within the limit, or without a value, or with one that is not a number.
+    /// Runs beyond the limit, without a value, or with NaN.
     pub violations: u64,
     /// Runs without a value, which violate the requirement.
     pub missing: u64,
     pub failed: u64,
     pub worst: Option<WorstPoint>,
-    /// The reason of an open decision, or of one that does not follow from the numbers.
+    /// Why the decision is open, or does not follow from the numbers.
     pub reason: Option<String>,
-    /// The reason why the bounds may be too narrow.
+    /// Why the bounds may be too narrow.
     pub note: Option<String>,
 }
 
-/// Events with fewer expected occurrences than this in N runs are rare: these runs do not show their effect on a mean.
-/// Measured (`rare_events_are_what_a_mean_assumes`): a bound for 5% misses in 0 to 3% for events that ten runs have on
-/// average, in 7 to 21% for two to four runs, in 20 to 38% for one, in up to 96% for rarer ones.
+/// Events with fewer expected occurrences than this in N runs are rare: the runs do not show their effect on a mean.
+/// Measured (`rare_events_are_what_a_mean_assumes`): a 5% bound misses in 0 to 3% of campaigns for ten occurrences on
+/// average, 7 to 21% for two to four, 20 to 38% for one, up to 96% for fewer.
 pub const RARE: u64 = 10;
 
-/// The first point of time with the fewest runs within the limit.
+/// The first time with the fewest runs within the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstPoint {
     pub time_s: f64,
     pub points: usize,
-    /// Runs in one bucket with the limit, on an unknown side of it; counted as violations.
+    /// Runs in the same bucket as the limit, on an unknown side; counted as violations.
     pub unresolved: u64,
 }
 
@@ -57,8 +57,8 @@ impl Assessment {
         }
     }
 
-    /// The most by which rare events ([`RARE`]) may move a mean decided without bounds of its values, so that the
-    /// decision holds.
+    /// The largest shift of a mean by rare events ([`RARE`]) that keeps the decision valid, if the values have no
+    /// bounds.
     pub fn room_for_rare_events(&self) -> Option<f64> {
         let [lower, upper] = self.gate.bounds;
         let requirement = &self.requirement;
@@ -73,8 +73,8 @@ impl Assessment {
         (assumes && self.reason.is_none()).then_some((limit - bound).abs())
     }
 
-    /// The one-sided bound of the estimate that decided, and the limit, if the two-sided interval contains the limit
-    /// and so suggests no decision. `true`: a lower bound.
+    /// The deciding one-sided bound and the limit, if the two-sided interval contains the limit and so suggests no
+    /// decision. `true`: a lower bound.
     pub fn hidden_bound(&self) -> Option<([f64; 2], bool)> {
         let [low, high] = self.interval;
         let limit = self.requirement.limit;
@@ -100,12 +100,12 @@ impl Assessment {
         self.worst.map_or(1, |worst| worst.points)
     }
 
-    /// The confidence of a failure, corrected for looks, requirements and points of time.
+    /// Confidence of a failure, corrected for looks, requirements and points of time.
     pub fn fails_at(&self) -> f64 {
         adjusted(self.confidences[1], self.points())
     }
 
-    /// The confidence of a failure if it were the only requirement.
+    /// Confidence of a failure if this were the only requirement.
     pub fn fails_alone_at(&self) -> f64 {
         adjusted(self.confidences[0], self.points())
     }
@@ -113,7 +113,7 @@ impl Assessment {
     pub fn fails_alone(&self) -> bool {
         let [lower, mut upper] = self.gate.bounds;
         if let Some(worst) = self.worst {
-            // the bounds belong to one point chosen among several
+            // the bounds are those of the worst of several points
             let most = (self.runs - self.violations + worst.unresolved).min(self.runs);
             upper = upper_bound(most, self.runs, self.fails_alone_at());
         }

@@ -7,24 +7,24 @@ use crate::sampling::SampleId;
 use crate::statistics::binomial::at_most;
 use crate::statistics::spread::Spread;
 
-/// Errors above this are bounded soon: an estimate above half of it counts as covering them.
+/// Errors above this are near their upper bound: an estimate above half of this covers them.
 pub const SMALL: f64 = 0.1;
 
-/// The least share of runs whose true error the estimate covers, as the documents promise and the tests of the
-/// estimates (`error_estimate`) measure.
+/// Minimum share of runs whose true error the estimate covers, as documented and measured by the tests of
+/// `error_estimate`.
 pub const PROMISED_COVERAGE: f64 = 0.95;
 
-/// The most probability of reporting a broken promise of an estimate that keeps it. Coverages of 0 of 2 audits, 1 of 4,
-/// 15 of 20, 88 of 100 break it; a single audit never does.
+/// Maximum probability of a false report of a broken promise. Coverages of 0 of 2 audits, 1 of 4, 15 of 20, 88 of 100
+/// break it; a single audit never does.
 pub const FALSE_ALARM: f64 = 0.01;
 
 /// An estimate compared with the true error.
 #[derive(Clone, Debug, Default)]
 pub struct Coverage {
     pub audited: u64,
-    /// Runs with an estimate that covers the true error.
+    /// Runs whose estimate covers the true error.
     pub covered: u64,
-    /// Estimate over true error, if that is above zero.
+    /// Estimate over true error, for positive errors.
     pub ratio: Spread,
 }
 
@@ -38,12 +38,12 @@ impl Coverage {
         }
     }
 
-    /// The probability of at most so many covered runs at [`PROMISED_COVERAGE`].
+    /// Probability of at most this coverage at [`PROMISED_COVERAGE`].
     pub fn chance(&self) -> f64 {
         at_most(self.covered, self.audited, PROMISED_COVERAGE)
     }
 
-    /// Uncovered runs, if chance does not explain them; else none.
+    /// Uncovered runs beyond chance; else 0.
     pub fn excess(&self) -> u64 {
         if self.chance() <= FALSE_ALARM { self.audited - self.covered } else { 0 }
     }
@@ -52,17 +52,17 @@ impl Coverage {
 #[derive(Clone, Debug, Default)]
 pub struct AuditTally {
     pub audited: u64,
-    /// Selected runs without a complete run or reference solution.
+    /// Selected runs without an end, or whose reference solution has none.
     pub failed: u64,
-    /// Audited runs with a reference solution in double-double; others have plain doubles.
+    /// Audited against double-double; the others against doubles.
     pub in_double_double: u64,
     pub coverage: Coverage,
     pub debris_coverage: Coverage,
     /// Maximum of the next two.
     pub state: Spread,
-    /// Errors of omega over the run's maximum |omega|.
+    /// Relative to the run's maximum |omega|.
     pub omega: Spread,
-    /// Errors of the attitude, rad.
+    /// Of the attitude, rad.
     pub attitude: Spread,
     pub debris: Spread,
     pub observables: Vec<Spread>,
@@ -73,12 +73,12 @@ impl AuditTally {
         AuditTally { observables: vec![Spread::default(); observables], ..AuditTally::default() }
     }
 
-    /// Uncovered runs of the estimates that break their promise.
+    /// Uncovered runs of estimates with a broken promise.
     pub fn not_covered(&self) -> u64 {
         self.coverage.excess() + self.debris_coverage.excess()
     }
 
-    /// Adds the audits of a part, except left-out samples; `indices` are the places of the observables in a row.
+    /// Adds the audits of a part, except those left out; `indices` locate the observables in a row.
     pub fn add(
         &mut self,
         audits: &[(SampleId, Option<Audit>)],
@@ -116,8 +116,8 @@ impl AuditTally {
 mod tests {
     use super::*;
 
-    /// Law: an estimate covers an error of at most its size. A large error, which is bounded by half a turn, is covered
-    /// by every large estimate.
+    /// Law: an estimate covers errors up to its size; a large error, bounded by half a turn, is covered by any large
+    /// estimate.
     #[test]
     fn an_estimate_just_below_the_error_does_not_cover_it() {
         let covered = |error: f64, estimate: f64| {
@@ -131,8 +131,8 @@ mod tests {
         assert!(!covered(f64::NAN, 1e-9), "an error that is NaN is not covered");
     }
 
-    /// Law: the promise is broken where so few covered runs are improbable by the binomial sum; one uncovered audit is
-    /// no proof, two are.
+    /// Law: a promise is broken if so few covered runs are improbable by the binomial sum; two uncovered audits
+    /// suffice, one does not.
     #[test]
     fn a_promise_is_broken_where_chance_is_no_explanation() {
         let excess = |covered: u64, audited: u64| Coverage { audited, covered, ..Coverage::default() }.excess();

@@ -1,7 +1,7 @@
 //! Verdicts on requirements over time, from the bands of a campaign.
 //!
-//! A limit holds at every point of the bands in an interval for a share of the runs, not necessarily the same runs at
-//! each point. The number of runs within it is known up to the bucket of the limit: both bounds must decide.
+//! The limit applies at every band time in an interval for a share of the runs, not necessarily the same runs each
+//! time. The number of runs within it is known up to the bucket of the limit: both bounds must decide.
 
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::order_statistics::among_values;
@@ -13,7 +13,7 @@ use crate::ensemble::Bands;
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// The verdict of `bands` on a requirement on `band`, over `runs` that count.
+/// The verdict on a requirement on `band`, over `runs` counted runs.
 pub(super) fn over_time(
     judged: Judged<'_>,
     band: &BandSubject,

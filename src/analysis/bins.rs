@@ -1,19 +1,17 @@
-//! Bins of histograms: of equal width, by decades where values span many, of whole steps where values are on a lattice;
-//! and how many values are in each.
+//! Bins of histograms: equal width, logarithmic for large ranges, whole steps for values on a lattice.
 
-/// Fewest and most bars; between them as many as the square root of the number of values, so that few values are no
-/// comb.
+/// Minimum and maximum number of bars; in between, the square root of the number of values.
 const BARS: [usize; 2] = [10, 40];
 
-/// Edges of bars for `values`, and whether they are by decades: where all are positive and their range exceeds 100. The
-/// first of `limits` among the values is an edge, so that no bar stands on both sides of it.
+/// Edges of bars for `values`, and whether they are logarithmic: for positive values with a range above 100. The first
+/// of `limits` among the values becomes an edge, so that no bar straddles it.
 pub fn bins(values: &[f64], limits: &[f64]) -> (Vec<f64>, bool) {
     let (low, high) = ends(values);
     if low > high {
         return (Vec::new(), false);
     }
     let positive = values.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min);
-    // zeros are not on a logarithmic axis; where they are many, the axis is linear
+    // a logarithmic axis omits zeros: many of them require a linear one
     let is_log = low >= 0.0
         && positive.is_finite()
         && high > 100.0 * positive
@@ -31,13 +29,13 @@ pub fn bins(values: &[f64], limits: &[f64]) -> (Vec<f64>, bool) {
     (moved(edges, limits, |edge, by| edge * by, |to, from| to / from), true)
 }
 
-/// How many bars so many values have.
+/// Number of bars.
 fn bars(values: usize) -> usize {
     (values as f64).sqrt().ceil().clamp(BARS[0] as f64, BARS[1] as f64) as usize
 }
 
-/// `edges` with one more, moved by less than a bar so that the first of `limits` between their ends is an edge. `add`
-/// moves an edge by a distance, and `distance` is that from one to another.
+/// Adds an edge and shifts all by less than a bar, so that the first of `limits` within them is an edge. `add` moves an
+/// edge by a `distance` between two.
 fn moved(
     edges: Vec<f64>,
     limits: &[f64],
@@ -53,7 +51,7 @@ fn moved(
     found
 }
 
-/// The smallest and the largest of `values`.
+/// Minimum and maximum.
 pub fn ends(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
 }
@@ -62,15 +60,15 @@ fn part(k: usize, bars: usize) -> f64 {
     k as f64 / bars as f64
 }
 
-/// Edges of equally wide bars; values on a lattice, as counts and times of control periods are, have bars of whole
-/// steps of it, each with as many places.
+/// Edges of equally wide bars. Values on a lattice, such as counts and times of control periods, get bars of whole
+/// steps, each with equally many places.
 pub fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let (low, high) = ends(values);
     if let Some(step) = lattice(values) {
         let steps = libm::round((high - low) / step) as usize;
         let most = if steps <= BARS[1] { BARS[1] } else { bars(values.len()) };
         let each = (steps + 1).div_ceil(most);
-        // the places up to a limit end with a bar
+        // a bar ends at the last place up to the limit
         let limit = limits.iter().copied().find(|limit| low < *limit && *limit < high);
         let before = limit.map_or(0, |limit| libm::floor((limit - low) / step + 1e-6) as usize + 1);
         let outside = (each - before % each) % each;
@@ -83,14 +81,14 @@ pub fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     moved((0..=bars).map(edge).collect(), limits, |edge, by| edge + by, |to, from| to - from)
 }
 
-/// The step of the lattice on which all of `values` are: one for whole numbers, else the smallest distance of two of
-/// them, where many share a place; `None` where they are on none.
+/// The step of the lattice of all `values`: one for whole numbers, else the smallest distance, if many values share
+/// places; `None` if there is no lattice.
 fn lattice(values: &[f64]) -> Option<f64> {
-    /// Values to a place, at least, of values that are not whole.
+    /// Minimum values per place, unless whole.
     const SHARED: usize = 4;
-    /// How far from its place a value may be, in steps: rounding of times that are multiples of a period.
+    /// Tolerance in steps: rounding of multiples of a period.
     const OFF: f64 = 1e-6;
-    /// Steps between the smallest and the largest value, at most.
+    /// Maximum range in steps.
     const LONGEST: f64 = 1e5;
     if values.iter().all(|value| *value == libm::floor(*value) && value.abs() < 1e15) {
         return Some(1.0);
@@ -109,7 +107,7 @@ fn lattice(values: &[f64]) -> Option<f64> {
     (is_shared && values.iter().all(is_on)).then_some(step)
 }
 
-/// How many `values` are between neighbouring `edges`; those at the ends count too.
+/// Number of `values` between neighbouring `edges`, including both ends.
 pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
     let bars = edges.len().saturating_sub(1);
     let mut counts = vec![0.0; bars];
@@ -126,9 +124,8 @@ pub fn counts(values: &[f64], edges: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Law: bars of counts and of times of control periods have equally many places of the lattice, so that equally
-    /// many values at each place are equally high bars, but for those at the ends; a bar ends with the last place up to
-    /// a limit.
+    /// Law: on a lattice all bars have equally many places, so that uniform values give bars of equal height, except at
+    /// the ends; a bar ends at the last place up to a limit.
     #[test]
     fn bars_follow_the_lattice() {
         for (step, offset) in [(1.0, 3.0), (0.1, 0.05), (0.25, -7.0)] {
@@ -147,13 +144,13 @@ mod tests {
                 assert_eq!(heights.iter().sum::<f64>(), f64::from(5 * places));
             }
         }
-        // values of their own are on no lattice
+        // irregular values have no lattice
         let values: Vec<f64> = (0..400).map(|k| libm::sqrt(f64::from(k))).collect();
         assert_eq!(lattice(&values), None);
     }
 
-    /// Law: bars are as many as the square root of the number of values, from ten to forty; a limit between the values
-    /// is an edge of them, on every kind of axis, and every value is still in one bar.
+    /// Law: the number of bars is the square root of the number of values, from ten to forty; a limit among the values
+    /// is an edge on every scale, and every value is in one bar.
     #[test]
     fn bars_are_few_for_few_values_and_end_at_a_limit() {
         for (count, bars) in [(2, 10), (100, 10), (225, 15), (1000, 32), (1600, 40), (100_000, 40)] {

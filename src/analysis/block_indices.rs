@@ -4,16 +4,16 @@ use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::campaign::Plan;
 use crate::statistics::sensitivity::{Block, saltelli_indices};
 
-/// Least number of `saltelli` blocks whose 95% intervals cover in 0.93
+/// Fewest `saltelli` blocks with 95% intervals that cover at least 93%
 /// (`indices_from_blocks_of_any_two_dimensions_are_covered`).
 const ENOUGH_BLOCKS: usize = 64;
 
-/// The names of the distributions of a plan, in the order of the factors of a `saltelli` design.
+/// Names of the distributions of a plan, in the order of the factors of a `saltelli` design.
 fn factor_names(plan: &Plan) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for (factor, dimension) in plan.dispersions.factors().into_iter().zip(plan.dispersions.dimensions()) {
         if factor == names.len() {
-            // a number counts the dimensions of a distribution; "row" belongs to a bootstrap of several parameters
+            // a trailing number counts the dimensions of a distribution; "row" is a bootstrap of several parameters
             let numbered = dimension.rsplit_once('/').filter(|(_, last)| last.parse::<usize>().is_ok());
             names.push(numbered.map_or(dimension.as_str(), |(name, _)| name).to_owned());
         }
@@ -32,7 +32,7 @@ pub(super) fn of_blocks(
     let confidence = plan.analysis.confidence;
     let mut found = Vec::new();
     for (observable, y) in names.iter().zip(observables) {
-        // a block with a missing run or value is left out
+        // skip incomplete blocks
         let mut blocks: Vec<&[f64]> = Vec::new();
         let mut row = 0;
         while row + members <= y.len() {
@@ -75,8 +75,8 @@ mod tests {
     use super::*;
     use crate::analysis::small_plan::small_plan;
 
-    /// Law: only whole blocks count, with one index for each distribution. Known: y = x_1 + x_2 at A, A with x_1 of B,
-    /// A with x_2 of B, and B.
+    /// Law: only whole blocks count, with one index per distribution. Known: y = x_1 + x_2 at A, A with x_1 of B, A
+    /// with x_2 of B, and B.
     #[test]
     fn indices_are_of_whole_blocks() {
         let plan = small_plan(13, "design = { kind = \"saltelli\" }");

@@ -1,7 +1,4 @@
-//! [`Collector`]: counts the values of observables, part by part.
-//!
-//! A part is counted on any thread, from its file or from the rows in memory. What it adds is merged in the order of
-//! the parts, and the contents of sketches are counts, which have no order: no bit depends on threads.
+//! [`Collector`]: counts the values of observables, part by part, on any thread. Parts are merged in order and sketches hold counts, so that results do not depend on threads.
 
 use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};
@@ -20,59 +17,57 @@ use crate::storage::rows_reader::RowsError;
 /// The values of one observable.
 #[derive(Clone, Debug, Default)]
 pub struct ColumnCounts {
-    /// Runs that are `ok` and have no value of it.
+    /// `ok` runs without a value.
     pub without_value: u64,
     pub moments: Moments,
-    /// Group by group ([`Population::group`]).
+    /// By group ([`Population::group`]).
     pub groups: Vec<GroupCounts>,
 }
 
-/// The values of a group of samples: themselves, or a sketch of them.
+/// The values of a group of samples, or their sketch.
 #[derive(Clone, Debug, Default)]
 pub struct GroupCounts {
     pub moments: Moments,
-    /// The values, where they are kept.
+    /// If kept.
     pub values: Vec<f64>,
-    /// Their sketch, where they are not.
+    /// If not kept.
     pub sketch: Sketch,
 }
 
-/// What the parts of a campaign have.
+/// The merged counts.
 #[derive(Clone, Debug)]
 pub struct Collected {
     pub columns: Vec<ColumnCounts>,
-    /// Group by group, the physical runs that are not `ok`: their values could be anything.
+    /// Physical runs that are not `ok`, by group; their values could be anything.
     pub lost: Vec<u64>,
 }
 
-/// What a part adds, apart from its sketches.
+/// Counts of a part, without sketches.
 #[derive(Clone, Debug)]
 pub struct PartCounts {
     columns: Vec<PartColumn>,
     lost: Vec<u64>,
 }
 
-/// What a part adds to an observable: the runs without a value, and for each group its moments, and its values where
-/// they are kept.
+/// Runs of a part without a value; moments and kept values by group.
 #[derive(Clone, Debug)]
 struct PartColumn {
     without_value: u64,
     groups: Vec<(Moments, Vec<f64>)>,
 }
 
-/// Rows from whose values the references of sketches are taken: the first of a campaign, without the nominal one.
+/// Dispersed rows at the start of a campaign that determine the references of sketches.
 pub const REFERENCE_ROWS: usize = 16;
 
-/// The range of these values, over their median, below which they are sketched about it. Others are told apart by
-/// themselves, to a hundredth of their standard deviation, with a third of the memory.
+/// Values whose range over their median is below this are sketched about the median. Otherwise sketching about zero
+/// resolves a hundredth of the standard deviation with a third of the memory.
 pub(super) const CLOSE: f64 = 0.25;
 
-/// What the values of `observed` are sketched about: for each the median of its values in the first rows of a campaign,
-/// which are in `parts`; zero where these have none, or differ by more than a quarter of it. The value of the nominal
-/// run was rejected: it may be far from those of the others.
+/// The value about which each of `observed` is sketched: the median over the first rows, in `parts`, or zero if there
+/// are none or they differ by a quarter of it. The nominal value would be a poor reference, since it may be far from
+/// the others.
 ///
-/// # Errors
-/// Where a column cannot be read.
+/// # Errors If a column cannot be read.
 pub fn references<P: PartColumns>(
     observed: &[Observed],
     population: Population,
@@ -101,21 +96,21 @@ pub fn references<P: PartColumns>(
     Ok(first.into_iter().map(reference).collect())
 }
 
-/// Most rows whose quantiles are exact.
+/// Maximum number of rows for exact quantiles.
 pub const MOST_EXACT: u64 = 100_000;
 
-/// Whether the quantiles of `plan` are those of the values themselves.
+/// Whether the quantiles of `plan` come from the values themselves.
 pub fn is_exact(plan: &Plan) -> bool {
     plan.dispersed_rows() <= MOST_EXACT
 }
 
-/// Values that are held at a time: 64 MB.
+/// Values in memory: 64 MB.
 const VALUES_AT_A_TIME: u64 = 8 << 20;
-/// Sketches that are held at a time: mostly below 0.1 MB each.
+/// Sketches in memory, mostly below 0.1 MB each.
 const SKETCHES_AT_A_TIME: u64 = 512;
 
-/// All observables of `plan`, those together that are counted in one pass over the rows: memory does not depend on
-/// their number.
+/// The observables of `plan` in batches for one pass over the rows each, so that memory does not depend on their
+/// number.
 pub fn batches(plan: &Plan) -> Vec<Vec<Observed>> {
     let at_a_time = if is_exact(plan) {
         VALUES_AT_A_TIME / plan.rows().max(1)
@@ -130,13 +125,12 @@ pub struct Collector {
     observed: Vec<Observed>,
     population: Population,
     is_exact: bool,
-    /// For each observable, the sketch of each group. Counts do not depend on the order in which parts are added.
+    /// By observable and group; the order of additions does not matter.
     sketches: Vec<Mutex<Vec<Sketch>>>,
 }
 
 impl Collector {
-    /// Counts `observed` of a `population`; values are sketched about `references` ([`references`]), or kept where
-    /// there are none.
+    /// For `observed` of a `population`; values are sketched about `references` ([`references`]), or kept without them.
     pub fn new(observed: Vec<Observed>, population: Population, references: Option<Vec<f64>>) -> Self {
         let is_exact = references.is_none();
         let references = references.unwrap_or_else(|| vec![0.0; observed.len()]);
@@ -144,8 +138,7 @@ impl Collector {
         Collector { observed, population, is_exact, sketches: references.into_iter().map(sketches).collect() }
     }
 
-    /// The moments of `values` of group `index`, and the values where they are kept; else they are added to the sketch
-    /// of the group.
+    /// The moments of `values` of group `index`, and the values if kept; else adds them to the group's sketch.
     fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> (Moments, Vec<f64>) {
         let moments = Moments::of_block(&values);
         if self.is_exact {
@@ -155,7 +148,7 @@ impl Collector {
         (moments, Vec::new())
     }
 
-    /// What was merged, with the sketches.
+    /// Attaches the sketches.
     pub fn finish(self, mut collected: Collected) -> Collected {
         for (column, sketches) in collected.columns.iter_mut().zip(self.sketches) {
             let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);

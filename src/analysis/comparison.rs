@@ -1,16 +1,15 @@
-//! [`Comparison`]: the observables of two results: shifts of statistics, and tests whether chance explains them.
+//! [`Comparison`]: shifts of the observables of two results, and tests whether chance explains them.
 //!
-//! If both results drew the same samples, about any nominal values, runs are compared in pairs (common random numbers),
-//! which shows differences that are small beside the spread. Statistics are of all rows, tests of distributions and of
-//! pairs of the first [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
+//! If both drew the same samples, about any nominal values, runs are compared in pairs (common random numbers), which
+//! resolves differences much smaller than the spread. Statistics use all rows, tests the first
+//! [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) samples.
 //!
-//! The p-value of independent samples is twice the smaller one of a test of means and one of distributions
-//! (Bonferroni). Pairs have a test of both marginal distributions ([`marginals`]): a mean of differences is normal only
-//! without rare large ones, which a wrapped quantity has. Tests of the differences of pairs ([`signed_ranks`],
-//! [`spread_of_pairs`]) show whether runs moved one way, or apart; [`fisher`], for pairs [`mcnemar`], tests the share
-//! of runs without a value. P-values are adjusted for the number of observables (Holm): if nothing differs, any
-//! observable is called shifted, moved, or changed in its share without a value with probability [`Comparison::level`]
-//! each.
+//! Independent samples: twice the smaller p-value of tests of means and distributions (Bonferroni). Pairs: a test of
+//! the marginal distributions ([`marginals`]), since a mean of differences is normal only without rare large ones, as
+//! wrapped quantities have; tests of the differences ([`signed_ranks`], [`spread_of_pairs`]) show whether runs moved
+//! one way, or apart. [`fisher`], or [`mcnemar`] for pairs, tests the share of runs without a value. P-values are
+//! adjusted for the number of observables (Holm): if nothing differs, any observable is called shifted, moved, or
+//! changed in its share without a value with probability [`Comparison::level`] each.
 
 use std::num::NonZeroUsize;
 
@@ -35,9 +34,9 @@ const AT_A_TIME: usize = 16;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shift {
-    /// Name: `mean`, `standard deviation`, `p95`.
+    /// `mean`, `standard deviation`, `p95`.
     pub statistic: String,
-    /// Values in the first result and in the second.
+    /// In the first result and in the second.
     pub first: f64,
     pub second: f64,
     /// Magnitude of the difference in units of [`ColumnComparison::scale`].
@@ -47,15 +46,15 @@ pub struct Shift {
 /// Runs without a value, or not computed, in both results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Absence {
-    /// Runs without, of all runs, in the first result and in the second.
+    /// Runs without, of all runs, in both results.
     pub of: [Occurrence; 2],
-    /// Probability of so large a difference by chance.
+    /// Probability of at least this difference by chance.
     pub p_value: f64,
     pub adjusted_p_value: f64,
 }
 
 impl Absence {
-    /// `lacks` tells whether a row of a result is without; `None` for a row that does not count.
+    /// `lacks` tells whether a row is without; `None` for a row that does not count.
     pub(super) fn of(
         lacks: [&dyn Fn(usize) -> Option<bool>; 2],
         rows: [std::ops::Range<usize>; 2],
@@ -77,7 +76,7 @@ impl Absence {
         Absence { of, p_value, adjusted_p_value: 1.0 }
     }
 
-    /// The shares of runs without, in both results.
+    /// Shares of runs without, in both results.
     pub fn shares(&self) -> [f64; 2] {
         self.of.map(|of| of.events as f64 / of.runs.max(1) as f64)
     }
@@ -88,25 +87,25 @@ impl Absence {
 pub struct ColumnComparison {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// The unit of shifts: the standard deviation in the first result; if that is 0, the magnitude of its mean, or 1.
+    /// Unit of shifts: the standard deviation in the first result, else the magnitude of its mean, else 1.
     pub scale: f64,
-    /// The shifts of the statistics that both results have.
+    /// Of the statistics that both results have.
     pub shifts: Vec<Shift>,
-    /// The shift of the mean with its interval, of pairs or by Welch's test.
+    /// Shift of the mean with its interval, of pairs or by Welch's test.
     pub mean: Option<Difference>,
-    /// P-value of the distributions, by [`marginals`] or the test of Kolmogorov and Smirnov.
+    /// By [`marginals`] or the test of Kolmogorov and Smirnov.
     pub distribution_p_value: Option<f64>,
-    /// P-value of the pairs' differences being symmetric; `None` without pairs, or if none differs.
+    /// P-value of symmetric differences; `None` without pairs, or if none differs.
     pub moved_p_value: Option<f64>,
     pub spread_p_value: Option<f64>,
-    /// Twice the smaller one of these two, adjusted for the number of observables.
+    /// Twice the smaller of these two, adjusted for the number of observables.
     pub adjusted_moved_p_value: Option<f64>,
     /// Dispersed `ok` runs without a value.
     pub absence: Absence,
     pub differing_pairs: u64,
-    /// Whether a requirement of either plan names the observable.
+    /// Whether a requirement of either plan is on the observable.
     pub is_required: bool,
-    /// P-value that decides whether the observable is shifted.
+    /// Decides whether the observable is shifted.
     pub p_value: Option<f64>,
     pub adjusted_p_value: Option<f64>,
 }
@@ -116,25 +115,24 @@ impl ColumnComparison {
         self.shifts.iter().max_by(|a, b| a.relative.total_cmp(&b.relative))
     }
 
-    /// The magnitude of the largest shift, or 0.
     pub fn largest_relative(&self) -> f64 {
         self.largest().map_or(0.0, |shift| shift.relative)
     }
 
-    /// Whether a statistic, or the share of runs without a value, is shifted by more than `tolerance`; NaN in one
-    /// result only is.
+    /// Whether a statistic, or the share of runs without a value, shifts by more than `tolerance`, or is NaN in only
+    /// one result.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         let [first, second] = self.absence.shares();
         (second - first).abs() > tolerance || !self.shifts.iter().all(|shift| shift.relative <= tolerance)
     }
 
-    /// The p-value of the differences of pairs: of their signs and of their spread.
+    /// The p-value of the differences of pairs, from their signs and spread.
     pub fn p_of_pairs(&self) -> Option<f64> {
         let (signs, spread) = self.moved_p_value.zip(self.spread_p_value)?;
         Some((2.0 * signs.min(spread)).min(1.0))
     }
 
-    /// Whether the spread of the pairs changed rather than their place.
+    /// Whether the spread of the pairs changed more clearly than their location.
     pub fn moves_apart(&self) -> bool {
         self.moved_p_value.zip(self.spread_p_value).is_some_and(|(signs, spread)| spread < signs)
     }
@@ -143,13 +141,13 @@ impl ColumnComparison {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     pub statistics: [Statistics; 2],
-    /// `ok` pairs of samples drawn alike; 0 if the results are not paired.
+    /// `ok` pairs of samples drawn alike; 0 for unpaired results.
     pub pairs: u64,
     /// Dispersed, physical runs that are not `ok`.
     pub failures: Absence,
-    /// The observables of both results, required ones first, then by significance.
+    /// Observables of both results, required ones first, then by significance.
     pub columns: Vec<ColumnComparison>,
-    /// The observables that only the first, or only the second, result has.
+    /// Observables of only one result.
     pub alone: [Vec<String>; 2],
 }
 
@@ -159,41 +157,39 @@ impl Comparison {
         second - first
     }
 
-    /// Whether a statistic, or the fraction of `ok` runs, is shifted by more than `tolerance`; NaN in one result only
-    /// is.
+    /// Whether a statistic, or the fraction of `ok` runs, shifts by more than `tolerance`, or is NaN in only one
+    /// result.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         self.shift_of_ok().abs() > tolerance || self.columns.iter().any(|column| column.is_beyond(tolerance))
     }
 
-    /// The probability of a false alarm: one less the confidence of the intervals, at most a tenth.
+    /// Probability of a false alarm: one minus the confidence of the intervals, at most a tenth.
     pub fn level(&self) -> f64 {
         (1.0 - self.statistics[0].confidence).min(MOST_LEVEL)
     }
 
-    /// Whether chance does not explain the shift of an observable.
+    /// Whether the shift of an observable exceeds chance.
     pub fn is_shifted(&self, column: &ColumnComparison) -> bool {
         column.largest_relative() > 0.0 && column.adjusted_p_value.is_some_and(|p| p <= self.level())
     }
 
-    /// Whether the runs of an observable moved, each a little and mostly one way, or apart, beyond chance, though the
-    /// test of distributions does not show it.
+    /// Whether the runs of an observable moved or spread beyond chance, although the test of distributions does not
+    /// show it.
     pub fn is_moved(&self, column: &ColumnComparison) -> bool {
         !self.is_shifted(column) && column.adjusted_moved_p_value.is_some_and(|p| p <= self.level())
     }
 
-    /// Whether chance does not explain the difference of two shares.
+    /// Whether two shares differ beyond chance.
     pub fn is_changed(&self, absence: &Absence) -> bool {
         absence.adjusted_p_value <= self.level()
     }
 }
 
-/// Largest probability of a false alarm.
 const MOST_LEVEL: f64 = 0.1;
 
 /// Compares `first` with `second`.
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn compare(
     first: ResultRows<'_>,
     second: ResultRows<'_>,
@@ -253,7 +249,7 @@ pub fn compare(
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })
 }
 
-/// The values of observables in the first samples; NaN for a run without a value or not `ok`.
+/// Values in the first samples; NaN for a run without a value or not `ok`.
 fn values<'o>(
     result: ResultRows<'_>,
     observed: impl Iterator<Item = &'o Observed> + Clone,
@@ -360,8 +356,8 @@ pub(super) fn tested(
     }
 }
 
-/// The p-value of two tests of one hypothesis. A test of means without spread has none to judge a shift by; the other
-/// one then decides.
+/// The p-value of two tests of one hypothesis. A test of means without spread cannot judge a shift; the other one then
+/// decides.
 pub(super) fn of_both(mean: Option<Difference>, distribution: Option<f64>) -> Option<f64> {
     let mean = mean.filter(|found| found.shift.value == 0.0 || found.shift.lower < found.shift.upper);
     match (mean.map(|found| found.p_value), distribution) {
@@ -370,8 +366,8 @@ pub(super) fn of_both(mean: Option<Difference>, distribution: Option<f64>) -> Op
     }
 }
 
-/// Adjusts the p-values of `columns`, question by question, and sorts them: required ones first, then by significance,
-/// then by the largest shift.
+/// Adjusts the p-values of `columns` by question and sorts: required ones, then by significance, then by the largest
+/// shift.
 pub(super) fn adjust(columns: &mut [ColumnComparison], failures: &mut Absence) {
     let absences = || columns.iter().map(|column| column.absence.p_value).chain([failures.p_value]);
     let absences = holm(&absences().collect::<Vec<f64>>());
@@ -385,7 +381,7 @@ pub(super) fn adjust(columns: &mut [ColumnComparison], failures: &mut Absence) {
         column.adjusted_p_value = column.p_value.and_then(|_| adjusted.next());
         column.adjusted_moved_p_value = column.p_of_pairs().and_then(|_| moved.next());
     }
-    // a p-value that underflows is no better than another: the shift decides
+    // underflowed p-values tie: the shift decides
     columns.sort_by(|a, b| {
         let p = |column: &ColumnComparison| column.p_value.unwrap_or(1.0);
         let by_p = p(a).total_cmp(&p(b)).then_with(|| b.largest_relative().total_cmp(&a.largest_relative()));

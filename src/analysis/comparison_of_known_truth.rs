@@ -9,10 +9,9 @@ use crate::sampling::{SampleId, Stream};
 use crate::statistics::moments::Moments;
 use crate::statistics::two_sample::paired;
 
-/// The observables in [`comparison`].
 const NAMES: [&str; 3] = ["a", "b", "c"];
 
-/// The comparison of two campaigns of runs with these observables, NaN for none; `are_pairs`: of the same samples.
+/// Compares two campaigns with these observables, NaN for none; `are_pairs`: of the same samples.
 pub fn comparison(rows: [&[[f64; 3]]; 2], are_pairs: bool) -> Comparison {
     let statistics = |columns: Vec<ColumnStatistics>, runs: usize| Statistics {
         population: Population::Independent,
@@ -56,8 +55,8 @@ pub fn comparison(rows: [&[[f64; 3]]; 2], are_pairs: bool) -> Comparison {
     Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone: [Vec::new(), Vec::new()] }
 }
 
-/// Runs with three observables: normal, skewed, and one that a run lacks with the probability `lacking`; `scene` draws
-/// the samples, and `noise` is the part that runs of one sample do not share.
+/// Runs with three observables: normal, skewed, and one that is missing with probability `lacking`. `scene` seeds the
+/// samples, `noise` is the part that runs of one sample do not share.
 pub fn rows(runs: u64, [scene, other]: [u64; 2], noise: f64, lacking: f64) -> Vec<[f64; 3]> {
     let (mut of_scene, mut own) = (Stream::new(scene, "scene"), Stream::new(other, "own"));
     (0..runs)
@@ -74,8 +73,8 @@ pub fn rows(runs: u64, [scene, other]: [u64; 2], noise: f64, lacking: f64) -> Ve
 }
 
 /// H0: nothing differs but noise or the seed. Any of three observables is called shifted, moved, or changed in its
-/// share without a value in at most 0.05 of the campaigns each: of 300, seeds 1 to 300, at most 26 (alpha = 2e-3 for
-/// each of 12).
+/// share without a value in at most 0.05 of campaigns each: of seeds 1 to 300, at most 26 (alpha = 2e-3 for each of
+/// 12).
 #[test]
 fn what_does_not_differ_is_seldom_said_to() {
     for (noise, are_pairs) in [(0.1, true), (1.0, true), (0.0, false)] {
@@ -99,8 +98,8 @@ fn what_does_not_differ_is_seldom_said_to() {
     assert!(found.columns.iter().all(|column| column.differing_pairs == 0 && !found.is_moved(column)));
 }
 
-/// Power, of 200 pairs with one seed, 60 campaigns: a move of every run by 0.05 of the spread, a spread 1.1 times as
-/// large, and runs without a value in 0.7 instead of 0.1 are found in all; with other seeds the first two in few.
+/// Power, of 200 pairs with one seed in 60 campaigns: a shift of every run by 0.05 of the spread, a spread 1.1 times as
+/// large, and missing values in 0.7 instead of 0.1 are always found; with other seeds the first two rarely.
 #[test]
 fn what_differs_is_found_by_pairs() {
     let changed =

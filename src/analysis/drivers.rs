@@ -1,25 +1,25 @@
-//! Drivers of an outcome: the ranking of its inputs, for its spread and for its events. Screen, cards and charts follow
-//! from [`rankings`] alone.
+//! The ranking of the inputs of an outcome, for its spread and for its events; screen, cards and charts all use
+//! [`rankings`].
 
 use crate::analysis::effects::{Dependence, OnEvent};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 
-/// Least share of the variance, or squared rank correlation, of a driver of the spread: without it the standard
-/// deviation is 5% smaller.
+/// Minimum share of the variance, or squared rank correlation, of a driver: removing it reduces the standard deviation
+/// by 5%.
 pub const LEAST_SHARE: f64 = 0.1;
 /// Widest interval of a share that is shown.
 const MOST_WIDTH: f64 = 0.7;
 
 impl InputSensitivity {
-    /// The share of the variance: the total index if the design gives one, else the first-order index.
+    /// The total index if the design gives one, else the first-order index.
     pub fn share(&self) -> Option<Estimate> {
         self.total.or(self.first_order)
     }
 
-    /// Whether the rows show, at the level `alpha`, that it acts on the spread notably. Without a population, and so
-    /// without tests and intervals, the shares decide.
+    /// Whether the rows show a notable effect on the spread at level `alpha`. Without a population, and so without
+    /// tests and intervals, the shares decide.
     pub fn drives_spread(&self, alpha: f64) -> bool {
         let rank = self.spearman.map_or(0.0, |r| r.value * r.value);
         let is_shown = match (self.p_value, self.share()) {
@@ -36,9 +36,9 @@ pub fn is_known(share: &Estimate) -> bool {
     share.upper - share.lower <= MOST_WIDTH
 }
 
-/// Least risk ratio, or its inverse, of a value that drives an event: many runs make small ratios certain.
+/// Minimum risk ratio, or its inverse, of a driver: with many runs small ratios become significant.
 const LEAST_RATIO: f64 = 1.5;
-/// Least distance from one half of the chance in [`Dependence::Shift`].
+/// Minimum distance from one half of the chance in [`Dependence::Shift`].
 pub const LEAST_CHANCE: f64 = 0.1;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,9 +50,9 @@ pub enum Question {
 #[derive(Clone, Copy, Debug)]
 pub struct Ranked<'a> {
     pub input: &'a InputSensitivity,
-    /// Its effect on the event; `None` for a spread.
+    /// `None` for a spread.
     pub effect: Option<&'a OnEvent>,
-    /// Its share of the variance, of the outcome or of the event; `None` if the rows are too few.
+    /// Share of the variance of the outcome or event; `None` for too few rows.
     pub share: Option<Estimate>,
     pub is_driver: bool,
 }
@@ -67,8 +67,8 @@ impl Ranked<'_> {
         self.share.is_some_and(|share| is_known(&share) || share.lower.is_nan())
     }
 
-    /// The criterion of the ranking: shares if all are known (`by_share`), else the share that a parabola explains. For
-    /// an event, shares if there are any, else tests.
+    /// Sort key: for a spread, shares if all are known (`by_share`), else the share that a parabola explains; for an
+    /// event, its share, else its p-value.
     fn strength(&self, by_share: bool) -> f64 {
         let share = self.share.map(|share| share.value);
         let found = match self.effect {
@@ -80,7 +80,7 @@ impl Ranked<'_> {
     }
 }
 
-/// The inputs of an outcome: its drivers, then the others, each in descending strength.
+/// The inputs of an outcome: drivers first, each group in descending strength.
 #[derive(Clone, Debug)]
 pub struct Ranking<'a> {
     pub question: Question,
@@ -93,9 +93,8 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// The rankings of an outcome: for each of its events, and for its spread unless the event is the spread of few values.
-/// The tail is ranked only if it has a driver that the spread has not. `alpha`: the probability of a driver of an
-/// outcome without influences.
+/// The rankings of an outcome for each of its events, and for its spread unless an event of few values is the spread.
+/// The tail is ranked only if it has a new driver. `alpha`: the probability of a driver if nothing has an influence.
 pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> Vec<Ranking<'a>> {
     let of = || all.iter().filter(|one| one.observable == outcome);
     let on_event = |input: &'a InputSensitivity, event: Event| {
@@ -131,7 +130,7 @@ pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> V
     for event in events {
         let inputs = sorted(of().filter_map(|input| on_event(input, event)).collect());
         let drives_spread = |name: &str| spread.iter().any(|ranked| ranked.is_driver && ranked.input.input == name);
-        // an input that the rows do not separate from a driver of the spread is not new
+        // inputs that the rows do not separate from drivers of the spread are not new
         let is_known =
             |ranked: &Ranked<'_>| drives_spread(&ranked.input.input) || ranked.instead().is_some_and(drives_spread);
         let is_new = |ranked: &Ranked<'_>| ranked.is_driver && !is_known(ranked);

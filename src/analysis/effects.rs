@@ -1,5 +1,5 @@
-//! Tests of the effect of inputs on the spread of an outcome and on an [`Event`] of it: by ranks and of tables, without
-//! assumptions on distributions; p-values are adjusted for all inputs (Holm).
+//! Tests of the effect of inputs on the spread and the [`Event`]s of an outcome: rank and table tests, free of
+//! distributional assumptions; p-values adjusted for all inputs (Holm).
 
 use crate::analysis::event::{Event, are_few, distinct};
 use crate::statistics::conditional::conditional_test;
@@ -8,25 +8,25 @@ use crate::statistics::correlation::{Estimate, ascending_order, mid_ranks, mid_r
 use crate::statistics::rank_tests::{kruskal_wallis, mann_whitney, spearman_test, turns};
 use crate::statistics::two_sample::holm;
 
-/// Most cells of an input with many values, and least rows in a cell.
+/// Maximum number of cells of an input with many values, minimum rows per cell.
 const CELLS: [usize; 2] = [9, 8];
-/// Share of equal values of an observable above which ranks tell little, and an exact test of being different is made.
+/// Share of ties of an observable above which an exact test of being different replaces ranks.
 const MANY_EQUAL: f64 = 0.1;
-/// Share of equal values of an input above which all other values are one group.
+/// Share of ties of an input above which all other values form one group.
 const MOSTLY_EQUAL: f64 = 0.5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     Rises,
     Falls,
-    /// Rising in a part of the input's range and falling in another.
+    /// Rises in part of the input's range and falls in another.
     NotMonotonic,
 }
 
 /// Runs of one value of an input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// The value; `None` for all values but the most frequent one.
+    /// `None` for all values but the most frequent one.
     pub value: Option<f64>,
     /// Runs in which the event occurs.
     pub of: Occurrence,
@@ -37,21 +37,21 @@ pub enum Dependence {
     /// On an input with few values, ascending.
     Levels {
         levels: Vec<Level>,
-        /// The index of the level that differs most.
+        /// Index of the level that differs most.
         most: usize,
-        /// Risk ratio of the event there against the other runs.
+        /// Risk ratio there against the other runs.
         ratio: Estimate,
     },
-    /// On an input with many values: the event comes with large or with small ones.
+    /// On an input with many values: the event comes with large or small ones.
     Shift {
-        /// The chance that a run with the event has the larger value than one without.
+        /// Chance that a run with the event has the larger value than one without.
         chance: f64,
         /// Medians of the input with the event and without.
         medians: [f64; 2],
     },
-    /// On an input with many values: the event comes with distance from the middle, or closeness to it.
+    /// On an input with many values: the event comes far from, or near to, the middle.
     Distance {
-        /// The chance that a run with the event is farther from the middle.
+        /// Chance that a run with the event is farther from the middle.
         chance: f64,
     },
 }
@@ -59,12 +59,12 @@ pub enum Dependence {
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnEvent {
     pub event: Event,
-    /// Share of the variance of its occurrence; `None` if the rows are too few.
+    /// Share of the variance of its occurrence; `None` for too few rows.
     pub share: Option<Estimate>,
     /// P-value of independence, adjusted for all inputs.
     pub p_value: f64,
     pub dependence: Dependence,
-    /// The correlated input that the rows do not separate from this one.
+    /// A correlated input that the rows do not separate from this one.
     pub instead: Option<String>,
 }
 
@@ -72,7 +72,7 @@ pub struct OnEvent {
 pub struct TestedInput {
     values: Vec<f64>,
     order: Vec<usize>,
-    /// The group of each row, and the value of each group, of an input with few values.
+    /// For few values: group of each row, value of each group.
     groups: Option<(Vec<usize>, Vec<Option<f64>>)>,
     ranks: Vec<f64>,
     /// Ranks of the distances from the middle rank.
@@ -80,7 +80,7 @@ pub struct TestedInput {
 }
 
 impl TestedInput {
-    /// From the values row by row, and their ascending order; `None` if constant.
+    /// From values and their ascending order; `None` if constant.
     pub fn new(values: &[f64], order: &[usize]) -> Option<Self> {
         let known = distinct(values, order);
         let frequent = known.iter().max_by_key(|(_, count)| *count).filter(|_| known.len() > 1)?;
@@ -106,7 +106,7 @@ impl TestedInput {
         self.groups.is_some()
     }
 
-    /// The runs of each group in which the event occurs.
+    /// Occurrences of the event in each group.
     fn levels(&self, marked: &[bool]) -> Option<Vec<Level>> {
         let (groups, labels) = self.groups.as_ref()?;
         let none = Occurrence { events: 0, runs: 0 };
@@ -118,7 +118,7 @@ impl TestedInput {
         Some(levels)
     }
 
-    /// The unadjusted p-value of the input's influence on the spread of an observable.
+    /// Unadjusted p-value of an influence on the spread.
     fn p_of_spread(&self, y: &TestedSpread) -> f64 {
         let rows = self.values.len();
         if let Some(levels) = y.is_other.as_ref().and_then(|is_other| self.levels(is_other)) {
@@ -135,7 +135,7 @@ impl TestedInput {
         any.map_or(monotonic, |any| (2.0 * monotonic.min(any)).min(1.0))
     }
 
-    /// The dependence of an event on the input, with its unadjusted p-value.
+    /// Dependence of an event on the input, with its unadjusted p-value.
     fn on_event(&self, marked: &[bool], confidence: f64) -> Option<(Dependence, f64)> {
         if let Some(levels) = self.levels(marked) {
             let (most, p_value) = of_levels(&levels);
@@ -158,13 +158,13 @@ impl TestedInput {
         Some((dependence, p_value))
     }
 
-    /// The p-value of an influence on an observable with these ranks, given the correlated inputs `others`.
+    /// P-value of an influence on an observable with these ranks, given the correlated inputs `others`.
     fn p_beside(&self, others: &[&TestedInput], y_ranks: &[f64]) -> f64 {
         let given: Vec<_> = others.iter().map(|one| (one.order.as_slice(), one.ranks.as_slice())).collect();
         conditional_test(y_ranks, &[&self.ranks, &self.distances], &given)
     }
 
-    /// The trend of the observable `y` with the input; `None` if not significant at the level `alpha`.
+    /// The trend of `y` with the input; `None` if not significant at level `alpha`.
     pub fn direction(&self, y: &[f64], alpha: f64) -> Option<Direction> {
         if turns(&self.order, &self.values, y, alpha) {
             return Some(Direction::NotMonotonic);
@@ -176,9 +176,9 @@ impl TestedInput {
 
 struct TestedSpread {
     ranks: Vec<f64>,
-    /// Rows that differ from the most frequent value, if that is so frequent that ranks tell little.
+    /// Rows that differ from the most frequent value, if ties are too many for ranks.
     is_other: Option<Vec<bool>>,
-    /// The number of rows that differ from the most frequent value.
+    /// Number of rows that differ from the most frequent value.
     others: usize,
 }
 
@@ -206,8 +206,8 @@ fn rest(levels: &[Level], but: usize) -> Occurrence {
     })
 }
 
-/// The level that differs most from the others together, and the p-value of such a difference of any level: Fisher's
-/// exact test of each against the rest, with Bonferroni's correction beyond two.
+/// The level that differs most from the rest, with the p-value over all levels: Fisher's exact test of each against the
+/// rest, with Bonferroni's correction beyond two.
 fn of_levels(levels: &[Level]) -> (usize, f64) {
     let share = |place: usize| levels[place].of.events as f64 / levels[place].of.runs.max(1) as f64;
     if levels.len() == 2 {
@@ -225,7 +225,7 @@ fn of_all(p_values: &[Option<f64>], questions: usize) -> Vec<Option<f64>> {
     p_values.iter().map(|p| p.and_then(|_| adjusted.next())).collect()
 }
 
-/// The p-value of each input's influence on the spread of the observable `y`, one of `questions` about the same runs.
+/// P-values of each input's influence on the spread of `y`, one of `questions` about the same runs.
 pub fn on_spread(inputs: &[Option<TestedInput>], y: &[f64], questions: usize) -> Vec<Option<f64>> {
     let Some(y) = TestedSpread::new(y) else { return vec![None; inputs.len()] };
     let p_values: Vec<Option<f64>> =
@@ -233,7 +233,7 @@ pub fn on_spread(inputs: &[Option<TestedInput>], y: &[f64], questions: usize) ->
     of_all(&p_values, questions)
 }
 
-/// The effect of each input on an event that occurs in the `marked` rows; `share` gives the shares of the variance.
+/// The effect of each input on an event that occurs in the `marked` rows; `share` gives shares of the variance.
 pub fn on_event(
     inputs: &[Option<TestedInput>],
     (event, marked): (Event, &[bool]),
@@ -251,9 +251,9 @@ pub fn on_event(
     effects.collect()
 }
 
-/// Raises the p-values of correlated inputs (`related`) that add nothing to the significant ones, at the level `alpha`,
-/// so that inputs with an effect of their own remain; gives for each of these the input that the rows do not separate
-/// from it. `tests`: the number of p-values.
+/// Raises the p-values of correlated inputs (`related`) that add nothing to the significant ones at level `alpha`, so
+/// that those with an effect of their own remain; returns for each the input that the rows do not separate from it.
+/// `tests`: number of p-values.
 pub fn beside_others(
     inputs: &[Option<TestedInput>],
     y: &[f64],

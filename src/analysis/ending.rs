@@ -1,4 +1,4 @@
-//! [`ending`]: the end of a campaign, its exit code and verdicts, from a few columns of its rows.
+//! [`ending`]: the exit code and verdicts of a campaign from a few columns of its rows.
 
 use std::num::NonZeroUsize;
 
@@ -16,7 +16,7 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 pub struct Ending {
     pub rows: u64,
     pub failed: u64,
-    /// Uncovered audits of the estimates that break their promise.
+    /// Uncovered audits of estimates with a broken promise.
     pub not_covered: u64,
     /// Without the values of quantiles.
     pub verdicts: Verdicts,
@@ -31,10 +31,9 @@ impl Ending {
     }
 }
 
-/// The ending of the campaign `ensemble` with these rows and bands.
+/// The ending of the campaign `ensemble` from its rows and bands.
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn ending(
     ensemble: &Ensemble<'_>,
     reader: &RowsReader,

@@ -1,24 +1,23 @@
-//! [`envelope`]: what is drawn of a curve that turns too often to be drawn itself.
+//! [`envelope`]: replaces curves that oscillate too fast to draw.
 
-/// How often a curve may turn back until it is drawn as its envelope: some ten pixels for each swing.
+/// Maximum number of turns of a drawn curve: some ten pixels per swing.
 const MOST_TURNS: usize = 110;
 const ENVELOPE: usize = 60;
 
-/// How often a series turns back.
+/// Number of turning points.
 pub fn turns(values: &[f64]) -> usize {
     let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step != 0.0);
     let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// The same of swings that are seen: larger than this fraction of the range of the values. A step with noise on it is
-/// drawn as itself.
+/// Turns count from this fraction of the range on: a step with noise is drawn as it is.
 const SEEN: f64 = 0.01;
 
-/// A range smaller than this fraction of the values is no swing.
+/// Relative ranges below this are rounding errors.
 const ROUND_OFF: f64 = 1e-9;
 
-/// The range of values; zero where it is round-off beside them, as that of a constant of the motion is.
+/// The range of values; zero if it is rounding error, as for a constant of the motion.
 pub fn swing(values: &[f64]) -> f64 {
     let [low, high] =
         values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
@@ -31,7 +30,7 @@ fn seen_turns(values: &[f64]) -> usize {
         return 0;
     }
     let least = SEEN * swing;
-    // the last value from which on it rises (1) or falls (-1), and how far it went
+    // the extreme since the last turn, and the direction there
     let (mut extreme, mut direction, mut count) = (values.first().copied().unwrap_or(0.0), 0.0, 0);
     for value in values {
         let step = value - extreme;
@@ -45,8 +44,7 @@ fn seen_turns(values: &[f64]) -> usize {
     count
 }
 
-/// Times, smallest and largest values of a series that is too fast to be drawn, over short intervals; `None` of one
-/// that is not.
+/// Times, minima and maxima over short intervals of a series that is too fast to draw; else `None`.
 pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     let count = values.len().min(times.len());
     let turns = seen_turns(&values[..count]);
@@ -56,7 +54,7 @@ pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     let width = count.div_ceil(ENVELOPE).max(4);
     let mut found = [Vec::new(), Vec::new(), Vec::new()];
     for start in (0..count.saturating_sub(1)).step_by(width) {
-        // neighbours share a point, so that the area has no gap
+        // intervals share a point: no gaps
         let part = start..(start + width + 1).min(count);
         let ends = values[part.clone()]
             .iter()
@@ -70,8 +68,7 @@ pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     Some(found)
 }
 
-/// Times, smallest and largest of the values of all `curves`, which have the same `times`, in each interval between
-/// neighbouring `ends`; intervals without a value are left out.
+/// Times, minima and maxima of all `curves` (at common `times`) between neighbouring `ends`; omits empty intervals.
 pub fn within(times: &[f64], curves: &[&[f64]], ends: &[f64]) -> [Vec<f64>; 3] {
     let mut found = [Vec::new(), Vec::new(), Vec::new()];
     for pair in ends.windows(2) {
@@ -94,7 +91,7 @@ pub fn within(times: &[f64], curves: &[&[f64]], ends: &[f64]) -> [Vec<f64>; 3] {
 mod tests {
     use super::*;
 
-    /// Law: a curve that turns too often is drawn as its envelope, which is its amplitude.
+    /// Law: a curve with too many turns is drawn as its envelope, which is its amplitude.
     #[test]
     fn fast_curves_have_envelopes() {
         let times: Vec<f64> = (0..=600).map(|k| 0.01 * f64::from(k)).collect();
@@ -102,7 +99,7 @@ mod tests {
             times.iter().map(|t| (1.0 + t) * libm::sin(core::f64::consts::TAU * hertz * t)).collect::<Vec<_>>()
         };
         assert_eq!((turns(&wave(1.0)), envelope(&times, &wave(1.0))), (12, None));
-        // eighty swings: the envelope is the amplitude, which grows from 1 to 7, within an interval
+        // eighty swings with an amplitude from 1 to 7
         let [x, low, high] = envelope(&times, &wave(80.0 / 6.0)).expect("too fast");
         assert!(x.is_sorted() && x[0] == 0.0 && *x.last().unwrap() == 6.0);
         for k in 0..x.len() {
@@ -114,16 +111,16 @@ mod tests {
                 high[k]
             );
         }
-        // one that turns at every point
+        // a turn at every point
         let aliased: Vec<f64> = (0..101).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
         assert!(envelope(&times[..101], &aliased).is_some());
-        // a step with noise of a thousandth of it is a curve, and with a tenth of it an area
+        // a step with noise of a thousandth is a curve, of a tenth an area
         let step = |noise: f64| {
             aliased.iter().enumerate().map(|(k, sign)| f64::from(k > 50) + noise * sign).collect::<Vec<_>>()
         };
         assert!(envelope(&times[..101], &step(1e-3)).is_none() && envelope(&times[..101], &step(0.1)).is_some());
         assert_eq!(seen_turns(&wave(1.0)), 12);
-        // a constant with the noise of rounding is a line
+        // rounding noise of a constant is a line
         let constant: Vec<f64> = aliased.iter().map(|sign| 1.75e9 + 1e-3 * sign).collect();
         assert!(envelope(&times[..101], &constant).is_none() && swing(&constant) == 0.0 && swing(&aliased) == 2.0);
     }

@@ -1,30 +1,29 @@
-//! [`Event`]: a property of some runs that is explained besides the spread of an outcome: a missed requirement, one of
-//! few values, the tail.
+//! [`Event`]: a property of some runs to be explained: a missed requirement, a rare value, the tail.
 
 use crate::analysis::outcomes::is_worst_when_low;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::correlation::ascending_order;
 
-/// Most values of an observable or input that are treated as groups.
+/// Maximum number of values treated as groups.
 pub const FEW: usize = 5;
 const ROWS_OF_EACH: usize = 4;
-/// Fewer events show no influence of an input with many values ([`crate::statistics::rank_tests`]): the tail is
+/// Fewer events cannot show an influence of an input with many values ([`crate::statistics::rank_tests`]): the tail is
 /// explained instead.
 const FEWEST: usize = 4;
-/// Least rows with a tail, and least rows in it.
+/// Minimum rows with a tail, and in it.
 const ROWS_OF_TAIL: [usize; 2] = [100, 5];
-/// The tail without a requirement: the worst twentieth.
+/// The worst twentieth, unless a requirement sets the share.
 const TAIL: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Occurs {
-    /// A requirement is missed, by the runs of its verdict: its index in the plan, and whether all others on the
-    /// outcome are missed by the same runs.
+    /// Runs that miss a requirement, by its index in the plan; `is_only`: all others on the outcome are missed by the
+    /// same runs.
     Missed { requirement: usize, is_only: bool },
-    /// An outcome of few values differs from the most frequent one, given here.
+    /// An outcome of few values differs from the most frequent one.
     OtherThan(f64),
-    /// An outcome of two values has the less frequent one, given here.
+    /// An outcome of two values has the less frequent one.
     Value(f64),
     /// The outcome is in this share of the worst.
     Worst(f64),
@@ -49,7 +48,7 @@ pub struct Event {
     pub has_few_values: bool,
 }
 
-/// Values in ascending order with the number of rows of each, without NaN.
+/// Ascending values with their counts, without NaN.
 pub fn distinct(values: &[f64], order: &[usize]) -> Vec<(f64, usize)> {
     let mut found: Vec<(f64, usize)> = Vec::new();
     for value in order.iter().map(|row| values[*row]).filter(|value| !value.is_nan()) {
@@ -70,8 +69,8 @@ fn has_few(known: &[(f64, usize)], rows: usize) -> bool {
 }
 
 impl Event {
-    /// The events of missed requirements on the outcome `name` of `plan`, as verdicts count them, with these values row
-    /// by row (`is_ok`: other runs miss all), and the rows of each.
+    /// Missed requirements on the outcome `name`, counted as in verdicts (runs that are not `is_ok` miss all), and the
+    /// rows of each.
     pub fn missed(plan: &Plan, name: &str, values: &[f64], is_ok: &[bool]) -> Vec<(Event, Vec<bool>)> {
         let has_few_values = has_few(&distinct(values, &ascending_order(values)), values.len());
         let of_runs =
@@ -100,7 +99,7 @@ impl Event {
         (Event { occurs, of: Occurrence { events, runs: marked.len() as u64 }, has_few_values }, marked)
     }
 
-    /// The events of an outcome whose limits all or nearly all runs meet; as [`Event::missed`].
+    /// As [`Event::missed`], for an outcome whose limits nearly all runs meet.
     pub fn of_values(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
         let known = distinct(values, &ascending_order(values));
         let has_few_values = has_few(&known, values.len());
@@ -126,7 +125,7 @@ impl Event {
         let count = (libm::round(share * sizes.len() as f64) as usize).max(ROWS_OF_TAIL[1]);
         let found =
             event(Occurs::Worst(share), values.iter().map(|value| badness(value) >= sizes[count - 1]).collect());
-        // many equal values have no tail
+        // many ties leave no tail
         if found.0.of.events <= 2 * count as u64 { vec![found] } else { Vec::new() }
     }
 }

@@ -1,5 +1,4 @@
-//! [`Expected`]: what is expected of a column of drawn samples, by evenly spread draws of its distribution. These are
-//! not those of the campaign; the distribution of a component of a vector has no closed form in general.
+//! [`Expected`]: the expected distribution of a dispersed column, from evenly spread draws that differ from the campaign's; components of vectors have no closed form in general.
 
 use crate::campaign::Plan;
 use crate::sampling::design::replicates::Sequence;
@@ -7,19 +6,17 @@ use crate::sampling::design::sobol::Sobol;
 use crate::sampling::distribution::{Map, Quantile};
 use crate::sampling::{Joint, Transform};
 
-/// Draws of a number of its own, and of one that is drawn together with others, as a Sobol design has them: beyond the
-/// resolution of a picture.
+/// Draws of a scalar, and of a joint distribution by a Sobol design: finer than a picture resolves.
 const DRAWS: [u32; 2] = [1 << 13, 1 << 16];
-/// A distribution with fewer values than one in so many draws is discrete.
+/// Fewer distinct values than one in this many draws are discrete.
 const SHARED: usize = 8;
 
-/// Draws of a distribution, ascending.
+/// Draws, ascending.
 #[derive(Clone, Debug)]
 pub struct Expected(Vec<f64>);
 
 impl Expected {
-    /// Of the column `index` of `plan`; `None` where its distribution is not known: of a derived number, or one of a
-    /// table.
+    /// `None` for derived numbers and tables.
     pub fn of_column(plan: &Plan, index: usize) -> Option<Self> {
         if let Some(distribution) = plan.dispersions.scalar_of(index) {
             return Some(Expected::of_quantile(|u| distribution.quantile(u)));
@@ -56,9 +53,8 @@ impl Expected {
         Expected(draws)
     }
 
-    /// Between neighbouring `edges`, ascending, the mean of the expected values (NaN without one), and how many of
-    /// `count` there are; a value at an edge counts in the bar above, one at the last edge in the last bar, as in the
-    /// histograms.
+    /// Mean (NaN if empty) and expected number, out of `count`, of the values between neighbouring `edges`, ascending;
+    /// a value at an edge counts in the bar above, at the last edge in the last bar, as in the histograms.
     pub fn bars(&self, edges: &[f64], count: usize) -> Vec<[f64; 2]> {
         let below = |edge: &f64| self.0.partition_point(|draw| draw < edge);
         let mut below: Vec<usize> = edges.iter().map(below).collect();
@@ -73,7 +69,7 @@ impl Expected {
         below.windows(2).map(bar).collect()
     }
 
-    /// The values of a discrete distribution with their probabilities, ascending; `None` of a continuous one.
+    /// Values and probabilities of a discrete distribution, ascending; `None` if continuous.
     pub fn values(&self) -> Option<Vec<(f64, f64)>> {
         let of = |same: &[f64]| (same[0], same.len() as f64 / self.0.len() as f64);
         let values: Vec<(f64, f64)> = self.0.chunk_by(|one, other| one == other).map(of).collect();
@@ -96,9 +92,9 @@ mod tests {
         expected.bars(edges, count).into_iter().map(|[_, count]| count).collect()
     }
 
-    /// Known: a component of a direction that is uniform over the sphere is uniform (Archimedes); so is the component
-    /// along the axis of a cone, from the cosine of its half-angle to 1. Each value of a discrete distribution counts
-    /// in its bar, the first and the last at the ends of the axis too, and one beyond the axis in none.
+    /// Known: components of a uniform direction on the sphere are uniform (Archimedes), as is that along the axis of a
+    /// cone, from the cosine of its half-angle to 1. Discrete values count in their bars, including both ends of the
+    /// axis; values beyond it do not count.
     #[test]
     fn counts_are_those_of_the_distribution() {
         let parameter = "parameter = \"initial.angular_velocity_rad_s\"\n";

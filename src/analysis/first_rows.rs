@@ -1,4 +1,4 @@
-//! [`FirstRows`]: the first rows of a campaign, from which input sensitivities are estimated.
+//! [`FirstRows`]: the first rows of a campaign, for input sensitivities.
 
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,11 +13,11 @@ use crate::run::Status;
 use crate::sampling::Design;
 use crate::storage::rows_reader::RowsError;
 
-/// Most rows for observables named in a campaign file.
+/// Maximum rows if the file names observables.
 pub const MOST_ROWS: usize = 65_536;
-/// Most rows for the main observables of a file that names none.
+/// Maximum rows if it names none.
 const FEWER_ROWS: usize = 16_384;
-/// The observables, and the number of their rows.
+/// The observables, and their number of rows.
 fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     let named = named(plan);
     if !named.is_empty() {
@@ -45,20 +45,20 @@ pub struct RowTable {
 }
 
 impl RowTable {
-    /// The values of an observable of `plan`; `None` of one that is not kept.
+    /// The values of an observable, if kept.
     pub(super) fn column(&self, plan: &Plan, name: &str) -> Option<&[f64]> {
         let place = FirstRows::new(plan).observed.iter().position(|one| one.quantity.name() == name)?;
         Some(&self.observables[place])
     }
 }
 
-/// Keeps the first rows: inputs, and the observables that a file requires or names, else the main ones.
+/// Collects inputs and required or named observables, else the main ones.
 #[derive(Debug)]
 pub struct FirstRows {
     inputs: Vec<String>,
     pub(super) observed: Vec<Observed>,
     most: usize,
-    /// Whether all rows are there.
+    /// Whether all rows are collected.
     is_full: AtomicBool,
 }
 
@@ -66,7 +66,7 @@ impl FirstRows {
     pub fn new(plan: &Plan) -> Self {
         let (names, most) = wanted(plan);
         let observed = Observed::named(plan, names.iter().map(String::as_str));
-        // the blocks of a `saltelli` design identify inputs by their places
+        // blocks of a `saltelli` design identify inputs by position
         let (inputs, most) = match plan.design {
             Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
             _ => (inputs(plan), most),
@@ -75,13 +75,13 @@ impl FirstRows {
     }
 }
 
-/// The observables with estimated sensitivities; none without inputs.
+/// Observables with estimated sensitivities; none without inputs.
 pub fn explained(plan: &Plan) -> Vec<String> {
     let observed = if inputs(plan).is_empty() { Vec::new() } else { FirstRows::new(plan).observed };
     observed.into_iter().map(|one| one.quantity.name().to_owned()).collect()
 }
 
-/// The columns of the inputs, without derived ones.
+/// Columns of the inputs, without derived ones.
 pub(super) fn inputs(plan: &Plan) -> Vec<String> {
     let columns = plan.dispersions.columns().iter().enumerate();
     let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());

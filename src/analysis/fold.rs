@@ -1,5 +1,4 @@
-//! [`Gathered`]: everything that the end of a campaign needs of its rows, by one fold over the parts: of rows in memory
-//! while the campaign runs ([`RunningFold`]), or of their files ([`Gathered::of_files`]). Both give the same bits.
+//! [`Gathered`]: the results of one fold over the parts, from rows in memory ([`RunningFold`]) or from files ([`Gathered::of_files`]), with the same bits.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -24,8 +23,7 @@ use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 
-/// Everything that is gathered: statuses and audits, columns, requirements, the observable of `[stop]`, the first rows,
-/// retained runs, the page.
+/// All accumulators of a campaign.
 type Everything = (
     ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),
     ((FirstRows, Retained), (Surveyor, MissionCounter)),
@@ -37,12 +35,11 @@ pub struct RowsFold(Everything);
 #[derive(Clone, Debug)]
 pub struct Gathered {
     pub tally: Tally,
-    /// The observables of the first of the [`batches`].
+    /// Observables of the first of the [`batches`].
     pub columns: Collected,
     pub requirements: RequirementCounts,
-    /// Of the observable of `[stop]`, run by run; none without.
+    /// Of the observable of `[stop]`, if any.
     pub stop_values: StopValues,
-    /// Inputs and main observables of the first rows.
     pub first_rows: RowTable,
     pub retained: Vec<SampleId>,
     pub survey: Survey,
@@ -51,7 +48,7 @@ pub struct Gathered {
 }
 
 impl RowsFold {
-    /// Of the campaign `ensemble`; `references`: what values are sketched about, where they are not kept.
+    /// `references`: values about which observables are sketched, if not kept.
     fn new(ensemble: &Ensemble<'_>, references: Option<Vec<f64>>) -> Self {
         let plan = ensemble.plan();
         let columns = Collector::new(first_batch(plan), Population::of(plan), references);
@@ -86,11 +83,9 @@ fn first_batch(plan: &Plan) -> Vec<Observed> {
 }
 
 impl Gathered {
-    /// What the files of rows of `ensemble`, and those of its `bands`, have, on `threads` threads (`None`: one per
-    /// core).
+    /// Reads the rows and bands of `ensemble`, on `threads` threads (`None`: one per core).
     ///
-    /// # Errors
-    /// Where a file cannot be read.
+    /// # Errors If a file cannot be read.
     pub fn of_files(
         ensemble: &Ensemble<'_>,
         reader: &RowsReader,
@@ -98,7 +93,7 @@ impl Gathered {
     ) -> Result<Gathered, RowsError> {
         let plan = ensemble.plan();
         let bands = bands_file::read(reader.store(), reader.bands(), threads)?;
-        // the nominal row is one more
+        // plus the nominal row
         let first = || references(&first_batch(plan), Population::of(plan), reader.first_parts(REFERENCE_ROWS + 1));
         let fold = RowsFold::new(ensemble, (!is_exact(plan)).then(first).transpose()?);
         let whole = of_files(&fold.0, reader, threads)?;
@@ -106,11 +101,10 @@ impl Gathered {
     }
 }
 
-/// Folds rows while they are in memory, part by part in any order, so that they need not be read again when a campaign
-/// ends.
+/// Folds rows in memory, part by part in any order, to save reading them again at the end.
 ///
-/// Only of a campaign that one process runs from its start: what a resumed one, or shards, have made before is on the
-/// disk, and then everything is read from there.
+/// Only for a campaign that one process runs from start to end; otherwise earlier parts are on disk, and all are read
+/// from there.
 #[derive(Debug)]
 pub struct RunningFold {
     names: RowNames,
@@ -119,23 +113,22 @@ pub struct RunningFold {
     merging: Mutex<Merging>,
 }
 
-/// The parts that were counted.
 #[derive(Debug)]
 struct Merging {
     whole: <Everything as Accumulator>::Whole,
-    /// Number of parts, from the first, that are merged.
+    /// Number of leading parts merged.
     merged: u64,
-    /// Parts that were counted before an earlier one.
+    /// Counted parts that wait for an earlier one.
     waiting: BTreeMap<u64, <Everything as Accumulator>::OfPart>,
 }
 
 impl RunningFold {
-    /// Of the campaign `ensemble`; `None` where its first rows cannot be made.
+    /// `None` if the first rows cannot be computed.
     pub fn of(ensemble: &Ensemble<'_>) -> Option<Self> {
         let plan = ensemble.plan();
         let names = RowNames::new(ensemble);
         let first = || {
-            // run once more: the first part may be counted after others
+            // computed separately: the first part may come late
             let count = (plan.rows() as usize).min(REFERENCE_ROWS + 1);
             let mut rows = ensemble.rows(count);
             let part = Part { id: PartId(0), first: SampleId(0), count };
@@ -147,7 +140,7 @@ impl RunningFold {
         Some(RunningFold { names, fold, bands: Mutex::new(None), merging: Mutex::new(merging) })
     }
 
-    /// What was gathered, where that is of all of `parts`.
+    /// The results, if all `parts` were counted.
     pub fn whole(self, parts: Parts) -> Option<Gathered> {
         let merging = self.merging.into_inner().unwrap_or_else(PoisonError::into_inner);
         let bands = self.bands.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -156,9 +149,9 @@ impl RunningFold {
 }
 
 impl CountRows for RunningFold {
-    /// Counts the rows of a part and its bands, each part once.
+    /// Counts rows and bands of a part, once.
     fn add(&self, rows: &Rows) {
-        // without the part the fold is not whole: the rows are then read again
+        // an incomplete fold is discarded and the rows are read again
         let Ok(of_part) = self.fold.0.count(&self.names.of(rows)) else { return };
         if let Some(part) = rows.bands() {
             let mut bands = self.bands.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,17 +1,17 @@
-//! [`InputSensitivity`]: the effect of one input of a campaign on one outcome.
+//! [`InputSensitivity`]: the effect of one input on one outcome.
 
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::event::Occurs;
 use crate::statistics::correlation::Estimate;
 
-/// The outcome of being computed: 1 for an `ok` run, else 0.
+/// Pseudo-outcome: 1 for an `ok` run, else 0.
 pub const COMPUTED: &str = "computed";
 
-/// The effect of one input on one observable; `None` for measures that do not apply.
+/// `None` for measures that do not apply.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InputSensitivity {
     pub observable: String,
-    /// A column of the rows, or for a `saltelli` design a distribution.
+    /// Column of the rows; a distribution for a `saltelli` design.
     pub input: String,
     pub rows: u64,
     pub pearson: Option<Estimate>,
@@ -19,29 +19,29 @@ pub struct InputSensitivity {
     /// Rank correlation with the other inputs held fixed.
     pub partial_rank: Option<Estimate>,
     pub regression: Option<Estimate>,
-    /// Share of the variance explained by the regression on all inputs, corrected for their number.
+    /// Of the regression on all inputs, corrected for their number.
     pub r_squared: Option<Estimate>,
-    /// First-order index: share of the variance explained by this input alone.
+    /// First-order index.
     pub first_order: Option<Estimate>,
-    /// Share of the variance explained by a parabola, averaged over values and ranks: orders inputs without a known
+    /// Share of the variance explained by a parabola, averaged over values and ranks; orders inputs without a
     /// first-order index.
     pub parabola: Option<f64>,
-    /// Total index: the share of this input with its interactions.
+    /// Total index, including interactions.
     pub total: Option<Estimate>,
     /// P-value of no influence on the spread, adjusted for all inputs (Holm).
     pub p_value: Option<f64>,
     pub direction: Option<Direction>,
     pub on_events: Vec<OnEvent>,
-    /// The correlated input that the rows do not separate from this one as a driver.
+    /// A correlated input that the rows do not separate from this one.
     pub instead: Option<String>,
-    /// The input with the largest notable rank correlation, and that correlation.
+    /// The input with the largest notable rank correlation.
     pub correlated_with: Option<(String, f64)>,
     pub note: Option<String>,
 }
 
 impl InputSensitivity {
-    /// Removes the intervals, for rows that are not a sample of the population. Events of missed requirements, known
-    /// for all runs, keep theirs if `has_all_missed`.
+    /// Removes intervals if the rows are no sample of the population, except of missed requirements if
+    /// `has_all_missed`.
     #[must_use]
     pub fn without_intervals(mut self, has_all_missed: bool) -> Self {
         let without = |one: Estimate| Estimate { lower: f64::NAN, upper: f64::NAN, ..one };

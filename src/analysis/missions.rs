@@ -1,5 +1,4 @@
-//! [`Missions`]: ends of the missions of a campaign under a control loop: launched, failed for a reason, or neither, as
-//! shares of the runs with intervals.
+//! [`Missions`]: shares of the missions of a control loop by their end: launched, failed for a reason, or neither.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::order_statistics::share_interval;
@@ -13,22 +12,20 @@ use crate::storage::rows_reader::RowsError;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {
-    /// `launched`, the name of a failure, or `flying` if the run ended before either; `not_failed` in a loop without a
-    /// launch.
+    /// `launched`, a failure, or `flying` if neither; `not_failed` in a loop without a launch.
     pub end: &'static str,
-    /// The phases that timed out, with their numbers of runs.
+    /// Phases that timed out, with counts.
     pub phases: Vec<(Name, u64)>,
     pub count: u64,
     pub runs: u64,
-    /// Runs that were not computed, with an unknown end.
+    /// Runs not computed.
     pub missing: u64,
-    /// Interval of the share at the confidence of the statistics, whatever the missing runs would do; NaN for dependent
-    /// samples.
+    /// At the confidence of the statistics, wherever missing runs are; NaN for dependent samples.
     pub interval: [f64; 2],
 }
 
 impl MissionShare {
-    /// The least and the largest share of all runs, which differ by the missing ones.
+    /// Minimum and maximum share, which differ by the missing runs.
     pub fn shares(&self) -> [f64; 2] {
         [self.count, self.count + self.missing].map(|count| count as f64 / self.runs.max(1) as f64)
     }
@@ -52,7 +49,7 @@ pub struct MissionCounts {
     missing: u64,
 }
 
-/// The ends of missions that occur, in the order of the codes.
+/// The ends that occur, in the order of the codes.
 pub type Missions = Vec<MissionShare>;
 
 impl MissionCounter {

@@ -1,9 +1,6 @@
-//! Layer 8: statistics and verdicts from rows.
-//!
-//! One [`fold`] over the parts of a campaign, in memory or in files ([`part_columns`]), has an [`accumulator`] for each
-//! result; [`analysed`] has all results. Two campaigns are compared in [`comparison`].
-//!
-//! Not here: files and their protocol (`storage`), formulas of statistics (`statistics`), text and figures (`report`).
+//! Layer 8: statistics and verdicts from rows. One [`fold`] over the parts, in memory or in files ([`part_columns`]),
+//! has an [`accumulator`] per result; [`analysed`] has all results, [`comparison`] compares two. Files are in
+//! `storage`, formulas in `statistics`.
 
 pub mod accumulator;
 pub mod analysed;

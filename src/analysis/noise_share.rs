@@ -1,5 +1,5 @@
-//! The share of noise within control loops in the variance of the outcomes: scenes of a campaign, each flown twice with
-//! different noise. Noise is not an input: it is in no first-order index, and in every total one.
+//! The share of control-loop noise in the variance of the outcomes, from scenes flown twice with different noise. Noise
+//! is no input: it is in no first-order index and in every total one.
 
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
@@ -19,19 +19,18 @@ pub struct NoiseShare {
     pub observable: String,
     /// Scenes with a value in both runs.
     pub scenes: usize,
-    /// Their runs that differ from the most frequent value.
+    /// Runs that differ from the most frequent value.
     pub others: usize,
-    /// Share of noise in the variance; `None` without variance, or if too few runs vary.
+    /// `None` without variance, or if too few runs vary.
     pub share: Option<Estimate>,
 }
 
-/// Noise samples of second flights, beyond all samples of a campaign.
+/// Offset of the noise samples of second flights, beyond all samples.
 const SECOND: u64 = 1 << 63;
 
-/// The shares in the outcomes `names` of `plan`, from `scenes` evenly spaced dispersed samples (or all).
+/// The shares in the outcomes `names`, from `scenes` evenly spaced dispersed samples (or all).
 ///
-/// # Errors
-/// Where threads could not be started.
+/// # Errors If threads cannot be started.
 pub fn noise_shares(
     plan: &Plan,
     names: &[String],
@@ -45,7 +44,7 @@ pub fn noise_shares(
     let outcomes = Observed::named(plan, names.iter().map(String::as_str));
     let columns = plan.request().columns();
     let inputs = plan.dispersions.columns();
-    // the outcomes of a run; NaN for none
+    // NaN for a missing outcome
     let values = |runs: &mut SingleRuns<'_>, sample: SampleId, noise: SampleId| -> Option<Vec<f64>> {
         let run = runs.run_with_noise_of(sample, noise).ok()?;
         let of = |name: &str| {

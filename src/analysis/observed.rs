@@ -1,7 +1,4 @@
-//! [`Observed`]: an observable of a campaign with the path to its values in rows: a column, or an expression over
-//! columns.
-//!
-//! An `ok` run has no value if its subject never happened, or if it is not a number ([`Observed::undefined`]).
+//! [`Observed`]: an observable as a column of the rows, or an expression over columns. An `ok` run has no value if its subject never happened, or if the value is not a number ([`Observed::undefined`]).
 
 use std::borrow::Cow;
 
@@ -13,22 +10,22 @@ use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
 
-/// A column in an observable.
+/// A column of an observable.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     column: String,
     absence: Absence,
 }
 
-/// The meaning of a missing value of an `ok` run in a column.
+/// Meaning of a missing value in an `ok` run.
 #[derive(Clone, Debug, PartialEq)]
 enum Absence {
-    /// The subject of the column never happened.
+    /// The subject never happened.
     Never,
     /// The event never happened; if its count is missing too, its quantity is not a number.
     Event { count: String },
-    /// An extreme from `delay_s` after `after` on (the columns of an event's time and count) is not a number, unless
-    /// the event never happened or the run ended before.
+    /// An extreme from `delay_s` after `after` (time and count of an event) is not a number, unless the event never
+    /// happened or the run ended before.
     Extreme { after: Option<[String; 2]>, delay_s: f64, end: End },
 }
 
@@ -70,14 +67,14 @@ impl Absence {
                     End::At(end) => Cow::Owned(vec![*end; rows]),
                     End::Column(name) => part.numbers(name)?,
                 };
-                // NaN is not before it
+                // also true for NaN
                 (0..rows).map(|row| counts[row].is_nan() || times[row] + delay_s <= ends[row]).collect()
             }
         })
     }
 }
 
-/// The column with the end of a run.
+/// Column with the end of a run.
 const TIME_REACHED: &str = "time_reached_s";
 
 #[derive(Clone, Debug, PartialEq)]
@@ -86,12 +83,12 @@ pub struct Observed {
     pub quantity: Quantity,
     pub is_count: bool,
     derived: Option<Expression>,
-    /// The variables of the expression, or its own column.
+    /// Variables of the expression, or its own column.
     sources: Vec<Source>,
 }
 
 impl Observed {
-    /// Every observable of `plan`: those in the rows, in order, then derived ones.
+    /// Observables of `plan`: in the rows, in order, then derived ones.
     pub fn all(plan: &Plan) -> Vec<Observed> {
         let request = plan.request();
         let known = KnownColumns::new(request);
@@ -111,7 +108,7 @@ impl Observed {
         of_rows.chain(derived).collect()
     }
 
-    /// The observables of `plan` with these names, in the order of [`Observed::all`].
+    /// Those called `names`, in the order of [`Observed::all`].
     pub fn named<'a>(plan: &Plan, names: impl Iterator<Item = &'a str>) -> Vec<Observed> {
         let names: Vec<&str> = names.collect();
         let mut all = Self::all(plan);
@@ -124,10 +121,9 @@ impl Observed {
         self.sources.is_empty() || plan.dispersions.columns().is_empty()
     }
 
-    /// The values in a part, row by row; NaN for none.
+    /// Values in a part; NaN for none.
     ///
-    /// # Errors
-    /// Where they cannot be read.
+    /// # Errors If they cannot be read.
     pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>, RowsError> {
         let Some(expression) = &self.derived else { return part.numbers(self.quantity.name()) };
         let columns = self.columns(part)?;
@@ -139,11 +135,10 @@ impl Observed {
         self.sources.iter().map(|source| part.numbers(&source.column)).collect()
     }
 
-    /// The rows of `part`, all of `ok` runs, in which it is not a number: the root of a negative number, or an event
-    /// with such a quantity. In other rows without a value its subject never happened.
+    /// Rows of `part`, all `ok`, with an undefined value, such as the root of a negative number; in other rows without
+    /// a value the subject never happened.
     ///
-    /// # Errors
-    /// Where its columns cannot be read.
+    /// # Errors If its columns cannot be read.
     pub fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
         let columns = self.columns(part)?;
         let own = |row: usize| match &self.derived {
@@ -162,14 +157,14 @@ impl Observed {
         Ok(found)
     }
 
-    /// The value in a row, given the values of its columns by name; `None` if a column is missing.
+    /// The value in a row, given its columns by name; `None` if a column is missing.
     pub fn value(&self, of: impl Fn(&str) -> Option<f64>) -> Option<f64> {
         let Some(expression) = &self.derived else { return of(self.quantity.name()) };
         let values: Vec<f64> = self.sources.iter().map(|source| of(&source.column)).collect::<Option<_>>()?;
         Some(known(expression, |place| values[place]))
     }
 
-    /// The range of its values, from the expression and the `bounded` of requirements on its mean.
+    /// Range of its values, from the expression and the `bounded` of requirements on its mean.
     pub fn range(&self, plan: &Plan) -> [f64; 2] {
         let not_negative = if self.is_count { 0.0 } else { f64::NEG_INFINITY };
         let of_text = match &self.derived {
@@ -182,7 +177,7 @@ impl Observed {
     }
 }
 
-/// The value of `expression`; NaN if any of its variables is unknown, even one without influence.
+/// NaN if any variable is unknown, even one without influence.
 fn known(expression: &Expression, value: impl Fn(usize) -> f64) -> f64 {
     match (0..expression.variables().len()).any(|place| value(place).is_nan()) {
         true => f64::NAN,

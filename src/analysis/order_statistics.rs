@@ -1,4 +1,4 @@
-//! Quantiles of a column and their intervals by order statistics: from the values of few rows, from sketches of many.
+//! Quantiles of a column and their intervals by order statistics, from the values of few rows or sketches of many.
 
 use crate::analysis::population::Population;
 use crate::campaign::Plan;
@@ -16,14 +16,14 @@ pub struct QuantileStatistic {
     pub confidence: f64,
     /// The sample quantile (type 7).
     pub value: Option<f64>,
-    /// Ends of its interval, rounded outward; `None` for an open end, or without an interval.
+    /// Ends of the interval, rounded outward; `None` for an open end, or without an interval.
     pub interval: [Option<f64>; 2],
-    /// The reason of an open end: too few or lost runs. For a requirement: that runs without a value count.
+    /// Why an end is open: too few or lost runs; for a requirement, that missing values count.
     pub note: Option<String>,
 }
 
 impl QuantileStatistic {
-    /// Probability, quantile, and the ends of its interval; NaN for none.
+    /// Probability, quantile, and ends of the interval; NaN for none.
     pub fn numbers(&self) -> [f64; 4] {
         let [value, low, high] = [self.value, self.interval[0], self.interval[1]].map(|end| end.unwrap_or(f64::NAN));
         [self.p, value, low, high]
@@ -31,7 +31,6 @@ impl QuantileStatistic {
 }
 
 pub enum Order {
-    /// All values.
     Exact(OrderStatistics),
     Sketched(Ranks),
 }
@@ -44,7 +43,7 @@ impl Order {
         }
     }
 
-    /// Bounds of the value of rank `rank`, from 1.
+    /// Bounds of the value of `rank`, from 1.
     pub fn bounds(&self, rank: u64) -> Option<[f64; 2]> {
         match self {
             Order::Exact(values) => values.at(rank as usize - 1).map(|value| [value; 2]),
@@ -61,7 +60,7 @@ impl Order {
             Order::Sketched(ranks) => {
                 let counts = std::iter::once(0).chain(ranks.buckets.iter().map(|bucket| bucket.up_to));
                 let steps = ranks.buckets.iter().zip(counts);
-                // a bucket's ends are those of its group; of all groups those of the widest
+                // a bucket has the ends of its group's, or the widest group's, values
                 steps
                     .map(|(bucket, before)| Step {
                         value: bucket.high,
@@ -100,18 +99,18 @@ impl CommonRanks {
 pub struct AskedQuantile {
     pub p: f64,
     pub confidence: f64,
-    /// The ranks of its interval, if the population has intervals.
+    /// Ranks of its interval, if the population has intervals.
     pub ranks: Option<IntervalRanks>,
     /// The corresponding quantile of the known values; `None` if it is a missing one.
     of_values: Option<f64>,
-    /// Runs without a value, counted beyond all others on the wrong side of a limit.
+    /// Runs without a value, beyond all others on the wrong side of a limit.
     pub missing: u64,
-    /// Runs that were not computed, with values on either side of all others.
+    /// Runs not computed, anywhere.
     lost: u64,
 }
 
-/// The quantile of `count` values that is the `p`-quantile of these and of `missing` ones beyond `limit` and all
-/// others; `None` if that is a missing one. Quantiles are of type 7.
+/// The quantile of `count` values that equals the `p`-quantile (type 7) of these and `missing` ones beyond `limit` and
+/// all others; `None` if that is a missing one.
 pub fn among_values(p: f64, count: u64, missing: u64, limit: GateLimit) -> Option<f64> {
     if missing == 0 {
         return Some(p);
@@ -130,8 +129,8 @@ impl AskedQuantile {
         AskedQuantile { p, confidence, ranks, of_values: Some(p), missing: 0, lost: 0 }
     }
 
-    /// For `count` values and `lost` runs; `ranks` count both. The interval is the hull of those of all runs: its lower
-    /// end takes lost runs for smallest, its upper end for largest.
+    /// Counts `lost` runs among the ranks: the interval is the hull over all their possible values, below all others
+    /// for its lower end, above for its upper.
     #[must_use]
     pub fn with_lost(self, count: u64, lost: u64) -> Self {
         let kept = |rank: u64| Some(rank).filter(|rank| (1..=count).contains(rank));
@@ -142,7 +141,7 @@ impl AskedQuantile {
         AskedQuantile { ranks, lost, ..self }
     }
 
-    /// For `count` values and `missing` runs that violate `limit`; `ranks` count both.
+    /// Counts `missing` runs that violate `limit` among the ranks.
     #[must_use]
     pub fn with_missing(self, count: u64, missing: u64, limit: GateLimit) -> Self {
         let shift = if matches!(limit, GateLimit::AtLeast(_)) { missing } else { 0 };
@@ -152,7 +151,7 @@ impl AskedQuantile {
         AskedQuantile { ranks, of_values: among_values(self.p, count, missing, limit), missing, ..self }
     }
 
-    /// The places, from zero, of its order statistics among `count` values; some may be beyond the last.
+    /// Places, from zero, of its order statistics among `count` values; some may be beyond the last.
     pub fn places(&self, count: usize) -> impl Iterator<Item = usize> {
         let below = (count as f64 * self.of_values.unwrap_or(self.p)) as usize;
         // (count - 1) p, rounded, is between below - 1 and below + 1
@@ -161,13 +160,13 @@ impl AskedQuantile {
     }
 }
 
-/// The interval of a share with `successes` of `count`, wherever `lost` others are.
+/// Interval of the share `successes` of `count`, wherever `lost` others are.
 pub fn share_interval(successes: u64, [count, lost]: [u64; 2], confidence: f64) -> [f64; 2] {
     let of = |successes: u64| interval(successes, count + lost, confidence);
     if lost == 0 { of(successes) } else { [of(successes)[0], of(successes + lost)[1]] }
 }
 
-/// The effect of `missing` runs without a value on a requirement.
+/// The effect of `missing` values on a requirement.
 pub fn without_value(missing: &str) -> String {
     match missing {
         "1" => "1 run without a value counts as a violation".to_owned(),
@@ -194,7 +193,7 @@ pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     found
 }
 
-/// The number of runs that bound the `p`-quantile.
+/// The number of runs that would bound the `p`-quantile.
 fn too_few(p: f64, confidence: f64) -> String {
     format!(
         "p{} with {}% confidence needs {} runs ({} for a bound on one side)",
@@ -210,8 +209,8 @@ mod tests {
     use super::*;
     use crate::statistics::quantile::quantile;
 
-    /// Law: a quantile with missing values, and its interval, are those of all values with the missing ones infinite on
-    /// the wrong side of the limit; none at a missing one. The counter-test: among the values alone it differs.
+    /// Law: a quantile with missing values, and its interval, equal those with these values infinite on the wrong side
+    /// of the limit; none if it is missing. Counter-test: among the values alone it differs.
     #[test]
     fn missing_values_violate() {
         let values: Vec<f64> = (1..=40).map(f64::from).collect();

@@ -3,8 +3,7 @@
 use crate::campaign::{Plan, Requirement};
 use crate::statistics::gate::GateLimit;
 
-/// The outcomes of a campaign whose file names none, in the order of their worth: energy exchange, motion of the axis,
-/// final state.
+/// Default outcomes in order of importance: energy exchange, motion of the axis, final state.
 pub const OF_MOTION: [&str; 8] = [
     "exchange_body_peak_to_peak_j",
     "nutation_angle_max_rad",
@@ -18,7 +17,7 @@ pub const OF_MOTION: [&str; 8] = [
 
 const FEW: usize = 3;
 
-/// The observables that the file of `plan` requires, lists for the summary, or derives, and the times of its events.
+/// Required, listed and derived observables of `plan`, and the times of its events.
 pub fn named(plan: &Plan) -> Vec<String> {
     let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
     let listed = plan.analysis.summary_columns.iter().cloned();
@@ -33,7 +32,7 @@ pub fn named(plan: &Plan) -> Vec<String> {
     names
 }
 
-/// The outcomes of `plan`: named ones, else the first of the motion in its rows.
+/// Named outcomes, else the first default ones in the rows.
 pub fn outcomes(plan: &Plan) -> Vec<String> {
     let named = named(plan);
     if !named.is_empty() {
@@ -44,7 +43,7 @@ pub fn outcomes(plan: &Plan) -> Vec<String> {
     OF_MOTION.iter().filter(has).take(FEW).map(|name| (*name).to_owned()).collect()
 }
 
-/// Whether small values of the observable `name` are bad: every limit on it is a lower one.
+/// Whether small values of `name` are bad: all its limits are lower ones.
 pub fn is_worst_when_low(plan: &Plan, name: &str) -> bool {
     let mut of =
         plan.analysis.requirements.iter().filter(|requirement| requirement.observable() == Some(name)).peekable();

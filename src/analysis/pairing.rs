@@ -15,11 +15,10 @@ pub struct ResultRows<'r> {
     pub reader: &'r RowsReader,
 }
 
-/// The rows, among the first, of samples that both results drew alike, with these `statuses`; none if random numbers
-/// and drawn values differ.
+/// Rows, among the first, of samples that both results drew alike; none if neither the random numbers nor the drawn
+/// values agree.
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn pairs(
     first: ResultRows<'_>,
     second: ResultRows<'_>,
@@ -66,14 +65,13 @@ impl ResultRows<'_> {
 
     /// The statuses of the first rows.
     ///
-    /// # Errors
-    /// Where a file cannot be read.
+    /// # Errors If a file cannot be read.
     pub fn statuses(self) -> Result<Vec<Status>, RowsError> {
         self.first(PartReader::statuses)
     }
 }
 
-/// The rows of each plan with the same dispersed sample, among the first.
+/// Rows of each plan with the same dispersed sample, among the first.
 fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
     let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_ROWS);
     let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());

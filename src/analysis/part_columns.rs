@@ -1,4 +1,4 @@
-//! [`PartColumns`]: the columns of a part by name, from its file or from rows in memory, with the same numbers.
+//! [`PartColumns`]: the columns of a part by name, identical from its file and from memory.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -14,10 +14,9 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 pub trait PartColumns {
     fn rows(&self) -> usize;
 
-    /// The numbers of the samples, row by row.
+    /// Sample numbers by row.
     ///
-    /// # Errors
-    /// The column cannot be read.
+    /// # Errors The column cannot be read.
     fn samples(&self) -> Result<Vec<SampleId>, RowsError>;
 
     /// The statuses of the runs.
@@ -26,16 +25,14 @@ pub trait PartColumns {
     /// The column cannot be read.
     fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError>;
 
-    /// The rows that are not `ok`, with reasons.
+    /// Rows that are not `ok`, with reasons.
     ///
-    /// # Errors
-    /// The column cannot be read.
+    /// # Errors The column cannot be read.
     fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError>;
 
-    /// The numbers of the column `name`: counts as doubles, NaN for none.
+    /// The column `name`: counts as doubles, NaN for none.
     ///
-    /// # Errors
-    /// There is no such column of numbers, or it cannot be read.
+    /// # Errors There is no such column of numbers, or it cannot be read.
     fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError>;
 }
 
@@ -127,7 +124,7 @@ impl PartColumns for RowsInMemory<'_> {
             audited.for_each(|(row, audit)| column[row] = value(audit));
             Cow::Owned(column)
         };
-        // infinite numbers are absent in memory as in a file
+        // non-finite numbers are absent, as in a file
         match self.names.0.get(name) {
             Some(Position::Parameter(index)) => Ok(Cow::Borrowed(self.rows.parameter(*index))),
             Some(Position::Observable(index)) => Ok(Cow::Borrowed(self.rows.observable(*index))),

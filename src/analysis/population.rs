@@ -1,4 +1,4 @@
-//! [`Population`]: how the samples of a design represent the population of runs, and the intervals that hold.
+//! [`Population`]: how the samples of a design represent the population of runs, and which intervals apply.
 
 use crate::campaign::Plan;
 use crate::run::Status;
@@ -7,22 +7,21 @@ use crate::sampling::{Design, SampleId};
 /// Stands for a design if `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";
 
-/// Runs of a population without numbers: not computed to their end, or not accurately. Samples that are not physical
-/// are outside of the population.
+/// Runs without numbers: not computed to their end, or inaccurate. Unphysical samples are outside of the population.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Loss {
     pub missing: u64,
     pub runs: u64,
-    /// Samples that are not physical.
+    /// Unphysical samples.
     pub outside: u64,
 }
 
 impl Loss {
-    /// Least share of missing runs of a big loss: the runs left do not bound the 95%-quantile, which all missing ones
-    /// may exceed. Below, an interval takes the loss for random.
+    /// Minimum share of missing runs of a big loss: the others do not bound the 95%-quantile, which all missing ones
+    /// may exceed. Below, intervals treat the loss as random.
     pub const BIG: f64 = 0.05;
 
-    /// From the numbers of runs by status, in the order of [`Status::ALL`].
+    /// From counts in the order of [`Status::ALL`].
     pub fn of(statuses: &[u64; Status::ALL.len()]) -> Self {
         let counts = Status::ALL.iter().zip(statuses);
         counts.fold(Loss::default(), |loss, (status, count)| match status {
@@ -37,7 +36,7 @@ impl Loss {
         format!("{} of {} dispersed runs{which}", self.missing, self.runs)
     }
 
-    /// Whether the runs left say little of all.
+    /// Whether the remaining runs say little about all.
     pub fn is_big(self) -> bool {
         self.missing > 0 && self.missing as f64 >= Self::BIG * self.runs as f64
     }
@@ -50,7 +49,7 @@ pub enum Population {
     Replicated(u64),
     /// Dependent samples of the population.
     Dependent(&'static str),
-    /// Chosen samples, not of a population.
+    /// Chosen samples, from no population.
     Chosen(&'static str),
     Nominal,
     /// After a big loss.
@@ -77,7 +76,7 @@ impl Population {
         if loss.is_big() && self.has_intervals() { Population::Incomplete(loss) } else { self }
     }
 
-    /// Number of mutually independent groups of samples; one without replicates.
+    /// Number of independent groups of samples; one without replicates.
     pub fn groups(self) -> usize {
         match self {
             Population::Replicated(replicates) => usize::try_from(replicates).unwrap_or(1).max(1),
@@ -103,7 +102,7 @@ impl Population {
         text.strip_prefix("none: ").map_or_else(|| format!("intervals: {text}"), |why| format!("no intervals: {why}"))
     }
 
-    /// The kind of intervals, or why there are none, in words.
+    /// The kind of intervals, or why there are none.
     pub fn intervals(self) -> String {
         match self {
             Population::Independent => {

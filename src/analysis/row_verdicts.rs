@@ -16,7 +16,7 @@ use crate::statistics::moments::Moments;
 pub(super) struct GroupRuns {
     pub(super) runs: u64,
     pub(super) within: u64,
-    /// Runs with a value that is not a number, on an unknown side of the limit.
+    /// Runs whose value is not a number, on an unknown side of the limit.
     pub(super) undefined: u64,
     pub(super) moments: Moments,
 }
@@ -24,7 +24,7 @@ pub(super) struct GroupRuns {
 #[derive(Clone, Debug)]
 pub(super) struct RequirementRuns {
     pub(super) groups: Vec<GroupRuns>,
-    /// Runs without a value, which violate it: not `ok`, or without the event that it is about.
+    /// Violations without a value: runs not `ok`, or without the event.
     pub(super) missing: u64,
 }
 
@@ -51,7 +51,7 @@ impl RequirementRuns {
 #[derive(Clone, Copy)]
 pub(super) struct Judged<'r> {
     pub requirement: &'r Requirement,
-    /// The confidences of a pass and of a failure.
+    /// Of a pass and of a failure.
     pub confidences: [f64; 2],
     pub interval: f64,
     pub failed: u64,
@@ -63,7 +63,7 @@ impl Judged<'_> {
     }
 }
 
-/// The verdict of `counts` on a requirement; `is_constant`: every run has the same value.
+/// The verdict of `counts`; `is_constant`: every run has the same value.
 pub(super) fn assessment(
     judged: Judged<'_>,
     unit: String,
@@ -91,7 +91,7 @@ pub(super) fn assessment(
         .then(|| "all values are equal, and a rare event would not show".to_owned());
     let mut note = (is_tailed && whole.largest_share(2) > MOST_SHARE && !is_yes_or_no(&whole))
         .then(|| format!("heavy tail: one run makes {:.0}% of the variance", 100.0 * whole.largest_share(2)));
-    // a mean over all runs is unknown if a run has no value
+    // a missing value leaves the mean of all runs unknown
     let undefined = counts.sum(|group| group.undefined);
     let missing = if target.is_none() { runs - whole.count() - undefined } else { 0 };
     let outside = requirement.bounded.and_then(|[low, high]| {
@@ -160,7 +160,7 @@ pub(super) fn assessment(
     }
 }
 
-/// The gate on the fraction of runs within the limit; it decides only if runs on an unknown side cannot change it.
+/// The gate on the fraction within the limit; undecided if runs on an unknown side matter.
 fn of_fraction(counts: &RequirementRuns, target: f64, confidence: f64, population: Population) -> Gate {
     let runs = counts.sum(|group| group.runs);
     let of = |within: &dyn Fn(&GroupRuns) -> u64| {
@@ -194,7 +194,7 @@ fn of_mean(
     let limit = requirement.limit;
     let means = || counts.groups.iter().filter_map(|group| group.moments.mean());
     match (population, requirement.bounded) {
-        // means of replicates are within the bounds of their values
+        // means of replicates share the bounds of the values
         (Population::Replicated(_), Some(range)) => bounded_mean_gate(&Moments::of(means()), range, limit, confidence),
         (Population::Replicated(_), None) => {
             replicate_mean_gate(&means().collect::<Vec<f64>>(), whole, limit, confidence)
@@ -210,7 +210,6 @@ mod tests {
     use crate::campaign::requirement::Subject;
     use crate::statistics::gate::GateLimit;
 
-    /// At 95%.
     fn asked(requirement: &Requirement) -> Judged<'_> {
         Judged { requirement, confidences: [0.95; 2], interval: 0.95, failed: 0 }
     }
@@ -236,8 +235,8 @@ mod tests {
         counts
     }
 
-    /// Law: of 400 runs, a bound is named exactly if the verdict is decided while the two-sided interval contains the
-    /// limit, on the side of the limit that decides; so for means on both sides of a limit.
+    /// Law: a bound is named if and only if the verdict is decided while the two-sided interval contains the limit, and
+    /// it is on the deciding side, for shares of 400 runs and for means.
     #[test]
     fn hidden_bounds_are_those_that_decide() {
         let p95 = requirement(Statement::Fraction(0.95), GateLimit::AtMost(1.0));
@@ -283,8 +282,8 @@ mod tests {
         }
     }
 
-    /// Law: a run without a value violates a requirement on the mean; designs without a population, and equal values of
-    /// an observable that may vary, decide nothing.
+    /// Law: a missing value violates a requirement on the mean; designs without a population, and equal values of a
+    /// variable observable, decide nothing.
     #[test]
     fn what_numbers_cannot_say_is_not_decided_by_them() {
         let mean = requirement(Statement::Mean, GateLimit::AtMost(9.0));
@@ -324,8 +323,8 @@ mod tests {
         assert!((crate::statistics::binomial::at_least(490, 499, found.gate.bounds[0]) - 0.01).abs() < 1e-9);
     }
 
-    /// Law: bounds of the values decide a mean whatever its tail and without a spread; a value outside fails it.
-    /// Without bounds the decision names the room for rare events: from its bound to the limit.
+    /// Law: bounded values decide a mean for any tail and without spread; a value outside fails it. Without bounds the
+    /// room for rare events is the distance from the bound to the limit.
     #[test]
     fn bounded_means_assume_no_tail() {
         let mean = |bounded, limit| Requirement { bounded, ..requirement(Statement::Mean, GateLimit::AtMost(limit)) };

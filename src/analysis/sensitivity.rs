@@ -1,7 +1,6 @@
-//! Sensitivities of observables to the inputs of a campaign, from its rows.
-//!
-//! Correlations, regression and given-data indices come from the `ok` runs in the order of their samples; first-order
-//! and total Sobol indices from the blocks of a `saltelli` design. A pure function of plan and files.
+//! Sensitivities of observables to inputs, a function of plan and files: correlations, regression and given-data
+//! indices from the `ok` runs in sample order, first-order and total Sobol indices from the blocks of a `saltelli`
+//! design.
 
 use std::num::NonZeroUsize;
 
@@ -20,15 +19,15 @@ use crate::statistics::regression::{Regressors, independent_inputs};
 use crate::statistics::sensitivity::{Samples, first_order_index, has_tails, share_of_parabola};
 use crate::storage::parallel::in_parallel;
 
-/// Least rank correlation of two inputs that is noted, if above chance.
+/// Minimum rank correlation of two inputs to be noted, if beyond chance.
 const NOTABLE_CORRELATION: f64 = 0.05;
-/// Weight of ranks in the order of inputs without known shares, unless the tail of an input decides it.
+/// Weight of ranks in the order of inputs without shares, unless an input has tails.
 const WEIGHT_OF_RANKS: f64 = 0.25;
-/// Standard deviations of chance correlations: of 10,000 pairs one exceeds this in a thousand campaigns.
+/// Standard deviations of chance correlations: one of 10,000 pairs exceeds this in one of a thousand campaigns.
 const CHANCE: f64 = 5.5;
 
-/// The sensitivities of the observables that the file of `plan` requires or names, else of the main ones, from its
-/// first rows. After a big `loss` the `ok` rows are no sample of all, and have no intervals.
+/// Sensitivities of the required or named observables of `plan`, else of the main ones, from its first rows. After a
+/// big `loss` the `ok` rows are no sample of all, and have no intervals.
 pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
     let observed = FirstRows::new(plan).observed;
     let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
@@ -58,7 +57,7 @@ fn of_table(
         return untold(names, &inputs, table.samples.len() as u64, &note);
     }
     let all = Prepared::new(table.inputs.clone(), threads);
-    // a subset of rows has other ranks
+    // ranks depend on the set of rows
     let has_failed = names != [COMPUTED] && table.is_ok.contains(&false);
     let ok: Vec<usize> = (0..table.is_ok.len()).filter(|row| table.is_ok[*row]).collect();
     let computed = has_failed.then(|| all.of_rows(&ok, threads));
@@ -90,12 +89,12 @@ fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<Input
 
 pub struct Prepared {
     rows: usize,
-    /// Inputs that vary and are no linear combination of those before them, as values and as ranks.
+    /// Inputs that vary and do not depend linearly on those before, as values and as ranks.
     kept: [Vec<bool>; 2],
     values: Vec<Vec<f64>>,
     standardised: Vec<Vec<f64>>,
     ranks: Vec<Vec<f64>>,
-    /// The kept inputs, as values and as ranks.
+    /// Of the kept inputs, as values and as ranks.
     regressors: [Option<Regressors>; 2],
     orders: Vec<Vec<usize>>,
     tested: Vec<Option<TestedInput>>,
@@ -104,7 +103,7 @@ pub struct Prepared {
     correlations: Vec<Vec<f64>>,
 }
 
-/// One input in the forms that follow from it alone.
+/// Everything that depends on one input alone.
 struct Forms {
     standardised: Vec<f64>,
     ranks: Vec<f64>,
@@ -153,7 +152,7 @@ impl Prepared {
         }
     }
 
-    /// Whether two inputs have a notable correlation, from `[[correlate]]` or beyond chance.
+    /// Whether two inputs have a notable correlation, by `[[correlate]]` or beyond chance.
     fn is_notable(&self, plan: &Plan, names: &[String], [one, other]: [usize; 2]) -> bool {
         let is_written = || {
             plan.correlated.iter().any(|table| {
@@ -165,7 +164,7 @@ impl Prepared {
         one != other && r > NOTABLE_CORRELATION && (r > CHANCE / libm::sqrt(self.rows as f64) || is_written())
     }
 
-    /// The input with the greatest notable correlation with input `index`.
+    /// The input with the largest notable correlation with input `index`.
     fn correlated_with(&self, plan: &Plan, names: &[String], index: usize) -> Option<(String, f64)> {
         let others = (0..names.len()).filter(|other| self.is_notable(plan, names, [index, *other]));
         let r = |other: &usize| self.correlations[index][*other];
@@ -173,8 +172,8 @@ impl Prepared {
         Some((names[other].clone(), r(&other)))
     }
 
-    /// The first-order index of input `index`: unknown if some input does not vary in these rows. Unseen rows of an
-    /// input with tails may make the shares of others as small as can be, unless the outcome is bounded.
+    /// The first-order index: unknown if some input does not vary in these rows. Unless the outcome is bounded, unseen
+    /// tails of another input may reduce it to nothing.
     fn first_order(&self, plan: &Plan, index: usize, y: &[f64], is_bounded: bool) -> Option<Estimate> {
         let (order, x) = (&self.orders[index], &self.values[index]);
         let found = first_order_index(order, x, y, samples(plan), plan.analysis.confidence)?;
@@ -185,7 +184,7 @@ impl Prepared {
         Some(if all_vary { Estimate { lower, ..found } } else { Estimate { lower: 0.0, upper: 1.0, ..found } })
     }
 
-    /// Tests each correlated input given the others; returns the names of inputs that the rows do not separate.
+    /// Tests each correlated input given the others; names those that the rows do not separate.
     fn beside_others(
         &self,
         plan: &Plan,
@@ -204,13 +203,13 @@ impl Prepared {
         Prepared::new(self.values.iter().map(|input| at(rows, input)).collect(), threads)
     }
 
-    /// The sensitivities of an observable with the values `y`, NaN for none, in its spread and in its events.
+    /// Sensitivities of the spread and events of an observable with values `y`, NaN for none.
     pub fn explained(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
         let missed = Event::missed(plan, observable, y, &vec![true; y.len()]);
         self.explained_beside(plan, names, observable, y, self, missed)
     }
 
-    /// [`Prepared::explained`], with the events of missed requirements in the rows of `all`.
+    /// As [`Prepared::explained`], with missed requirements in the rows of `all`.
     fn explained_beside(
         &self,
         plan: &Plan,
@@ -226,7 +225,7 @@ impl Prepared {
             none if none.is_empty() => (self, Event::of_values(plan, observable, y)),
             missed => (all, missed),
         };
-        // the events, and the spread
+        // events, and the spread
         let questions = events.len() + usize::from(events.iter().all(|(event, _)| !event.has_few_values));
         let tests = has_tests.then_some(questions);
         let mut found = if y.iter().all(|value| value.is_finite()) {
@@ -240,11 +239,11 @@ impl Prepared {
             let effects = rows.on_event(plan, names, (event, &marked), questions);
             found.iter_mut().zip(effects).for_each(|(one, effect)| one.on_events.extend(effect));
         }
-        // chosen samples correlate with each other, not within a population
+        // chosen samples have correlations, but no population
         if has_tests { found } else { found.into_iter().map(|one| one.without_intervals(false)).collect() }
     }
 
-    /// The effects on an event that occurs in the marked rows, one of `questions`.
+    /// Effects on an event in the marked rows, one of `questions`.
     fn on_event(
         &self,
         plan: &Plan,
@@ -265,7 +264,7 @@ impl Prepared {
         effects
     }
 
-    /// The sensitivities of an observable with the values `y`, one of `questions`; `None`: without tests.
+    /// Sensitivities of an observable with values `y`, one of `questions`; `None`: without tests.
     fn sensitivities(
         &self,
         plan: &Plan,
@@ -301,7 +300,6 @@ impl Prepared {
                 pearson: correlated(&self.standardised[index], &scaled),
                 spearman: correlated(&self.ranks[index], &ranked),
                 partial_rank: partial,
-                // an open end is none
                 regression: coefficient.map(|of| {
                     let [lower, upper] = [of.lower, of.upper].map(|end| if end.is_finite() { end } else { f64::NAN });
                     Estimate { lower, upper, ..of }
@@ -331,13 +329,13 @@ impl Prepared {
     }
 }
 
-/// Whether an input has many values, and tails. The limits are higher than for the outcome, since one of many inputs
-/// may pass them by chance.
+/// Whether an input has many values, and tails. Limits are higher than for the outcome, since one of many inputs may
+/// exceed them by chance.
 fn tails_of(values: &[f64], tested: Option<&TestedInput>) -> bool {
     tested.is_some_and(|tested| !tested.has_few_values()) && has_tails(values, [1.5; 2])
 }
 
-/// The uniformity of the samples of `plan` in the space of inputs.
+/// How evenly the samples of `plan` fill the space of inputs.
 fn samples(plan: &Plan) -> Samples {
     match plan.design {
         Design::Sobol(_) | Design::Halton(_) => Samples::Even,

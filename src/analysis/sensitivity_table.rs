@@ -1,14 +1,14 @@
-//! `sensitivity.parquet`: sensitivities, one row for each pair of observable and input.
+//! `sensitivity.parquet`: one row per pair of observable and input.
 
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 use crate::table::Table;
 
-/// A measure of sensitivity: column, meaning, value.
+/// Column, meaning, value.
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
 
-/// A number of an estimate: suffix of its column, meaning, value.
+/// Suffix of the column, meaning, value.
 type EstimatePart = (&'static str, &'static str, fn(Estimate) -> f64);
 
 const PARTS: [EstimatePart; 3] = [

@@ -31,7 +31,7 @@ distribution = "normal"
 std = 0.05
 "#;
 
-/// The plan with so many samples; `design` is a line of the campaign file.
+/// With this many samples; `design` is a line of the campaign file.
 pub(super) fn small_plan(samples: u64, design: &str) -> Plan {
     let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
     Plan::from_text("small.toml", &TEXT.replace("DESIGN", design), overrides).expect("a plan")

@@ -1,16 +1,16 @@
-//! Amplitude spectrum of a series on a uniform grid, for a picture: the column `exchange_frequency_hz` is computed
-//! elsewhere ([`crate::observables`]), on the campaign's grid.
+//! Amplitude spectrum of a uniform series, for a picture; `exchange_frequency_hz` is computed in
+//! [`crate::observables`], on the campaign's grid.
 
 use core::f64::consts::{PI, TAU};
 
-/// Most frequencies of a spectrum, from the lowest on.
+/// Maximum number of frequencies.
 const MOST: usize = 400;
 
-/// Frequencies (Hz) and amplitudes, zero within rounding of `values` at uniform `times`, s, without the mean; `None`
-/// for fewer than eight points.
+/// Frequencies (Hz) and amplitudes of `values` at uniform `times`, s, without the mean; rounding errors are zero.
+/// `None` for fewer than eight points.
 ///
-/// Hann window w_k = (1 - cos(2 pi k / n))/2, whose mean is 1/2: a sine of amplitude a within a bin has the amplitude a
-/// (F. J. Harris, *Proc. IEEE* 66 (1978) 51).
+/// Hann window w_k = (1 - cos(2 pi k / n))/2 with mean 1/2: a sine of amplitude a at a bin has the amplitude a (F. J.
+/// Harris, *Proc. IEEE* 66 (1978) 51).
 pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
     let n = values.len().min(times.len()).checked_sub(1).filter(|n| *n >= 8)?;
     let duration = times[n] - times[0];
@@ -19,12 +19,12 @@ pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>
     let weight: f64 = windows.iter().sum();
     let mean = values.iter().zip(&windows).map(|(value, window)| value * window).sum::<f64>() / weight;
     let shaped: Vec<f64> = values.iter().zip(&windows).map(|(value, window)| (value - mean) * window).collect();
-    // what rounding leaves of a constant is no amplitude: n roundings of the mean, each of half an epsilon
+    // rounding error of a constant: n roundings of half an epsilon
     let noise = count * f64::EPSILON * values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let amplitude = |bin: usize| {
         let (mut re, mut im) = (0.0, 0.0);
         for (k, value) in shaped.iter().enumerate() {
-            // the phase modulo a turn, so that it stays exact
+            // exact phase modulo a turn
             let phase = 2.0 * PI * ((bin * k) % n) as f64 / count;
             re += value * libm::cos(phase);
             im += value * libm::sin(phase);
@@ -36,8 +36,8 @@ pub fn amplitudes(times: &[f64], values: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>
     Some((bins.clone().map(|bin| bin as f64 / duration).collect(), bins.map(amplitude).collect()))
 }
 
-/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` where all are zero, and
-/// where it is at an end of the spectrum, and so no peak.
+/// The frequency of the largest amplitude, by a parabola through it and its neighbours; `None` if all are zero or it is
+/// at an end.
 pub fn dominant(frequencies: &[f64], amplitudes: &[f64]) -> Option<f64> {
     let peak = (0..amplitudes.len()).max_by(|a, b| amplitudes[*a].total_cmp(&amplitudes[*b]))?;
     if amplitudes[peak] <= 0.0 || !amplitudes[peak].is_finite() {

@@ -1,13 +1,12 @@
-//! [`STATISTICS`]: the statistics of every observable, besides quantiles. Files, summary, page and comparison take them
-//! from this list.
+//! [`STATISTICS`]: the statistics of every observable, besides quantiles, for files, summary, page and comparison.
 
 use crate::analysis::statistics::ColumnStatistics;
 
 pub struct Statistic {
-    /// The column in files and the key in the summary.
+    /// Column in files and key in the summary.
     pub name: &'static str,
     pub words: &'static str,
-    /// The head of its column on the page, if it has one.
+    /// Column head on the page.
     pub head: Option<&'static str>,
     pub meaning: &'static str,
     pub value: fn(&ColumnStatistics) -> Option<f64>,

@@ -1,13 +1,13 @@
-//! [`Statistics`]: the statistics of every observable of a campaign, from its rows.
+//! [`Statistics`]: the statistics of every observable, a function of plan and files.
 //!
-//! A pure function of plan and files. Counts and extremes are exact, moments are merged in the order of the parts, and
-//! sketches hold counts, so that no bit depends on threads. Quantiles are exact up to
-//! [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows, and come from sketches beyond, with their bound. A
-//! few columns are read at a time: memory does not depend on the number of rows.
+//! Counts and extremes are exact, moments are merged in the order of the parts, sketches hold counts: results do not
+//! depend on threads. Quantiles are exact up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows, beyond
+//! they come from sketches with an error bound. Columns are read in batches, so that memory does not depend on the
+//! number of rows.
 //!
-//! The nominal sample 0 counts only if it is alone. A run that is not `ok` is counted and left out of estimates, except
-//! for the quantiles of requirements, which it violates. Intervals hold whatever its value would be, for a mean within
-//! the range of the observable. After a big [`Loss`] numbers have no intervals.
+//! The nominal sample 0 counts only if it is alone. Runs that are not `ok` are left out of estimates, except for the
+//! quantiles of requirements, which they violate. Intervals hold for all their possible values; for a mean, within the
+//! range of the observable. After a big [`Loss`] there are no intervals.
 
 use std::num::NonZeroUsize;
 
@@ -39,26 +39,26 @@ pub struct ColumnStatistics {
     pub without_value: u64,
     /// Over `ok` runs with a value.
     pub moments: Moments,
-    /// Ends of the interval of the mean; `None` for an open end, or without an interval.
+    /// `None` for an open end, or without an interval.
     pub mean_interval: [Option<f64>; 2],
-    /// Standard error of the mean: of independent samples, or of replicates.
+    /// Standard error of the mean, of independent samples or of replicates.
     pub mean_error: Option<f64>,
-    /// Ends of the interval of the standard deviation, for independent samples; `None` as for the mean.
+    /// For independent samples; `None` as for the mean.
     pub deviation_interval: [Option<f64>; 2],
-    /// The reason why mean and standard deviation are uncertain: no spread, few runs for the skewness, a heavy tail.
+    /// Why mean and standard deviation are uncertain: no spread, few runs for the skewness, a heavy tail.
     pub note: Option<String>,
     /// The quantiles of the plan, ascending.
     pub quantiles: Vec<QuantileStatistic>,
     /// Difference of the 95% and 5% quantiles, in a campaign with audits.
     pub spread: Option<f64>,
-    /// The quantiles of its requirements, which runs without a value violate.
+    /// The quantiles of its requirements, which missing values violate.
     pub required: Vec<(Requirement, QuantileStatistic)>,
-    /// Its distribution, where a page shows that.
+    /// Its distribution, if shown on the page.
     pub sketch: Option<Sketch>,
 }
 
 impl ColumnStatistics {
-    /// The quantiles as numbers, see [`QuantileStatistic::numbers`].
+    /// See [`QuantileStatistic::numbers`].
     pub fn quantile_numbers(&self) -> Vec<[f64; 4]> {
         self.quantiles.iter().map(QuantileStatistic::numbers).collect()
     }
@@ -71,7 +71,7 @@ const SPREAD: [f64; 2] = [0.05, 0.95];
 pub struct Statistics {
     pub population: Population,
     pub confidence: f64,
-    /// Numbers of counted samples by status, in the order of [`Status::ALL`].
+    /// Numbers of counted samples, in the order of [`Status::ALL`].
     pub statuses: [u64; Status::ALL.len()],
     /// Error bound of quantiles, relative to the smaller of their magnitude and their distance from a typical value; 0
     /// if exact.
@@ -99,12 +99,11 @@ impl Statistics {
         Loss::of(&self.statuses)
     }
 
-    /// The observable called `name`.
     pub fn column(&self, name: &str) -> Option<&ColumnStatistics> {
         self.columns.iter().find(|column| column.quantity.name() == name)
     }
 
-    /// The treatment of failed runs, in words.
+    /// The treatment of failed runs.
     pub fn treatment(&self) -> String {
         match self.samples() - self.ok() {
             0 => "every run was computed".to_owned(),
@@ -120,12 +119,10 @@ impl Statistics {
     }
 }
 
-/// The statistics of `plan` with the statuses `ended`, from `counted`, the counts of the first of the [`batches`] of
-/// its observables, and from the files of its rows, on `threads` threads (`None`: one per core). Those called `shown`
-/// have their sketches.
+/// The statistics of `plan` with the statuses `ended`, from `counted`, the first of the [`batches`], and the files of
+/// its rows, on `threads` threads (`None`: one per core). Those in `shown` get sketches.
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn compute(
     plan: &Plan,
     reader: &RowsReader,
@@ -136,7 +133,7 @@ pub fn compute(
     let population = Population::of(plan);
     let is_exact = is_exact(plan);
     let loss = ended.loss();
-    // of the runs with numbers
+    // population of the runs with numbers
     let left = population.after(loss);
     let mut columns = Vec::new();
     let mut describe = |observed: &[Observed], collected: Collected| {
@@ -153,7 +150,7 @@ pub fn compute(
         let of_batch = match counted.take() {
             Some(counted) => counted,
             None => {
-                // the nominal row is one more
+                // plus the nominal row
                 let first = || references(&batch, population, reader.first_parts(REFERENCE_ROWS + 1));
                 let collector = Collector::new(batch.clone(), population, (!is_exact).then(first).transpose()?);
                 let counted = of_files(&collector, reader, threads)?;
@@ -215,7 +212,7 @@ fn described(
     };
     let with_missing = |p: f64, limit: GateLimit| {
         let runs = loss.runs.max(count);
-        // violations are known, and so are intervals that count them
+        // known violations allow intervals
         let is_known = match Population::of(plan) {
             Population::Independent => true,
             other => other.has_intervals() && runs == count,
@@ -316,7 +313,7 @@ fn described(
     }
 }
 
-/// The sketch of `values`: about their mean, where they are close to each other.
+/// The sketch of `values`, about their mean if they are close together.
 fn sketched(values: &[f64], moments: &Moments) -> Sketch {
     let range = moments.max().zip(moments.min()).map_or(0.0, |(max, min)| max - min);
     let mut sketch = Sketch::about(moments.mean().filter(|mean| range < CLOSE * mean.abs()).unwrap_or(0.0));
@@ -337,7 +334,7 @@ fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
     }
 }
 
-/// Whether values with these moments are all 0 or 1: the mean of x (1 - x), which is positive between, is 0.
+/// Whether all values are 0 or 1: the mean of x (1 - x), positive in between, is 0.
 pub fn is_yes_or_no(moments: &Moments) -> bool {
     let (Some(mean), Some(deviation)) = (moments.mean(), moments.standard_deviation()) else { return false };
     let count = moments.count() as f64;
@@ -345,7 +342,7 @@ pub fn is_yes_or_no(moments: &Moments) -> bool {
     moments.min() == Some(0.0) && moments.max() == Some(1.0) && (mean - of_square).abs() < 1e-9 * mean
 }
 
-/// The reason why mean and standard deviation are uncertain.
+/// Why mean and standard deviation are uncertain.
 fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
     let skewness = moments.count().gt(&1).then(|| moments.skewness().unwrap_or(0.0))?;
     let share = moments.largest_share(2);
@@ -371,7 +368,7 @@ mod lost_runs;
 mod tests {
     use super::*;
 
-    /// Law: values are yes or no exactly if each is 0 or 1 and both occur.
+    /// Law: values are yes or no if and only if each is 0 or 1 and both occur.
     #[test]
     fn yes_or_no_is_known_from_moments() {
         for (values, known) in [

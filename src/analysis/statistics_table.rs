@@ -1,4 +1,4 @@
-//! `statistics.parquet`: the statistics, one row for each observable.
+//! `statistics.parquet`: one row per observable.
 
 use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::statistic::{STATISTICS, Statistic, Uncertainty};

@@ -1,4 +1,4 @@
-//! [`Statuses`]: the statuses of the runs of a campaign, counted once for summary, page, statistics and verdicts.
+//! [`Statuses`]: counts of the statuses of a campaign, for summary, page, statistics and verdicts.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::rows_reader::RowsError;
 
-/// Most failed samples listed by number for each status.
+/// Maximum number of failed samples listed per status.
 const KEPT: usize = 10;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct Ended {
     pub count: u64,
     /// Samples among them that statistics count.
     pub of_population: u64,
-    /// The first of them, ascending, with their reasons; none for `ok`.
+    /// The first of them, ascending, with reasons; none for `ok`.
     pub first: Vec<(SampleId, String)>,
 }
 
@@ -31,7 +31,7 @@ pub struct Statuses {
     population: Population,
 }
 
-/// The samples of a part with statuses, and the reasons by row.
+/// Samples of a part, statuses, and reasons by row.
 pub type StatusPart = (Vec<SampleId>, Vec<Status>, Vec<(usize, String)>);
 
 impl Statuses {
@@ -56,7 +56,7 @@ impl Statuses {
         }
     }
 
-    /// By status, in the order of [`Status::ALL`].
+    /// In the order of [`Status::ALL`].
     pub fn list(&self) -> &[Ended] {
         &self.list
     }
@@ -73,7 +73,7 @@ impl Statuses {
         self.runs() - self.failed().map(|ended| ended.count).sum::<u64>()
     }
 
-    /// Samples that statistics count, by status, in the order of [`Status::ALL`].
+    /// Samples that statistics count, in the order of [`Status::ALL`].
     pub fn of_population(&self) -> [u64; Status::ALL.len()] {
         self.list.each_ref().map(|ended| ended.of_population)
     }
@@ -130,8 +130,8 @@ impl Accumulator for StatusCounter {
 mod tests {
     use super::*;
 
-    /// Law: every sample is counted; the first failed ones are listed by number, whatever the order of the rows;
-    /// statistics count dispersed ones.
+    /// Law: every sample is counted; the first failed ones are listed in any order of the rows; statistics count
+    /// dispersed ones.
     #[test]
     fn samples_are_counted_and_the_first_failed_ones_listed() {
         let mut statuses = Statuses::none(Population::Independent);

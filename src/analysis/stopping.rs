@@ -16,9 +16,9 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopping {
-    /// Number of samples, with the nominal one.
+    /// Including the nominal one.
     pub samples: u64,
-    /// Number of the look, from 1.
+    /// From 1.
     pub look: usize,
     pub looks: usize,
     pub found: LookFound,
@@ -43,7 +43,7 @@ impl Stopping {
     }
 }
 
-/// The values of one observable in the dispersed `ok` runs, in the order of the samples, and the number of lost runs.
+/// One observable in the dispersed `ok` runs, in sample order, and the number of lost runs.
 #[derive(Clone, Debug, Default)]
 pub struct StopValues {
     pub values: Vec<f64>,
@@ -57,7 +57,7 @@ pub struct ObservedValues {
 }
 
 impl ObservedValues {
-    /// For the observable of `[stop]` in the first `samples` samples; none without it.
+    /// The observable of `[stop]`, if any, in the first `samples` samples.
     pub fn of_stop(plan: &Plan, samples: u64) -> Self {
         let name = plan.analysis.stop.as_ref().and_then(|stop| match &stop.when {
             When::Precise { observable, .. } => Some(observable.as_str()),
@@ -97,11 +97,9 @@ impl Accumulator for ObservedValues {
     }
 }
 
-/// Looks at the campaign `plan`, at the rows of the samples below one of its [`Plan::looks`] and their
-/// bands. `None` without `[stop]`.
+/// Looks at the rows and bands of the samples below one of [`Plan::looks`]. `None` without `[stop]`.
 ///
-/// # Errors
-/// Where a file cannot be read.
+/// # Errors If a file cannot be read.
 pub fn look(
     plan: &Plan,
     rows: &RowsReader,
@@ -122,8 +120,7 @@ pub fn look(
     }
 }
 
-/// A look at `samples` samples, from the `values` of the observable of `[stop]`, or from the `verdicts`. `None` without
-/// `[stop]`.
+/// A look at `samples` samples, from `values` or `verdicts`. `None` without `[stop]`.
 pub fn stopping(plan: &Plan, samples: u64, values: &StopValues, verdicts: &Verdicts) -> Option<Stopping> {
     let (stop, looks) = (plan.analysis.stop.as_ref()?, plan.looks());
     let found = match &stop.when {
@@ -134,7 +131,7 @@ pub fn stopping(plan: &Plan, samples: u64, values: &StopValues, verdicts: &Verdi
     Some(Stopping { samples, look, looks: looks.len(), found })
 }
 
-/// A look at values; its interval holds wherever the lost runs are.
+/// The interval holds wherever the lost runs are.
 fn precision(StopValues { values, lost }: &StopValues, goal: Goal, looks: usize) -> Look {
     let found = decision(values, goal, looks);
     if *lost == 0 {
@@ -151,8 +148,8 @@ fn precision(StopValues { values, lost }: &StopValues, goal: Goal, looks: usize)
 mod tests {
     use super::*;
 
-    /// Law: lost runs widen the interval to both sides and never stop a campaign; so many that they may be the quantile
-    /// stop none.
+    /// Law: lost runs widen the interval to both sides and never stop a campaign; if they may contain the quantile, it
+    /// has no bound.
     #[test]
     fn lost_runs_do_not_stop_a_campaign() {
         let values: Vec<f64> = (0..1000).map(|k| f64::from((k * 617) % 1000)).collect();

@@ -1,9 +1,7 @@
-//! [`Survey`]: what the page takes from the rows: a thinned table, the worst runs, audits; with the sketches that the
-//! statistics have of the main outcomes.
+//! [`Survey`]: the data of the page: a thinned table, the worst runs, audits, and sketches of the main outcomes. Its memory does not depend on the number of parts.
 //!
-//! Its memory does not depend on the number of parts. Rows of the thinned table are chosen by a hash of the sample's
-//! number: neither a design's order nor the number of parts matters, and the same samples are chosen of the same
-//! campaign.
+//! The thinned rows are chosen by a hash of the sample number, reproducibly and independent of the order of a design
+//! and of the parts.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::first_rows::{RowTable, explained};
@@ -27,37 +25,37 @@ use crate::statistics::quantile::interval_ranks;
 use crate::statistics::sketch::{Ranks, Sketch, middle};
 use crate::storage::rows_reader::RowsError;
 
-/// Most rows of the thinned table.
+/// Maximum rows of the thinned table.
 pub const THINNED: u64 = 16_384;
-/// Most points of a scatter plot.
+/// Maximum points of a scatter plot.
 pub const SCATTER: usize = 2000;
-/// How many of the worst runs are kept for each outcome.
+/// Worst runs kept per outcome.
 const KEPT: usize = 10;
-/// Most columns of outcomes in the thinned table: wheels have some each.
+/// Maximum outcomes in the thinned table; each wheel has some.
 const MOST_OUTCOMES: usize = 32;
 
-/// Quantiles of fewer runs are not shown.
+/// Fewest runs with quantiles.
 const FIRST_GROWTH: u64 = 16;
 
-/// An outcome that the page looks at.
+/// An outcome on the page.
 #[derive(Clone, Debug)]
 pub struct SurveyedOutcome {
     /// Name, unit, meaning.
     pub quantity: Quantity,
-    /// Whether the campaign is about it.
+    /// Whether it is an outcome of the campaign.
     pub is_outcome: bool,
     pub is_error: bool,
-    /// Its values over the dispersed runs that are ok.
+    /// Values over the dispersed `ok` runs.
     pub sketch: Sketch,
     pub worst: WorstRuns,
-    /// Its value in the nominal run; NaN where that has none.
+    /// Value in the nominal run, or NaN.
     pub nominal: f64,
-    /// The confidence of its intervals, that of the statistics.
+    /// Of its intervals.
     pub confidence: f64,
-    /// Quantiles of the first runs: number of runs, median, 99%-quantile, and the ends of its interval; how many of the
-    /// runs are above a half, and how many others were lost so far.
+    /// Quantiles of the first runs: number of runs, median, 99%-quantile with the ends of its interval, runs above a
+    /// half, runs lost so far.
     pub growth: Vec<[f64; 7]>,
-    /// Dispersed runs that are physical and were not computed.
+    /// Dispersed, physical runs that were not computed.
     pub lost: u64,
 }
 
@@ -65,36 +63,35 @@ pub struct SurveyedOutcome {
 pub struct Thinned {
     pub samples: Vec<u64>,
     pub statuses: Vec<Status>,
-    /// Inputs as applied, column by column.
+    /// As applied, by column.
     pub inputs: Vec<Vec<f64>>,
-    /// Outcomes, column by column as [`Survey::outcomes`].
+    /// By column, as [`Survey::outcomes`].
     pub outcomes: Vec<Vec<f64>>,
 }
 
-/// What the page takes from the rows.
 #[derive(Clone, Debug)]
 pub struct Survey {
     pub statuses: Statuses,
     pub outcomes: Vec<SurveyedOutcome>,
     pub thinned: Thinned,
-    /// Estimated and true error of audited runs, at most [`SCATTER`]: sample, estimate, truth.
+    /// Sample, estimated and true error of audited runs, at most [`SCATTER`].
     pub audits: Vec<[f64; 3]>,
-    /// How many runs were audited.
+    /// Number of audited runs.
     pub audited: u64,
 }
 
-/// The column with the code of how a mission failed; 0 where it did not.
+/// Column with the failure code of a mission, or 0.
 pub const FAILURE: &str = "failure";
 
-/// Whether the column `name` is an error of the computation, which should be small and is never negative.
+/// Whether the column `name` is a numerical error, which is small and never negative.
 fn is_error(name: &str) -> bool {
     let is_largest =
         name.contains("_max") && ["_error", "residual_", "orthonormality"].iter().any(|mark| name.contains(mark));
     is_largest || name.ends_with("error_estimate")
 }
 
-/// The distribution-free interval of the `p`-quantile of `count` numbers (order statistics), wherever `lost` others
-/// are; NaN where there are too few for an end.
+/// Distribution-free interval of the `p`-quantile of `count` numbers (order statistics), wherever `lost` others are;
+/// NaN for an open end.
 fn interval([count, lost]: [u64; 2], ranks: &Ranks, p: f64, confidence: f64) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];
@@ -105,12 +102,11 @@ fn interval([count, lost]: [u64; 2], ranks: &Ranks, p: f64, confidence: f64) -> 
     ends.map(|rank| rank.and_then(|rank| ranks.bounds(rank)).map_or(f64::NAN, middle))
 }
 
-/// The hash of a sample's number.
 fn hash(sample: u64) -> u64 {
     mix(sample.wrapping_add(GOLDEN))
 }
 
-/// Keeps the `most` indices whose samples have the smallest hashes, in ascending order.
+/// The `most` indices whose samples have the smallest hashes, ascending.
 pub fn chosen(samples: &[u64], most: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..samples.len()).collect();
     if order.len() > most {
@@ -121,8 +117,8 @@ pub fn chosen(samples: &[u64], most: usize) -> Vec<usize> {
     order
 }
 
-/// The names of the outcomes: those that the campaign is about, those whose inputs are estimated, those of a summary,
-/// and the motion's; and how many of them the first ones are.
+/// Names of the outcomes: of the campaign, with sensitivities, of the summary, of the motion; and the number of the
+/// first two kinds.
 fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
     let plan = ensemble.plan();
     let columns = ensemble.request().columns();
@@ -138,22 +134,22 @@ fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
         }
         names.len()
     };
-    // how a mission failed says which runs the page marks
+    // marks failed missions on the page
     let failure = columns.iter().map(|column| column.quantity.name()).find(|name| *name == FAILURE).map(str::to_owned);
     let asked = add(&mut outcomes(plan).into_iter().chain(explained(plan)).chain(failure));
     add(&mut main.chain(motion));
     (names, asked)
 }
 
-/// Takes what the page shows from the rows.
+/// Gathers the data of the page.
 #[derive(Clone, Debug)]
 pub struct Surveyor {
     observed: Vec<Observed>,
-    /// Names of the columns of all dispersed values.
+    /// Columns of all dispersed values.
     inputs: Vec<String>,
     nothing: Survey,
     thinning: Thinning,
-    /// Names of the estimated and the true error of the state, where runs are audited.
+    /// Columns of the estimated and the true state error, if audited.
     audited: Option<[&'static str; 2]>,
     has_dispersed: bool,
 }
@@ -284,7 +280,7 @@ impl Survey {
         self.audits = chosen(&samples, SCATTER).into_iter().map(|index| self.audits[index]).collect();
     }
 
-    /// The same after the last part, with how all runs ended.
+    /// Completes the survey after the last part.
     #[must_use]
     pub fn finished(mut self, statuses: Statuses) -> Self {
         self.thin_audits();
@@ -292,8 +288,7 @@ impl Survey {
         self
     }
 
-    /// The outcomes, each with the sketch that `statistics` have of it, and with its quantiles in the `first` rows of
-    /// `plan`, where it is one of these.
+    /// Adds the sketches of `statistics` to the outcomes, and quantiles over the `first` rows of `plan`.
     pub(super) fn describe(&mut self, plan: &Plan, statistics: &mut Statistics, first: &RowTable) {
         let lost = statistics.loss().missing;
         for outcome in &mut self.outcomes {
@@ -311,15 +306,14 @@ impl Survey {
 }
 
 impl SurveyedOutcome {
-    /// Whether it answers yes or no: every value is 1 or 0.
+    /// Whether every value is 1 or 0.
     pub fn is_yes_or_no(&self, values: &[f64]) -> bool {
         let are_ends =
             self.sketch.min().is_some_and(|min| min >= 0.0) && self.sketch.max().is_some_and(|max| max <= 1.0);
         are_ends && values.iter().all(|value| value.is_nan() || *value == 0.0 || *value == 1.0)
     }
 
-    /// Its quantiles in the first of the runs with `values`, NaN where one has none, four steps to a doubling; and in
-    /// all runs.
+    /// Quantiles over the first of `values`, NaN for none, four steps per doubling, and over all runs.
     fn grown(&self, values: &[f64], is_ok: &[bool]) -> Vec<[f64; 7]> {
         let mut sketch = Sketch::about(Some(self.nominal).filter(|value| value.is_finite()).unwrap_or(0.0));
         let (mut rows, mut lost, mut next) = (Vec::new(), 0, FIRST_GROWTH);
@@ -341,7 +335,7 @@ impl SurveyedOutcome {
         rows
     }
 
-    /// The quantiles of the runs in `sketch`, without those that are `lost`.
+    /// Quantiles of `sketch`, with `lost` other runs.
     fn quantiles(&self, sketch: &Sketch, lost: u64) -> [f64; 7] {
         const HIGH: f64 = 0.99;
         let (count, ranks) = (sketch.count(), sketch.ranks());
@@ -352,10 +346,10 @@ impl SurveyedOutcome {
     }
 }
 
-/// Which samples are kept in the thinned table.
+/// Selects the samples of the thinned table.
 #[derive(Clone, Copy, Debug)]
 struct Thinning {
-    /// Samples whose hash is at most this.
+    /// Largest hash kept.
     most: u64,
 }
 
@@ -364,7 +358,7 @@ impl Thinning {
         let most = if samples <= THINNED {
             u64::MAX
         } else {
-            // a little fewer than allowed: the number is random with the standard deviation of its square root
+            // four standard deviations below the maximum, since the number is random
             let aim = THINNED as f64 - 4.0 * libm::sqrt(THINNED as f64);
             (aim / samples as f64 * 2f64.powi(64)) as u64
         };
@@ -380,7 +374,7 @@ impl Thinning {
 mod tests {
     use super::*;
 
-    /// Law: about as many samples are kept as are allowed, never more; all of a small campaign; the nominal one always.
+    /// Law: nearly the maximum number of samples is kept, never more; all of a small campaign; always the nominal one.
     #[test]
     fn thinning_keeps_what_fits() {
         let kept = |samples: u64| (0..samples).filter(|id| Thinning::of(samples).keeps(SampleId(*id))).count() as u64;
@@ -390,8 +384,7 @@ mod tests {
         assert!(Thinning::of(1 << 40).keeps(SampleId(0)));
     }
 
-    /// Law: a chosen subset does not follow the order of a low-discrepancy design: the chosen numbers have no common
-    /// low bits.
+    /// Law: a chosen subset is not periodic in a low-discrepancy design: chosen numbers share no low bits.
     #[test]
     fn chosen_samples_have_no_period() {
         let samples: Vec<u64> = (0..65_536).collect();

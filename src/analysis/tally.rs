@@ -1,7 +1,4 @@
-//! [`Tally`]: ends of the runs of a campaign, the worst runs, and audits.
-//!
-//! It keeps counts, extremes and sample numbers, and no floating-point sums, so that the order of the parts does not
-//! matter. The nominal sample 0 counts among the worst runs and the audits only if it is alone.
+//! [`Tally`]: statuses, worst runs and audits. It keeps counts, extremes and sample numbers, no floating-point sums: the order of the parts does not matter. The nominal sample 0 is among the worst runs and audits only if it is alone.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -25,13 +22,13 @@ use crate::storage::rows_reader::RowsError;
 
 const LISTED: usize = 3;
 
-/// The runs with the worst values of an error, or of an observable that a requirement is about.
+/// Runs with the worst values of an error, or of a required observable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
     /// An error in words, or the name of the observable.
     pub name: String,
     pub is_error: bool,
-    /// Indices among the observables of a row; an error is the maximum of their magnitudes.
+    /// Indices in a row; an error is the maximum of their magnitudes.
     indices: Vec<usize>,
     pub list: WorstRuns,
 }
@@ -39,16 +36,14 @@ pub struct Worst {
 #[derive(Clone, Debug)]
 pub struct Tally {
     pub statuses: Statuses,
-    /// Whether statistics leave out the nominal sample, which else is the only one.
+    /// Whether statistics leave out the nominal sample; else it is the only one.
     pub without_nominal: bool,
-    /// The runs with the greatest errors, where the campaign observes those errors, and with the worst values of the
-    /// observables that requirements are about.
+    /// Of observed errors and required observables.
     pub worst: Vec<Worst>,
     pub audits: Option<AuditTally>,
-    /// Runs beyond the heights of the table of the air; `None` without such a table in the file, or without observed
-    /// distances.
+    /// Runs beyond the heights of the air table; `None` without a table or observed distances.
     pub beyond_air: Option<u64>,
-    /// The observables with audited numerical errors, in the order of [`crate::observables::headlines`].
+    /// Observables with audited errors, in the order of [`crate::observables::headlines`].
     pub headlines: Vec<String>,
 }
 
@@ -64,11 +59,11 @@ pub struct TallyColumns {
     audited: Vec<usize>,
     headlines: Vec<usize>,
     has_debris: bool,
-    /// The columns of the least and the greatest distance from the centre, and the ends of the table of the air, m.
+    /// Columns of the minimum and maximum distance from the centre, with the ends of the air table, m.
     air: Option<[(&'static str, f64); 2]>,
 }
 
-/// The columns of the least and the greatest distance from the centre of the central body, m.
+/// Columns of the minimum and maximum distance from the centre of the central body, m.
 const DISTANCES: [&str; 2] = ["orbit_distance_min_m", "orbit_distance_max_m"];
 
 #[derive(Clone, Debug)]
@@ -127,7 +122,7 @@ impl TallyColumns {
         }
     }
 
-    /// The audits of a part; a selected sample without one is a failed audit.
+    /// The audits of a part; a selected sample without one has failed.
     fn audits(
         &self,
         part: &impl PartColumns,
@@ -190,7 +185,7 @@ impl Accumulator for TallyColumns {
         for worst in &mut whole.worst {
             let values: Vec<&Vec<f64>> = worst.indices.iter().map(|index| &part.values[index]).collect();
             for (row, (sample, status)) in part.ended.0.iter().zip(&part.ended.1).enumerate() {
-                // runs that are too inaccurate to count have the greatest errors
+                // runs too inaccurate to count have the largest errors
                 let counts = *status == Status::Done || worst.is_error && *status == Status::Inaccurate;
                 if counts && !is_nominal(*sample) {
                     let values = values.iter().map(|values| values[row]).filter(|value| value.is_finite());

@@ -1,7 +1,7 @@
-//! Full time series of runs retained by `[retain]`: `trajectories/sample-000012.parquet`.
+//! Time series of runs retained by `[retain]`: `trajectories/sample-000012.parquet`.
 //!
-//! A row is a pure function of plan and sample, so runs are chosen from the finished rows and flown again: bit for bit
-//! the run behind the row, in the file of `simulate --sample 12 --out`.
+//! A row is a function of plan and sample, so runs are chosen from the finished rows and flown again, bit for bit as by
+//! `simulate --sample 12 --out`.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -45,7 +45,7 @@ pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
 }
 
-/// Chooses the retained samples: a function of the plan and its rows, without samples whose scene is not physical.
+/// Chooses the retained samples, except unphysical ones, from plan and rows.
 #[derive(Clone, Debug)]
 pub struct Retained {
     retention: Retention,
@@ -114,7 +114,7 @@ impl Accumulator for Retained {
     }
 }
 
-/// At most `count` dispersed samples of `plan`: the first of a random permutation.
+/// At most `count` dispersed samples: the first of a random permutation.
 fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     let dispersed = plan.dispersed_rows();
     let first = plan.rows() - dispersed;
@@ -122,14 +122,12 @@ fn chosen(plan: &Plan, count: u64) -> BTreeSet<SampleId> {
     (0..count.min(dispersed)).map(|place| plan.sample(first + permutation.image(place))).collect()
 }
 
-/// Takes a file of a dataset: name and bytes.
+/// Receives a file of a dataset: name and bytes.
 pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
 
-/// Makes the time series of `samples` of `plan`, with the bytes of `simulate --sample K --out`, and gives each file to
-/// `take`.
+/// Passes the time series of `samples`, as files of `simulate --sample K --out`, to `take`.
 ///
-/// # Errors
-/// The first file that could not be taken; no run is started after it.
+/// # Errors The first that `take` or a run returns; no run starts after it.
 pub fn save(
     plan: &Plan,
     samples: &[SampleId],
@@ -137,7 +135,7 @@ pub fn save(
     take: &TakeFile<'_>,
 ) -> Result<(), TrajectoryError> {
     run_each(plan, samples, machine, &|runs, sample| {
-        // a sample without a run has no file
+        // unphysical samples have no file
         let Ok(run) = runs.run(sample) else { return Ok(()) };
         let name = format!("{TRAJECTORIES}/{}", file_name(sample));
         let encoded = encoded(&time_series(sample, &run, |_| true), provenance(plan), Packing::Lz4);

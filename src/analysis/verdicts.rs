@@ -1,15 +1,11 @@
-//! [`Verdicts`]: the verdicts on the requirements of a campaign, from its rows.
+//! [`Verdicts`]: verdicts on the requirements of a campaign from exact counts of its rows, never from sketches.
 //!
-//! Exact counts, never a sketch, decide quantiles and fractions. Samples that are not physical are outside of the
-//! population; any other run that is not `ok` violates every requirement, as does one in which the subject never
-//! happened, unless the key `never` says that this meets it. A run whose value is not a number neither meets nor
-//! violates it.
+//! Unphysical samples are outside of the population; any other run that is not `ok` violates every requirement, as does
+//! one whose subject never happened, unless the key `never` says otherwise. A value that is not a number neither meets
+//! nor violates.
 //!
-//! Each look of `[stop]` has its share of the errors (Bonferroni), and each requirement its share of the errors of
-//! failures ([`failing_together`]).
-//!
-//! Not here: the verdict of the counts of one requirement (`row_verdicts`), and requirements over time
-//! (`band_verdicts`), except for columns of rows.
+//! Each look of `[stop]` has its share of the errors (Bonferroni), each requirement its share of the errors of failures
+//! ([`failing_together`]). Verdicts on single counts are in `row_verdicts`, over time in `band_verdicts`.
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::assessment::Assessment;
@@ -32,21 +28,21 @@ use crate::storage::rows_reader::RowsError;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdicts {
     pub list: Vec<Assessment>,
-    /// Dispersed samples that are not physical.
+    /// Unphysical dispersed samples.
     pub invalid: u64,
     pub samples: u64,
-    /// Number of looks; one without `[stop]`.
+    /// One without `[stop]`.
     pub looks: usize,
-    /// Confidence of the two-sided intervals.
+    /// Of the two-sided intervals.
     pub confidence: f64,
 }
 
 impl Verdicts {
-    /// Takes the values of quantiles from `statistics`: a quantile has one value.
+    /// Adopts the quantiles of `statistics`, so that each has one value.
     #[must_use]
     pub fn with_quantiles(mut self, statistics: &Statistics) -> Self {
         for one in &mut self.list {
-            // without an estimate, values that are not numbers leave the quantile open
+            // undefined values leave the quantile open
             let is_known = one.gate.estimate.is_finite() && one.requirement.observable().is_some();
             if let (Statement::Quantile(_), true) = (one.requirement.statement, is_known) {
                 one.value = statistics.required(&one.requirement).and_then(|quantile| quantile.value);
@@ -73,7 +69,7 @@ pub struct RequirementCounts {
 pub struct RequirementCounter {
     requirements: Vec<Requirement>,
     observed: Vec<Observed>,
-    /// The index in `observed` of each requirement; `None` over time.
+    /// Index in `observed` of each requirement; `None` over time.
     of: Vec<Option<usize>>,
     population: Population,
 }
@@ -145,7 +141,7 @@ impl Accumulator for RequirementCounter {
     }
 }
 
-/// The verdicts of the counts of the requirements of `plan`, with the statuses `ended` and the `bands`.
+/// Verdicts from the counts, the statuses `ended` and the `bands`.
 pub fn assess(plan: &Plan, ended: &Statuses, counted: &RequirementCounts, bands: Option<&Bands>) -> Verdicts {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {

@@ -2,8 +2,7 @@
 
 use crate::sampling::SampleId;
 
-/// The runs with the greatest magnitudes, descending, or with the smallest values, ascending, if small values are bad;
-/// equal ones by ascending number.
+/// Largest magnitudes, descending, or smallest values, ascending, if `is_low`; ties by ascending number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRuns {
     most: usize,
@@ -16,12 +15,12 @@ impl WorstRuns {
         WorstRuns { most, is_low, runs: Vec::new() }
     }
 
-    /// Whether it is full: other runs may be as bad as its last one.
+    /// Whether other runs may be as bad as the last one.
     pub fn is_full(&self) -> bool {
         self.runs.len() >= self.most
     }
 
-    /// Adds a run; NaN is no value.
+    /// Adds a run; ignores NaN.
     pub fn add(&mut self, sample: SampleId, value: f64) {
         let badness = |value: f64| if self.is_low { -value } else { value.abs() };
         let bad = badness(value);
@@ -39,7 +38,7 @@ impl WorstRuns {
 mod tests {
     use super::*;
 
-    /// Law: the worst runs are listed, equal ones by number, in whatever order they come; NaN is none.
+    /// Law: the worst runs are listed in any order of arrival, ties by number; NaN is ignored.
     #[test]
     fn the_worst_are_listed() {
         let mut values = [(4, 7.0), (0, -99.0), (1, 2.0), (3, 7.0), (5, 1.0), (6, f64::NAN), (7, -8.0)];

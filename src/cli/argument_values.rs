@@ -1,4 +1,4 @@
-//! The values of options that are more than a number or a path: each from its text, or what is allowed instead.
+//! Parsers of option values; errors state the allowed values.
 
 use std::num::NonZeroUsize;
 
@@ -6,16 +6,15 @@ use crate::propagation::Method;
 use crate::storage::claim::Shard;
 use crate::workflow::threads::usable;
 
-/// Most shards of a campaign.
+/// Maximum number of shards.
 const MOST_SHARDS: u64 = 1_000_000;
 
-/// The method of that name; otherwise the list of names.
 pub fn method(name: &str) -> Result<Method, String> {
     let names = || Method::ALL.map(Method::name).join(", ");
     Method::from_name(name).ok_or_else(|| format!("must be one of {}", names()))
 }
 
-/// A number for which `is` holds; otherwise what is `allowed`.
+/// A finite number for which `is` holds.
 fn number(text: &str, is: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
     let found = text.parse().ok().filter(|value: &f64| value.is_finite() && is(*value));
     found.ok_or_else(|| format!("must be a number {allowed}"))
@@ -29,7 +28,7 @@ pub fn fraction(text: &str) -> Result<f64, String> {
     number(text, |value| (0.0..=1.0).contains(&value), "from 0 to 1")
 }
 
-/// A dotted key and its value, `campaign.duration_s=20`; otherwise the allowed form.
+/// A dotted key and its value, `campaign.duration_s=20`.
 pub fn setting(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned()));
     parts
@@ -37,7 +36,7 @@ pub fn setting(text: &str) -> Result<(String, String), String> {
         .ok_or_else(|| "must be KEY=VALUE, for instance campaign.duration_s=20".to_owned())
 }
 
-/// A shard, for instance 3/8; otherwise the allowed form.
+/// A shard: 3/8.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
     let shard = numbers.map(|(number, of)| Shard { number, of });
@@ -45,7 +44,7 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
 }
 
-/// A number of threads that this machine can use; otherwise the allowed range.
+/// A number of threads that this machine supports.
 pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
     usable(text.parse().unwrap_or(0))
 }
@@ -54,7 +53,7 @@ pub fn shift(text: &str) -> Result<f64, String> {
     number(text, |value| value >= 0.0, "of at least 0")
 }
 
-/// A number of samples; otherwise the allowed form.
+/// A whole number.
 pub fn count(text: &str) -> Result<u64, String> {
     let whole = |number: &f64| (0.0..=9e15).contains(number) && libm::floor(*number) == *number;
     text.parse().map_err(|_| match text.parse().ok().filter(whole) {

@@ -1,4 +1,4 @@
-//! `spindrift check`: what a campaign would run.
+//! `spindrift check`: previews a campaign.
 
 use crate::cli::arguments::CheckOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
@@ -17,7 +17,6 @@ pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
     let said = sections(&findings(&found, options.verbose), screen::width());
     screen::print(&(question(plan.description.as_deref(), screen::width()) + &said))?;
     if options.plan {
-        // as it is in a file
         screen::print(&format!("\n== Plan (hash {})\n{}", plan.hash(), plan.text()))?;
     }
     let failed = found.runs.failed() as u64;

@@ -1,5 +1,4 @@
-//! Colour on the terminal: verdicts, headings of help, notes. Words stay as they are; a pipe gets no colour unless it
-//! is asked for.
+//! Colour on the terminal: verdicts, headings of help, notes. Pipes get none unless requested.
 
 use std::io::IsTerminal;
 
@@ -7,13 +6,13 @@ use clap::ValueEnum;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Colour {
-    /// On a terminal, unless the variable NO_COLOR is set or the terminal is dumb.
+    /// On a terminal, unless NO_COLOR is set or the terminal is dumb.
     Auto,
     Always,
     Never,
 }
 
-/// The option, which stands before or after the command.
+/// Valid before and after the command.
 const OPTION: &str = "--color";
 
 const RED: &str = "\x1b[31m";
@@ -23,7 +22,7 @@ const BOLD: &str = "\x1b[1m";
 const DIM: &str = "\x1b[2m";
 const RESET: &str = "\x1b[0m";
 
-/// Words that are a verdict, with their colour.
+/// Coloured words.
 const VERDICTS: [(&str, &str); 7] = [
     ("PASS", GREEN),
     ("FAIL", RED),
@@ -34,19 +33,19 @@ const VERDICTS: [(&str, &str); 7] = [
     ("UNDECIDED", YELLOW),
 ];
 
-/// The headings of help texts.
+/// Headings of help texts.
 const HEADINGS: [&str; 6] = ["Usage:", "Arguments:", "Options:", "Commands:", "Examples:", "Exit codes:"];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A result, or help.
     Result,
-    /// A note beside the result, or the reason of a failure.
+    /// A note or an error.
     Note,
 }
 
 impl Colour {
-    /// What the arguments of this process ask for, also where they are wrong: the message that says so is coloured too.
+    /// Reads the option even from invalid arguments, so that their error message is coloured too.
     fn asked(arguments: impl Iterator<Item = String>) -> Self {
         let mut asked = Colour::Auto;
         let mut arguments = arguments.peekable();
@@ -63,7 +62,7 @@ impl Colour {
         asked
     }
 
-    /// Whether a stream gets colour; `variable` gives the variables of the environment.
+    /// Whether a stream gets colour; `variable` reads the environment.
     fn is_on(self, is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> bool {
         let is_set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
         match self {
@@ -76,15 +75,13 @@ impl Colour {
     }
 }
 
-/// Whether `stream` gets colour.
 pub fn is_on(stream: &impl IsTerminal) -> bool {
     let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
     Colour::asked(arguments).is_on(stream.is_terminal(), |name| std::env::var(name).ok())
 }
 
-/// `text` with colour.
 pub fn coloured(text: &str, kind: Kind) -> String {
-    // what follows in an error is as important as its first line
+    // later lines of an error matter as much as the first
     let kind = if text.starts_with("error:") { Kind::Result } else { kind };
     text.split_inclusive('\n').map(|line| of_line(line, kind)).collect()
 }
@@ -107,7 +104,7 @@ fn of_line(line: &str, kind: Kind) -> String {
     words(content) + end
 }
 
-/// `text` with its verdicts in their colours.
+/// Colours the verdicts in `text`.
 fn words(text: &str) -> String {
     let mut painted = String::with_capacity(text.len());
     let mut rest = text;
@@ -130,8 +127,8 @@ fn words(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Law: with `auto` a terminal has colour and a pipe has none; NO_COLOR and a dumb terminal take it away, an empty
-    /// NO_COLOR does not; `always` and `never` are stronger than both.
+    /// Law: with `auto` terminals get colour and pipes do not; a non-empty NO_COLOR or a dumb terminal disables it;
+    /// `always` and `never` override both.
     #[test]
     fn a_pipe_has_no_colour() {
         let on = |colour: Colour, is_terminal: bool, no_color: Option<&str>, term: Option<&str>| {

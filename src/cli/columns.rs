@@ -1,4 +1,4 @@
-//! `spindrift columns`: the groups of columns of the rows of a result, and the columns with unit and meaning.
+//! `spindrift columns`: the columns of the rows, by group, with unit and meaning.
 
 use std::path::Path;
 
@@ -37,14 +37,14 @@ pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::Done)
 }
 
-/// The groups: how many columns each has, what they are about, and what they need.
+/// The groups with their sizes, subjects and prerequisites.
 fn groups(all: &[ListedColumn], campaign: Option<&Path>) -> String {
     let heads = [("group", Align::Left), ("columns", Align::Right), ("what they are about", Align::Sentence)];
     let mut table = Table::with(heads);
     for columns in by_group(all) {
         let title = &columns[0].group;
         let (about, needs) = about(title);
-        // a campaign has what its columns need
+        // a campaign fulfils the prerequisites
         let needs = if needs.is_empty() || campaign.is_some() { String::new() } else { format!(" ({needs})") };
         table.row([title.clone(), columns.len().to_string(), about.to_owned() + &needs]);
     }
@@ -60,7 +60,7 @@ fn groups(all: &[ListedColumn], campaign: Option<&Path>) -> String {
     format!("{}{} columns in all\n\n{}", table.text(screen::width()), all.len(), examples.text(screen::width()))
 }
 
-/// What the columns of a section are about, and what a campaign needs for them.
+/// Subject and prerequisite of a section.
 fn about(title: &str) -> (&'static str, &'static str) {
     let Some(group) = Group::from_name(title) else {
         return match title {
@@ -90,7 +90,7 @@ fn about(title: &str) -> (&'static str, &'static str) {
     }
 }
 
-/// What groups need that no campaign observes unless it says so.
+/// Prerequisite of groups that are not observed by default.
 const NAMED: &str = "in observe.groups";
 
 fn text(all: &[ListedColumn]) -> String {

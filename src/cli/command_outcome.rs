@@ -1,43 +1,42 @@
-//! [`CommandOutcome`], [`Failure`]: how a command ends, and the documented exit codes.
+//! [`CommandOutcome`], [`Failure`]: ends of commands, and the documented exit codes.
 
 use crate::cli::{screen, signals};
 use crate::findings::end::SummaryEnd;
 use crate::run::Status;
-/// A command that could not run: code 2 where arguments or campaign file are wrong, code 4 where files are.
+/// A command that could not run: code 2 for arguments or campaign file, code 4 for other files.
 pub use crate::workflow::WorkflowError as Failure;
 
-/// How a command ended that could run.
+/// The end of a command that ran.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
-    /// No run failed: code 0.
+    /// Code 0.
     Done,
-    /// This many runs failed, or had errors above their estimates where more did than promised: code 1.
+    /// Failed runs, or runs that break the promise of their error estimates: code 1.
     SomeFailed(u64),
-    /// A signal stopped it: code 128 and the signal's number.
+    /// Signal: code 128 plus its number.
     Stopped(i32),
-    /// This many requirements failed: code 3.
+    /// Failed requirements: code 3.
     RequirementsFailed(usize),
-    /// No requirement failed, and this many are undecided, a precision among them that `[stop]` did not reach: code 5.
+    /// Undecided requirements, including an unreached goal of `[stop]`: code 5.
     RequirementsUndecided(usize),
-    /// What was verified is sound, and more is to come: code 5.
+    /// Sound but unfinished: code 5.
     Unfinished,
 }
 
 impl CommandOutcome {
-    /// The outcome of a command that made one run.
+    /// Of a single run.
     pub fn of(status: Status) -> Self {
         Self::of_campaign(u64::from(status != Status::Done), 0, 0)
     }
 
-    /// The outcome of a command that finds a finished result: as of the one that finished it.
+    /// Of a finished result.
     pub fn of_end(end: &SummaryEnd) -> Self {
         let undecided = end.count("UNDECIDED") + usize::from(!end.is_reached);
         Self::of_campaign(end.failed + end.not_covered, end.count("FAIL"), undecided)
     }
 
-    /// The outcome of a campaign with so many runs (those that broke the promise of their audits among them) and
-    /// requirements that failed, and requirements that are undecided. A requirement that failed matters most, then one
-    /// that is undecided, then failed runs.
+    /// Requirements that failed take precedence, then undecided ones, then failed runs, including those that break the
+    /// promise of their audits.
     pub fn of_campaign(failed_runs: u64, failed: usize, undecided: usize) -> Self {
         match (failed, undecided, failed_runs) {
             (0, 0, 0) => CommandOutcome::Done,
@@ -48,7 +47,7 @@ impl CommandOutcome {
     }
 }
 
-/// Prints the reason of a failure and returns the exit code.
+/// Prints the reason of a failure.
 pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> u8 {
     match ended {
         Ok(CommandOutcome::Done) => 0,
@@ -72,8 +71,8 @@ mod tests {
     use super::*;
     use crate::findings::requirement::EndVerdict;
 
-    /// Law: whatever makes a finished result no success gives its code, each alone: runs that failed, audits beyond
-    /// their estimates, verdicts, a precision that was not reached.
+    /// Law: each shortfall alone has its code: failed runs, audits beyond their estimates, verdicts, unreached
+    /// precision.
     #[test]
     fn every_shortfall_has_its_code() {
         let end = |failed, not_covered, word: &str, is_reached| SummaryEnd {

@@ -1,4 +1,4 @@
-//! `spindrift compare`: two results, their plans, their verdicts and the shifts of their statistics.
+//! `spindrift compare`: compares two results.
 
 use crate::cli::arguments::CompareOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

@@ -1,4 +1,4 @@
-//! [`text`]: what a command prints of a result that it has finished.
+//! [`text`]: the output for a finished result.
 
 use std::path::Path;
 
@@ -10,22 +10,21 @@ use crate::report::screen;
 use crate::workflow::Completed;
 use crate::workflow::outcome::place;
 
-/// The result in words, on one screen or with all that is known of it; `replayed` is the campaign file as a word of the
-/// command `simulate`.
+/// The result on one screen or in full; `replayed` is the campaign file for replay commands, quoted.
 pub fn text(completed: &Completed, replayed: &str, is_verbose: bool) -> String {
     let findings = &completed.findings;
     let head = screen::question(completed.plan.description.as_deref(), width()) + &headline(completed);
     let body = if is_verbose {
         screen::verbose(findings, replayed, width()) + &files(completed)
     } else {
-        // the last line is the verdict
+        // one line for the verdict
         let most = screen::LINES.saturating_sub(head.lines().count() + 1);
         screen::text(findings, replayed, [most, width()])
     };
     head + &body + &completed.end.verdict_line(&place(&completed.root)) + "\n"
 }
 
-/// What a result takes: CPU time of audits, files.
+/// CPU time of audits, size of files.
 fn files(completed: &Completed) -> String {
     let seconds = completed.made.unwrap_or_default().seconds;
     let audits = if completed.is_audited && seconds[1] > 0.0 {
@@ -37,12 +36,12 @@ fn files(completed: &Completed) -> String {
     format!("{audits}\n  {root}: {} of rows, {size}\n", counted(files, "file"))
 }
 
-/// The warnings and verdicts of a finished result in `root`, and its page.
+/// Warnings, verdicts and page of the result in `root`.
 pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
     screen::end(end, &place(root), width())
 }
 
-/// What ran, how fast.
+/// Number and speed of the runs.
 fn headline(completed: &Completed) -> String {
     let (name, end, seed) = (&completed.plan.name, &completed.end, completed.plan.seed);
     let ok = if end.failed > 0 { format!("{} of ", end.rows - end.failed) } else { String::new() };
@@ -55,13 +54,13 @@ fn headline(completed: &Completed) -> String {
         }
         _ => String::new(),
     };
-    // every other count is of the dispersed runs
+    // all other counts are of dispersed runs
     let has_nominal = end.rows == completed.plan.samples && end.rows > 1;
     let nominal = if has_nominal { " (1 nominal)" } else { "" };
     format!("{name}: {ok}{}{nominal} computed{run}, seed {seed}\n", counted(end.rows, "run"))
 }
 
-/// A number of samples per second: whole, or with one decimal below ten.
+/// Samples per second, with one decimal below ten.
 pub fn rate(rate: f64) -> String {
     format!("{rate:.*}/s", usize::from(rate < 9.95))
 }

@@ -1,4 +1,4 @@
-//! `spindrift finish`: what is made of the rows of a campaign once all of them are there.
+//! `spindrift finish`: derives the result from the complete rows of a campaign.
 
 use crate::cli::arguments::FinishOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

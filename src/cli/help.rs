@@ -1,6 +1,5 @@
-//! What stands at the end of the help texts: exit codes in the program's own, two examples in that of every command.
+//! Ends of the help texts: exit codes for the program, two examples for each command.
 
-/// At the end of the program's help.
 pub const EXIT_CODES: &str = "\
 Exit codes:
   0  done (also: the same campaign was already complete)
@@ -20,85 +19,71 @@ A FILE without a folder, with or without .toml, is also looked for in campaigns/
 SPINDRIFT_ISA=avx512|avx2|plain selects an instruction set; results do not
 depend on it.";
 
-/// Of `campaign`.
 pub const CAMPAIGN: &str = "\
 Examples:
   spindrift campaign spin_sweep.toml --samples 10000
   spindrift campaign net_launch.toml --set control.delay_s=0.2 --out slow";
 
-/// Of `finish`.
 pub const FINISH: &str = "\
 Examples:
   spindrift finish results/spin_sweep
   spindrift finish results/spin_sweep --junit verdicts.xml";
 
-/// Of `show`.
 pub const SHOW: &str = "\
 Examples:
   spindrift show results/spin_sweep --verbose
   spindrift show results/spin_sweep --json";
 
-/// Of `verify`.
 pub const VERIFY: &str = "\
 Examples:
   spindrift verify results/spin_sweep
   spindrift verify results/spin_sweep --fraction 1 --repair";
 
-/// Of `check`.
 pub const CHECK: &str = "\
 Examples:
   spindrift check spin_sweep.toml
   spindrift check net_launch.toml --set campaign.samples=100000";
 
-/// Of `compare`.
 pub const COMPARE: &str = "\
 Examples:
   spindrift compare results/before results/after
   spindrift compare results/before results/after --out shifts.json";
 
-/// Of `simulate`.
 pub const SIMULATE: &str = "\
 Examples:
   spindrift simulate spin_sweep.toml --sample 17 --plot run17.svg
   spindrift simulate net_launch.toml --sample 7 --out run7.csv";
 
-/// Of `sample`.
 pub const SAMPLE: &str = "\
 Examples:
   spindrift sample spin_sweep.toml --plot inputs.svg
   spindrift sample spin_sweep.toml --samples 100000 --out inputs.parquet";
 
-/// Of `report`.
 pub const REPORT: &str = "\
 Examples:
   spindrift report results/spin_sweep
   spindrift report results/net_launch --figures figures";
 
-/// Of `index`.
 pub const INDEX: &str = "\
 Examples:
   spindrift index results
   spindrift index /data/studies";
 
-/// Of `precision`.
 pub const PRECISION: &str = "\
 Examples:
   spindrift precision spin_sweep.toml
   spindrift precision burn.toml --methods auto,dop853 --tolerances 1e-6,1e-12";
 
-/// Of `new`.
 pub const NEW: &str = "\
 Examples:
   spindrift new my_sweep.toml
   spindrift new studies/first.toml";
 
-/// Of `schema`.
 pub const SCHEMA: &str = "\
 Examples:
   spindrift schema > spindrift.schema.json
   spindrift schema > schemas/spindrift.schema.json";
 
-/// Of `columns`.
 pub const COLUMNS: &str = "\
 Examples:
   spindrift columns momentum

@@ -1,4 +1,4 @@
-//! `spindrift index`: a table and a page of all results below a folder.
+//! `spindrift index`: all results below a folder, as table and page.
 
 use crate::cli::arguments::IndexOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

@@ -1,4 +1,4 @@
-//! `spindrift new`: writes a campaign file to start from, with its JSON Schema. `spindrift schema`: prints the schema.
+//! `spindrift new`: a starter campaign file with its JSON Schema. `spindrift schema`: the schema alone.
 
 use std::fs::OpenOptions;
 use std::io::Write;
@@ -10,13 +10,11 @@ use crate::cli::screen;
 use crate::findings::shell_word::quoted_path;
 use crate::storage::atomic;
 
-/// The file: a spacecraft with a wheel, what is uncertain of it, and a requirement.
 const START: &str = include_str!("../../assets/start.toml");
 
-/// The file of the schema, in the folder of the campaign file.
+/// Placed next to the campaign file.
 const SCHEMA: &str = "spindrift.schema.json";
 
-/// The schema as text.
 fn schema_text() -> String {
     format!("{:#}\n", schema())
 }

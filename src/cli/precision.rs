@@ -1,4 +1,4 @@
-//! `spindrift precision`: run time against error for every method and tolerance.
+//! `spindrift precision`: run time against error for methods and tolerances.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,4 @@
-//! [`run`]: the program: selects the command. The binary calls it, and so does the command that comes with the Python
-//! package.
+//! [`run`]: the program, for the binary and the Python package.
 
 use std::ffi::OsString;
 
@@ -9,7 +8,7 @@ use crate::cli::{
     show, signals, simulate, verify,
 };
 
-/// Does what `words` say, the name of the program first; the exit code.
+/// Runs the command in `words`, which begin with the program's name; returns the exit code.
 pub fn run(words: impl Iterator<Item = OsString>) -> u8 {
     signals::report_file_limit();
     let ended = match arguments(words).command {

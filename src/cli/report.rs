@@ -1,4 +1,4 @@
-//! `spindrift report`: makes the page of a finished result again from its rows, and its figures as files.
+//! `spindrift report`: rebuilds the page of a finished result, and its figures as files.
 
 use crate::cli::arguments::ReportOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

@@ -1,4 +1,4 @@
-//! `spindrift campaign`: runs the samples of a campaign that are not there yet, and finishes the result.
+//! `spindrift campaign`: runs the missing samples of a campaign and finishes the result.
 
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
             let question = question(plan.description.as_deref(), screen::width());
             let verdicts = completed_text::of_end(&end, root);
             screen::print(&format!("{question}{}{verdicts}", wrapped(&there, screen::width())))?;
-            // the verdicts are those of the campaign, not of a shard
+            // verdicts belong to the campaign, not to a shard
             Ok(if options.shard.is_some() { CommandOutcome::Done } else { outcome })
         }
         CampaignOutcome::ShardDone { shard, made } => {
@@ -75,7 +75,6 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
     }
 }
 
-/// The campaign that the options mean.
 fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a> {
     let mut campaign = Campaign::from_file(&options.file, session).outputs(options.written.outputs());
     for (key, value) in &options.changed.settings {
@@ -105,7 +104,7 @@ fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a>
     if options.fail_fast { campaign.fail_fast() } else { campaign }
 }
 
-/// Refuses files that the command must not write, and work that cannot be done.
+/// Refuses to overwrite inputs, and excessive work.
 fn check(options: &CampaignOptions, campaign: &PreparedCampaign<'_>) -> Result<(), Failure> {
     let root = campaign.root();
     let outputs = options.written.named();
@@ -136,8 +135,7 @@ fn shard_is_done(name: &str, shard: Shard, root: &Path, made: Made) -> String {
     )
 }
 
-/// The campaign file as a word of the command `simulate`: the file of this command, or the plan in the result where
-/// options replaced its numbers.
+/// The campaign file for replay commands, quoted: this command's file, or the result's plan if options changed numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
     let is_changed = !options.changed.settings.is_empty()
         || options.samples.is_some()

@@ -1,4 +1,4 @@
-//! `spindrift sample`: the dispersed parameters of a campaign, without runs.
+//! `spindrift sample`: draws the dispersed parameters without runs.
 
 use crate::campaign::{Overrides, Plan, draw};
 use crate::cli::arguments::SampleOptions;
@@ -27,7 +27,7 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::Done)
 }
 
-/// The numbers that one sample applies.
+/// Prints the applied numbers of one sample.
 fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
     if sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);

@@ -1,5 +1,5 @@
-//! Printing. Characters of files and names that a terminal would obey are shown as escapes. The standard macros panic
-//! where the reader has closed the pipe (`spindrift check x | head`); these do not.
+//! Printing, with control characters escaped and broken pipes tolerated (`spindrift check x | head`), unlike with the
+//! standard macros.
 
 use std::io::{self, IsTerminal, Write};
 
@@ -10,8 +10,7 @@ use crate::table::wrapped::message;
 
 /// Prints a result on standard output.
 ///
-/// # Errors
-/// Where writing fails; a closed pipe is not an error.
+/// # Errors If writing fails, other than to a closed pipe.
 pub fn print(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
     let text = printable(text);
@@ -22,26 +21,25 @@ pub fn print(text: &str) -> io::Result<()> {
     }
 }
 
-/// Width of a terminal that is not known, characters.
+/// Fallback width, characters.
 const UNKNOWN_WIDTH: usize = 100;
 
-/// Number of characters in a line of standard output: as the variable COLUMNS says (POSIX.1-2017, section 8.3), else as
-/// the terminal says, else 100.
+/// Line width of standard output: COLUMNS (POSIX.1-2017, section 8.3), else the terminal's, else 100.
 pub fn width() -> usize {
     width_of(&io::stdout()).unwrap_or(UNKNOWN_WIDTH)
 }
 
-/// The same of any stream; `None` where nothing says it.
+/// As [`width`], for any stream; `None` if unknown.
 fn width_of(stream: &impl Stream) -> Option<usize> {
     let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse().ok());
     asked.filter(|width| *width > 0).or_else(|| terminal_width(stream))
 }
 
-/// Prints a message on standard error; failure to write it is ignored.
+/// Prints a message on standard error; ignores failures.
 pub fn note(text: &str) {
     let mut out = io::stderr().lock();
     let text = printable(text);
-    // a pipe whose reader names no width gets lines as they are
+    // pipes of unknown width get unwrapped lines
     let text = match width_of(&out).or(out.is_terminal().then_some(UNKNOWN_WIDTH)) {
         Some(width) => message(&text, width).into(),
         None => text,

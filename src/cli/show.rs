@@ -1,4 +1,4 @@
-//! `spindrift show`: what a finished result has found, again: as text, or as the text of its `summary.json`.
+//! `spindrift show`: prints a finished result again, as text or as its `summary.json`.
 
 use crate::cli::arguments::ShowOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

@@ -1,23 +1,19 @@
-//! [`watch`]: signals that ask the program to stop.
-//!
-//! The first one lets parts under way end if they can within [`GRACE`]; the second one ends the program at once. Either
-//! way what is committed stays, and the same command continues. A signal that was ignored when the program started
-//! (`nohup`) stays ignored.
+//! [`watch`]: graceful termination. The first signal gives current parts [`GRACE`] to end, the second ends the program at once. Committed parts stay and the same command continues. Signals ignored at the start (`nohup`) stay ignored.
 
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::Duration;
 
-/// How long parts under way may take to end.
+/// Time for current parts to end.
 pub const GRACE: Duration = Duration::from_secs(5);
-/// After this long a run that does not end is left behind: committed parts are whole whenever the program ends.
+/// Time before a hanging run is abandoned; committed parts are always whole.
 const LAST: Duration = Duration::from_millis(1500);
 
-/// What signals have asked for.
+/// Requests of the signals.
 #[derive(Debug)]
 pub struct Signals {
-    /// No further part is to be started.
+    /// Start no further part.
     pub stop: AtomicBool,
-    /// Parts under way are to be given up.
+    /// Abandon current parts.
     pub abandon: AtomicBool,
     signal: AtomicI32,
 }
@@ -26,13 +22,13 @@ static ASKED: Signals =
     Signals { stop: AtomicBool::new(false), abandon: AtomicBool::new(false), signal: AtomicI32::new(0) };
 
 impl Signals {
-    /// The first signal, where there was one.
+    /// The first signal received.
     pub fn first(&self) -> Option<i32> {
         Some(self.signal.load(Ordering::SeqCst)).filter(|signal| *signal != 0)
     }
 }
 
-/// The name of a signal that stops the program.
+/// The name of a handled signal.
 pub fn name(signal: i32) -> &'static str {
     match signal {
         1 => "SIGHUP",
@@ -43,21 +39,20 @@ pub fn name(signal: i32) -> &'static str {
     }
 }
 
-/// The exit code of a program that a signal has stopped, as shells have it.
+/// Exit code by shell convention.
 pub fn exit_code(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
 
-/// What signals have asked for so far.
+/// The requests so far.
 pub fn asked() -> &'static Signals {
     &ASKED
 }
 
-/// Makes the write that exceeds the file size that the process may have (`ulimit -f`) fail with an error, which is then
-/// told as any other. Without a handler the system would end the program.
+/// Turns a write beyond the file size limit (`ulimit -f`) into an error; by default the signal ends the program.
 #[cfg(unix)]
 pub fn report_file_limit() {
-    // where it cannot be registered, only that message is lost
+    // failure to register only loses the message
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
@@ -65,8 +60,7 @@ pub fn report_file_limit() {
 #[cfg(not(unix))]
 pub fn report_file_limit() {}
 
-/// Starts to watch for signals, once. Where its thread cannot be started, the program ends: it would not end at a
-/// signal.
+/// Starts the watch, once. Exits if its thread cannot start, since signals would then be ignored.
 #[cfg(unix)]
 pub fn watch() -> &'static Signals {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
@@ -83,7 +77,7 @@ pub fn watch() -> &'static Signals {
                     std::process::exit(i32::from(exit_code(signal)));
                 }
                 ASKED.stop.store(true, Ordering::SeqCst);
-                // without a further thread the command ends when its runs do
+                // without a further thread, wait for the runs
                 let _ = std::thread::Builder::new().spawn(move || {
                     std::thread::sleep(GRACE);
                     ASKED.abandon.store(true, Ordering::SeqCst);
@@ -103,13 +97,13 @@ pub fn watch() -> &'static Signals {
     &ASKED
 }
 
-/// Starts to watch for signals; there are none here.
+/// There are no signals here.
 #[cfg(not(unix))]
 pub fn watch() -> &'static Signals {
     &ASKED
 }
 
-/// The signals that this process ignores, bit by bit from signal 1 on. Only Linux says.
+/// Mask of ignored signals, bit 0 for signal 1; known on Linux only.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -72,7 +72,7 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::of(run.outcome.status))
 }
 
-/// Compares the run with its reference solution, and shows errors and estimate.
+/// Prints the errors against a reference solution.
 fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> Result<(), Failure> {
     let sample = options.sample;
     let found = match run.audit(plan, isa) {
@@ -86,7 +86,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
         "audit of sample {sample}, against a reference solution with tolerance {:e}\n",
         found.value(AuditValue::Tolerance)
     );
-    // the tolerance of the reference solution is in the first line
+    // the tolerance is in the first line
     let values = AuditValue::of_scenes(run.request.debris).filter(|value| *value != AuditValue::Tolerance);
     let lines = values.map(|value| (value.quantity().name(), found.value(value)));
     let columns = run.request.columns();

@@ -1,5 +1,4 @@
-//! [`Terminal`]: what a command tells while it works: notes, and on a terminal a bar with rate and remaining time.
-//! Signals stop it.
+//! [`Terminal`]: notes, a progress bar on terminals, and signals.
 
 use std::fmt::Write;
 use std::sync::atomic::AtomicBool;
@@ -11,7 +10,7 @@ use crate::cli::signals::{self, Signals};
 use crate::cli::{completed_text, screen, signals::asked};
 use crate::workflow::Watch;
 
-/// Redraws per second; progress is reported far more often.
+/// Redraws per second.
 const REFRESH_HZ: u8 = 8;
 
 /// Standard error, and the signals of this process.
@@ -21,7 +20,7 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// The signal that has stopped the work, where one has.
+    /// The signal that stopped the work.
     pub fn signal(&self) -> Option<i32> {
         asked().first()
     }
@@ -36,7 +35,7 @@ impl Watch for Terminal {
         screen::note(text);
     }
 
-    /// From now on signals stop the work, and not at once the program.
+    /// From here on, signals stop the work before the program.
     fn begin(&self, samples: u64) {
         signals::watch();
         let bar = ProgressBar::with_draw_target(Some(samples), ProgressDrawTarget::stderr_with_hz(REFRESH_HZ));

@@ -1,4 +1,4 @@
-//! `spindrift verify`: whether a result is what was written, and whether its rows are what the plan says.
+//! `spindrift verify`: checks files of a result against their checksums, and rows against the plan.
 
 use crate::cli::arguments::VerifyOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};

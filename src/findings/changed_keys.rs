@@ -1,5 +1,5 @@
-//! The keys in which two plans differ, as a [`table`] or as [`phrases`]: those that changed alike once, and what only
-//! one plan has by its table.
+//! The differing keys of two plans, as a [`table`] or as [`phrases`]. Keys with the same change share a line, as do all
+//! keys of a table that only one plan has.
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, said};
@@ -8,13 +8,14 @@ use crate::table::Table;
 use crate::table::text::Align;
 use crate::table::wrapped::fitted;
 
-/// Most letters of a value.
+/// Maximum characters per value.
 const LONGEST_VALUE: usize = 40;
-/// In place of the value of a key that a plan does not have, and of the values of several that it has.
+/// Stands for the value of a key that the plan lacks.
 const ABSENT: &str = "-";
+/// Stands for the values of several keys.
 const THERE: &str = "there";
 
-/// A line of the table: the key, or what several have in common, and the values.
+/// A key, or the pattern of several keys, with the value in each plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Line {
     key: String,
@@ -22,7 +23,6 @@ struct Line {
     values: [String; 2],
 }
 
-/// The table: the key, its value before and after.
 pub fn table(keys: &[KeyDifference], plans: [&Plan; 2]) -> Table<'static> {
     let heads = [("changed in the file", Align::Title), ("before", Align::Whole), ("after", Align::Whole)];
     let mut table = Table::with(heads);
@@ -34,7 +34,7 @@ pub fn table(keys: &[KeyDifference], plans: [&Plan; 2]) -> Table<'static> {
     table
 }
 
-/// The differences as phrases, at most `most` and one that counts the other keys; `plans` where both can be read.
+/// At most `most` phrases, then the number of remaining keys. `plans` is given if both can be read.
 pub fn phrases(keys: &[KeyDifference], plans: Option<[&Plan; 2]>, most: usize) -> Vec<String> {
     let all = lines(keys, plans);
     let phrase = |Line { key, values: [before, after], .. }: &Line| match (before.as_str(), after.as_str()) {
@@ -49,7 +49,7 @@ pub fn phrases(keys: &[KeyDifference], plans: Option<[&Plan; 2]>, most: usize) -
     all.iter().take(most).map(phrase).chain(more).collect()
 }
 
-/// The lines, in the order of the keys.
+/// The lines in key order.
 fn lines(keys: &[KeyDifference], plans: Option<[&Plan; 2]>) -> Vec<Line> {
     let mut lines: Vec<Line> = Vec::new();
     for one in keys {
@@ -63,13 +63,12 @@ fn lines(keys: &[KeyDifference], plans: Option<[&Plan; 2]>) -> Vec<Line> {
     lines
 }
 
-/// What two keys have in common that changed alike, `guidance.*.bandwidth_rad_s`, or that are of one table, which only
-/// one plan has; and the values of both.
+/// Merges two keys if both changed alike (`guidance.*.bandwidth_rad_s`) or both belong to a table that only one plan
+/// has. Returns the pattern and the values.
 fn common(key: &str, other: &str, values: &[String; 2], of_other: &[String; 2]) -> Option<(String, [String; 2])> {
     let of = |key: &str| key.rsplit_once('.').map(|(table, last)| (table.to_owned(), last.to_owned()));
     let ((table, last), (other_table, other_last)) = (of(key)?, of(other)?);
     let [is_new, is_gone] = [0, 1].map(|side| values[side] == ABSENT && of_other[side] == ABSENT);
-    // `[table]` stands for all its keys
     let listed = key.strip_suffix(".*").unwrap_or(&table);
     if (is_new || is_gone) && listed == other_table {
         let (there, absent) = (THERE.to_owned(), ABSENT.to_owned());
@@ -88,8 +87,8 @@ mod tests {
     use crate::campaign::Overrides;
     use crate::campaign::difference::text_differences;
 
-    /// Known: keys that changed alike are one line, with their number; tables that only one plan has are one line;
-    /// every key is counted in one line.
+    /// Law: keys with the same change share one line, tables that only one plan has take one line, every key is counted
+    /// once.
     #[test]
     fn keys_that_changed_alike_stand_together() {
         let text = include_str!("../../campaigns/net_launch.toml");

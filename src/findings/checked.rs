@@ -1,4 +1,4 @@
-//! What a campaign would run: its question, what runs cost, what is dispersed, the nominal scene, what is integrated.
+//! A preview of a campaign: question, cost, dispersions, nominal scene and integrated states.
 
 use crate::campaign::{Plan, failed_device};
 use crate::control::capacity::Capacity;
@@ -12,28 +12,28 @@ use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
 
-/// What is known of a campaign before it runs.
+/// A campaign as known before it runs.
 #[derive(Debug)]
 pub struct Probed<'p> {
     pub ensemble: &'p Ensemble<'p>,
-    /// Its nominal scene.
+    /// Nominal scene.
     pub scene: Scene,
-    /// Its first runs.
+    /// Probe of the first runs.
     pub runs: RunProbe,
-    /// Their audits, or the sample whose audit takes too long; `None` of a campaign without audits.
+    /// Probe of their audits, or the sample whose audit takes too long; `None` without audits.
     pub audits: Option<Result<AuditProbe, crate::sampling::SampleId>>,
-    /// What its file should say otherwise, each a sentence.
+    /// Suggested corrections to the file, one sentence each.
     pub notes: Vec<String>,
-    /// Files of rows, and their columns.
+    /// Number of row files and of their columns.
     pub files: [u64; 2],
     /// Disk space and memory, bytes.
     pub needs: [f64; 2],
     pub cores: usize,
 }
 
-/// Reasons of failures that are listed.
+/// Maximum number of failure reasons listed.
 const MOST_REASONS: usize = 8;
-/// How to see what a screen leaves out.
+/// Points to the details that a screen omits.
 const MORE: &str = "--verbose: percentiles, masses, momenta, what is integrated; --plan: every key";
 
 /// A sentence in the section `title`.
@@ -41,7 +41,7 @@ fn about(title: &str, sentence: String) -> Finding {
     Finding::new(Kind::Note, "check", title, sentence)
 }
 
-/// All of it, or what a screen has place for; titles are those of sections.
+/// All findings, or the subset that fits a screen; titles name the sections.
 pub fn findings(probed: &Probed<'_>, is_verbose: bool) -> Vec<Finding> {
     let plan = probed.ensemble.plan();
     let mut list = vec![about("", summary(plan))];
@@ -72,7 +72,6 @@ pub fn findings(probed: &Probed<'_>, is_verbose: bool) -> Vec<Finding> {
     list
 }
 
-/// What the campaign runs.
 fn summary(plan: &Plan) -> String {
     let steps = match plan.step_s {
         Some(step) => format!("steps of {} s", trimmed(step, 6)),
@@ -86,7 +85,7 @@ fn summary(plan: &Plan) -> String {
     format!("{}: {rows} of {seconds} s, method {}, {steps}, {requirements}", plan.name, plan.method.name())
 }
 
-/// What the probe found where runs failed: how many, and why.
+/// How many of the probed runs failed, and why.
 fn failures(title: &str, plan: &Plan, probe: &RunProbe) -> Vec<Finding> {
     let (failed, count) = (probe.failed(), probe.count());
     let lost = match plan.analysis.requirements.len() {
@@ -103,7 +102,7 @@ fn failures(title: &str, plan: &Plan, probe: &RunProbe) -> Vec<Finding> {
     head.into_iter().chain([Finding { children, ..all }]).chain(more).collect()
 }
 
-/// Which devices fail and when, and what runs are watched for.
+/// Device failures, events and extremes.
 fn happenings(plan: &Plan) -> Vec<Finding> {
     let end = plan.grid.duration();
     let failure = |failure: &crate::scene::FailureInput| {
@@ -133,19 +132,20 @@ fn happenings(plan: &Plan) -> Vec<Finding> {
     list
 }
 
-/// What is integrated and why, and what is not; nothing of what scene and method do not have.
+/// The integrated states with the reason for each, and the states left out; skips whatever scene and method lack.
 fn computed(ensemble: &Ensemble<'_>) -> Vec<Finding> {
     let about = |sentence: String| self::about("What is computed", sentence);
     let (request, scene) = (ensemble.request(), &ensemble.plan().nominal);
     let reasons = request.reasons();
-    let field = |field: StateField| {
+    let line = |field: StateField| {
+        let (name, exists) = state_field(request, field);
         let reason = reasons.iter().find(|(needed, _)| *needed == field);
         let why = reason.map_or("not computed: no requested observable needs it".to_owned(), |(_, reason)| {
             format!("needed by {reason}")
         });
-        about(format!("{}: {why}", field_name(field)))
+        exists.then(|| about(format!("{name}: {why}")))
     };
-    let mut list: Vec<Finding> = StateField::ALL.into_iter().filter(|field| has(request, *field)).map(field).collect();
+    let mut list: Vec<Finding> = StateField::ALL.into_iter().filter_map(line).collect();
     let acting = request.actuated;
     let is_held = scene.wheels.iter().any(|wheel| wheel.mode == WheelMode::SpeedHeld);
     for (term, exists, scheduled, held) in [
@@ -169,44 +169,31 @@ fn computed(ensemble: &Ensemble<'_>) -> Vec<Finding> {
     list
 }
 
-/// Whether scenes and method of the request have a field.
-fn has(request: &Request, field: StateField) -> bool {
+/// The name of a state, and whether the scenes and the method of the request have it.
+fn state_field(request: &Request, field: StateField) -> (&'static str, bool) {
+    let (debris, wheels, acting) = (request.debris, !request.wheels.is_empty(), request.actuated);
+    let constrained = request.constrained;
     match field {
-        StateField::DebrisPosition
-        | StateField::DebrisVelocity
-        | StateField::DebrisAttitude
-        | StateField::DebrisRate => request.debris,
-        StateField::WheelRates | StateField::WheelAngles => !request.wheels.is_empty(),
-        StateField::Work => request.actuated.any(),
-        StateField::Impulse => request.actuated.thrusters,
-        StateField::AngularImpulse => request.actuated.external(),
-        StateField::Dcm | StateField::Residuals | StateField::KineticEnergies => request.constrained,
-        StateField::Rate | StateField::Attitude | StateField::ComPosition | StateField::ComVelocity => true,
+        StateField::Rate => ("angular velocity of the body", true),
+        StateField::Attitude => ("attitude quaternion", true),
+        StateField::WheelRates => ("wheel rates", wheels),
+        StateField::WheelAngles => ("wheel angles", wheels),
+        StateField::ComPosition => ("position of the centre of mass", true),
+        StateField::ComVelocity => ("velocity of the centre of mass", true),
+        StateField::Work => ("work of actuators and torques on the body", acting.any()),
+        StateField::Impulse => ("impulse of the thrusters", acting.thrusters),
+        StateField::AngularImpulse => ("angular impulse of thrusters and torques on the body", acting.external()),
+        StateField::DebrisPosition => ("position of the debris", debris),
+        StateField::DebrisVelocity => ("velocity of the debris", debris),
+        StateField::DebrisAttitude => ("attitude of the debris", debris),
+        StateField::DebrisRate => ("angular velocity of the debris", debris),
+        StateField::Dcm => ("direction cosine matrix (null_space method)", constrained),
+        StateField::Residuals => ("constraint residuals (null_space method)", constrained),
+        StateField::KineticEnergies => ("kinetic energies of the redundant states (null_space method)", constrained),
     }
 }
 
-fn field_name(field: StateField) -> &'static str {
-    match field {
-        StateField::Rate => "angular velocity of the body",
-        StateField::Attitude => "attitude quaternion",
-        StateField::WheelRates => "wheel rates",
-        StateField::WheelAngles => "wheel angles",
-        StateField::ComPosition => "position of the centre of mass",
-        StateField::ComVelocity => "velocity of the centre of mass",
-        StateField::Work => "work of actuators and torques on the body",
-        StateField::Impulse => "impulse of the thrusters",
-        StateField::AngularImpulse => "angular impulse of thrusters and torques on the body",
-        StateField::DebrisPosition => "position of the debris",
-        StateField::DebrisVelocity => "velocity of the debris",
-        StateField::DebrisAttitude => "attitude of the debris",
-        StateField::DebrisRate => "angular velocity of the debris",
-        StateField::Dcm => "direction cosine matrix (null_space method)",
-        StateField::Residuals => "constraint residuals (null_space method)",
-        StateField::KineticEnergies => "kinetic energies of the redundant states (null_space method)",
-    }
-}
-
-/// Time, from a probe of the first samples; disk space and memory; time of the audits.
+/// Run time extrapolated from the probe; disk space, memory and audit time.
 fn estimate(probed: &Probed<'_>) -> Vec<Finding> {
     let Probed { ensemble, runs: probe, files, needs, cores, .. } = probed;
     let plan = ensemble.plan();
@@ -250,7 +237,7 @@ fn estimate(probed: &Probed<'_>) -> Vec<Finding> {
     [about(&title, time), about(&title, space)].into_iter().chain(failed).chain([audits]).collect()
 }
 
-/// Time of the audits, extrapolated from a probe of the first samples.
+/// Audit time extrapolated from the probe.
 fn audit_estimate(title: &str, probed: &Probed<'_>) -> Finding {
     let plan = probed.ensemble.plan();
     let said = match &probed.audits {

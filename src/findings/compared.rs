@@ -1,4 +1,4 @@
-//! [`Compared`]: two results compared, with their verdicts and the keys in which their plans differ.
+//! [`Compared`]: two compared results with their verdicts and differing keys.
 
 use std::cmp::Ordering;
 
@@ -10,20 +10,20 @@ use crate::findings::requirement::EndVerdict;
 use crate::statistics::contingency::fisher;
 use crate::statistics::two_sample::holm;
 
-/// A requirement of either result with its verdict in each, where it has one.
+/// A requirement of either result with its verdicts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComparedVerdict {
     /// The requirement as a sentence.
     pub requirement: String,
     pub verdicts: [Option<EndVerdict>; 2],
-    /// The probability that data of one and the same campaign differ as much by chance, adjusted for the number of
-    /// requirements (Holm); `None` where no test applies.
+    /// Probability that two results of one campaign differ this much by chance, adjusted for the number of requirements
+    /// (Holm); `None` if no test applies.
     pub p_value: Option<f64>,
-    /// Whether the verdicts differ, and the data by no more than chance makes.
+    /// Whether the verdicts differ but the data differ no more than chance allows.
     pub is_within_chance: bool,
 }
 
-/// The requirements of both results: those of the first in their order, then those that only the second has.
+/// Requirements of the first result in their order, then those that only the second has.
 pub fn verdicts([first, second]: [Vec<EndVerdict>; 2], comparison: &Comparison) -> Vec<ComparedVerdict> {
     let verdict = |list: &[EndVerdict], name: &str| list.iter().find(|one| one.requirement == name).cloned();
     let both = first.iter().chain(second.iter().filter(|one| verdict(&first, &one.requirement).is_none()));
@@ -44,9 +44,9 @@ pub fn verdicts([first, second]: [Vec<EndVerdict>; 2], comparison: &Comparison) 
     all
 }
 
-/// The probability that the data behind two verdicts on one requirement differ as much by chance: that of the share of
-/// runs that violate it (Fisher), or of its mean; of pairs also that of their differences, of the runs without a value,
-/// and of those that failed, which violate it. The smallest of k counts k-fold.
+/// Probability that the data behind two verdicts differ this much by chance. Tests the share of violating runs (Fisher)
+/// or the mean; for paired results also the differences, the runs without a value and the failed runs, which violate
+/// the requirement. Bonferroni: the smallest of k p-values times k.
 fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Comparison) -> Option<f64> {
     let is_its = |name: &str| first.observable.as_deref() == Some(name);
     let column = comparison.columns.iter().find(|column| is_its(column.quantity.name()));
@@ -64,24 +64,23 @@ fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Compari
 }
 
 impl ComparedVerdict {
-    /// Whether the second verdict is worse than the first: FAIL is worse than UNDECIDED, which is worse than PASS. A
-    /// requirement that only one result has is not compared. Whether chance explains it is another question.
+    /// Whether the second verdict is worse, in the order FAIL, UNDECIDED, PASS; ignores chance.
     pub fn is_worse(&self) -> bool {
         self.change() == Some(Ordering::Less)
     }
 
-    /// `PASS`, `FAIL` or `UNDECIDED` in the first or in the second result.
+    /// `PASS`, `FAIL` or `UNDECIDED` in result `which`.
     pub fn word(&self, which: usize) -> Option<&str> {
         self.verdicts[which].as_ref().map(|one| one.word.as_str())
     }
 
-    /// How the second verdict compares with the first; `None` where only one result has the requirement.
+    /// The second verdict relative to the first; `None` if only one result has the requirement.
     pub fn change(&self) -> Option<Ordering> {
         let rank = |which| ["FAIL", "UNDECIDED", "PASS"].iter().position(|known| Some(*known) == self.word(which));
         rank(0).zip(rank(1)).map(|(first, second)| second.cmp(&first))
     }
 
-    /// The change in a word; and its place among those that are listed.
+    /// The change in a word, with its place in the list.
     pub fn mark(&self) -> (usize, String) {
         let p = self.p_value.map_or(String::new(), |p| format!(", p = {}", brief(p)));
         let (place, word) = match (self.change(), &self.verdicts[0]) {
@@ -104,21 +103,20 @@ impl ComparedVerdict {
 /// Two results compared.
 #[derive(Clone, Debug)]
 pub struct Compared<'c> {
-    /// What the results are called.
     pub names: [String; 2],
     pub plans: [&'c Plan; 2],
     pub comparison: Comparison,
-    /// The keys in which the plans differ.
+    /// Keys in which the plans differ.
     pub keys: Vec<KeyDifference>,
     pub verdicts: Vec<ComparedVerdict>,
-    /// The shift that is allowed, where one is.
+    /// Allowed shift, as a share of the spread.
     pub tolerance: Option<f64>,
-    /// Whether a verdict that is worse counts although chance explains it.
+    /// Whether worse verdicts count even if chance explains them.
     pub is_strict: bool,
 }
 
 impl<'c> Compared<'c> {
-    /// The results `names` of `plans`, with their verdicts; nothing is required of the comparison.
+    /// Compares `names` of `plans`, without a tolerance.
     pub fn new(names: [String; 2], plans: [&'c Plan; 2], comparison: Comparison, ends: [Vec<EndVerdict>; 2]) -> Self {
         let verdicts = verdicts(ends, &comparison);
         let keys = differences(plans[0], plans[1]);
@@ -130,7 +128,7 @@ impl<'c> Compared<'c> {
         self.verdicts.iter().filter(|one| self.is_strict || !one.is_within_chance)
     }
 
-    /// How many verdicts are worse, and one more where a shift is beyond the tolerance.
+    /// Number of worse verdicts, plus one if a shift exceeds the tolerance.
     pub fn failed(&self) -> usize {
         let is_beyond = self.tolerance.is_some_and(|tolerance| self.comparison.is_beyond(tolerance));
         self.counted().filter(|one| one.is_worse()).count() + usize::from(is_beyond)
@@ -144,8 +142,7 @@ mod tests {
     use crate::statistics::binomial::{Decision, decide};
     use crate::statistics::contingency::Occurrence;
 
-    /// The verdicts of three requirements: that each observable is at most `limits` in 95% of the runs, as runs without
-    /// a value are not.
+    /// Verdicts on three requirements: each observable is at most its limit in 95% of the runs.
     fn judged(rows: &[[f64; 3]], limits: [f64; 3]) -> Vec<EndVerdict> {
         let verdict = |(place, limit): (usize, f64)| {
             let within = rows.iter().filter(|row| row[place] <= limit).count() as u64;
@@ -166,7 +163,7 @@ mod tests {
         limits.into_iter().enumerate().map(verdict).collect()
     }
 
-    /// The verdicts before and after a change, of 200 runs each.
+    /// Verdicts on 200 runs each before and after a change.
     fn changed(seeds: [u64; 2], noise: f64, change: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<ComparedVerdict> {
         let of = |which: usize| rows(200, [seeds[which], 7000 + 2 * seeds[0] + which as u64], noise, 0.02);
         let (first, second) = (of(0), of(1).into_iter().map(change).collect::<Vec<[f64; 3]>>());
@@ -176,13 +173,13 @@ mod tests {
         verdicts([judged(&first, limits), judged(&second, limits)], &found)
     }
 
-    /// H0: nothing changed but the seed, or noise that both draw alike; a verdict of three is called worse, and not by
-    /// chance, in at most 0.05: of 300 campaigns, seeds 1 to 300, at most 26 (alpha = 2e-3 for each of 3). The
-    /// counter-test: verdicts alone are worse in a fifth and more. Power: the same
-    /// runs a tenth of their spread higher, and other runs one spread higher, are told in nine of ten worse verdicts.
+    /// H0: nothing changed but the seed or the noise. A worse verdict beyond chance appears in at most 0.05 of
+    /// campaigns: of seeds 1 to 300, at most 26 (alpha = 2e-3 for each of three settings). Counter-test: bare verdicts
+    /// are worse in a fifth or more. Power: shifts of a tenth of the spread in paired runs, or of one spread in
+    /// independent runs, are recognised in nine of ten worse verdicts.
     #[test]
     fn verdicts_are_seldom_worse_by_chance() {
-        // in how many campaigns a verdict is worse, and one is that chance does not explain, of the first requirements
+        // campaigns with a worse verdict, and with one beyond chance, among the first requirements
         let part = |requirements: usize, noise: f64, is_same: bool, step: f64| {
             (1..=300).fold([0; 2], |[all, told], seed| {
                 let found =

@@ -1,4 +1,4 @@
-//! What two results compared have in common, and what changed: runs, verdicts, keys of the file, outcomes.
+//! Two results compared: runs, verdicts, keys of the file and outcomes.
 
 use std::cmp::Ordering;
 
@@ -16,11 +16,10 @@ use crate::statistics::quantile::percent;
 use crate::table::Table;
 use crate::table::text::Align;
 
-/// A smaller shift, as a share of the spread, matters to few: a small effect (J. Cohen, Statistical Power Analysis,
-/// 1988, 2.2). `--tolerance` says otherwise.
+/// Smaller shifts, as a share of the spread, are small effects (J. Cohen, Statistical Power Analysis, 1988, 2.2);
+/// `--tolerance` overrides this.
 const SMALL_EFFECT: f64 = 0.2;
-/// Groups of columns that keep the accounts of the integration, or the state that a run happens to end with: no outcome
-/// of a mission, unless its file says so.
+/// Groups that describe the integration or the final state: no outcomes of a mission unless the file names them.
 const ACCOUNTS: [Group; 6] = [
     Group::FinalState,
     Group::EnergyConservation,
@@ -29,12 +28,12 @@ const ACCOUNTS: [Group; 6] = [
     Group::StepStatistics,
     Group::Numerics,
 ];
-/// Columns with the number of a name, whose mean says nothing.
+/// Columns of codes, whose mean is meaningless.
 const CODES: [&str; 2] = ["failure", "phase_final"];
-/// Moved outcomes, and outcomes that more or fewer runs have, that a screen names.
+/// Moved or absent outcomes that a screen lists.
 const FEW: usize = 3;
 
-/// The findings in the order of a screen; the last one is what the exit code says.
+/// The findings in screen order; the last one matches the exit code.
 pub fn findings(compared: &Compared<'_>) -> Vec<Finding> {
     let Compared { names, comparison, plans: [first, second], .. } = compared;
     let mut list = Vec::new();
@@ -78,7 +77,7 @@ fn with_table(kind: Kind, id: &str, things: &str, table: Table<'static>) -> Find
     Finding { table: Some(table), ..Finding::new(kind, id, things, "") }
 }
 
-/// The verdicts, those that differ first.
+/// The verdicts, changed ones first.
 fn requirements(compared: &Compared<'_>) -> Option<Finding> {
     let mut all: Vec<&ComparedVerdict> = compared.verdicts.iter().collect();
     all.sort_by_key(|one| one.mark().0);
@@ -94,13 +93,13 @@ fn requirements(compared: &Compared<'_>) -> Option<Finding> {
     (!all.is_empty()).then(|| with_table(Kind::Requirement, "requirements", "requirements", table))
 }
 
-/// `98.4%` of `98.4% [91.5, 99.96]`: whether both differ by chance has a test of its own.
+/// `98.4%` from `98.4% [91.5, 99.96]`: overlapping intervals would be a wrong test of the difference.
 fn without_interval(found: &str) -> String {
     let parts = found.split_once(" [").and_then(|(value, rest)| Some((value, rest.split_once(']')?.1)));
     parts.map_or_else(|| found.to_owned(), |(value, unit)| format!("{value}{unit}"))
 }
 
-/// Whether an observable has only the values 0 and 1 in both results.
+/// Whether an observable is 0 or 1 in all runs of both results.
 fn is_yes_or_no(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     let is_of = |end: Option<f64>| end == Some(0.0) || end == Some(1.0);
     let mut of = compared.comparison.statistics.iter().map(|of| of.column(column.quantity.name()));
@@ -108,7 +107,7 @@ fn is_yes_or_no(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     column.quantity.unit().is_empty() && is_so
 }
 
-/// Whether an observable keeps accounts of the integration, or is a state that a run happens to end with, or a code.
+/// Whether an observable describes the integration or the final state, or is a code.
 fn is_account(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     let name = column.quantity.name();
     let columns = compared.plans[0].request().columns();
@@ -116,15 +115,14 @@ fn is_account(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     CODES.contains(&name) || group.is_some_and(|group| ACCOUNTS.contains(&group))
 }
 
-/// The place of an observable among the outcomes that the first plan names; after them that of all others.
+/// The rank of an observable among the outcomes of the first plan; all others come last.
 fn place(compared: &Compared<'_>, column: &ColumnComparison) -> usize {
     let named = outcomes(compared.plans[0]);
     named.iter().position(|name| name == column.quantity.name()).unwrap_or(usize::MAX)
 }
 
-/// The shift that decides whether that of an observable matters, the largest: of its mean, and of the quantiles that
-/// are required; with a tolerance, which is about all statistics, of all. Quantiles far out in the tails of few runs
-/// differ by chance.
+/// The largest shift that matters: of the mean and of required quantiles, or of all statistics if there is a tolerance.
+/// Tail quantiles of few runs differ by chance.
 fn largest<'c>(compared: &Compared<'_>, column: &'c ColumnComparison) -> Option<&'c Shift> {
     let required = compared.plans.iter().flat_map(|plan| &plan.analysis.requirements);
     let of_column = required.filter(|one| one.observable() == Some(column.quantity.name()));
@@ -141,12 +139,11 @@ fn largest<'c>(compared: &Compared<'_>, column: &'c ColumnComparison) -> Option<
     column.shifts.iter().rev().filter(is_considered).max_by(|a, b| a.relative.total_cmp(&b.relative))
 }
 
-/// The outcomes whose shift matters: those that the first plan names, in its order, then the largest.
+/// The outcomes with a relevant shift: those of the first plan in their order, then by size.
 fn shifted(compared: &Compared<'_>) -> Option<Finding> {
     let Compared { comparison, tolerance, .. } = compared;
     let most = tolerance.unwrap_or(SMALL_EFFECT);
     let is_seen = |column: &&ColumnComparison| {
-        // a verdict says it already
         let is_stated = column.is_required && is_yes_or_no(compared, column);
         let is_outcome = place(compared, column) < usize::MAX || !is_account(compared, column);
         let is_beyond = tolerance.is_some_and(|most| column.is_beyond(most));
@@ -163,7 +160,7 @@ fn shifted(compared: &Compared<'_>) -> Option<Finding> {
     (!found.is_empty()).then(|| with_table(Kind::Outcome, "shifted", "outcomes", table))
 }
 
-/// Name with unit, both values, and the shift with its interval, where there is one.
+/// Name with unit, both values, and the shift with its interval.
 fn cells(compared: &Compared<'_>, column: &ColumnComparison, shift: &Shift) -> [String; 4] {
     let shown = shown(compared, column);
     let name = names::of_quantity(&column.quantity);
@@ -185,7 +182,7 @@ fn cells(compared: &Compared<'_>, column: &ColumnComparison, shift: &Shift) -> [
     [with_unit(&of, &shown), before, after, by]
 }
 
-/// A shift with its interval: "1.04 [0.97, 1.11]".
+/// "1.04 [0.97, 1.11]".
 fn by(shift: crate::statistics::correlation::Estimate, in_shown: impl Fn(f64) -> f64) -> String {
     with_interval(in_shown(shift.value), [shift.lower, shift.upper].map(in_shown))
 }
@@ -194,7 +191,6 @@ fn with_unit(name: &str, shown: &ShownUnit) -> String {
     if shown.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", shown.unit) }
 }
 
-/// The unit in which an observable is shown.
 fn shown(compared: &Compared<'_>, column: &ColumnComparison) -> ShownUnit {
     compared.plans[0].analysis.display.of(column.quantity.name(), column.quantity.unit())
 }
@@ -225,7 +221,6 @@ fn counts(compared: &Compared<'_>) -> String {
     format!("{found}{moved}; {how}")
 }
 
-/// How shifts are found.
 fn methods(compared: &Compared<'_>) -> String {
     let Compared { comparison, .. } = compared;
     let tests = comparison.columns.iter().filter(|column| column.p_value.is_some()).count();
@@ -238,8 +233,8 @@ fn methods(compared: &Compared<'_>) -> String {
     format!("{how}; p adjusted for {tests} tests (Holm) is at most {}", trimmed(comparison.level(), 3))
 }
 
-/// The observables for which `is` holds, those first that the first plan names, and without accounts of the integration
-/// where there are others; each with its rank: a screen shows the first `few`.
+/// The observables that meet `is`, outcomes of the first plan first, accounts of the integration only if there is
+/// nothing else. Each with its rank: a screen shows the first `few`.
 fn outcomes_first<'c>(
     compared: &'c Compared<'_>,
     few: usize,
@@ -254,7 +249,7 @@ fn outcomes_first<'c>(
     all.into_iter().enumerate().map(move |(index, column)| (column, u8::from(index >= few)))
 }
 
-/// Outcomes whose runs moved while no test of distributions sees it: how far, and in how many pairs.
+/// Outcomes whose runs moved without a visible change of the distribution: how far, in how many pairs.
 fn moved(compared: &Compared<'_>) -> Vec<Finding> {
     let Compared { comparison, .. } = compared;
     let one = |(column, rank): (&ColumnComparison, u8)| {
@@ -277,12 +272,12 @@ fn moved(compared: &Compared<'_>) -> Vec<Finding> {
         let pairs = format!("in {} of {} runs", column.differing_pairs, comparison.pairs);
         Finding { rank, ..said(Kind::Outcome, "moved", format!("{how}, {pairs}")) }
     };
-    // beside shifts that are seen, they are details
+    // details if a distribution shifts
     let few = if comparison.columns.iter().any(|column| comparison.is_shifted(column)) { 0 } else { FEW };
     outcomes_first(compared, few, |column| comparison.is_moved(column)).map(one).collect()
 }
 
-/// Where chance does not explain how many runs are not ok, or are without an outcome.
+/// Significant changes in the number of failed runs, or of runs without an outcome.
 fn absent(compared: &Compared<'_>) -> Vec<Finding> {
     let Compared { comparison, .. } = compared;
     let one = |what: &str, absence: &Absence, rank: u8| {
@@ -331,7 +326,7 @@ fn columns(compared: &Compared<'_>) -> Option<Finding> {
     (table.rows() > 0).then(|| Finding { rank: 1, ..with_table(Kind::Outcome, "columns", "columns", table) })
 }
 
-/// What the exit code says.
+/// The result behind the exit code.
 fn end(compared: &Compared<'_>) -> Vec<Finding> {
     let Compared { comparison, verdicts, tolerance, .. } = compared;
     let count = |change: Ordering| compared.counted().filter(|one| one.change() == Some(change)).count();

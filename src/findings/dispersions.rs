@@ -1,4 +1,4 @@
-//! The dispersions of a plan in words and numbers, as `check` and `sample` show them.
+//! The dispersions of a plan in words and numbers, for `check` and `sample`.
 
 use crate::campaign::{Plan, SceneDraws, ShownUnit};
 use crate::ensemble::drawn::Magnitude;
@@ -12,13 +12,12 @@ use crate::sampling::{Design, Replaced, SampleId};
 use crate::table::Table;
 use crate::table::text::Align;
 
-/// Draws behind the percentiles: the 1% and 99% lie within a tenth of the distribution's width of their true places.
+/// Draws behind the percentiles: places the 1% and 99% within a tenth of the distribution's width.
 const DRAWS: u64 = 10_000;
 
-/// Fewer draws have a range and no percentiles.
+/// Fewer draws get a range instead of percentiles.
 const FEW: u64 = 100;
 
-/// A sentence on what is dispersed, or a table of it.
 fn about(sentence: String) -> Finding {
     Finding::new(Kind::Note, "dispersions", "Dispersions", sentence)
 }
@@ -27,8 +26,7 @@ fn nothing() -> Vec<Finding> {
     vec![about("none: every sample is the nominal scene".to_owned())]
 }
 
-/// Distribution and nominal value of each dispersed parameter: its components together where they have one
-/// distribution.
+/// Distribution and nominal value of each dispersed parameter; components with one distribution share a line.
 pub fn list(plan: &Plan) -> Vec<Finding> {
     let columns = plan.dispersions.columns();
     let (mut first, mut list) = (0, if columns.is_empty() { nothing() } else { Vec::new() });
@@ -44,12 +42,11 @@ pub fn list(plan: &Plan) -> Vec<Finding> {
         };
         let shown = unit_of_input(plan, first);
         let mut nominal: Vec<String> = of_group.iter().map(|one| trimmed(shown.value(one.nominal), 6)).collect();
-        // components that are all the same are said once
         if nominal.iter().all(|one| *one == nominal[0]) {
             nominal.truncate(1);
         }
         let nominal = if nominal.len() == 1 { nominal.concat() } else { format!("[{}]", nominal.join(", ")) };
-        // the distribution mostly says the unit
+        // omit the unit if the distribution has it
         let (unit, ends) = (format!(" {}", shown.unit), |rest: &str| rest.is_empty() || rest.starts_with([' ', ',']));
         let is_said = said.match_indices(&unit).any(|(at, _)| ends(&said[at + unit.len()..]));
         let unit = if is_said { "" } else { unit.trim_end() };
@@ -60,14 +57,14 @@ pub fn list(plan: &Plan) -> Vec<Finding> {
     list
 }
 
-/// Nominal value, percentiles of the draws, and distribution of each dispersed number; draws again for that.
+/// Nominal value, percentiles and distribution of each dispersed number, from fresh draws.
 pub fn drawn(plan: &Plan) -> Vec<Finding> {
     let mut percentiles = Percentiles::new(plan);
     percentiles.add(&DrawnScenes::spread(plan, DRAWS));
     of_percentiles(plan, &percentiles)
 }
 
-/// The same of samples that were drawn already.
+/// As [`drawn`], for existing draws.
 pub fn of_percentiles(plan: &Plan, drawn: &Percentiles) -> Vec<Finding> {
     let columns = plan.dispersions.columns();
     if columns.is_empty() {
@@ -89,7 +86,6 @@ pub fn of_percentiles(plan: &Plan, drawn: &Percentiles) -> Vec<Finding> {
     };
     let of_columns = (0..columns.len()).map(|column| unit_of_input(plan, column));
     let units: Vec<ShownUnit> = of_columns.chain(magnitudes.iter().map(of_magnitude)).collect();
-    // few draws have no percentiles of one in a hundred
     let (what, heads, ps): (_, &[_], &[_]) = match drawn.count() < FEW {
         true => ("range", &["least", "largest"], &[0.0, 1.0]),
         false => ("percentiles", &["1%", "50%", "99%"], &[0.01, 0.5, 0.99]),
@@ -119,7 +115,7 @@ pub fn of_percentiles(plan: &Plan, drawn: &Percentiles) -> Vec<Finding> {
     list
 }
 
-/// The parameters that are correlated, and the matrices that are used in place of those that no numbers have.
+/// Correlated parameters, and the positive semidefinite matrices that replace impossible ones.
 fn correlations(plan: &Plan) -> Vec<Finding> {
     let of = |correlation: &crate::sampling::correlation::Correlation| {
         let name = |(parameter, component): &(crate::scene::Parameter, Option<usize>)| match component {
@@ -131,8 +127,8 @@ fn correlations(plan: &Plan) -> Vec<Finding> {
     plan.correlated.iter().map(of).chain(plan.dispersions.replaced_correlations().iter().map(nearest)).collect()
 }
 
-/// The rows of the table: the columns in their order, each magnitude, which are counted after them, below the last
-/// component of its parameter.
+/// Row order of the table: columns in order, each magnitude below the last component of its parameter. Magnitudes are
+/// indexed after the columns.
 fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     let columns = plan.dispersions.columns();
     let mut rows = Vec::with_capacity(columns.len() + magnitudes.len());
@@ -145,14 +141,13 @@ fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     rows
 }
 
-/// Digits of a number that a sample applies: what is measured has no more.
+/// Digits of an applied number.
 const SHOWN_DIGITS: usize = 6;
 
-/// The numbers that sample `sample` applies beside the nominal ones: as they are shown, or, if `is_exact`, in all
-/// digits of SI units, with the mass properties that follow from them, where they are physical.
+/// The dispersed numbers of `sample` with their nominal values. If `is_exact`, in SI units with all digits, followed by
+/// the derived mass properties unless unphysical.
 pub fn applied(plan: &Plan, sample: SampleId, is_exact: bool) -> Table<'static> {
     let mut draws = SceneDraws::new(plan);
-    // a sample that is not physical applies its numbers too
     let scene = draws.scene(sample);
     let number = if is_exact { Align::Right } else { Align::Whole };
     let mut table = Table::with([Align::Left, number, Align::Whole].map(|align| ("", align)));
@@ -170,7 +165,7 @@ pub fn applied(plan: &Plan, sample: SampleId, is_exact: bool) -> Table<'static> 
     table
 }
 
-/// The matrix that is used in place of one that no numbers have.
+/// The matrix that replaces an impossible one.
 fn nearest(replaced: &Replaced) -> Finding {
     let change = replaced.written.iter().flatten().zip(replaced.used.iter().flatten());
     let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));

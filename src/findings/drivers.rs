@@ -1,5 +1,4 @@
-//! What an outcome depends on: its drivers with what they mean for it, and what could have been found where there are
-//! none.
+//! The drivers of each outcome in words; where there are none, the effect that the runs would have shown.
 
 use crate::analysis::analysed::Analysed;
 use crate::analysis::drivers::{LEAST_CHANCE, LEAST_SHARE, Question, Ranked, Ranking, is_known, rankings};
@@ -24,11 +23,10 @@ use crate::statistics::share_within::FEWEST_OTHERS;
 
 const NAMED: usize = 2;
 
-/// How a campaign shows interactions.
 pub const SEE_INTERACTIONS: &str =
     "interactions of inputs are not included, but are in total indices (design.kind = \"saltelli\")";
 
-/// The observables of `all` whose drivers are shown: the outcomes of the campaign.
+/// The observables of `all` that are outcomes of the campaign, in their order.
 pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
     let mut names: Vec<&str> = all.iter().map(|one| one.observable.as_str()).collect();
     names.dedup();
@@ -39,7 +37,7 @@ pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
     names
 }
 
-/// Why no driver was tested ([`Plan::bound_inputs`]); `None` where all were, or there is nothing to test.
+/// Reason for refusing all driver tests ([`Plan::bound_inputs`]); `None` if tests ran or there is nothing to test.
 pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
     let rows = all.first()?.rows;
     plan.bound_inputs(rows)?;
@@ -47,7 +45,7 @@ pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
     Some(format!("no driver was tested: {rows} runs of design {design} bind inputs to each other, random ones do not"))
 }
 
-/// The rankings of an outcome, at the confidence of the plan; none where no driver was tested ([`refused`]).
+/// The rankings of an outcome at the plan's confidence; empty if refused ([`refused`]).
 pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Vec<Ranking<'a>> {
     if refused(plan, all).is_some() {
         return Vec::new();
@@ -55,7 +53,7 @@ pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Ve
     rankings(all, outcome, 1.0 - plan.analysis.confidence)
 }
 
-/// What happens in a run in which the event of `outcome` occurs: "fail".
+/// The event of `outcome` as a verb: "fail".
 pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
     let of = |one: &'static str, several: &'static str| if runs == 1 { one } else { several };
     match event.occurs {
@@ -75,8 +73,7 @@ pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
     }
 }
 
-/// The limit of a requirement: "at least 6 s"; what a run without a value does is said if the event never happens in
-/// some.
+/// The limit of a requirement: "at least 6 s", and whether runs without a value violate it.
 fn limit(plan: &Plan, requirement: usize) -> String {
     let one = &plan.analysis.requirements[requirement];
     let observed = Observed::named(plan, one.observable().into_iter());
@@ -87,7 +84,7 @@ fn limit(plan: &Plan, requirement: usize) -> String {
     requirement::limit_text(one.limit, &shown.of_time(value.abs(), Some(value))) + never
 }
 
-/// The runs in which the event of `outcome` occurs: "the runs that fail", "the worst 5% of runs".
+/// "the runs that fail", "the worst 5% of runs".
 fn such_runs(plan: &Plan, outcome: &str, event: &Event) -> String {
     match event.occurs {
         Occurs::Worst(share) => format!("the worst {}% of runs", short(libm::round(1e9 * share) / 1e7)),
@@ -103,7 +100,7 @@ pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
     said + &correlations(plan, ranking)
 }
 
-/// With which inputs the drivers that are named are correlated, and whether the rows tell them apart.
+/// Correlated inputs of the named drivers, and whether the rows separate them.
 fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let mut pairs: Vec<[&str; 2]> = Vec::new();
     let mut said = String::new();
@@ -183,8 +180,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
     named.join("; ")
 }
 
-/// The drivers where all that are named are farther from their medians, or all nearer to them, in one phrase; `None`
-/// where they are not, or are not several.
+/// One phrase for several named drivers that are all farther from, or all nearer to, their medians; else `None`.
 fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<String> {
     let is_far = |ranked: &Ranked<'_>| match ranked.effect?.dependence {
         Dependence::Distance { chance } => Some(chance > 0.5),
@@ -230,7 +226,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     }
     let mut is_said = false;
     let of = |driver: &&Ranked<'_>| {
-        // an estimate that is not above zero says nothing beside a test that found the input
+        // an estimate at or below zero contradicts the test that found the input
         let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value > 0.0);
         let within = |end: f64| end.clamp(0.0, 1.0);
         let share = share.map(|share| number::share([within(share.value); 2], [share.lower, share.upper].map(within)));
@@ -246,8 +242,8 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     if is_said { said + &rest } else { said }
 }
 
-/// The number of runs that are too few for the shares of the drivers of a spread; `None` where one is known, or none
-/// can be: chosen samples have no population.
+/// The number of runs, if it is too small to estimate the shares of the named drivers. `None` if a share is known, or
+/// none exists because the samples were chosen.
 fn too_few(ranking: &Ranking<'_>) -> Option<u64> {
     let input = ranking.drivers().next()?.input;
     let is_said = |ranked: &Ranked<'_>| {
@@ -257,7 +253,7 @@ fn too_few(ranking: &Ranking<'_>) -> Option<u64> {
     (ranking.question == Question::Spread && is_open).then_some(input.rows)
 }
 
-/// What the rest of the variance is, if the drivers explain less than half of it.
+/// The source of the remaining variance, if the drivers explain less than half.
 fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
     let shares = ranking.drivers().map(|ranked| ranked.share.filter(is_known).map(|share| share.value));
     let share: f64 = shares.collect::<Option<Vec<f64>>>()?.iter().sum();
@@ -268,13 +264,13 @@ fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
     Some(format!("the rest is {noise}interactions, or effects too small to show"))
 }
 
-/// The normal quantiles of a test of one of so many inputs at the confidence of the plan, and of its power.
+/// Sum of the normal quantiles of level and power for one of `inputs` tests (Bonferroni).
 fn reach(plan: &Plan, inputs: usize) -> f64 {
     let level = 0.5 * (1.0 - plan.analysis.confidence) / inputs.max(1) as f64;
     -normal::quantile(level) + normal::quantile(POWER)
 }
 
-/// What would have been found in nine of ten such campaigns: by Fisher's transformation of a rank correlation.
+/// The effect found in nine of ten such campaigns, by Fisher's transformation of a rank correlation.
 fn power_on_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let rows = ranking.inputs.first().map_or(0, |first| first.input.rows);
     let tested = ranking.inputs.iter().filter(|ranked| ranked.input.p_value.is_some()).count();
@@ -286,7 +282,8 @@ fn power_on_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     format!("; one that it rises or falls with, and that explains {share:.0}% of it, is found in 90% of such campaigns")
 }
 
-/// The same of an event: by the chance that a run with it has the larger value (H. B. Mann & D. R. Whitney, 1947).
+/// As [`power_on_spread`], for the probability that a run with the event has the larger value (H. B. Mann & D. R.
+/// Whitney, 1947).
 fn power_on_event(plan: &Plan, ranking: &Ranking<'_>, of: Occurrence, verb: &str) -> String {
     let (with, without) = (of.events as f64, (of.runs - of.events) as f64);
     if ranking.inputs.is_empty() || with * without == 0.0 {
@@ -304,22 +301,20 @@ fn power_on_event(plan: &Plan, ranking: &Ranking<'_>, of: Occurrence, verb: &str
     )
 }
 
-/// The drivers of an outcome in sentences, of the rankings that have some.
+/// One sentence per ranking with drivers.
 pub(super) fn found(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<String> {
     let rankings = ranked(plan, all, outcome);
     let known = rankings.iter().filter(|ranking| ranking.drivers().next().is_some());
     known.map(|ranking| sentence(plan, outcome, ranking)).collect()
 }
 
-/// Outcomes whose drivers a screen names where nothing is required.
+/// Outcomes with drivers on a screen if nothing is required.
 const DRIVEN: usize = 3;
 
-/// A finding for each ranking: of outcomes that are not met first, in each of the event of a requirement that is not
-/// met, and the spread last; those with a driver before
-/// the others. Its children are its drivers.
+/// A finding for each ranking, with its drivers as children: rankings with drivers first, then unmet outcomes, then
+/// events of unmet requirements, spread last, strongest first.
 pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Vec<Finding> {
     let (all, verdicts) = (&analysed.sensitivities, &analysed.verdicts);
-    // the strongest first, of those that matter as much
     let share = |one: &Finding| one.children.first().and_then(|driver| driver.numbers.first()).map(|share| share.value);
     let strength = |one: &Finding| share(one).filter(|share| share.is_finite()).unwrap_or(0.0);
     let mut found: Vec<(Finding, [bool; 3])> = Vec::new();
@@ -333,7 +328,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
         }
     }
     found.sort_by(|(one, order), (other, after)| order.cmp(after).then(strength(other).total_cmp(&strength(one))));
-    // of which nothing was found, as of the same runs, is said once
+    // one entry for identical empty results
     let mut list: Vec<Finding> = Vec::new();
     for (one, _) in found {
         let same = list.last_mut().filter(|last| last.children.is_empty() && last.sentence.ends_with(&one.sentence));
@@ -381,13 +376,12 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
     found
 }
 
-/// Whether every requirement on an outcome is met.
 fn is_met(verdicts: &Verdicts, outcome: &str) -> bool {
     let mut of = verdicts.list.iter().filter(|one| one.requirement.observable() == Some(outcome));
     of.all(|one| one.gate.decision == Decision::Pass)
 }
 
-/// Whether a ranking is of an event that matters less: of a requirement that is met, or of the spread.
+/// Whether a ranking matters less: the requirement is met, or it explains only the spread.
 fn is_settled(verdicts: &Verdicts, ranking: &Ranking<'_>) -> bool {
     match ranking.question {
         Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {
@@ -419,7 +413,7 @@ fn finding(plan: &Plan, analysed: &Analysed, outcome: &str, ranking: &Ranking<'_
     Finding { children: ranking.drivers().map(driver).collect(), figures, ..found }
 }
 
-/// What the ranking of an event adds to the name of its outcome, in names of figures.
+/// Suffix of figure names for an event.
 pub fn part(event: &Event) -> String {
     match event.occurs {
         Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
@@ -437,11 +431,11 @@ fn noise_finding(plan: &Plan, one: &NoiseShare) -> Finding {
     Finding { numbers: shares.into_iter().collect(), rank: 1, ..found }
 }
 
-/// The share of noise in one outcome, without its name.
+/// The share of noise in one outcome.
 pub fn noise_sentence(one: &NoiseShare) -> String {
     let scenes = one.scenes;
     match one.share {
-        // no interval: of what never happened the differences are unknown
+        // a probability of differences cannot be estimated from none
         Some(share) if share.value == 0.0 => {
             format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
         }
@@ -467,9 +461,9 @@ mod tests {
     use crate::campaign::Overrides;
     use crate::statistics::correlation::Estimate;
 
-    /// Law: a share is said with its interval, and only if that is known: not of too few runs for one, not if it is
-    /// nearly everything from 0 to 1, and not of chosen samples. That no input explains more than a share is said only
-    /// if the upper ends of all are known. Drivers are named in any case.
+    /// Law: a share appears with its interval and only if that is informative: not for too few runs, an interval near
+    /// [0, 1], or chosen samples. "No input explains more than" needs the upper ends of all inputs. Drivers are always
+    /// named.
     #[test]
     fn shares_are_said_with_intervals_or_not_at_all() {
         let text = include_str!("../../campaigns/spin_sweep.toml");
@@ -498,7 +492,7 @@ mod tests {
         }
     }
 
-    /// Law: that two inputs are correlated is said once, with whether the rows tell them apart.
+    /// Law: the correlation of two inputs appears once, with whether the rows separate them.
     #[test]
     fn correlated_inputs_are_told() {
         let text = include_str!("../../campaigns/spin_sweep.toml");

@@ -1,4 +1,4 @@
-//! [`SummaryEnd`]: how a campaign ended, in a few facts.
+//! [`SummaryEnd`]: the end of a campaign in a few facts.
 
 use std::path::Path;
 
@@ -8,25 +8,23 @@ use crate::analysis::stopping::Stopping;
 use crate::findings::number::counted;
 use crate::findings::requirement::EndVerdict;
 
-/// How a campaign ended, as its rows and its summary both say.
+/// The end of a campaign; derived from its rows, or read from its summary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummaryEnd {
     pub rows: u64,
-    /// Number of runs that are not `ok`.
+    /// Runs that are not `ok`.
     pub failed: u64,
-    /// Audited runs whose errors are larger than their estimates, where these are more than promised; else 0.
+    /// Audited runs whose errors exceed their estimates, if more than promised; else 0.
     pub not_covered: u64,
-    /// What comes before every number, as the summary says it.
+    /// Warnings as the summary shows them.
     pub warnings: Vec<String>,
-    /// The requirements, each with its verdict.
     pub verdicts: Vec<EndVerdict>,
-    /// Whether a campaign with `[stop]` has reached what it says; `true` of others.
+    /// Whether a campaign with `[stop]` reached its goal; `true` without `[stop]`.
     pub is_reached: bool,
 }
 
 impl SummaryEnd {
-    /// What the summary of a campaign says that ended like this, without its warnings; quantiles have intervals with
-    /// `statistics` only.
+    /// The end without warnings; quantiles get intervals only from `statistics`.
     pub fn of(ending: &Ending, statistics: Option<&Statistics>) -> Self {
         SummaryEnd {
             rows: ending.rows,
@@ -38,7 +36,7 @@ impl SummaryEnd {
         }
     }
 
-    /// The same without the words from which nothing follows: warnings, and the requirements in short.
+    /// Without warnings and prose.
     pub fn without_words(&self) -> Self {
         let bare = |one: &EndVerdict| EndVerdict {
             requirement: one.requirement.clone(),
@@ -48,13 +46,10 @@ impl SummaryEnd {
         SummaryEnd { warnings: Vec::new(), verdicts: self.verdicts.iter().map(bare).collect(), ..self.clone() }
     }
 
-    /// The verdicts of the campaign in one line, or how many runs were computed where nothing is required, and where
-    /// the rest stands: `3 PASS, 1 FAIL ->
-    /// results/x/report.html`.
+    /// One line: counts of verdicts, or of computed runs if nothing is required, and the place of the report: `3 PASS,
+    /// 1 FAIL -> results/x/report.html`.
     pub fn verdict_line(&self, place: &Path) -> String {
-        let count = |word: &&str| (self.count(word), word.to_string());
-        let found = ["PASS", "FAIL", "UNDECIDED"].iter().map(count).filter(|(count, _)| *count > 0);
-        let mut said: Vec<String> = found.map(|(count, word)| format!("{count} {word}")).collect();
+        let mut said = self.verdicts(|count, word| format!("{count} {word}"));
         let (rows, ok) = (self.rows, self.rows - self.failed);
         if said.is_empty() || self.failed > 0 {
             let of = if self.failed > 0 { format!("{ok} of ") } else { String::new() };
@@ -69,7 +64,12 @@ impl SummaryEnd {
         format!("{} -> {}", said.join(", "), place.display())
     }
 
-    /// The number of requirements with the verdict `word`.
+    /// The non-zero counts of verdicts as texts, PASS first.
+    pub fn verdicts(&self, text: impl Fn(usize, &str) -> String) -> Vec<String> {
+        let counts = ["PASS", "FAIL", "UNDECIDED"].into_iter().map(|word| (self.count(word), word));
+        counts.filter(|(count, _)| *count > 0).map(|(count, word)| text(count, word)).collect()
+    }
+
     pub fn count(&self, word: &str) -> usize {
         self.verdicts.iter().filter(|one| one.word == word).count()
     }

@@ -1,5 +1,4 @@
-//! What is lost, and how runs ended: reasons of failures, missions of control loops, what numbers leave
-//! unsaid, and whether `[stop]` ended the campaign.
+//! Runs without numbers, ends of missions, overconfident filters and `[stop]`.
 
 use crate::analysis::analysed::Analysed;
 use crate::analysis::missions::MissionShare;
@@ -18,10 +17,10 @@ use crate::findings::number::{brief, share, trimmed};
 use crate::run::Status;
 use crate::statistics::quantile::percent as exactly;
 
-/// Most samples that are named where no reason is known.
+/// Maximum number of samples listed without a reason.
 const LISTED: usize = 3;
 
-/// What can be done about runs that end with a status; `None` where the reason says it.
+/// The remedy for a status; `None` if the reason contains it.
 pub fn remedy(status: Status) -> Option<&'static str> {
     match status {
         Status::StepLimit => Some("to fix: increase integrator.max_steps or integrator.tolerance"),
@@ -34,13 +33,13 @@ pub fn remedy(status: Status) -> Option<&'static str> {
     }
 }
 
-/// A reason as people read it: its numbers, which are those of the run bit for bit, in six digits, and errors in words.
+/// A reason for people: six digits instead of all bits, words instead of column names.
 pub fn readable(reason: &str) -> String {
     let is_error = |word: &str| word.ends_with("_error_max") || word.ends_with("_error_estimate");
     let said = |word: &str| if is_error(word) { names::of_column(word, "") } else { word.to_owned() };
     let reason = reason.split(' ').map(said).collect::<Vec<_>>().join(" ");
     with_numbers(&reason, |number| {
-        // a sentence may end with it
+        // keep a full stop after the number
         let digits = number.trim_end_matches('.');
         match digits.parse::<f64>() {
             Ok(value) if digits.contains('.') && digits.len() > 8 => trimmed(value, 6) + &number[digits.len()..],
@@ -49,7 +48,6 @@ pub fn readable(reason: &str) -> String {
     })
 }
 
-/// What each status is called, in words.
 pub fn status_words(status: Status) -> &'static str {
     match status {
         Status::Done => "computed",
@@ -64,7 +62,7 @@ pub fn status_words(status: Status) -> &'static str {
     }
 }
 
-/// A finding for each reason for which some of `runs` runs have no numbers.
+/// A finding for each reason that left some of `runs` runs without numbers.
 pub fn reasons(all: &FailureReasons, runs: u64) -> Vec<Finding> {
     let of = |one: &&FailureReason| {
         let which = if one.count == 1 { "" } else { "first " };
@@ -78,7 +76,7 @@ pub fn reasons(all: &FailureReasons, runs: u64) -> Vec<Finding> {
     all.groups().iter().map(of).collect()
 }
 
-/// How many runs were computed, and below it why the others were not.
+/// The number of computed runs, with the reasons for the others as children.
 pub(super) fn losses(analysed: &Analysed) -> Vec<Finding> {
     let statuses = &analysed.tally.statuses;
     let (runs, ok) = (statuses.runs(), statuses.ok());
@@ -102,7 +100,7 @@ pub(super) fn losses(analysed: &Analysed) -> Vec<Finding> {
     vec![Finding { children, numbers: vec![of(ok)], ..Finding::new(Kind::Loss, "computed", "runs", said) }]
 }
 
-/// How missions ended: a finding for each way; nothing without a loop.
+/// A finding for each way in which missions ended; empty without a loop.
 pub(super) fn missions(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let missions = &analysed.missions;
     let Some(MissionShare { runs, missing, .. }) = missions.first() else { return Vec::new() };
@@ -137,7 +135,7 @@ pub(super) fn missions(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     all.into_iter().chain(missions.iter().map(of)).chain(lost).collect()
 }
 
-/// Why no input decides which missions fail: all do. `None` where one mission did not fail.
+/// If all missions fail, no input separates them.
 pub(super) fn all_fail(missions: &[MissionShare]) -> Option<String> {
     let is_failed = |one: &MissionShare| words(one.end).starts_with("failed") && one.missing == 0;
     let runs = missions.first()?.runs;
@@ -145,14 +143,12 @@ pub(super) fn all_fail(missions: &[MissionShare]) -> Option<String> {
     (runs > 1 && all_do).then(|| format!("all {runs} missions fail, so no input decides which do"))
 }
 
-/// Normalised squares of estimation errors per degree of freedom have a median a little below 1 where the covariance of
-/// a filter is right (that of chi-square
-/// with 6 degrees is 0.89). Above this one, errors are typically half as large again as the filter says, or more.
+/// Normalised squared errors per degree of freedom have a median below 1 if the covariance is right (chi-square with 6
+/// degrees: 0.89). Above 2, typical errors are at least half as large again.
 const MOST_NEES: f64 = 2.0;
 
-/// Filters whose errors are larger than their covariance says (Y. Bar-Shalom, X. R. Li & T. Kirubarajan, Estimation
-/// with Applications to Tracking and
-/// Navigation, 2001, section 5.4).
+/// Filters whose errors exceed their covariance (Y. Bar-Shalom, X. R. Li & T. Kirubarajan, Estimation with Applications
+/// to Tracking and Navigation, 2001, section 5.4).
 pub(super) fn notes(analysed: &Analysed) -> Vec<Finding> {
     let of_column = |column: &ColumnStatistics| {
         column.quantity.name().strip_suffix("_nees_final")?;
@@ -163,22 +159,23 @@ pub(super) fn notes(analysed: &Analysed) -> Vec<Finding> {
     found.map(|said| Finding::new(Kind::Note, "filter", "filter overconfident", said)).collect()
 }
 
-/// What a column with this `meaning` says by its `median`, whose interval begins at `lower`.
+/// A warning from the `median` of the column with this `meaning`, whose interval begins at `lower`.
 fn overconfident(meaning: &str, median: f64, lower: Option<f64>) -> Option<String> {
     let (_, rest) = meaning.split_once("estimation error of ").unwrap_or(("", meaning));
     let of = rest.split_once(" at the last tick").map_or(rest, |(of, _)| of);
     let estimate = of.split_once(" (or").map_or(of, |(of, _)| of);
-    (median.is_finite() && lower.unwrap_or(median) > MOST_NEES)
-        .then(|| format!("{estimate} typically end {} sigma off", brief(libm::sqrt(median))))
+    (median.is_finite() && lower.unwrap_or(median) > MOST_NEES).then(|| {
+        let sigmas = brief(libm::sqrt(median));
+        format!("{estimate} typically end {sigmas} sigma off (expected: below 1)")
+    })
 }
 
-/// What the last look of a campaign with `[stop]` found.
 pub(super) fn stop(plan: &Plan, analysed: &Analysed) -> Option<Finding> {
     let said = stop_text(plan, analysed.stopping.as_ref()?);
     Some(Finding::new(Kind::Stop, "stop", "stop", said))
 }
 
-/// One sentence on `stopping`, a look at the campaign of `plan`; a second one where it ended the campaign.
+/// The last look in one sentence, and the bias if it ended the campaign.
 pub fn stop_text(plan: &Plan, stopping: &Stopping) -> String {
     let Some(stop) = &plan.analysis.stop else { return String::new() };
     let (what, goal) = match (&stopping.found, &stop.when) {
@@ -221,7 +218,7 @@ pub fn stop_text(plan: &Plan, stopping: &Stopping) -> String {
     format!("look {look} of at most {looks}, {samples} samples: {what}: {reached}{bias}")
 }
 
-/// How a mission ended, in words that follow "mission".
+/// The end of a mission, in words that follow "mission".
 pub fn words(end: &str) -> &str {
     match end {
         "flying" => "still flying at the end of the run",
@@ -238,7 +235,7 @@ pub fn words(end: &str) -> &str {
     }
 }
 
-/// How missions ended, in words that follow "mission", with the phases that took too long.
+/// As [`words`], with the phases that timed out.
 pub fn ended(one: &MissionShare) -> String {
     let words = words(one.end);
     match &one.phases[..] {
@@ -251,8 +248,7 @@ pub fn ended(one: &MissionShare) -> String {
     }
 }
 
-/// How the mission of a run ended, by the columns of its row; `None` where the row has none, or the mission did neither
-/// fail nor launch.
+/// The end of a run's mission from its columns; `None` if it neither failed nor launched.
 pub fn of_row(row: &[(String, f64)]) -> Option<String> {
     let value = |name: &str| row.iter().find(|(column, _)| column == name).map(|(_, value)| *value);
     if value("launched") == Some(1.0) {
@@ -262,7 +258,7 @@ pub fn of_row(row: &[(String, f64)]) -> Option<String> {
     Some(format!("mission {}", words(Failure::NAMES.get(failure as usize)?)))
 }
 
-/// The same with the time at which it ended: "mission failed at 812 s: a phase took too long".
+/// As [`of_row`], with the time: "mission failed at 812 s: a phase took too long".
 pub fn of_run(row: &[(String, f64)]) -> Option<String> {
     let end = of_row(row)?;
     let time = row.iter().find(|(column, _)| column == "end_time_s").map(|(_, time)| *time);
@@ -276,7 +272,7 @@ pub fn of_run(row: &[(String, f64)]) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// Known: long numbers are rounded; names, counts, short numbers and points at the end of a sentence stay.
+    /// Known: long numbers are rounded; names, counts, short numbers and full stops stay.
     #[test]
     fn long_numbers_are_rounded() {
         for (reason, said) in [
@@ -289,9 +285,7 @@ mod tests {
         }
     }
 
-    /// Law: every status has words of its own, a reason or a remedy that does not send a reader to the wrong key and a
-    /// line
-    /// in the documents.
+    /// Law: every status has its own words, a line in the documents, and a reason or a suitable remedy.
     #[test]
     fn every_status_is_explained() {
         let keys = include_str!("../../docs/campaign-files.md");
@@ -310,19 +304,19 @@ mod tests {
         }
     }
 
-    /// Law: errors that are typically more than 1.4 times what the covariance says are named, with their root; what
-    /// these runs leave open is not.
+    /// Law: errors that certainly exceed sqrt(2) of the covariance are named by their root; uncertain ones are not.
     #[test]
     fn errors_beyond_the_covariance_are_named() {
         let meaning = "Normalised square of the estimation error of position and velocity at the last tick, over its \
                        degrees of freedom.";
         let said = |median, lower| overconfident(meaning, median, lower);
-        let text = Some("position and velocity typically end 3 sigma off".to_owned());
+        let text = "position and velocity typically end 3 sigma off (expected: below 1)";
+        let text = Some(text.to_owned());
         assert_eq!([said(9.0, Some(2.1)), said(9.0, None)], [text.clone(), text]);
         assert_eq!([said(9.0, Some(1.9)), said(1.9, None), said(f64::NAN, None)], [None, None, None]);
     }
 
-    /// Law: no input decides which missions fail where all do, and only there.
+    /// Law: failure has no driver if and only if all missions fail.
     #[test]
     fn all_fail_where_none_does_not() {
         let of =
@@ -336,7 +330,7 @@ mod tests {
         assert!(all_fail(&[MissionShare { missing: 1, ..of("timeout", 199) }]).is_none());
     }
 
-    /// Law: the code of a row is that of the list of failures, and a launched mission did not fail.
+    /// Law: codes of rows index the list of failures; a launched mission did not fail.
     #[test]
     fn rows_say_how_their_mission_ended() {
         let row =
@@ -347,7 +341,6 @@ mod tests {
         }
         assert_eq!(row(1.0, 0.0).as_deref(), Some("mission launched"));
         assert_eq!([row(0.0, 0.0), of_row(&[])], [None, None]);
-        // of one run also when
         let at = |launched: f64, failure: f64, end: f64| {
             of_run(
                 &[("launched", launched), ("failure", failure), ("end_time_s", end)]

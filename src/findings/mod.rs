@@ -1,15 +1,5 @@
-//! Layer 9: what a campaign has found, in words and numbers, once. Screen, page, JSON, JUnit and notebook choose from
-//! it by rank and width, and compose nothing.
-//!
-//! - [`findings`]: all of it. [`finding`]: of what it consists.
-//! - `warnings`: what comes first. [`requirement`]: the nearest to its limit first. [`loss`]: runs without numbers,
-//!   missions, `[stop]`. [`outcome`]: distributions. [`drivers`]: what outcomes depend on. [`numerics`]: errors,
-//!   audits.
-//! - [`checked`], with [`dispersions`] ([`origin`]: of one number) and [`scene`]: what a campaign would run.
-//! - [`compared`], [`comparison`] (with [`changed_keys`]): two results compared.
-//! - [`end`]: how a campaign ended; [`results_index`]: how several did; [`verified`]; [`precision`].
-//! - [`number`]: numbers in text, the one formatter. [`names`]: columns and parameters in words. [`shell_word`]: words
-//!   of commands.
+//! Layer 9: the results of a campaign in words and numbers. Screen, page, JSON, JUnit and notebook select by rank and
+//! width and compose nothing.
 
 pub mod changed_keys;
 pub mod checked;
@@ -39,7 +29,7 @@ use crate::analysis::noise_share::NoiseShare;
 use crate::campaign::Plan;
 use crate::statistics::quantile::percent;
 
-/// What `analysed` says of `plan`; `noise`: the share of noise in its outcomes, where that was measured.
+/// All findings; `noise` is the measured share of noise in the outcomes.
 pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findings {
     let mut list = warnings::warnings(plan, analysed);
     let verdicts = requirement::findings(plan, &analysed.verdicts, &analysed.statistics);
@@ -51,7 +41,7 @@ pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findi
     list.extend(loss::losses(analysed));
     list.extend(loss::missions(plan, analysed));
     list.extend(loss::notes(analysed));
-    // said before the campaign on a terminal
+    // the terminal shows them before the campaign
     let of_plan = |said: String| Finding { rank: 2, ..Finding::new(Kind::Note, "plan", "note", said) };
     list.extend(plan.notes().into_iter().map(of_plan));
     list.extend(outcome::findings(plan, analysed));

@@ -1,12 +1,11 @@
-//! What columns and parameters are called where a person reads them: in words, on the page, in figures and in sentences
-//! of the screen. The technical
-//! names stay in files, tooltips and commands.
+//! Columns and parameters in words, for pages, figures and sentences. Files, tooltips and commands keep the technical
+//! names.
 
 use crate::campaign::{Plan, ShownUnit};
 use crate::run::Quantity;
 use crate::scene::Parameter;
 
-/// Ends of names that say which value of a series a column is, with the words that come before it and after it.
+/// Suffixes of columns for a statistic of a series, with the words before and after it.
 const STATISTICS: [(&str, [&str; 2]); 9] = [
     ("_peak_to_peak", ["peak-to-peak ", ""]),
     ("_max", ["maximum ", ""]),
@@ -19,10 +18,10 @@ const STATISTICS: [(&str, [&str; 2]); 9] = [
     ("_gross", ["gross ", ""]),
 ];
 
-/// Columns of a control loop that are durations; the others that end like them are the times of the events of a file.
+/// Columns of a control loop that are durations; other `_time` columns are times of events.
 const DURATIONS: [&str; 5] = ["settling_time", "mission_settling_time", "plume_time", "rod_saturated_time", "end_time"];
 
-/// Parts of names that nobody would say so.
+/// Replacements for words that read badly.
 const SAID: [(&str, &str); 7] = [
     ("dcm ", "rotation matrix "),
     ("nees", "NEES"),
@@ -33,7 +32,7 @@ const SAID: [(&str, &str); 7] = [
     ("speed saturated", "time at the limit of wheel speed"),
 ];
 
-/// `name` without the `unit` at its end.
+/// `name` without its suffix for `unit`.
 fn without_unit<'n>(name: &'n str, unit: &str) -> &'n str {
     let suffix = match unit {
         "" | "1" => return name,
@@ -43,12 +42,12 @@ fn without_unit<'n>(name: &'n str, unit: &str) -> &'n str {
     name.strip_suffix(suffix.as_str()).unwrap_or(name)
 }
 
-/// The name of a quantity as words: `energy_error_max` is "maximum energy error"; the unit is left out.
+/// `energy_error_max` becomes "maximum energy error"; the unit is dropped.
 pub fn of_quantity(quantity: &Quantity) -> String {
     of_column(quantity.name(), quantity.unit())
 }
 
-/// The worst value of the quantity `name` as words: "largest pointing error" of "highest pointing error".
+/// The extreme of a quantity: "largest pointing error" for "highest pointing error".
 pub fn of_extreme(name: &str, is_low: bool) -> String {
     let (side, said) = match is_low {
         true => ("smallest", ["lowest ", "minimum ", "smallest "]),
@@ -57,7 +56,7 @@ pub fn of_extreme(name: &str, is_low: bool) -> String {
     format!("{side} {}", said.into_iter().find_map(|word| name.strip_prefix(word)).unwrap_or(name))
 }
 
-/// The same of the column `name` in `unit`.
+/// As [`of_quantity`], for the column `name` in `unit`.
 pub fn of_column(name: &str, unit: &str) -> String {
     let name = without_unit(name, unit);
     let text = of_stem(name);
@@ -66,13 +65,13 @@ pub fn of_column(name: &str, unit: &str) -> String {
 
 fn of_stem(name: &str) -> String {
     let spoken = |stem: &str| stem.replace('_', " ");
-    // the largest or smallest value within a part of the run
+    // extremes within a window
     for end in ["highest", "lowest"] {
         if let Some((window, stem)) = name.strip_prefix(end).and_then(window_of) {
             return format!("{end} {}{window}", of_stem(stem));
         }
     }
-    // what a mission has at its launch, and when its phases began
+    // mission state at launch, start of phases
     if let Some(stem) = name.strip_suffix("_launch") {
         return format!("{} at launch", spoken(stem));
     }
@@ -90,8 +89,8 @@ fn of_stem(name: &str) -> String {
     format!("{before}{}{after}", of_series(stem))
 }
 
-/// The part of a run in words, and the quantity: of `_from_120_s_to_600_s_pointing_error` " from 120 s to 600 s" and
-/// `pointing_error`; `None` without such a part.
+/// Splits `_from_120_s_to_600_s_pointing_error` into " from 120 s to 600 s" and `pointing_error`; `None` without a
+/// window.
 fn window_of(text: &str) -> Option<(String, &str)> {
     let (mut window, mut rest) = (String::new(), text);
     for word in ["from", "to"] {
@@ -105,10 +104,9 @@ fn window_of(text: &str) -> Option<(String, &str)> {
     (!window.is_empty()).then(|| (window, &rest[1..]))
 }
 
-/// What a quantity over time is called.
+/// The name of a quantity over time.
 fn of_series(stem: &str) -> String {
     let spoken = |stem: &str| stem.replace('_', " ");
-    // bodies are things, wheels have names
     let owner = |of: &str| if ["body", "debris"].contains(&of) { format!("the {of}") } else { spoken(of) };
     let mut axes = [("_x", "s1"), ("_y", "s2"), ("_z", "s3")].into_iter();
     if let Some((_, axis)) = axes.find(|(end, _)| stem == format!("omega_se_s{end}")) {
@@ -135,8 +133,7 @@ fn of_series(stem: &str) -> String {
     format!("{energy}{about}")
 }
 
-/// What a component of a parameter is called: "initial angular velocity y", "wheel w1 rate", "thruster p2 thrust
-/// scale".
+/// "initial angular velocity y", "wheel w1 rate", "thruster p2 thrust scale".
 pub fn of_component(parameter: Parameter, component: usize) -> String {
     let text = of_parameter(parameter);
     match parameter.components()[component] {
@@ -145,7 +142,7 @@ pub fn of_component(parameter: Parameter, component: usize) -> String {
     }
 }
 
-/// The same of all components of a parameter.
+/// As [`of_component`], without the component.
 pub fn of_parameter(parameter: Parameter) -> String {
     let name = parameter.name();
     let words: Vec<&str> = without_unit(&name, parameter.unit()).split('.').collect();
@@ -163,20 +160,18 @@ pub fn of_parameter(parameter: Parameter) -> String {
     said.replace('_', " ")
 }
 
-/// The dispersed number whose column is `column`, by its place among those of `plan`.
+/// The index of the dispersed number with this `column`.
 pub fn place_of(plan: &Plan, column: &str) -> Option<usize> {
     plan.dispersions.columns().iter().position(|one| one.parameter.column_name(one.component) == column)
 }
 
-/// What the dispersed number at `place` is called.
 pub fn of_input(plan: &Plan, place: usize) -> String {
     let column = &plan.dispersions.columns()[place];
     of_component(column.parameter, column.component)
 }
 
-/// What the dispersed number is called whose column is `column`, or what is dispersed by one distribution, which has
-/// the name of its key; of another column, its own
-/// words.
+/// The dispersed number with this `column`, or the parameter whose components share one distribution; other columns in
+/// their own words.
 pub fn of_input_column(plan: &Plan, column: &str) -> String {
     if let Some(place) = place_of(plan, column) {
         return of_input(plan, place);
@@ -193,14 +188,14 @@ pub fn of_input_column(plan: &Plan, column: &str) -> String {
     )
 }
 
-/// The unit in which the dispersed number at `place` is shown.
+/// The unit shown for the dispersed number at `place`.
 pub fn unit_of_input(plan: &Plan, place: usize) -> ShownUnit {
     let parameter = plan.dispersions.columns()[place].parameter;
     let unit = if parameter.unit() == "1" { "" } else { parameter.unit() };
     plan.analysis.display.of(&parameter.name(), unit)
 }
 
-/// With a capital at its beginning.
+/// Capitalises the first letter.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
@@ -243,7 +238,7 @@ mod tests {
         }
     }
 
-    /// Known: parameters of a body, of a part, of a wheel, of what is there once; with their components.
+    /// Known: parameters of body, part, wheel and thruster, with components.
     #[test]
     fn parameters_become_words() {
         let of = |name: &str, text: &str| {

@@ -1,21 +1,20 @@
-//! Numbers in text: the one formatter of screen, page, JUnit, notebook and messages. It writes plain ASCII, as a
-//! command would take it; a page sets minus signs
-//! and powers of ten by [`typeset`].
+//! The one formatter of numbers. Texts are ASCII, as commands take them; pages convert minus signs and powers of ten
+//! with [`typeset`].
 
 use crate::campaign::ShownUnit;
 
-/// A number in four significant digits, at most eleven characters; whole numbers below 1e5 in full.
+/// Four significant digits, at most eleven characters; integers below 1e5 in full.
 pub fn short(value: f64) -> String {
     significant(value, 4)
 }
 
-/// A number in three significant digits, for lines that are read at a glance; whole numbers below 1e5 in full.
+/// Three significant digits, for scanning; integers below 1e5 in full.
 pub fn brief(value: f64) -> String {
     significant(value, 3)
 }
 
-/// A number in so many significant digits; with a power of ten below 1e-3 and from the power on that has two digits
-/// more; smaller whole numbers in full.
+/// `digits` significant digits; in scientific notation below 1e-3 and from 10^(`digits` + 1), at least 1e5. Smaller
+/// integers in full.
 pub fn significant(value: f64, digits: usize) -> String {
     let size = value.abs();
     if size == 0.0 {
@@ -27,38 +26,27 @@ pub fn significant(value: f64, digits: usize) -> String {
     } else if size == libm::floor(size) {
         format!("{value:.0}")
     } else {
-        // of the rounded number: 99.999 is 100.0, not 100.00
+        // of the rounded number: 99.999 becomes 100.0, not 100.00
         let before = in_powers.rsplit('e').next().and_then(|power| power.parse::<i32>().ok()).unwrap_or(0);
         format!("{value:.*}", (digits as i32 - 1 - before).max(0) as usize)
     }
 }
 
-/// The ends of an interval, rounded away from its middle to so many significant digits: what is shown contains what was
-/// found. Whole numbers below 1e5 in
-/// full; ends that are not finite stay.
+/// The ends of an interval, rounded outward to `digits` significant digits. Integers below 1e5 are kept in full, as are
+/// non-finite ends.
 pub fn outward([low, high]: [f64; 2], digits: i32) -> [f64; 2] {
-    let rounded = |value: f64, up: bool| {
+    let end = |value: f64, up: bool| {
         if value == 0.0 || !value.is_finite() {
             return value;
         }
         let size = value.abs();
-        let power = libm::floor(libm::log10(size)) as i32 - digits + 1;
-        let power = if (1.0..1e5).contains(&size) { power.min(0) } else { power };
-        let [times, over] = [-power, power].map(|power| libm::exp10(f64::from(power.max(0))));
-        let steps = value * times / over;
-        let whole = libm::round(steps);
-        // not by its own rounding
-        let steps = match (steps - whole).abs() < 1e-13 * steps.abs() {
-            true => whole,
-            false if up => libm::ceil(steps),
-            false => libm::floor(steps),
-        };
-        steps / times * over
+        let place = libm::floor(libm::log10(size)) as i32 - digits + 1;
+        rounded(value, if (1.0..1e5).contains(&size) { place.min(0) } else { place }, Some(up))
     };
-    [rounded(low, false), rounded(high, true)]
+    [end(low, false), end(high, true)]
 }
 
-/// The same without zeros at the end of its decimals.
+/// As [`significant`], without trailing zeros.
 pub fn trimmed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
     let (number, power) = text.split_at(text.find('e').unwrap_or(text.len()));
@@ -68,24 +56,24 @@ pub fn trimmed(value: f64, digits: usize) -> String {
     }
 }
 
-/// A number as a file has it, without the decimals of a whole one.
+/// As written in a file, integers without decimals.
 pub fn written(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
-/// A time in the unit in which a person says it: "90 s", "2 days".
+/// In a readable unit: "90 s", "2 days".
 pub fn time(seconds: f64) -> String {
     let shown = ShownUnit::own("s").of_time(seconds.abs(), Some(seconds));
     format!("{} {}", trimmed(shown.value(seconds), 6), shown.unit)
 }
 
-/// A count with what is counted: "1 run", "3 runs". `thing` is regular.
+/// "1 run", "3 runs"; `thing` has a regular plural.
 pub fn counted<C: core::fmt::Display + PartialEq + From<u8>>(count: C, thing: &str) -> String {
     format!("{count} {thing}{}", if count == C::from(1) { "" } else { "s" })
 }
 
-/// A size of files in decimal units.
+/// A file size in decimal units.
 pub fn bytes(size: u64) -> String {
     const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
     let mut value = size as f64;
@@ -97,13 +85,12 @@ pub fn bytes(size: u64) -> String {
     if unit == 0 { format!("{size} B") } else { format!("{value:.1} {}", UNITS[unit]) }
 }
 
-/// The power of ten of the last digit that an interval of this half-width supports: two digits of the half-width.
+/// The decimal place of the last digit that a half-width supports: two digits of the half-width.
 fn place_of(half_width: f64) -> i32 {
     libm::floor(libm::log10(half_width) + 1e-9) as i32 - 1
 }
 
-/// `value` rounded to a multiple of 10^`place`: downward, upward, or to the nearest, and not by the rounding of the
-/// value itself.
+/// `value` rounded to a multiple of 10^`place`: up, down or to nearest; its own rounding error never moves it.
 fn rounded(value: f64, place: i32, up: Option<bool>) -> f64 {
     let [times, over] = [-place, place].map(|power| libm::exp10(f64::from(power.max(0))));
     let (steps, mut whole) = (value * times / over, libm::round(value * times / over));
@@ -113,9 +100,9 @@ fn rounded(value: f64, place: i32, up: Option<bool>) -> f64 {
     whole / times * over
 }
 
-/// `value` with its last digit at 10^`place`; with powers of ten where the `largest` beside it has them.
+/// `value` with its last digit at 10^`place`; in scientific notation if `largest` needs it.
 fn at_place(value: f64, place: i32, largest: f64) -> String {
-    // zero has the power of the number beside it: "0.0e-4" beside "1.3e-4"
+    // zero borrows its power: "0.0e-4" beside "1.3e-4"
     let size = if value == 0.0 { largest } else { value.abs() };
     let power = libm::floor(libm::log10(size) + 1e-12) as i32;
     let digits = (power - place).clamp(0, MOST_DIGITS - 1) as usize;
@@ -128,17 +115,15 @@ fn at_place(value: f64, place: i32, largest: f64) -> String {
     }
 }
 
-/// No `f64` tells more.
+/// Digits of an `f64`.
 const MOST_DIGITS: i32 = 15;
-/// How many more digits than its interval supports an estimate has that would be zero without them.
+/// Extra digits for an estimate that would otherwise show as zero.
 const MOST_MORE: i32 = 2;
-/// Numbers of one sign whose sizes differ by more have their own digits each.
+/// If numbers of one sign differ by a larger ratio, each keeps its own digits.
 const MOST_RATIO: f64 = 100.0;
 
-/// An estimate and the ends of its interval, which are NaN where they are not known: digits to the same place, as many
-/// as the interval supports, the ends rounded
-/// away from the estimate. No end is shown at one of the `bounds` of what is estimated that it does not reach. `None`
-/// in place of an end that is not known.
+/// An estimate and its interval to a common decimal place, as fine as the interval supports, ends rounded outward;
+/// unknown ends (NaN) give `None`. No end is shown at one of the `bounds` unless it is exactly there.
 fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Option<String>; 2]) {
     let known: Vec<f64> = ends.into_iter().filter(|end| end.is_finite()).collect();
     let all = || known.iter().copied().chain([value]);
@@ -157,13 +142,12 @@ fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Opt
     let least_place = libm::floor(libm::log10(most)) as i32 + 1 - MOST_DIGITS;
     let shown = |place: i32| [0, 1].map(|which| rounded(ends[which], place, Some(which == 1)));
     let reaches = |place: i32| (0..2).any(|which| shown(place)[which] == bounds[which] && ends[which] != bounds[which]);
-    // what is bounded on one side only is not known to more digits
+    // a one-sided bound supports three digits
     let coarsest = if known.len() == 1 { libm::floor(libm::log10(most)) as i32 - 2 } else { i32::MIN };
     let mut place = place_of(half).max(coarsest);
     while place > least_place && reaches(place) {
         place -= 1;
     }
-    // an estimate near zero is not shown as zero for want of a digit or two
     let own = libm::floor(libm::log10(value.abs()) + 1e-12);
     if rounded(value, place, None) == 0.0 && own >= f64::from(place - MOST_MORE) {
         place = own as i32;
@@ -173,8 +157,7 @@ fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Opt
     (at_place(rounded(value, place, None), place, most), shown(place).map(text))
 }
 
-/// The same as one text: "0.938 [0.901, 0.994]", with `?` in place of an end that is not known; without brackets where
-/// neither is.
+/// "0.938 [0.901, 0.994]", with `?` for an unknown end; no brackets if both are unknown.
 pub fn with_interval(value: f64, ends: [f64; 2]) -> String {
     bracketed(value, ends, [f64::NAN; 2], "")
 }
@@ -188,7 +171,7 @@ fn bracketed(value: f64, ends: [f64; 2], bounds: [f64; 2], unit: &str) -> String
     format!("{value}{unit} [{low}, {high}]")
 }
 
-/// A share in per cent with three digits, and near 100 with as many as show that it is not all.
+/// A share in per cent with three digits, near 100 with enough to differ from it.
 pub fn percent(share: f64) -> String {
     let left = 100.0 * (1.0 - share);
     if (1e-12..1.0).contains(&left) {
@@ -198,8 +181,7 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// A share, or where runs are missing its least and largest value, with its interval where there is one: "98.40%
-/// [91.45, 99.96]".
+/// A share, or the range that missing runs leave open, with its interval: "98.40% [91.45, 99.96]".
 pub fn share([least, most]: [f64; 2], interval: [f64; 2]) -> String {
     if least == most && interval.iter().any(|end| end.is_finite()) {
         return bracketed(100.0 * least, interval.map(|end| 100.0 * end), [0.0, 100.0], "%");
@@ -215,7 +197,7 @@ pub fn share([least, most]: [f64; 2], interval: [f64; 2]) -> String {
     format!("{range} [{}]", ends.map(Option::unwrap_or_default).join(", "))
 }
 
-/// Numbers that stand side by side: three digits each, and as many more as keep different ones apart.
+/// Three digits each, more if needed to separate different numbers.
 pub fn apart<const N: usize>(values: [f64; N]) -> [String; N] {
     let texts = |digits: usize| values.map(|value| significant(value, digits));
     let is_apart = |digits: &usize| {
@@ -225,7 +207,7 @@ pub fn apart<const N: usize>(values: [f64; N]) -> [String; N] {
     texts((3..MOST_DIGITS as usize).find(is_apart).unwrap_or(3))
 }
 
-/// A text of this module with true minus signs and raised powers of ten, as a page shows it.
+/// True minus signs and superscript powers of ten, for pages.
 pub fn typeset(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let (mut out, mut at) = (String::with_capacity(text.len()), 0);
@@ -256,7 +238,7 @@ pub fn typeset(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Law: a number fits its column, whatever its magnitude.
+    /// Law: every number fits its column.
     #[test]
     fn short_numbers_are_short() {
         for (value, text) in [
@@ -289,8 +271,7 @@ mod tests {
         }
     }
 
-    /// Law: what is shown of an interval contains it, and is at most a step of its last digit larger; what fits the
-    /// digits stays.
+    /// Law: a rounded interval contains the original, by at most one unit of its last digit; rounding is idempotent.
     #[test]
     fn rounded_intervals_contain_theirs() {
         for (interval, digits, known) in [
@@ -309,9 +290,8 @@ mod tests {
         assert!(outward([f64::NAN, 1.0], 3)[0].is_nan());
     }
 
-    /// Law: an interval contains the one that was found and is hardly wider, its ends and the estimate have digits to
-    /// the same place, and it reaches a bound only where
-    /// what was found does.
+    /// Law: a shown interval contains the original and is hardly wider, has a common decimal place with its estimate,
+    /// and touches a bound only if the original does.
     #[test]
     fn shown_intervals_contain_theirs() {
         let decimals =
@@ -357,7 +337,7 @@ mod tests {
         assert_eq!(shares, ["0", "95", "98.2", "0.503", "99.95", "99.999", "99.9999998"]);
     }
 
-    /// Law: neighbours that differ are seen to differ; times are said in the unit of a person, if that is exact.
+    /// Law: different neighbours differ in text; times take a readable unit if it is exact.
     #[test]
     fn neighbours_stay_apart() {
         assert_eq!(apart([1.000_001_2, 1.000_003_4, 2.0]), ["1.000001", "1.000003", "2"]);

@@ -1,4 +1,4 @@
-//! How well runs were computed: largest errors, audits ([`AuditSummary`]), and the runs to look at for that.
+//! Accuracy of the runs: largest errors, audits ([`AuditSummary`]) and the runs worth a look.
 
 use serde::Serialize;
 
@@ -16,31 +16,25 @@ use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_EST
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
 
-/// The numerical errors of an observable over the audited runs, beside the spread of its values over the campaign.
+/// Numerical errors of an observable over the audited runs, compared with its spread.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Numerics {
     /// Number of audited runs that have it.
     pub count: u64,
-    /// Median of |observed - true|.
-    pub median: Option<f64>,
-    /// 95% quantile, type 7.
-    pub p95: Option<f64>,
-    /// 99% quantile, type 7.
-    pub p99: Option<f64>,
-    pub max: Option<f64>,
+    /// Of |observed - true|.
+    #[serde(flatten)]
+    pub error: Quantiles,
     /// Difference of the 95% and 5% quantiles of the observable.
     pub spread: f64,
-    /// `p95` over `spread`: how much of the spread is numerics; absent where there is no spread.
+    /// `p95` over `spread`; absent without a spread.
     pub share_of_spread: Option<f64>,
 }
 
-/// Order statistics of an error.
+/// Order statistics of an error, type 7.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quantiles {
     pub median: Option<f64>,
-    /// 95% quantile, type 7.
     pub p95: Option<f64>,
-    /// 99% quantile, type 7.
     pub p99: Option<f64>,
     pub max: Option<f64>,
 }
@@ -52,10 +46,10 @@ impl Quantiles {
     }
 }
 
-/// Comparison of an estimate with the true error.
+/// An error estimate compared with the true error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Runs that were audited and have this error.
+    /// Audited runs with this error.
     pub audited: u64,
     /// Runs whose estimate covers the true error.
     pub covered: u64,
@@ -63,37 +57,36 @@ pub struct Estimate {
     pub coverage: Option<f64>,
     /// Median of estimate over true error.
     pub median_ratio: Option<f64>,
-    /// The coverage that is promised.
+    /// Promised coverage.
     pub promised: f64,
-    /// The probability of so few covered runs, or fewer, if the promise were kept.
+    /// Probability of at most this coverage if the promise holds.
     pub chance: f64,
-    /// Runs that are not covered, where chance does not explain that there are so many; else 0.
+    /// Uncovered runs beyond chance; else 0.
     pub excess: u64,
 }
 
-/// The statistics of the audits of a campaign.
+/// Statistics of the audits of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AuditSummary {
-    /// Fraction of the samples selected for audits.
+    /// Fraction of samples selected for audits.
     pub fraction: f64,
     pub audited: u64,
-    /// Selected runs that did not reach their end, or whose reference solution did not.
+    /// Selected runs without an end, or whose reference solution has none.
     pub failed: u64,
-    /// Audited runs with a reference solution in double-double; the others have one in plain doubles with tolerance
-    /// 1e-16.
+    /// Audited against double-double; the others against doubles with tolerance 1e-16.
     pub in_double_double: u64,
     /// Maximum of the next two.
     pub state_error: Quantiles,
-    /// Of omega, over the run's maximum |omega|.
+    /// Relative to the run's maximum |omega|.
     pub omega_error: Quantiles,
     /// Of the attitude, rad.
     pub attitude_error_rad: Quantiles,
-    /// Of the rotation of the debris, where there is one.
+    /// Of the rotation of the debris.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub debris_error: Option<Quantiles>,
-    /// Comparison of `state_error_estimate` with the true error.
+    /// Of `state_error_estimate`.
     pub estimate: Estimate,
-    /// The same of `debris_state_error_estimate`, where there is debris.
+    /// Of `debris_state_error_estimate`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub debris_estimate: Option<Estimate>,
 }
@@ -113,36 +106,28 @@ impl Estimate {
 }
 
 impl Numerics {
-    /// Those of the observable `name`; `None` where no audit has its error.
+    /// Errors of the observable `name`; `None` if no audit has it.
     pub fn of(analysed: &Analysed, name: &str) -> Option<Self> {
         let index = analysed.tally.headlines.iter().position(|headline| headline == name)?;
         Numerics::new(analysed.tally.audits.as_ref()?, index, analysed.statistics.column(name)?.spread?)
     }
 
-    /// Errors of the observable `index` among those with statistics, beside the `spread` of its values; `None` where
-    /// there are no errors.
+    /// Errors of the headline `index`; `None` without errors.
     fn new(audits: &AuditTally, index: usize, spread: f64) -> Option<Self> {
         let errors = &audits.observables[index];
-        let p95 = errors.quantile(0.95)?;
-        Some(Numerics {
-            count: errors.count(),
-            median: errors.quantile(0.5),
-            p95: Some(p95),
-            p99: errors.quantile(0.99),
-            max: errors.max(),
-            spread,
-            share_of_spread: (spread > 0.0).then_some(p95 / spread),
-        })
+        let (count, p95) = (errors.count(), errors.quantile(0.95)?);
+        let share_of_spread = (spread > 0.0).then_some(p95 / spread);
+        Some(Numerics { count, error: Quantiles::of(errors), spread, share_of_spread })
     }
 }
 
 impl AuditSummary {
-    /// That of the audits in `tally`; `None` where the campaign has none.
+    /// `None` without audits.
     pub fn of(plan: &Plan, tally: &Tally) -> Option<Self> {
         tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction))
     }
 
-    /// The statistics of `audits`, of a campaign that audits `fraction` of its samples.
+    /// Statistics of `audits` of a `fraction` of the samples.
     pub fn new(audits: &AuditTally, fraction: f64) -> Self {
         AuditSummary {
             fraction,
@@ -158,15 +143,14 @@ impl AuditSummary {
         }
     }
 
-    /// The estimates, each with the name of its column.
+    /// Each estimate with the name of its column.
     fn estimates(&self) -> impl Iterator<Item = (String, Estimate)> {
         let debris = self.debris_estimate.map(|estimate| (DEBRIS_STATE_ERROR_ESTIMATE, estimate));
         let all = std::iter::once((STATE_ERROR_ESTIMATE, self.estimate)).chain(debris);
         all.map(|(column, estimate)| (names::of_column(column.name(), ""), estimate))
     }
 
-    /// The estimates that cover the true error in fewer runs than promised, each as a sentence; none where chance may
-    /// be why.
+    /// One sentence for each estimate whose coverage is below its promise beyond chance.
     pub(super) fn broken_promises(&self) -> Vec<String> {
         let broken = self.estimates().filter(|(_, estimate)| estimate.excess > 0);
         let sentence = |(name, one): (String, Estimate)| {
@@ -184,12 +168,12 @@ impl AuditSummary {
     }
 }
 
-/// CPU time of the audits, and its share of the total; of CPU time of runs and of audits, s.
+/// CPU time of the audits, s, and its share of the total, from the CPU times of runs and audits.
 pub fn cost([runs, audits]: [f64; 2]) -> String {
     format!("{} s of CPU time, {:.1}% of the total", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
 }
 
-/// The errors in the sentence on numerics, each with what it is of.
+/// The errors of the numerics sentence, with their subjects.
 const ERRORS: [(&str, &str); 5] = [
     ("energy_error_max", "energy"),
     ("angular_momentum_error_max", "angular momentum"),
@@ -198,14 +182,10 @@ const ERRORS: [(&str, &str); 5] = [
     ("debris_state_error_estimate", "estimated state error of the debris"),
 ];
 
-/// Largest errors, audits, and the runs to look at: the worst of each observable in `required`, in this order, those
-/// with the greatest errors, and the first that failed in each way.
+/// Largest errors, audits and runs to look at: the worst of each observable, those in `required` first, those with the
+/// largest errors, and the first with each failure.
 pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) -> Vec<Finding> {
     let statistics = &analysed.statistics;
-    let number = |name: &str, value: Option<f64>, runs: u64, unit: &str| {
-        let found = (value.unwrap_or(f64::NAN), [f64::NAN; 2]);
-        Number { digits: 4, ..Number::new(name, found, runs, unit, &ShownUnit::own(unit)) }
-    };
     let largest = |(name, of): &(&str, &str)| {
         let column = statistics.column(name)?;
         Some(number(of, Some(column.moments.max()?), column.moments.count(), ""))
@@ -219,8 +199,8 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
     }
     if let Some(audit) = AuditSummary::of(plan, &analysed.tally) {
         found.extend(audit.estimates().map(|(name, one)| coverage(&name, &one)));
-        found.push(audit.finding(number));
-        found.extend(observed(plan, analysed, number));
+        found.push(audit.finding());
+        found.extend(observed(plan, analysed));
     }
     let mut is_first = true;
     let order = |worst: &&Worst| required.iter().position(|name| *name == worst.name).unwrap_or(usize::MAX);
@@ -254,7 +234,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
     found
 }
 
-/// How many of the true errors an estimate covers.
+/// The coverage of an estimate.
 fn coverage(name: &str, one: &Estimate) -> Finding {
     let share = one.coverage.unwrap_or(0.0);
     let said = format!(
@@ -268,20 +248,16 @@ fn coverage(name: &str, one: &Estimate) -> Finding {
     Finding { numbers: vec![covered], ..Finding::new(Kind::Numerics, "coverage", "audited errors", said) }
 }
 
-/// The numerical errors of the outcomes over the audited runs, beside the spread of their values.
-fn observed(
-    plan: &Plan,
-    analysed: &Analysed,
-    number: impl Fn(&str, Option<f64>, u64, &str) -> Number,
-) -> Option<Finding> {
+/// Numerical errors of the outcomes compared with their spread.
+fn observed(plan: &Plan, analysed: &Analysed) -> Option<Finding> {
     let of = |name: &String| {
         let column = analysed.statistics.column(name)?;
         let numerics = Numerics::of(analysed, name)?;
         let unit = column.quantity.unit();
         let number = |what: &str, value| number(what, value, numerics.count, unit);
         let share = Number { unit: String::new(), ..number("share", numerics.share_of_spread) };
-        let mut numbers = vec![number("median", numerics.median), number("p95", numerics.p95)];
-        numbers.extend([number("max", numerics.max), share]);
+        let Quantiles { median, p95, max, .. } = numerics.error;
+        let numbers = vec![number("median", median), number("p95", p95), number("max", max), share];
         let title = names::of_quantity(&column.quantity);
         Some(Finding { numbers, ..Finding::new(Kind::Numerics, name, title, "") })
     };
@@ -291,9 +267,14 @@ fn observed(
     (!children.is_empty()).then_some(Finding { children, rank: 1, ..found })
 }
 
+/// A number with four digits and without an interval; NaN for `None`.
+fn number(name: &str, value: Option<f64>, runs: u64, unit: &str) -> Number {
+    let value = (value.unwrap_or(f64::NAN), [f64::NAN; 2]);
+    Number { digits: 4, ..Number::new(name, value, runs, unit, &ShownUnit::own(unit)) }
+}
 impl AuditSummary {
-    /// How many runs were compared with what, and how large their errors are.
-    fn finding(&self, number: impl Fn(&str, Option<f64>, u64, &str) -> Number) -> Finding {
+    /// The number of audited runs, their references and errors.
+    fn finding(&self) -> Finding {
         let (audited, plain) = (self.audited, self.audited - self.in_double_double);
         let mut said = format!(
             "{} compared with reference solutions, {} of them in double-double",
@@ -329,7 +310,7 @@ mod tests {
     use super::*;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
-    /// Law: each quantile is that of type 7, and the ratios are of the runs that were audited.
+    /// Law: quantiles are of type 7; ratios refer to the audited runs.
     #[test]
     fn quantiles_and_shares_are_those_stated() {
         let mut audits = AuditTally {
@@ -353,8 +334,7 @@ mod tests {
         assert_eq!(cost([3.0, 1.0]), format!("{} s of CPU time, 25.0% of the total", short(1.0)));
     }
 
-    /// Law: an estimate whose promise is broken is named with its counts, each estimate by its own runs; none is where
-    /// the promise may be kept.
+    /// Law: each estimate with a broken promise is named with the counts of its own runs, and no other.
     #[test]
     fn broken_promises_are_named() {
         let of = |state: [u64; 2], debris: [u64; 2]| {

@@ -1,12 +1,11 @@
-//! Where the values of a dispersed number come from, in words.
+//! The distribution or source of a dispersed number, in words.
 
 use crate::campaign::Plan;
 use crate::findings::names::unit_of_input;
 use crate::findings::number::trimmed;
 use crate::sampling::NumberWords;
 
-/// The distribution of the dispersed number `column` of `plan`, in the unit in which it is shown; or what gives its
-/// values.
+/// The distribution of the dispersed number `column` in its shown unit, or the source of its values.
 pub fn origin(plan: &Plan, column: usize) -> String {
     let shown = unit_of_input(plan, column);
     let number = |value: f64| trimmed(value, 4);

@@ -1,4 +1,4 @@
-//! How outcomes are distributed: a finding for each, with its quantiles, mean and extremes.
+//! Distributions of outcomes: a finding for each, with quantiles, mean and extremes.
 
 use crate::analysis::analysed::Analysed;
 use crate::analysis::order_statistics::share_interval;
@@ -13,17 +13,16 @@ use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::statistics::quantile::percent;
 
-/// Most observables with all that is known, beside those that the file names.
+/// Observables shown in addition to those named in the file.
 const MOST_MAIN: usize = 6;
-/// Those observables after those of the motion.
+/// Shown after the observables of the motion.
 const MAIN: [&str; 4] =
     ["angular_momentum_error_max", "linear_momentum_error_max", "state_error_estimate", "dcm_orthonormality_max"];
-/// Most digits that keep the median apart from the extremes: what differs beyond is rounding.
+/// Maximum digits that separate the median from the extremes; differences beyond are rounding.
 const MOST_DIGITS: usize = 8;
-/// The quantiles of a spread.
 const SPREAD: [f64; 2] = [0.05, 0.95];
 
-/// The observables that a person sees: those that the file of `plan` requires, names or derives, then the main ones.
+/// The observables shown to people: required, named or derived in the file, then the main ones.
 pub(super) fn shown(plan: &Plan) -> Vec<String> {
     let columns = plan.request().columns();
     let has = |name: &&&str| columns.iter().any(|column| column.quantity.name() == **name);
@@ -34,7 +33,7 @@ pub(super) fn shown(plan: &Plan) -> Vec<String> {
     names
 }
 
-/// The observables of a summary of `plan`: what a person sees, then the main ones of the plan and the final state.
+/// The observables of a summary: those shown to people, then the headlines of the plan and the final state.
 pub fn summarised<'s>(plan: &Plan, statistics: &'s Statistics) -> Vec<&'s ColumnStatistics> {
     let columns = plan.request().columns();
     let main = headlines(&plan.request()).into_iter().map(|index| &columns[index]);
@@ -49,7 +48,7 @@ pub fn summarised<'s>(plan: &Plan, statistics: &'s Statistics) -> Vec<&'s Column
     found
 }
 
-/// A finding for each outcome that has a value, and what to know of all of them.
+/// A finding for each outcome with a value, then the remarks on all of them.
 pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let statistics = &analysed.statistics;
     let (shown, first) = (shown(plan), outcomes(plan));
@@ -65,7 +64,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
         ..finding(plan, statistics, column, analysed.tally.without_nominal)
     };
     let mut found: Vec<Finding> = all.iter().filter(|column| says_something(column)).map(of).collect();
-    // what a verdict on the share of runs says already
+    // the verdict already gives this share
     let is_stated = |one: &Finding| {
         let of_it = |requirement: &Requirement| requirement.observable() == Some(one.id.as_str());
         one.number("yes").is_some() && plan.analysis.requirements.iter().any(of_it)
@@ -88,7 +87,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     found
 }
 
-/// Whether a run has it, or its quantiles are known from how the others failed.
+/// Whether a run has it, or failed runs determine its quantiles.
 fn says_something(column: &ColumnStatistics) -> bool {
     column.moments.count() > 0
         || column.without_value > 0
@@ -127,7 +126,7 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
         (one.p, number(&what, known(one.value), one.interval.map(known)))
     });
     let mut quantiles: Vec<(f64, Number)> = quantiles.collect();
-    // the median, then what is required, then the spread, then the tails
+    // the median, required quantiles, the spread, the tails
     for (p, number) in &mut quantiles {
         let is_of_it = |one: &&Requirement| one.observable() == Some(name) && one.statement == Statement::Quantile(*p);
         number.limit = plan.analysis.requirements.iter().find(is_of_it).map(|one| one.limit);
@@ -153,12 +152,12 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
     Finding { numbers, notes, sentence, ..found }
 }
 
-/// How many digits a number has before its power of ten.
+/// Significant digits before the power of ten.
 fn digits(text: &str) -> usize {
     text.split('e').next().map_or(0, |text| text.chars().filter(char::is_ascii_digit).count())
 }
 
-/// What a reader without a table is told: the spread, then the extremes.
+/// The spread, then the extremes, for readers without a table.
 fn sentence(name: &str, numbers: &[Number], runs: u64) -> String {
     let number = |what: &str| numbers.iter().find(|one| one.name == what).filter(|one| one.value.is_finite());
     let text = |one: &Number| Number { interval: [f64::NAN; 2], ..one.clone() }.text();
@@ -173,8 +172,7 @@ fn sentence(name: &str, numbers: &[Number], runs: u64) -> String {
     format!("{spread}the extremes are {} and {}", text(min), text(max))
 }
 
-/// The median time of an event over the runs in which it happens, and how many these are: "detumbled, median of 240
-/// runs".
+/// Median time of an event over the runs in which it occurs: "detumbled, median of 240 runs".
 pub fn event_time(plan: &Plan, column: &ColumnStatistics) -> Option<(String, f64)> {
     let event = plan.events.iter().find(|event| column.quantity.name() == format!("{}_time_s", event.name))?;
     let at = column.quantiles.iter().find(|one| one.p == 0.5)?.value.filter(|at| at.is_finite())?;

@@ -7,7 +7,7 @@ use crate::findings::number::{brief, counted, significant};
 use crate::table::Table;
 use crate::table::text::Align;
 
-/// The columns of a measurement, with the widths of their numbers: rows are shown one by one.
+/// Columns with widths, since rows appear one by one.
 pub const COLUMNS: [(&str, Align, usize); 10] = [
     ("method", Align::Whole, 17),
     ("setting", Align::Right, 9),
@@ -25,7 +25,7 @@ fn about(sentence: String) -> Finding {
     Finding::new(Kind::Note, "precision", "", sentence)
 }
 
-/// What is measured: so many `samples` of `plan`, `which` states, on an instruction set.
+/// The setup: `samples` of `plan`, `which` states, an instruction set.
 pub fn head(plan: &Plan, samples: usize, [which, isa]: [&str; 2]) -> Finding {
     about(format!(
         "{}: {} over {:?} s at {}, {which} states, on {isa}; largest errors against a reference in double-double",
@@ -36,7 +36,7 @@ pub fn head(plan: &Plan, samples: usize, [which, isa]: [&str; 2]) -> Finding {
     ))
 }
 
-/// A table with the measurement `found`, with its maximum errors; of none only the heads.
+/// A row with the measurement `found`; without one only the heads.
 pub fn table(found: Option<&Measurement>) -> Table<'static> {
     let error = |of: Option<Deviation>| of.map_or("-".to_owned(), |error| significant(error.max, 2));
     let mut table = Table::with(COLUMNS.map(|(name, align, _)| (name, align)));
@@ -59,7 +59,7 @@ pub fn table(found: Option<&Measurement>) -> Table<'static> {
     table
 }
 
-/// The settings that were not measured, with the reason; a finding for each method.
+/// Skipped settings with the reason; one finding per method.
 pub fn omissions(skipped: &[Skipped], limit: f64) -> Vec<Finding> {
     let of_method = |all: &[Skipped]| {
         let settings: Vec<String> = all.iter().map(|skipped| setting(skipped.setting)).collect();
@@ -75,7 +75,6 @@ pub fn omissions(skipped: &[Skipped], limit: f64) -> Vec<Finding> {
     skipped.chunk_by(|one, next| one.method == next.method).map(of_method).collect()
 }
 
-/// A tolerance or a step in one or two digits.
 fn setting(setting: Setting) -> String {
     match setting {
         Setting::Tolerance(tolerance) => format!("{tolerance:.0e}"),

@@ -1,4 +1,4 @@
-//! Requirements: what is asked, whether it is met, by which number, and what to know of that.
+//! Requirements with verdicts, the numbers behind them, and their qualifications.
 
 use crate::analysis::assessment::{Assessment, RARE};
 use crate::analysis::order_statistics::without_value;
@@ -13,12 +13,10 @@ use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 
-/// The name of the share of runs that a verdict is about.
 const WITHIN: &str = "runs within the limit";
-/// Most digits of a bound.
 const DIGITS: i32 = 12;
 
-// what the documents say of the runs that would decide
+// the documents quote this power
 const _: () = assert!(POWER == 0.9);
 
 /// A requirement with its verdict.
@@ -30,16 +28,15 @@ pub struct EndVerdict {
     pub word: String,
     /// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
     pub statement: String,
-    /// What was found, with its interval: "97.7% [95.3, 99.1]".
+    /// The estimate with its interval: "97.7% [95.3, 99.1]".
     pub found: String,
-    /// The observable that it is about, where it is about one.
     pub observable: Option<String>,
-    /// How many runs violate it, unless it is about a mean.
+    /// Violating runs; `None` for a mean.
     pub violations: Option<Occurrence>,
 }
 
 impl EndVerdict {
-    /// The verdict `one`; quantiles have intervals with `statistics` only.
+    /// Quantiles get intervals only from `statistics`.
     pub fn of(one: &Assessment, statistics: Option<&Statistics>) -> Self {
         EndVerdict {
             requirement: question(one),
@@ -53,8 +50,7 @@ impl EndVerdict {
     }
 }
 
-/// A finding for each requirement: those that fail first, then those that are undecided; within each the nearest to its
-/// limit first. Then what they say together.
+/// A finding for each requirement: FAIL, UNDECIDED, PASS, nearest to the limit first; then the remarks on all.
 pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Vec<Finding> {
     let confidence = common_confidence(verdicts);
     let finding = |(place, one): (usize, &Assessment)| {
@@ -77,8 +73,8 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
     found.into_iter().map(|(finding, _)| finding).chain(needed.into_iter().chain(together).map(about)).collect()
 }
 
-/// The observables and series that requirements are about, each once: whether missions launched, then those whose
-/// requirement is the nearest to its limit. `found`: the findings on requirements.
+/// Required observables and series, each once: `launched` first, then in the order of `found`, the findings on
+/// requirements.
 pub fn required<'f>(plan: &Plan, found: impl IntoIterator<Item = &'f Finding>) -> Vec<String> {
     let place = |one: &Finding| one.id.strip_prefix("requirement_")?.parse::<usize>().ok()?.checked_sub(1);
     let mut names: Vec<String> = Vec::new();
@@ -93,19 +89,17 @@ pub fn required<'f>(plan: &Plan, found: impl IntoIterator<Item = &'f Finding>) -
     names
 }
 
-/// The observable that says whether a mission launched.
 pub const LAUNCHED: &str = "launched";
-/// A run whose mission did not launch, in words.
 pub const NOT_LAUNCHED: &str = "mission did not launch";
 
-/// The confidence of all verdicts; `None` where they differ.
+/// The common confidence of all verdicts, if any.
 pub fn common_confidence(verdicts: &Verdicts) -> Option<f64> {
     let mut all = verdicts.list.iter().map(|one| one.requirement.confidence);
     let first = all.next()?;
     all.all(|other| other == first).then_some(first)
 }
 
-/// How many runs would decide all that is undecided, said once for all.
+/// The number of runs that would decide all undecided requirements.
 fn runs_needed(plan: &Plan, verdicts: &Verdicts) -> Option<String> {
     let needed = verdicts.list.iter().filter(|one| one.reason.is_none()).filter_map(|one| match one.gate.decision {
         Decision::Undecided(runs) => Some(runs.map(|runs| runs.max(one.runs + 1))),
@@ -123,8 +117,8 @@ fn runs_needed(plan: &Plan, verdicts: &Verdicts) -> Option<String> {
 
 const IF: &str = "if the truth is as observed";
 
-/// Verdicts in their order, and how far the estimate is from the limit: in half widths of its interval, so that numbers
-/// of different units compare. Of equal shares of runs, the run nearest to the limit decides, as a share of the limit.
+/// Sort key: verdict, then distance from the limit in half-widths of the interval, comparable across units. Ties go to
+/// the extreme run nearest to the limit, relative to the limit.
 fn rank(one: &Assessment, statistics: &Statistics) -> (u8, [f64; 2]) {
     let class = match one.gate.decision {
         Decision::Fail => 0,
@@ -143,19 +137,19 @@ fn rank(one: &Assessment, statistics: &Statistics) -> (u8, [f64; 2]) {
     (class, [finite(distance / scale), finite(margin.unwrap_or(f64::MAX))])
 }
 
-/// What the estimate of the gate has to reach: a share of the runs, or the limit of the mean.
+/// Required value of the estimate: a share of the runs, or the limit of the mean.
 fn target(one: &Assessment) -> f64 {
     one.requirement.share().unwrap_or_else(|| one.requirement.limit.value())
 }
 
-/// The requirement in a few words: "pointing error at launch <= 2 deg in 95%".
+/// "pointing error at launch <= 2 deg in 95%".
 pub fn title(one: &Assessment) -> String {
     let requirement = &one.requirement;
     let name = names::of_column(requirement.name(), &one.unit);
     let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "<=" } else { ">=" };
-    let shown_unit = shown(one);
-    let unit = shown_unit.unit.as_str();
-    let limit = format!("{} {unit}", written(shown(one).written(requirement.limit.value())));
+    let shown = shown(one);
+    let unit = shown.unit.as_str();
+    let limit = format!("{} {unit}", written(shown.written(requirement.limit.value())));
     let is = match (requirement.name(), requirement.limit) {
         // yes or no
         ("launched", GateLimit::AtLeast(limit)) if limit > 0.0 => name,
@@ -171,20 +165,20 @@ pub fn title(one: &Assessment) -> String {
             format!("{is}{never} in {}%", percent(fraction))
         }
         Statement::Mean => {
-            let range = requirement.bounded.map(|ends| ends.map(|end| written(shown(one).written(end))));
+            let range = requirement.bounded.map(|ends| ends.map(|end| written(shown.written(end))));
             let range = range.map(|[low, high]| format!(" (bounded = [{low}, {high}] {unit}"));
             format!("mean of {is}{}", range.map_or(String::new(), |text| text.trim_end().to_owned() + ")"))
         }
     }
 }
 
-/// A limit as it was written, in the unit `shown`: "at most 2 deg".
+/// The limit as written, in the unit `shown`: "at most 2 deg".
 pub fn limit_text(limit: GateLimit, shown: &ShownUnit) -> String {
     let word = if matches!(limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
     format!("{word} {} {}", written(shown.written(limit.value())), shown.unit).trim_end().to_owned()
 }
 
-/// When the limit holds, of a requirement over time.
+/// When the limit applies, for a requirement over time.
 fn times(one: &Assessment) -> String {
     let Some(band) = one.requirement.band() else { return String::new() };
     let which = if one.requirement.window().is_some() { "at all times" } else { "at each time" };
@@ -192,12 +186,12 @@ fn times(one: &Assessment) -> String {
     format!(" {which}{}{}", end("from", band.from_s), end("to", band.to_s))
 }
 
-/// The requirement with its confidence: what a test is called.
+/// The title with its confidence, as the name of a test.
 pub fn question(one: &Assessment) -> String {
     format!("{}, with {}% confidence", title(one), percent(one.requirement.confidence))
 }
 
-/// What decides first: the quantile where there is one, the mean or the share of the runs within the limit.
+/// The deciding number first: the quantile if known, the mean, or the share within the limit.
 pub fn numbers(one: &Assessment, statistics: Option<&Statistics>) -> Vec<Number> {
     let limit = one.requirement.limit;
     let value = |name: &str, value: f64, interval: [f64; 2]| {
@@ -219,7 +213,6 @@ pub fn numbers(one: &Assessment, statistics: Option<&Statistics>) -> Vec<Number>
     }
 }
 
-/// The unit in which a requirement is said.
 fn shown(one: &Assessment) -> ShownUnit {
     let limit = one.requirement.limit.value();
     one.shown.clone().of_time(limit.abs(), Some(limit))
@@ -247,7 +240,7 @@ fn sentence(one: &Assessment, numbers: &[Number]) -> String {
     said.join("; ")
 }
 
-/// What else has to be known of a verdict, what decided it first.
+/// Qualifications of a verdict, the deciding one first.
 fn notes(one: &Assessment) -> Vec<String> {
     let mut notes: Vec<String> = decided_by(one).into_iter().collect();
     notes.extend(one.reason.clone());
@@ -268,7 +261,7 @@ fn notes(one: &Assessment) -> Vec<String> {
     notes
 }
 
-/// What a decision on a mean assumes of events that the runs do not show.
+/// What a decision on a mean assumes about unseen rare events.
 pub fn assumed(one: &Assessment) -> Option<String> {
     let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
     Some(format!(
@@ -279,9 +272,8 @@ pub fn assumed(one: &Assessment) -> Option<String> {
     ))
 }
 
-/// What decided, in a few words, where the interval in brackets seems to say otherwise: the bound of a verdict, which
-/// looks at one side, where the interval has the
-/// limit in it; that nothing is decided, where it has not. `None` where the interval shows it.
+/// The deciding bound, if the two-sided interval suggests another verdict: it contains the limit although the one-sided
+/// bound decides, or excludes it although nothing is decided. Else `None`.
 fn decided_by(one: &Assessment) -> Option<String> {
     if one.fails_alone() {
         let [alone, together] = [one.fails_alone_at(), one.fails_at()].map(|confidence| trimmed(100.0 * confidence, 6));
@@ -291,7 +283,7 @@ fn decided_by(one: &Assessment) -> Option<String> {
     let is_mean = one.requirement.statement == Statement::Mean;
     let shown = |value: f64| if is_mean { one.shown.value(value) } else { 100.0 * value };
     let (bound, limit) = (shown(bound), shown(limit));
-    // what is said holds, and decides: rounded away from what was found, in as many digits as that takes
+    // round towards the estimate's far side with enough digits to stay beyond the limit
     let rounded = |digits: i32| outward([bound; 2], digits)[usize::from(!is_lower)];
     let digits = (3..DIGITS)
         .find(|digits| if is_lower { rounded(*digits) > limit } else { rounded(*digits) < limit })
@@ -302,7 +294,7 @@ fn decided_by(one: &Assessment) -> Option<String> {
     Some(format!("{side} {}, one-sided at {}%", number.trim_end(), percent(one.confidences[0])))
 }
 
-/// What the verdicts say together: how often one of them is wrong, and what to do about those that are undecided.
+/// Error rates of the verdicts together, and the remedy for undecided ones.
 fn together(verdicts: &Verdicts) -> Vec<String> {
     let mut said = Vec::new();
     let least = verdicts.list.iter().map(|one| one.requirement.confidence).fold(1.0, f64::min);

@@ -1,4 +1,4 @@
-//! What the results below a folder are.
+//! The results below a folder.
 
 use std::path::PathBuf;
 
@@ -10,56 +10,49 @@ use crate::table::text::Align;
 /// A finished result.
 #[derive(Clone, Debug)]
 pub struct IndexEntry {
-    /// Its folder, from the one that is indexed.
+    /// Its folder, relative to the index.
     pub folder: PathBuf,
-    /// The name of its campaign.
     pub campaign: String,
-    /// The question that it answers.
     pub question: Option<String>,
     pub end: SummaryEnd,
-    /// The version of the program that made it.
+    /// Version of the program.
     pub version: String,
-    /// The day of its summary, UTC.
+    /// Date of its summary, UTC.
     pub day: String,
-    /// Its page, from the folder that is indexed, where there is one.
+    /// Its page, relative to the index.
     pub page: Option<PathBuf>,
-    /// What changed since the last run of the same campaign, in words; `None` of the first one.
+    /// Changes since the last run of the campaign; `None` for the first.
     pub changed: Option<String>,
 }
 
-/// A folder of a result that says nothing.
+/// A folder whose result cannot be read.
 #[derive(Clone, Debug)]
 pub struct Unreadable {
-    /// The folder, from the one that is indexed.
+    /// Relative to the index.
     pub folder: PathBuf,
     pub reason: String,
 }
 
-/// The words of verdicts.
-const WORDS: [&str; 3] = ["PASS", "FAIL", "UNDECIDED"];
-
 impl IndexEntry {
-    /// The verdicts, counted, each as `said` of its count and its word: `3 PASS, 1 FAIL`; of a campaign without
-    /// requirements a dash.
-    pub fn verdicts(&self, said: impl Fn(usize, &str) -> String) -> String {
-        let counts = WORDS.iter().map(|word| (self.end.count(word), word)).filter(|(count, _)| *count > 0);
-        let found: Vec<String> = counts.map(|(count, word)| said(count, word)).collect();
-        if found.is_empty() { "-".to_owned() } else { found.join(", ") }
+    /// Counts of verdicts, each as `text(count, word)`, or "-" without requirements.
+    pub fn verdicts(&self, text: impl Fn(usize, &str) -> String) -> String {
+        let counts = self.end.verdicts(text);
+        if counts.is_empty() { "-".to_owned() } else { counts.join(", ") }
     }
 
-    /// Whether its folder has the name of its campaign, and says it.
+    /// Whether the folder has the name of the campaign.
     pub fn is_named(&self) -> bool {
         self.folder.file_name().is_some_and(|name| name == self.campaign.as_str())
     }
 
-    /// The runs that were computed, of all where some were not.
+    /// The number of computed runs: "100", "98 of 100".
     pub fn runs(&self) -> String {
         let SummaryEnd { rows, failed, .. } = self.end;
         if failed > 0 { format!("{} of {rows}", rows - failed) } else { rows.to_string() }
     }
 }
 
-/// A row for each of `entries`, and what is not in that table.
+/// A table of `entries`, and one of unreadable folders.
 pub fn findings(entries: &[IndexEntry], unreadable: &[Unreadable]) -> Vec<Finding> {
     let mut table = Table::with([
         ("result", Align::Title),

@@ -1,4 +1,4 @@
-//! The nominal scene of a campaign: masses and inertias, momenta, and the torques of its thrusters.
+//! The nominal scene: masses, inertias, momenta and thruster torques.
 
 use crate::campaign::Display;
 use crate::findings::finding::{Finding, Kind};
@@ -11,26 +11,24 @@ use crate::scene::{MassProperties, Scene, SceneInput};
 use crate::table::Table;
 use crate::table::text::Align;
 
-/// The share of the largest entry of a matrix below which another is rounding: some hundred roundings.
+/// Entries of a matrix below this share of the largest are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
-/// A number with six significant digits.
 fn six(value: f64) -> String {
     trimmed(value, 6)
 }
 
-/// A vector with six significant digits each.
 fn vector(v: [f64; 3]) -> String {
     format!("[{}]", v.map(six).join(", "))
 }
 
-/// Mass and principal moments of the spacecraft in a line.
+/// Mass and principal moments of the spacecraft.
 pub fn in_short(scene: &Scene) -> String {
     let (moments, _) = principal_axes(scene.mass.inertia);
     format!("spacecraft: {} kg, principal moments {} kg m^2", six(scene.mass.total), vector(moments))
 }
 
-/// The attitude at the start as a turn, as it is written: its angle, 0 to 180 deg, and its axis.
+/// The initial attitude as axis and angle, 0 to 180 deg.
 pub fn attitude(initial: &InitialInput) -> String {
     let (frame, [w, x, y, z]) = match initial.attitude_orbital {
         Some(q_os) => ("the local orbital frame F_o", q_os),
@@ -46,7 +44,7 @@ pub fn attitude(initial: &InitialInput) -> String {
     format!("initial attitude: {} deg from {frame}, about {axis}", six(angle))
 }
 
-/// The angular momentum of the spacecraft about its centre of mass at the start, in F_s.
+/// Angular momentum of the spacecraft about its centre of mass at the start, in F_s.
 fn momentum(scene: &Scene) -> [f64; 3] {
     let (mass, initial) = (&scene.mass, &scene.initial);
     let body = product(mass.inertia, initial.omega_se_s);
@@ -54,7 +52,7 @@ fn momentum(scene: &Scene) -> [f64; 3] {
     wheels.fold(body, |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
 }
 
-/// Masses, centre of mass, inertia, principal axes, with the convention, and what contributes most.
+/// Masses, centre of mass, inertia, principal axes and the largest part.
 pub fn masses(input: &SceneInput, mass: &MassProperties) -> Vec<Finding> {
     let about = |sentence: String| Finding::new(Kind::Note, "masses", "Mass properties of the nominal scene", sentence);
     let matrix = |sentence: String, entries| Finding { table: Some(rows(entries)), ..about(sentence) };
@@ -95,8 +93,7 @@ pub fn masses(input: &SceneInput, mass: &MassProperties) -> Vec<Finding> {
     list
 }
 
-/// Angular momenta at the start about the centre of mass, those of the wheels, and the torque of each thruster at one
-/// newton.
+/// Angular momenta at the start about the centre of mass, and the torque of each thruster at 1 N.
 pub fn momenta(input: &SceneInput, scene: &Scene, display: &Display) -> Vec<Finding> {
     let title = "Momenta and torques of the nominal scene";
     let about = |sentence: String| Finding::new(Kind::Note, "momenta", title, sentence);
@@ -123,7 +120,7 @@ pub fn momenta(input: &SceneInput, scene: &Scene, display: &Display) -> Vec<Find
     list
 }
 
-/// The part of the body, or the wheel, with the largest mass, and its share of the total.
+/// The body part or wheel with the largest mass, and its share of the total.
 fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f64)> {
     let parts = input.parts.iter().map(|part| (format!("body.parts.{}", part.name), Body::part(part, 1.0).mass));
     let wheels = input.wheels.iter().map(|wheel| (format!("wheels.{}", wheel.name), Wheel::new(wheel, 1.0).mass));
@@ -131,7 +128,7 @@ fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f6
     (!input.parts.is_empty()).then_some((largest.0, largest.1 / mass.total))
 }
 
-/// A matrix as it is shown: what is left of a turn and back is no number.
+/// A matrix with rounding errors shown as 0.
 fn rows(rows: [[f64; 3]; 3]) -> Table<'static> {
     let largest = rows.iter().flatten().fold(0.0, |most: f64, entry| most.max(entry.abs()));
     let shown = |entry: f64| if entry.abs() < ROUNDING * largest { "0".to_owned() } else { six(entry) };
@@ -145,7 +142,7 @@ mod tests {
     use super::*;
     use crate::scene::SceneInput;
 
-    /// Law: an attitude is shown as the turn that it is, by at most half a turn, whichever sign its quaternion has.
+    /// Law: an attitude is a turn of at most 180 deg, whatever the sign of its quaternion.
     #[test]
     fn an_attitude_is_an_axis_and_an_angle() {
         let shown = |attitude| super::attitude(&InitialInput { attitude, ..SceneInput::report().initial });

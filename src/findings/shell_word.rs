@@ -1,8 +1,8 @@
-//! [`quoted`]: texts and paths as words of a POSIX shell, for commands that are printed or written into scripts.
+//! [`quoted`]: texts and paths as words of a POSIX shell.
 
 use std::path::Path;
 
-/// `text` as one word of a shell: in single quotes where it needs them, else unchanged.
+/// `text` as one word, in single quotes if needed.
 pub fn quoted(text: &str) -> String {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./=+:,@".contains(&byte);
     if !text.is_empty() && text.bytes().all(is_plain) {
@@ -12,7 +12,6 @@ pub fn quoted(text: &str) -> String {
     }
 }
 
-/// The same of a path.
 pub fn quoted_path(path: &Path) -> String {
     quoted(&path.to_string_lossy())
 }

@@ -1,25 +1,24 @@
-//! What a result is that was verified.
+//! The outcome of verifying a result.
 
 use crate::findings::finding::{Finding, Kind};
 use crate::findings::number::counted;
 
-/// What was found when a result was verified.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// What was compared: files, rows.
+    /// The compared files and rows.
     pub what: String,
-    /// How many problems there were; all are repaired.
+    /// Number of problems, all repaired.
     pub problems: usize,
     /// Whether the result is finished.
     pub is_finished: bool,
-    /// How many parts of a result that is not finished are not made yet.
+    /// Missing parts of an unfinished result.
     pub missing: usize,
-    /// Of a result that is not finished: files that were not compared, since nothing says what should be in them.
+    /// Files of an unfinished result without a reference.
     pub unchecked: Vec<String>,
 }
 
 impl Checked {
-    /// Whether the result is sound and finished, or what is to be done. `is_completed`: a repair has finished it.
+    /// Sound and finished, or the next step. `is_completed`: a repair finished it.
     pub fn finding(&self, is_completed: bool) -> Finding {
         let unfinished = "what was compared is sound, and the result is not finished";
         let end = match (is_completed, self.problems) {

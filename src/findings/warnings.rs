@@ -1,4 +1,4 @@
-//! What a reader has to know before any number: many runs without numbers, what left its table, audits that fail.
+//! Warnings before any number: many lost runs, density table exceeded, failed audits.
 
 use crate::analysis::analysed::Analysed;
 use crate::analysis::input_sensitivity::COMPUTED;
@@ -10,7 +10,6 @@ use crate::findings::number::{counted, percent};
 use crate::findings::numerics::AuditSummary;
 use crate::run::Status;
 
-/// What a reader has to know before any number; mostly nothing.
 pub(super) fn warnings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let warning = |id: &str, title: &str, sentence| Finding::new(Kind::Warning, id, title, sentence);
     let lost = not_computed(plan, analysed).map(|said| warning("not_computed", "NOT COMPUTED", said));
@@ -26,7 +25,7 @@ pub(super) fn warnings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     lost.into_iter().chain(beyond).chain(audit).collect()
 }
 
-/// That many runs have no numbers, and what decides which.
+/// Many runs without numbers, and their drivers.
 fn not_computed(plan: &Plan, analysed: &Analysed) -> Option<String> {
     let loss = analysed.statistics.loss();
     let Loss { missing, runs, .. } = loss;

@@ -1,4 +1,4 @@
-//! A comparison of two results as the text of a JSON file.
+//! A comparison of two results as JSON.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use crate::campaign::difference::KeyDifference;
 use crate::findings::compared::{Compared, ComparedVerdict};
 use crate::table::json::objects;
 
-/// The text of the file: everything that is compared.
+/// The text of the file.
 pub fn text(compared: &Compared<'_>) -> String {
     let Compared { comparison, keys, verdicts, tolerance, .. } = compared;
     let result = |name: String, which: usize| {

@@ -1,7 +1,6 @@
 //! [`escaped`]: text within HTML, SVG or XML.
 
-/// `text` as content or within a quoted attribute: nothing in it is taken for markup, and characters that XML 1.0
-/// cannot have are replaced.
+/// `text` as content or as a quoted attribute, without markup; characters that XML 1.0 forbids are replaced.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -1,11 +1,9 @@
-//! [`Figure`]: what a figure shows, without saying how it is drawn.
-//!
-//! `assets/report/chart.js` draws it, on the page ([`super::page`]) and in files ([`super::figure_files`]).
+//! [`Figure`]: the content of a figure. `assets/report/chart.js` draws it, on the page ([`super::page`]) and in files ([`super::figure_files`]).
 
 use crate::campaign::{Display, ShownUnit};
 use crate::findings::number::short;
 
-/// The colour of a mark, by what it belongs to: bodies keep theirs everywhere.
+/// The meaning of a colour; bodies keep theirs in all figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hue {
     /// The body without the wheels.
@@ -13,21 +11,21 @@ pub enum Hue {
     /// A wheel, by its index.
     Wheel(usize),
     Debris,
-    /// All bodies together, or a quantity of no body.
+    /// All bodies, or none.
     Total,
-    /// The nominal run in front of others.
+    /// The nominal run among others.
     Nominal,
-    /// What failed, in the figure's own terms; nothing else has this hue on the page, but the first wheel.
+    /// Failed by the figure's criterion; only the first wheel shares this hue.
     Failed,
     /// One of many curves of a panel, by its index.
     Curve(usize),
-    /// Limits, and what is there for comparison.
+    /// Limits and other references.
     Reference,
 }
 
 impl Hue {
-    /// The place in the palette of Okabe & Ito (2008): blue, vermilion, green, purple, sky blue, orange, yellow; 7 is
-    /// the colour of text, 8 a grey, from 9 on are four more for wheels.
+    /// Index in the palette of Okabe & Ito (2008): blue, vermilion, green, purple, sky blue, orange, yellow; 7: text
+    /// colour, 8: grey, from 9: four more for wheels.
     pub const fn place(self) -> usize {
         match self {
             Hue::Body => 0,
@@ -42,7 +40,7 @@ impl Hue {
     }
 }
 
-/// How a curve is dashed.
+/// The dash pattern of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     Solid,
@@ -62,7 +60,7 @@ impl Dash {
         }
     }
 
-    /// That of the curve `index` of a panel with many: two dozen curves differ in colour or dash.
+    /// For curve `index` of a panel: two dozen curves differ in colour or dash.
     pub const fn of_curve(index: usize) -> Self {
         [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Long][(index + index / 12) % 4]
     }
@@ -71,35 +69,32 @@ impl Dash {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointShape {
     Disc,
-    /// Crosses: runs that failed, what is marked.
+    /// Failed or highlighted runs.
     Cross,
     /// Discs on a line from zero: probabilities.
     Stem,
 }
 
-/// How values are laid out along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scale {
     Linear,
-    /// By decades; values that are not positive are not shown.
+    /// Omits values that are not positive.
     Log,
-    /// One place for each name, the first on top.
+    /// One row per name, the first on top.
     Names(Vec<String>),
 }
 
-/// An axis: quantity, unit, scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub quantity: String,
-    /// Its unit; empty where it has none.
+    /// Empty for a pure number.
     pub unit: String,
-    /// How values are laid out.
     pub scale: Scale,
-    /// The range, where it does not follow from the marks.
+    /// Overrides the range of the marks.
     pub range: Option<[f64; 2]>,
-    /// The step between its ticks, where it does not follow from the range; a multiple where there is no room.
+    /// Overrides the tick spacing; only a multiple may fit.
     pub step: Option<f64>,
-    /// The column or parameter that it shows; empty where it shows none, or several.
+    /// The column or parameter shown; empty for none or several.
     pub column: String,
 }
 
@@ -123,18 +118,18 @@ impl Axis {
         Axis { scale: Scale::Names(names), ..Axis::linear("", "") }
     }
 
-    /// The axis of an angle on the Earth from -`most` to `most` degrees, with ticks every 30.
+    /// An angle on the Earth from -`most` to `most` degrees, with ticks every 30.
     pub fn of_globe(quantity: &str, most: f64) -> Self {
         Axis { step: Some(30.0), ..Axis::linear(quantity, "deg").within(-most, most) }
     }
 
-    /// The same of the column or parameter `column`.
+    /// Sets the column or parameter shown.
     #[must_use]
     pub fn showing(self, column: impl Into<String>) -> Self {
         Axis { column: column.into(), ..self }
     }
 
-    /// The unit in which `display` shows it; the axis has it from now on.
+    /// Converts the axis to the unit of `display`.
     fn take_unit(&mut self, display: &Display) -> ShownUnit {
         let shown = display.of(&self.column, &self.unit);
         self.unit.clone_from(&shown.unit);
@@ -142,10 +137,9 @@ impl Axis {
         shown
     }
 
-    /// The same with a fixed range.
+    /// Sets the range.
     ///
-    /// # Panics
-    /// Where it is empty.
+    /// # Panics If it is empty.
     #[must_use]
     pub fn within(self, low: f64, high: f64) -> Self {
         assert!(low < high, "the range {low} to {high} of {}", self.quantity);
@@ -153,14 +147,13 @@ impl Axis {
     }
 }
 
-/// What is drawn on a pair of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mark {
     Line {
         label: String,
         hue: Hue,
         dash: Dash,
-        /// Abscissae, ascending.
+        /// Ascending.
         x: Vec<f64>,
         y: Vec<f64>,
     },
@@ -169,11 +162,11 @@ pub enum Mark {
         label: String,
         hue: Hue,
         opacity: f64,
-        /// Abscissae, ascending.
+        /// Ascending.
         x: Vec<f64>,
         low: Vec<f64>,
         high: Vec<f64>,
-        /// Whether it is one of several on top of each other: its height is its value.
+        /// Stacked on others, so that its height is its value.
         stacked: bool,
     },
     Points {
@@ -182,39 +175,38 @@ pub enum Mark {
         shape: PointShape,
         x: Vec<f64>,
         y: Vec<f64>,
-        /// The samples that they show; empty where they show none.
+        /// Sample of each point; may be empty.
         samples: Vec<f64>,
     },
     Bars {
         label: String,
         hue: Hue,
-        /// Edges, ascending; one more than heights.
+        /// Ascending, one more than heights.
         edges: Vec<f64>,
         heights: Vec<f64>,
     },
-    /// Values with intervals, one for each name of the vertical axis; NaN where there is none.
+    /// Values with intervals, one per name of the vertical axis; NaN if unknown.
     Whiskers { label: String, hue: Hue, x: Vec<f64>, low: Vec<f64>, high: Vec<f64> },
     /// A straight line across the figure.
     Limit { label: String, at: f64, vertical: bool },
-    /// How many runs have not ended: a strip under the horizontal axis.
+    /// Number of runs still in flight: a strip under the horizontal axis.
     Flight {
         label: String,
         /// Times, ascending, s.
         x: Vec<f64>,
-        /// How many runs there are at each of them.
         counts: Vec<f64>,
-        /// How many there are in all.
+        /// Total number of runs.
         runs: f64,
     },
-    /// A square matrix of correlations between -1 and 1, row by row, names on the vertical axis.
+    /// A square matrix of correlations, names on the vertical axis.
     Matrix {
-        /// Entries, row by row.
+        /// Row by row.
         values: Vec<f64>,
     },
 }
 
 impl Mark {
-    /// Changes abscissae by `x` and ordinates by `y`.
+    /// Maps abscissae by `x` and ordinates by `y`.
     fn change(&mut self, x: &dyn Fn(f64) -> f64, y: &dyn Fn(f64) -> f64) {
         let change =
             |values: &mut Vec<f64>, by: &dyn Fn(f64) -> f64| values.iter_mut().for_each(|value| *value = by(*value));
@@ -249,12 +241,12 @@ impl Mark {
         Mark::Band { label: label.into(), hue, opacity, x, low, high, stacked: false }
     }
 
-    /// Points that show no samples.
+    /// Points without samples.
     pub fn points(label: impl Into<String>, (hue, shape): (Hue, PointShape), x: Vec<f64>, y: Vec<f64>) -> Self {
         Mark::Points { label: label.into(), hue, shape, x, y, samples: Vec::new() }
     }
 
-    /// Its name in the legend; empty where that does not name it.
+    /// Label in the legend; empty if it has none.
     pub fn legend(&self) -> &str {
         match self {
             Mark::Line { label, .. }
@@ -268,7 +260,6 @@ impl Mark {
         }
     }
 
-    /// Its ordinates, where it has some.
     fn ordinates(&self) -> Vec<&[f64]> {
         match self {
             Mark::Line { y, .. } | Mark::Points { y, .. } => vec![y],
@@ -278,13 +269,12 @@ impl Mark {
         }
     }
 
-    /// The largest magnitude of its ordinates.
+    /// Largest magnitude of the ordinates.
     pub fn largest(&self) -> f64 {
         let all = self.ordinates().into_iter().flatten().filter(|value| value.is_finite());
         all.fold(0.0, |most: f64, value| most.max(value.abs()))
     }
 
-    /// Whether there is anything to see.
     fn is_visible(&self) -> bool {
         let any = |values: &[f64]| values.iter().any(|value| value.is_finite());
         match self {
@@ -295,21 +285,21 @@ impl Mark {
     }
 }
 
-/// The sections of the page that have figures.
+/// The sections of the page with figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureSection {
-    /// What the campaign is about.
+    /// Outcomes of the campaign.
     Outcome,
     Time,
     Numerics,
     Influence,
-    /// What was asked for and applied.
+    /// Requested and applied distributions.
     Inputs,
     Statistics,
 }
 
 impl FigureSection {
-    /// The anchor of the section.
+    /// Anchor of the section.
     pub const fn anchor(self) -> &'static str {
         match self {
             FigureSection::Outcome => "outcome",
@@ -324,30 +314,30 @@ impl FigureSection {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Its anchor in the page and its name as a file.
+    /// Anchor in the page and file name.
     pub name: String,
     pub section: FigureSection,
     pub title: String,
-    /// What bands, marks and N mean.
+    /// Explains bands, marks and N.
     pub caption: String,
     /// Width in columns of twelve.
     pub columns: u8,
-    /// Whether the abscissa is the time of a run, so that the replay moves a cursor in it.
+    /// Whether the abscissa is the time of a run: the replay moves a cursor there.
     pub is_over_time: bool,
     pub x: Axis,
     pub y: Axis,
-    /// What is drawn, from back to front.
+    /// From back to front.
     pub marks: Vec<Mark>,
 }
 
 impl Figure {
-    /// The same in the units of `display`.
+    /// Converted to the units of `display`.
     #[must_use]
     pub fn in_units(mut self, display: &Display) -> Self {
         let [x, y] = [self.x.take_unit(display), self.y.take_unit(display)];
         if !(x.is_own() && y.is_own()) {
             for mark in &mut self.marks {
-                // a name that ends with the value has that of the unit
+                // update a value within the label
                 if let Mark::Limit { label, at, vertical: true } = mark
                     && let Some(name) = label.strip_suffix(&short(*at))
                 {
@@ -359,24 +349,24 @@ impl Figure {
         self
     }
 
-    /// A figure with a title and marks only; half as wide as the page.
+    /// A figure of half the page's width, without name and caption.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis, marks: Vec<Mark>) -> Self {
         Figure::of(FigureSection::Time, [String::new(), title.into(), String::new()], [x, y], marks)
     }
 
-    /// A figure with its name, title and caption; half as wide as the page.
+    /// A figure of half the page's width with name, title and caption.
     pub fn of<T: Into<String>>(section: FigureSection, said: [T; 3], [x, y]: [Axis; 2], marks: Vec<Mark>) -> Self {
         let [name, title, caption] = said.map(Into::into);
         Figure { name, section, title, caption, columns: 6, is_over_time: false, x, y, marks }
     }
 
-    /// The same in so many columns of twelve.
+    /// Sets the width in columns of twelve.
     #[must_use]
     pub fn wide(self, columns: u8) -> Self {
         Figure { columns, ..self }
     }
 
-    /// Whether it shows anything; a figure that does not is left out of the page.
+    /// Whether any mark shows; pages omit other figures.
     pub fn is_visible(&self) -> bool {
         self.marks.iter().any(Mark::is_visible)
     }
@@ -387,7 +377,7 @@ mod tests {
     use super::*;
     use crate::campaign::{Overrides, Plan};
 
-    /// Law: in another unit values, range and the number in a name change, and nothing that is not of the axis.
+    /// Law: a change of unit converts values, range and a value within a label, and leaves the other axis.
     #[test]
     fn a_figure_changes_as_a_whole() {
         let text = include_str!("../../assets/start.toml");

@@ -1,5 +1,5 @@
-//! Figures as files. All of them are drawn by the scripts of the report page: a file of HTML has these in it, and a
-//! program that runs them (the package `spindrift-figures`) brings its [`Draw`], by which files are SVG.
+//! Figures as files, all drawn by the scripts of the report page: an HTML file contains them; a program that runs them
+//! (the package `spindrift-figures`) registers its [`Draw`] and produces SVG.
 
 use std::fmt::Write as _;
 use std::io::{self, Read};
@@ -18,28 +18,26 @@ use crate::report::page::figure_json::json_of;
 use crate::report::page::payload::Payload;
 use crate::storage::atomic;
 
-/// Draws figures, given as a JSON list; an SVG for each.
+/// Turns a JSON list of figures into one SVG each.
 pub type Draw = fn(&str) -> Result<Vec<String>, String>;
 
 static DRAW: OnceLock<Draw> = OnceLock::new();
 
-/// Makes `draw` the way in which this process draws SVG.
+/// Registers the SVG renderer of this process.
 pub fn draw_by(draw: Draw) {
     let _ = DRAW.set(draw);
 }
 
-/// The scripts by which a [`Draw`] draws: the library of charts, which defines `echarts`, and ours, which define
-/// `svgText(figure, echarts)`.
+/// The scripts of a [`Draw`]: the chart library, which defines `echarts`, and ours, which define `svgText(figure,
+/// echarts)`.
 ///
-/// # Errors
-/// None: the library is part of the program.
+/// # Errors None: the library is embedded.
 pub fn drawing_scripts() -> io::Result<[String; 2]> {
     let mut echarts = String::new();
     GzDecoder::new(ECHARTS).read_to_string(&mut echarts)?;
     Ok([echarts, script_of(&["numbers.js", "theme.js", "axes.js", "chart.js", "save.js"])])
 }
 
-/// Why figures could not be written.
 #[derive(Debug, Error)]
 pub enum FigureError {
     /// The file could not be written.
@@ -53,10 +51,10 @@ pub enum FigureError {
     Drawing(String),
 }
 
-/// Space between the figures of a file, and above them for its title, pixels.
+/// Space between the figures of a file, and above them for the title, pixels.
 const GAP: f64 = 24.0;
 const TITLE: f64 = 44.0;
-/// Columns of figures in a file.
+/// Figures side by side.
 const ACROSS: usize = 2;
 
 /// Figures under one title.
@@ -66,10 +64,9 @@ pub struct FigureSheet {
     pub figures: Vec<Figure>,
 }
 
-/// Whether `path` can be that of a plot, by its extension.
+/// Checks the extension of a plot.
 ///
-/// # Errors
-/// [`FigureError::Format`].
+/// # Errors [`FigureError::Format`].
 pub fn check_format(path: &Path) -> Result<(), FigureError> {
     extension(path).map(|_| ())
 }
@@ -81,7 +78,7 @@ fn extension(path: &Path) -> Result<&'static str, FigureError> {
     known.ok_or_else(|| FigureError::Format(path.display().to_string()))
 }
 
-/// What was written in place of an SVG, and how to have that.
+/// Reports the page written in place of an SVG.
 pub fn instead(written: &Path) -> String {
     format!(
         "{}: a page with the figures, since this build draws no SVG; its buttons save each as SVG, PNG or CSV, and \
@@ -91,17 +88,16 @@ pub fn instead(written: &Path) -> String {
 }
 
 impl FigureSheet {
-    /// The same in the units of `display`.
+    /// Converted to the units of `display`.
     #[must_use]
     pub fn in_units(self, display: &Display) -> Self {
         FigureSheet { figures: self.figures.into_iter().map(|figure| figure.in_units(display)).collect(), ..self }
     }
 
-    /// Writes the figures to `path`, in the format of its extension; the path of what was written: HTML where an SVG
-    /// was asked for and this process draws none. The file is whole or absent.
+    /// Writes the figures atomically in the format of the extension; without a [`Draw`], SVG becomes HTML. Returns the
+    /// path written.
     ///
-    /// # Errors
-    /// [`FigureError`].
+    /// # Errors [`FigureError`].
     pub fn save(&self, path: &Path) -> Result<PathBuf, FigureError> {
         match (extension(path)?, DRAW.get()) {
             ("svg", Some(draw)) => {
@@ -116,11 +112,10 @@ impl FigureSheet {
         }
     }
 
-    /// Writes each figure to a file of its own in `folder`, under its name; where this process draws no SVG, all of
-    /// them to `figures.html`. The number of files, and what to know of them.
+    /// Writes each figure to an SVG named after it in `folder`; without a [`Draw`], all to `figures.html`. Returns the
+    /// number of files and a remark.
     ///
-    /// # Errors
-    /// [`FigureError`].
+    /// # Errors [`FigureError`].
     pub fn save_all(&self, folder: &Path) -> Result<(usize, Option<String>), FigureError> {
         atomic::make_folder(folder)?;
         let Some(draw) = DRAW.get() else {
@@ -189,7 +184,7 @@ impl FigureSheet {
     }
 }
 
-/// The number of the attribute `name` of the first element of `svg`, pixels; zero without one.
+/// The attribute `name` of the first element of `svg`, pixels; zero without one.
 fn side_of(svg: &str, name: &str) -> f64 {
     let start = format!("{name}=\"");
     let found = svg.split_once(&start).and_then(|(_, rest)| rest.split_once('"'));
@@ -207,7 +202,7 @@ mod tests {
         Figure { name: name.to_owned(), caption: "What it means.".to_owned(), ..figure }
     }
 
-    /// Law: figures are given to the scripts with their numbers, and the drawings of a sheet do not cover each other.
+    /// Law: figures reach the scripts with their numbers; drawings on a sheet do not overlap.
     #[test]
     fn drawings_of_a_sheet_are_apart() {
         let draw: Draw = |text| {

@@ -1,17 +1,16 @@
-//! The table of all results below a folder, as a page that needs no network.
+//! The table of all results below a folder, as an offline page.
 
 use crate::findings::names::sentence;
 use crate::findings::number::counted;
 use crate::findings::results_index::{IndexEntry, Unreadable};
 use crate::report::escaped::escaped;
 
-/// The style of every page.
 const STYLE: &str = include_str!("../../assets/report/page.css");
 
 /// The page; `title` is the name of the folder.
 pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> String {
     let row = |one: &IndexEntry| {
-        // a long name is broken between its words
+        // break long names between words
         let words = |name: &str| escaped(name).replace('/', "/<wbr>").replace('_', "_<wbr>");
         let folder = words(&one.folder.display().to_string());
         let name = match &one.page {
@@ -59,12 +58,12 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
     )
 }
 
-/// The heads of the table. What changed may have names of any length, and alone is broken within a word.
+/// Column heads. Only the last column breaks within words.
 const HEADS: [&str; 7] =
     ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
 
-/// Of the table of results alone: campaigns have a column where one is not named by its folder; where the table is
-/// narrow each row is a card.
+/// Style of the table: the campaign column appears only if some folder has another name; on narrow screens rows become
+/// cards.
 const OWN_STYLE: &str = "\
 .pass { color: var(--pass); } .fail { color: var(--fail); font-weight: 600; } .undecided { color: var(--undecided); }
 #results th, #results td { text-align: left; white-space: normal; } @media (min-width: 700px) { #results \
@@ -82,11 +81,11 @@ td:nth-child(5) { white-space: nowrap; }
 }
 ";
 
-/// A relative path as a link: what has a meaning in one is written by its number (RFC 3986, section 2.1).
+/// A relative path as a link, percent-encoded (RFC 3986, section 2.1).
 fn link(path: &str) -> String {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
     let separator = |byte: u8| if byte == b'\\' && cfg!(windows) { b'/' } else { byte };
-    // a first part with a colon would be a scheme
+    // `./`: a colon in the first segment would make a scheme
     path.bytes().map(separator).fold("./".to_owned(), |link, byte| {
         if is_plain(byte) { link + &char::from(byte).to_string() } else { link + &format!("%{byte:02X}") }
     })
@@ -96,7 +95,7 @@ fn link(path: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Law: whatever a folder is called, its link leads to it and to nothing else.
+    /// Law: a link leads to its folder, whatever the folder's name.
     #[test]
     fn links_lead_to_their_folders() {
         assert_eq!(link("a/report.html"), "./a/report.html");

@@ -1,4 +1,4 @@
-//! [`DrawnInputs`]: figures of the inputs: what was applied against what was asked for, and correlations.
+//! [`DrawnInputs`]: figures of the applied inputs against the requested distributions and correlations.
 
 use core::f64::consts::PI;
 
@@ -12,17 +12,17 @@ use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointS
 use crate::sampling::correlation::{Measure, Numbers};
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
-/// Inputs with figures of their own.
+/// Maximum number of input histograms.
 const MOST_INPUTS: usize = 36;
-/// Inputs in a matrix of correlations.
+/// Maximum size of a correlation matrix.
 const MOST_CORRELATED: usize = 24;
-/// A nominal value farther from all samples than this fraction of their span is named at the edge: the samples keep two
-/// thirds of the axis.
+/// If the nominal value is farther from the samples than this fraction of their span, it is named at the edge: the
+/// samples keep two thirds of the axis.
 const FAR: f64 = 0.5;
-/// Values whose median is below this fraction of the largest are those of a distribution over decades.
+/// If the median is below this fraction of the largest value, the axis is logarithmic.
 const OVER_DECADES: f64 = 0.05;
 
-/// Dispersed samples: the values of each dispersed number, and of how many samples they are some.
+/// Values of each dispersed number, for all or some of `all` samples.
 #[derive(Clone, Debug)]
 pub struct DrawnInputs {
     pub columns: Vec<Vec<f64>>,
@@ -30,7 +30,7 @@ pub struct DrawnInputs {
 }
 
 impl DrawnInputs {
-    /// Histograms of the inputs, and their correlations as asked and as achieved.
+    /// Histograms of the inputs, and their requested and achieved correlations.
     pub fn figures(&self, plan: &Plan) -> Vec<Figure> {
         let shown = self.columns.len().min(MOST_INPUTS);
         let mut figures: Vec<Figure> = (0..shown).map(|column| self.histogram(plan, column)).collect();
@@ -102,7 +102,7 @@ impl DrawnInputs {
     }
 }
 
-/// The rank correlations that the file asks for, of the inputs `shown`.
+/// The requested rank correlations of the inputs `shown`.
 fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
     let all = plan.dispersions.columns();
     let mut found: Vec<Vec<f64>> =
@@ -153,12 +153,12 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
     found
 }
 
-/// The histogram of drawn samples of an input, with its unit; samples that are not finite are left out.
+/// The histogram of an input; ignores non-finite samples.
 fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option<&Expected>) -> Figure {
     let values: Vec<f64> = samples.iter().copied().filter(|value| value.is_finite()).collect();
     let count = values.len();
     let discrete = asked.and_then(Expected::values);
-    // the axis contains each value of a discrete distribution that one sample or more is expected to have
+    // include discrete values with an expected count of one or more
     let frequent = discrete.iter().flatten().filter(|(_, probability)| count as f64 * probability >= 1.0);
     let shown: Vec<f64> = values.iter().copied().chain(frequent.map(|(value, _)| *value)).collect();
     let mut sorted = shown.clone();
@@ -175,7 +175,7 @@ fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option
         let bars = asked.bars(&edges, count);
         let middle = |ends: &[f64]| if is_log { libm::sqrt(ends[0] * ends[1]) } else { 0.5 * ends[0] + 0.5 * ends[1] };
         marks.push(match discrete {
-            // a stem for each bar that contains a value, at the mean of those that share it
+            // one stem per bar, at the mean of the values that share it
             Some(_) => {
                 let (x, y) = bars.iter().filter(|bar| bar[1] > 0.0).map(|[mean, count]| (mean, count)).unzip();
                 Mark::points("expected count of a discrete value", (Hue::Nominal, PointShape::Stem), x, y)
@@ -201,8 +201,7 @@ fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option
     Figure { columns: 3, ..Figure::new(name, x, Axis::linear("samples", ""), marks) }
 }
 
-/// Whether the axis of the samples would be mostly empty with the nominal value on it; one value alone has no axis of
-/// its own.
+/// Whether the nominal value would leave most of the axis empty; false for a single value.
 fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
     let reach = FAR * (high - low);
     high > low && (low - nominal > reach || nominal - high > reach)
@@ -212,9 +211,9 @@ fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
 mod tests {
     use super::*;
 
-    /// Law: each value of a discrete distribution has a stem of the height that is expected, and values that share a
-    /// bar one of their sum; a continuous one has a curve whose sum is the number of samples, at the middle of each bar
-    /// as the axis shows it.
+    /// Law: each value of a discrete distribution has a stem of its expected height, values that share a bar one of
+    /// their sum. A continuous distribution has a curve over the bars' centres on the shown axis, whose sum is the
+    /// number of samples.
     #[test]
     fn what_is_expected_is_drawn() {
         let drawn: Vec<f64> = (0..300).map(|k| [0.01, 0.02, 0.05][k % 3]).collect();
@@ -228,7 +227,7 @@ mod tests {
         assert!(y.len() == 3 && y.iter().all(|y| (y - 100.0).abs() < 0.05), "{y:?}");
         let (x, y) = stems(&[0.01, 0.0101, 0.05]);
         assert!(x.len() == 2 && (y[0] - 200.0).abs() < 0.05, "{x:?} {y:?}");
-        // a value that was not drawn although samples are expected there is on the axis
+        // a value with an expected count belongs on the axis even if it was not drawn
         assert_eq!(stems(&[0.01, 0.02, 9.0]).0.last(), Some(&9.0));
         let decades: Vec<f64> = (0..300).map(|k| 1e-3 * libm::pow(1e4, f64::from(k) / 299.0)).collect();
         for (samples, scale, [min, max]) in

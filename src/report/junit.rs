@@ -1,4 +1,4 @@
-//! [`text`]: verdicts as JUnit XML for build servers. No clock time: the same campaign gives the same bytes.
+//! [`text`]: verdicts as JUnit XML for build servers, reproducible byte for byte.
 
 use std::fmt::Write;
 
@@ -7,14 +7,13 @@ use crate::campaign::Plan;
 use crate::findings::{Finding, Findings, Kind, Verdict};
 use crate::report::escaped::escaped;
 
-/// One test case for each requirement, an undecided one is an error; one that every run is `ok`; one that every
-/// estimate of an error covers as many errors as promised,
-/// where runs were audited; and one that `[stop]` reached its goal.
+/// One test case per requirement (undecided: an error), and one each for: all runs `ok`, estimates cover their errors
+/// as promised (if audited), `[stop]` reached its goal.
 pub fn text(plan: &Plan, analysed: &Analysed, findings: &Findings) -> String {
     let name = escaped(&plan.name);
     let statuses = &analysed.tally.statuses;
     let lost = statuses.runs() - statuses.ok();
-    // title, and element, type and message of what is wrong
+    // title; element, type and message of a problem
     let mut cases: Vec<(String, Option<[String; 3]>)> = Vec::new();
     let problem = |element: &str, kind: &str, message: &str| Some([element, kind, message].map(str::to_owned));
     let computed = findings.of(Kind::Loss).next().map_or("", |one| one.sentence.as_str());

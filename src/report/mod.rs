@@ -1,15 +1,4 @@
-//! Layer 10: text and figures for people.
-//!
-//! - [`screen`], [`summary`], [`junit`], [`page`]: what a campaign has found ([`crate::findings`]), on a terminal, for
-//!   programs, for build servers, as one HTML file.
-//! - [`figure`]: what a figure shows.
-//! - [`figure_files`]: figures as files.
-//! - `escaped`: text within markup.
-//! - [`simulation_figure`], [`precision_figure`]: figures of commands. [`inputs`], [`over_time`]: those of
-//!   the page too.
-//! - [`comparison_json`]: two results compared, for programs.
-//! - [`time_table`]: one run over time on a terminal.
-//! - [`index_page`]: all results of a folder.
+//! Layer 10: text and figures for people, from [`crate::findings`].
 
 pub mod comparison_json;
 mod escaped;

@@ -1,21 +1,18 @@
-//! [`precision_figure`]: work-precision diagrams, CPU time of a run against its maximum error, both by decades.
-//!
-//! One panel for each error; the better method is lower and further left.
+//! [`precision_figure`]: work-precision diagrams, CPU time against maximum error on logarithmic axes, one panel per error; lower left is better.
 
 use crate::ensemble::precision::{Deviation, Measurement};
 use crate::propagation::Method;
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark, PointShape};
 use crate::report::figure_files::FigureSheet;
 
-/// Errors below this are drawn here: they are rounding of the observation.
+/// Clamps smaller errors: rounding of the observation.
 const LEAST_ERROR: f64 = 1e-17;
-/// Errors above this are drawn here: nothing of the solution is right.
+/// Clamps larger errors: the solution is entirely wrong.
 const MOST_ERROR: f64 = 1e1;
 
-/// An error of a measurement.
 type Pick = fn(&Measurement) -> Option<Deviation>;
 
-/// The panels: title and what is shown.
+/// Title and error of each panel.
 const PANELS: [(&str, Pick); 4] = [
     ("Angular velocity: maximum relative error", |m| m.rate),
     ("Attitude: maximum error, rad", |m| m.attitude),
@@ -23,7 +20,7 @@ const PANELS: [(&str, Pick); 4] = [
     ("Angular momentum: maximum relative error", |m| m.momentum),
 ];
 
-/// Run time against error; errors that no method has are left out.
+/// Run time against error; omits errors that no method has.
 pub fn precision_figure(title: String, measured: &[Measurement]) -> FigureSheet {
     let panel = |(title, pick): (&str, Pick)| {
         let marks: Vec<Mark> = Method::ALL
@@ -38,7 +35,7 @@ pub fn precision_figure(title: String, measured: &[Measurement]) -> FigureSheet 
     FigureSheet { title, figures: panels }
 }
 
-/// The settings of a method, as a curve with points: it looks the same in all panels.
+/// The settings of a method as a curve with points, in the same style in all panels.
 fn curve(measured: &[Measurement], pick: Pick, index: usize, method: Method) -> Vec<Mark> {
     let of = measured.iter().filter(|measurement| measurement.method == method);
     let found =

@@ -1,5 +1,4 @@
-//! What a campaign has found, on one screen: [`text`]; with all that is known, as `--verbose` prints it: [`verbose`].
-//! Both choose from the findings, and say what they leave out.
+//! The findings on one screen ([`text`]) or in full ([`verbose`]), with a count of what is left out.
 
 use std::path::Path;
 
@@ -15,16 +14,15 @@ use crate::table::wrapped::{message, wrapped};
 
 /// Lines of a screen without `--verbose`.
 pub const LINES: usize = 24;
-/// Reasons of failures that a screen lists, and all that are listed.
+/// Maximum number of failure reasons: on a screen, in full.
 const MOST_REASONS: [usize; 2] = [3, 12];
-/// Rows of a screen: requirements that are compared, keys that differ.
+/// Rows on a screen: compared requirements, differing keys.
 const MOST_REQUIREMENTS: usize = 6;
 const MOST_KEYS: usize = 4;
-/// Outcomes that are shown however many lines there are.
+/// Outcomes shown regardless of the space.
 const LEAST_OUTCOMES: usize = 1;
 
-/// The text for at most `most` lines of `width` characters, where outcomes can be left out for that. `file` is the
-/// campaign as a word of the commands that show a run.
+/// Fits into `most` lines of `width` characters by omitting outcomes. `file` is the campaign, quoted for a shell.
 pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> String {
     let of = |kind: Kind| findings.of(kind).filter(|one| one.rank == 0).collect::<Vec<_>>();
     let mut text = lines(&of(Kind::Warning), width);
@@ -44,7 +42,7 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
     let mut outcomes = self::outcomes(&all, width, false);
     let lines = outcomes.lines().count();
     if lines > room {
-        // the line that counts those that are left out
+        // one line counts the rest
         let (numbers, about): (Vec<&Finding>, Vec<&Finding>) = all.iter().partition(|one| !one.numbers.is_empty());
         let most = room.saturating_sub(lines.saturating_sub(numbers.len()) + 1).max(LEAST_OUTCOMES).min(numbers.len());
         outcomes = self::outcomes(&numbers[..most], width, false);
@@ -52,12 +50,12 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
         outcomes += &self::outcomes(&about, width, false);
     }
     let said = if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end };
-    // the worst run has the lines that are left
+    // the worst run only if lines are left
     let worst = commands(&worst, file, width);
     if said.lines().count() + worst.lines().count() <= most { said + &worst } else { said }
 }
 
-/// All that is known, but what is in files only.
+/// All findings except those for files only.
 pub fn verbose(findings: &Findings, file: &str, width: usize) -> String {
     let of = |kind: Kind| findings.of(kind).filter(|one| one.rank <= 1).collect::<Vec<_>>();
     let mut parts = vec![lines(&of(Kind::Warning), width)];
@@ -95,8 +93,7 @@ pub fn verbose(findings: &Findings, file: &str, width: usize) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).map(|part| format!("\n{part}")).collect()
 }
 
-/// Findings one below the other, each a sentence or a table: on a screen of `most` lines, or all that is known. Rows of
-/// outcomes take the lines that the others leave.
+/// Findings as sentences and tables, on a screen of `most` lines or in full. Rows of outcomes take the remaining lines.
 pub fn list(findings: &[Finding], is_verbose: bool, [most, width]: [usize; 2]) -> String {
     let shown: Vec<&Finding> = findings.iter().filter(|one| one.rank <= u8::from(is_verbose)).collect();
     let paragraph = |one: &Finding, outcomes: usize| {
@@ -119,7 +116,7 @@ pub fn list(findings: &[Finding], is_verbose: bool, [most, width]: [usize; 2]) -
     text((LEAST_OUTCOMES..most).rev().find(fits).unwrap_or(LEAST_OUTCOMES))
 }
 
-/// Findings in sections, below their titles.
+/// Findings in titled sections.
 pub fn sections(findings: &[Finding], width: usize) -> String {
     let (mut text, mut title) = (String::new(), "");
     for one in findings {
@@ -132,7 +129,7 @@ pub fn sections(findings: &[Finding], width: usize) -> String {
     text
 }
 
-/// Findings without their titles: sentences, tables, reasons.
+/// Findings without titles: sentences, tables, reasons.
 pub fn paragraphs(findings: &[Finding], width: usize) -> String {
     let paragraph = |one: &Finding| {
         let end = if one.sentence.is_empty() { "" } else { "\n" };
@@ -142,14 +139,14 @@ pub fn paragraphs(findings: &[Finding], width: usize) -> String {
     findings.iter().map(paragraph).collect()
 }
 
-/// One of the measurements of `precision`, or where there is none their heads, for lines of `width` characters.
+/// A row of `precision`, or its heads.
 pub fn measurement(found: Option<&Measurement>, width: usize) -> String {
     let table = precision::table(found);
     let text = Text::of(&table).at_least(&precision::COLUMNS.map(|(.., width)| width)).spaced(0, 1);
     if found.is_none() { text.head(width) } else { text.body(width) }
 }
 
-/// The question of a campaign, which comes first.
+/// The question of a campaign.
 pub fn question(question: Option<&str>, width: usize) -> String {
     question
         .filter(|text| !text.is_empty())
@@ -177,7 +174,7 @@ fn requirements(findings: &Findings, width: usize) -> String {
     if rows.is_empty() { String::new() } else { verdict_table([&findings.asked, &found], &rows, width) }
 }
 
-/// Rows of word, requirement, what was found, notes. Where that is too wide, what was found is below what is required.
+/// Rows of verdict, requirement, estimate, notes; on narrow screens the estimate goes below the requirement.
 fn verdict_table([required, found]: [&str; 2], rows: &[[String; 4]], width: usize) -> String {
     let heads = [("", Align::Left), (required, Align::Left), (found, Align::Left), ("", Align::Sentence)];
     let mut table = Table::with(heads);
@@ -198,18 +195,18 @@ fn verdict_table([required, found]: [&str; 2], rows: &[[String; 4]], width: usiz
     if Text::of(&table).width_of(3) > width { lines } else { table.text(width) }
 }
 
-/// A paragraph for each, with its title before it.
+/// Titled paragraphs.
 fn lines(list: &[&Finding], width: usize) -> String {
     let line = |one: &&Finding| wrapped(&format!("  {}: {}\n", one.title, one.sentence), width);
     list.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// A sentence for each, with its title where that is not a part of it; of drivers with what is asked.
+/// One sentence each, with its title unless implied.
 fn sentences(list: &[&Finding], width: usize) -> String {
     let line = |one: &&Finding| {
         let title = match one.kind {
             Kind::Driver if one.title.is_empty() => String::new(),
-            // what an event is asked is in its title
+            // the title of an event contains the question
             Kind::Driver if one.title.contains(": ") => format!("{}: ", one.title),
             Kind::Driver => format!("what drives {}: ", one.title),
             Kind::Outcome if !one.numbers.is_empty() => format!("{}: ", one.title),
@@ -227,7 +224,7 @@ fn reasons(findings: &Findings, most: usize, width: usize) -> String {
     findings.of(Kind::Loss).map(|one| reason_lines(&one.children, most, width)).collect()
 }
 
-/// A line for each reason for which runs were not computed, and what can be done about it.
+/// A line for each failure reason, with its remedy.
 fn reason_lines(all: &[Finding], most: usize, width: usize) -> String {
     let mut text = String::new();
     for one in all.iter().take(most) {
@@ -246,15 +243,14 @@ fn left_out(count: usize, [one, several]: [&str; 2], width: usize) -> String {
     }
 }
 
-/// The command that shows the run of each, which stays whole, to be copied.
+/// The replay command of each, unwrapped for copying.
 fn commands(list: &[&Finding], file: &str, width: usize) -> String {
     let line = |one: &&Finding| Some(format!("  {}: {}\n", one.title, one.command(file)?));
     message(&list.iter().filter_map(line).collect::<String>(), width)
 }
 
-/// A table of outcomes with as many numbers as fit: the median, what is required or the spread, the maximum; `is_all`:
-/// with means and minima too. Outcomes of yes or no,
-/// and what there is to know of all, are sentences.
+/// A table of outcomes with as many numbers as fit: median, required quantiles or spread, maximum; `is_all` adds means
+/// and minima. Yes-or-no outcomes and remarks are sentences.
 fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
     let is_in_table = |one: &&&Finding| !one.numbers.is_empty() && one.number("yes").is_none();
     let shown: Vec<&Finding> = list.iter().filter(is_in_table).copied().collect();
@@ -297,7 +293,7 @@ fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
     table + &yes_or_no + &notes + &about
 }
 
-/// Findings with those numbers that have the names `columns`.
+/// The numbers called `columns` of each finding.
 fn numbers_table(list: &[&Finding], (title, columns): (&str, &[String]), has_intervals: bool) -> Table<'static> {
     let heads = columns.iter().map(|name| (name.clone(), Align::Right));
     let mut table = Table::with([(title.to_owned(), Align::Title)].into_iter().chain(heads));
@@ -311,7 +307,6 @@ fn numbers_table(list: &[&Finding], (title, columns): (&str, &[String]), has_int
     table
 }
 
-/// Texts in their order, each once.
 fn distinct<'s>(all: impl Iterator<Item = &'s String>) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for one in all {

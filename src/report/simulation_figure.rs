@@ -1,7 +1,4 @@
-//! [`simulation_figure`]: one run over time: the figures that its scene calls for, those of the page
-//! ([`crate::report::over_time::figure_list`]).
-//!
-//! The panels of the energies are Figures 3 to 5 of the paper (body by body, total and its error).
+//! [`simulation_figure`]: one run over time with the figures of its scene ([`crate::report::over_time::figure_list`]). The energy panels are Figures 3 to 5 of the paper.
 
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
@@ -9,7 +6,6 @@ use crate::report::figure::Figure;
 use crate::report::figure_files::FigureSheet;
 use crate::report::over_time::curves::Curves;
 
-/// The figure of a run of `plan`.
 pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> FigureSheet {
     let mut panels: Vec<Figure> = Curves::of_plot(plan, run).figures();
     panels.retain(has_values);
@@ -21,14 +17,12 @@ pub fn simulation_figure(title: String, plan: &Plan, run: &SingleRun) -> FigureS
     FigureSheet { title, figures: panels }
 }
 
-/// The titles of the figures that its scene calls for and that are not drawn, since what they show is zero, or absent,
-/// throughout the run.
+/// Titles of omitted figures, which are zero or absent throughout the run.
 pub fn left_out(plan: &Plan, run: &SingleRun) -> Vec<String> {
     let figures = Curves::of_plot(plan, run).figures().into_iter();
     figures.filter(|figure| !has_values(figure)).map(|figure| figure.title).collect()
 }
 
-/// Whether a figure shows anything other than zeros.
 fn has_values(figure: &Figure) -> bool {
     figure.is_visible() && figure.marks.iter().any(|mark| mark.largest() > 0.0)
 }
@@ -44,8 +38,8 @@ mod tests {
     use crate::sampling::SampleId;
     use crate::storage::timeseries::time_series;
 
-    /// Law: a thruster that gives nothing has its curve and says so, in the figure of a mission that it decides; every
-    /// curve beside another has a name; a figure of zeros alone is left out, and named as that.
+    /// Law: an idle thruster keeps its curve and is marked; curves that share a panel have labels; all-zero figures are
+    /// omitted and listed.
     #[test]
     fn a_dead_thruster_is_drawn() {
         let text = include_str!("../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
@@ -72,8 +66,7 @@ mod tests {
                 );
             }
         }
-        // on a circle about the Earth without thrusters nothing of them is called for, and a spin about one axis has
-        // the name of its axis
+        // without thrusters their figures are not called for; a spin about one axis has that axis's label
         let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9.0\n[body]\nmass_kg = \
             10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n";
         let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
@@ -85,7 +78,7 @@ mod tests {
         assert!(left_out(&plan, &run).contains(&"Linear momentum in F_e".to_owned()), "{:?}", left_out(&plan, &run));
     }
 
-    /// Law: every curve is the column that its panel and its label name.
+    /// Law: every curve is the column named by panel and label.
     #[test]
     fn curves_are_their_columns() {
         let text = include_str!("../../campaigns/spin_sweep.toml");

@@ -1,4 +1,4 @@
-//! `summary.json`: [`json`] writes what a campaign has found, for programs; [`read`] reads how a campaign ended.
+//! `summary.json`: [`json`] writes the findings for programs; [`read`] returns the end of a campaign.
 
 use serde_json::{Map, Value, json};
 
@@ -22,10 +22,10 @@ use crate::statistics::binomial::Decision;
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
 
-/// How many failed samples of each status are listed by number.
+/// Listed samples per failure status.
 const LISTED: usize = 3;
 
-/// The text of `summary.json`. Nothing in it depends on the machine or the clock.
+/// The text of `summary.json`, independent of machine and clock.
 pub fn json(plan: &Plan, analysed: &Analysed, findings: &Findings) -> String {
     let Analysed { statistics, tally, missions, stopping, .. } = analysed;
     let statuses = &tally.statuses;
@@ -98,7 +98,7 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// Its statistics; what does not exist is null.
+/// Statistics of a column; missing ones are null.
 fn observable(analysed: &Analysed, column: &ColumnStatistics) -> Value {
     let known = |value: Option<f64>| value.filter(|value| value.is_finite());
     let (name, moments) = (column.quantity.name(), &column.moments);
@@ -199,7 +199,6 @@ fn requirements(analysed: &Analysed, findings: &Findings) -> Value {
     })
 }
 
-/// What an outcome depends on, with the shares of its drivers.
 fn driver(one: &Finding) -> Value {
     let share = |input: &Finding| {
         let share = input.numbers.first();
@@ -246,7 +245,7 @@ fn stop(stopping: &Stopping) -> Value {
     })
 }
 
-/// What the bytes of a summary say; `None` where they are no finished summary.
+/// Parses a summary; `None` if it is unfinished or invalid.
 pub fn read(bytes: &[u8]) -> Option<SummaryEnd> {
     let value: Value = serde_json::from_slice(bytes).ok()?;
     let statuses: Vec<(&String, u64)> =
@@ -265,7 +264,7 @@ pub fn read(bytes: &[u8]) -> Option<SummaryEnd> {
         verdicts: list
             .filter_map(|one| {
                 let requirement = text(one, "requirement")?;
-                // summaries of earlier versions have the sentence alone
+                // older summaries have only the sentence
                 let statement = text(one, "in_short").unwrap_or_else(|| requirement.clone());
                 let found = text(one, "found").unwrap_or_default();
                 let count = |key: &str| one.get(key)?.as_u64();

@@ -1,4 +1,4 @@
-//! [`time_table`]: the main states of one run at some of its points, as text that fits a terminal.
+//! [`time_table`]: the main states of one run at some points, fitted to a terminal.
 
 use std::collections::BTreeSet;
 
@@ -12,32 +12,30 @@ use crate::table::text::{Align, Text};
 use crate::table::wrapped::fitted;
 use crate::table::{Column, Content, Table, Values};
 
-/// At most this many points; the first and the last are among them.
+/// Maximum number of points, including the ends.
 const MOST_LINES: usize = 21;
 
-/// Letters of the name of a phase.
+/// Maximum characters of a phase name.
 const LONGEST_PHASE: usize = 10;
-/// The share of the largest component of a vector, in the whole run, below which another is rounding: some hundred
-/// roundings.
+/// Vector components below this share of the largest in the run are rounding errors.
 const ROUNDING: f64 = 1e-14;
-/// A header is shortened to this many letters, or to as many as tell it from the others.
+/// Minimum characters of a shortened head.
 const SHORTEST_HEADER: usize = 10;
 
-/// How the numbers of a column are written.
+/// Number format of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
     Short,
-    /// Six, without zeros at the end: times of a grid.
+    /// Six, without trailing zeros.
     Time,
-    /// Four decimals, of numbers from -1 to 1.
+    /// Four decimals, for numbers from -1 to 1.
     Decimals,
     Magnitude,
 }
 
-/// A column: its name in the table of the run, its head, and its numbers.
+/// Column of the run's table, head, format.
 type Listed = (&'static str, &'static str, Digits);
 
-/// Main columns.
 const COLUMNS: [Listed; 10] = [
     ("time_s", "time", Digits::Time),
     ("omega_se_s_x_rad_s", "omega_x", Digits::Short),
@@ -51,7 +49,7 @@ const COLUMNS: [Listed; 10] = [
     ("angular_momentum_error", "ang.mom. error", Digits::Magnitude),
 ];
 
-/// The same of what a control loop records.
+/// Columns of a control loop.
 const OF_LOOPS: [Listed; 5] = [
     ("pointing_error_rad", "pointing", Digits::Short),
     ("attitude_estimate_error_rad", "att.err.", Digits::Magnitude),
@@ -60,13 +58,12 @@ const OF_LOOPS: [Listed; 5] = [
     ("relative_velocity_estimate_error_m_s", "vel.err.", Digits::Magnitude),
 ];
 
-/// The columns of scenes of `plan`: the time, those that requirements are about, then those of the figures that the
-/// scene calls for, in their order.
+/// The columns of a scene: time, required ones, then those of its figures in order.
 fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<Listed> {
     let traits = Traits::of(plan, wheels);
     let is_of = |series: Series, name: &str| series.quantity(wheels).is_some_and(|quantity| quantity.name() == name);
     let shows = |listed: &ListedFigure, name: &str| match listed.shows {
-        // of |omega| the components
+        // components instead of |omega|
         Shows::One(Series::RateSquare) | Shows::State(StateField::Rate, _) => name.starts_with("omega_se_s_"),
         Shows::State(StateField::Attitude, _) => name.starts_with("q_es_"),
         Shows::One(series) | Shows::Estimated(series, _) => is_of(series, name),
@@ -85,7 +82,6 @@ fn columns_of(plan: &Plan, wheels: &[Name]) -> Vec<Listed> {
     found
 }
 
-/// A column of the table with its texts.
 type Shown = (Column, Values<'static>);
 
 /// Cells below a head and a unit.
@@ -94,19 +90,17 @@ fn shown(head: String, below: String, cells: impl Iterator<Item = String>) -> Sh
     (Column { align: Align::Right, ..Column::new(quantity, Content::Word) }, Values::words(cells))
 }
 
-/// The table of `series`, a run of `plan`, at some of its points, in lines of at most `width` letters: what the
-/// requirements are about, what the scene calls for, the phase of a loop, and the rates of as many wheels as there is
-/// space for. The columns that are too many for the width, in words; empty where none is.
+/// `series` of a run of `plan` at some points, in at most `width` characters: required columns, those of the scene, the
+/// phase, and as many wheel rates as fit. Also names the omitted columns.
 pub fn time_table(plan: &Plan, wheels: &[Name], series: &Table<'_>, width: usize) -> (Table<'static>, String) {
     let points = shown_points(series.rows());
     let column = |key: &str, name: &str, digits: Digits| -> Option<Shown> {
         let (quantity, values) = series.numbers(key)?;
         let unit = plan.analysis.display.of(quantity.name(), quantity.unit());
-        // what is left of components that cancel is not shown as a number
         let rounding = if key.starts_with("omega_se_s_") { ROUNDING * largest_rate(series) } else { 0.0 };
         let value = |value: f64| if value.abs() < rounding { 0.0 } else { unit.value(value) };
         let cells = points.iter().map(|point| digits.text(value(values[*point])));
-        // a pure number has the end of its name where others have their unit
+        // the second word of the head replaces the unit of a pure number
         Some(match name.split_once(' ').filter(|_| unit.unit.is_empty()) {
             Some((name, end)) => shown(name.to_owned(), end.to_owned(), cells),
             None => shown(name.to_owned(), unit.unit.clone(), cells),
@@ -131,8 +125,7 @@ pub fn time_table(plan: &Plan, wheels: &[Name], series: &Table<'_>, width: usize
     fitting(main, wheels.collect(), width)
 }
 
-/// The first of the columns, which fit the width: the time always, wheels where all others do; and the names of those
-/// that are left out.
+/// The columns that fit: time always, wheels only after all others; and the names of the rest.
 fn fitting(main: Vec<Shown>, mut wheels: Vec<Shown>, width: usize) -> (Table<'static>, String) {
     let names: Vec<String> = wheels.iter().map(|(column, _)| column.quantity.name().to_owned()).collect();
     let headers = distinct(&names.iter().map(|name| format!("rate {name}")).collect::<Vec<_>>());
@@ -159,7 +152,7 @@ fn fitting(main: Vec<Shown>, mut wheels: Vec<Shown>, width: usize) -> (Table<'st
     (table, left_out.join(", "))
 }
 
-/// The largest magnitude of a component of the angular velocity in the run, rad/s.
+/// Largest component of the angular velocity in the run, rad/s.
 fn largest_rate(series: &Table<'_>) -> f64 {
     let of = |axis| series.numbers(&format!("omega_se_s_{axis}_rad_s")).map_or(&[][..], |(_, values)| values);
     ["x", "y", "z"].into_iter().flat_map(of).fold(0.0, |most: f64, value| most.max(value.abs()))
@@ -168,7 +161,6 @@ fn largest_rate(series: &Table<'_>) -> f64 {
 impl Digits {
     fn text(self, value: f64) -> String {
         match self {
-            // what does not exist at this point
             _ if value.is_nan() => "-".to_owned(),
             Digits::Short => short(value),
             Digits::Time => trimmed(value, 6),
@@ -181,7 +173,7 @@ impl Digits {
     }
 }
 
-/// The wheels whose rates are not shown, the last ones of `all`.
+/// The omitted wheels, the last ones of `all`.
 fn of_wheels(names: &[String], all: usize) -> Option<String> {
     match names {
         [] => None,
@@ -190,7 +182,7 @@ fn of_wheels(names: &[String], all: usize) -> Option<String> {
     }
 }
 
-/// `headers` as short as they can be told apart.
+/// Shortens `headers` as far as they stay distinct.
 fn distinct(headers: &[String]) -> Vec<String> {
     let letters = |text: &str| text.chars().count();
     let longest = headers.iter().map(|header| letters(header)).max().unwrap_or(0);
@@ -199,7 +191,7 @@ fn distinct(headers: &[String]) -> Vec<String> {
     (SHORTEST_HEADER..longest).map(shortened).find(is_distinct).unwrap_or_else(|| headers.to_vec())
 }
 
-/// At most [`MOST_LINES`] of `points` points, evenly distributed, with the first and the last.
+/// At most [`MOST_LINES`] of `points` points, evenly spaced, with both ends.
 fn shown_points(points: usize) -> Vec<usize> {
     let lines = points.min(MOST_LINES);
     (0..lines).map(|line| line * (points - 1) / (lines - 1).max(1)).collect()

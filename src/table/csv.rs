@@ -1,13 +1,12 @@
-//! Tables as CSV (RFC 4180, with line feeds): a line of names, then a line for each row. A null is an empty cell.
+//! Tables as CSV (RFC 4180, with line feeds): a header, then a line per row. A null is an empty cell.
 
 use std::io::{self, Write};
 
 use crate::table::{Cell, Column, Table, Values};
 
-/// Writes the line of names.
+/// Writes the column names.
 ///
-/// # Errors
-/// Those of `out`.
+/// # Errors Those of `out`.
 pub fn header(out: &mut impl Write, columns: &[Column]) -> io::Result<()> {
     for (index, column) in columns.iter().enumerate() {
         out.write_all(if index == 0 { b"" } else { b"," })?;
@@ -16,11 +15,9 @@ pub fn header(out: &mut impl Write, columns: &[Column]) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Writes a line for each row of `values`, which has the values of each column. A number has the fewest digits that
-/// read back to the same bits.
+/// Writes a line per row of the columns `values`; numbers in the shortest form that reads back exactly.
 ///
-/// # Errors
-/// Those of `out`.
+/// # Errors Those of `out`.
 pub fn rows(out: &mut impl Write, values: &[Values<'_>]) -> io::Result<()> {
     for row in 0..values.first().map_or(0, Values::count) {
         for (index, values) in values.iter().enumerate() {
@@ -39,14 +36,13 @@ pub fn rows(out: &mut impl Write, values: &[Values<'_>]) -> io::Result<()> {
 
 /// Writes `table`.
 ///
-/// # Errors
-/// Those of `out`.
+/// # Errors Those of `out`.
 pub fn write(out: &mut impl Write, table: &Table<'_>) -> io::Result<()> {
     header(out, &table.columns)?;
     rows(out, &table.values)
 }
 
-/// Writes a text, in quotes if it has letters with a meaning in CSV, or is empty, which is not the same as absent.
+/// Quotes texts with special characters, and empty ones, which are not null.
 fn text(out: &mut impl Write, text: &str) -> io::Result<()> {
     if text.is_empty() || text.contains([',', '"', '\n', '\r']) {
         write!(out, "\"{}\"", text.replace('"', "\"\""))

@@ -1,4 +1,4 @@
-//! Tables as JSON: an object for each row, with the names of the columns as keys.
+//! Tables as JSON: an object per row, keyed by column names.
 
 use serde_json::{Map, Value, json};
 

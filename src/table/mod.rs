@@ -1,10 +1,6 @@
-//! Layer 2: tables: columns with name, unit, meaning and values.
-//!
-//! A kind of table is made in one place, and each format is written in one file: [`csv`], [`json`], aligned [`text`] of
-//! [`mod@wrapped`] lines; Parquet in `storage::columnar`, Arrow's arrays for Python in the Python package.
-//!
-//! Rows of a campaign are not gathered in a table: their block (`ensemble::Rows`) hands its slices to the writer as
-//! [`Values`].
+//! Layer 2: tables of columns with name, unit, meaning and values. Writers: [`csv`], [`json`], aligned [`text`] of
+//! [`mod@wrapped`] lines, Parquet in `storage::columnar`, Arrow in the Python package. Rows of a campaign bypass
+//! tables: their block (`ensemble::Rows`) passes slices to the writers as [`Values`].
 
 pub mod csv;
 pub mod json;
@@ -19,12 +15,12 @@ use std::collections::BTreeMap;
 use crate::run::Quantity;
 use crate::table::text::{Align, Text};
 
-/// The kind of the values of a column. The names of the variants are hashed into the identity of rows.
+/// The kind of the values of a column; variant names enter the hashed identity of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Real,
     Count,
-    /// Texts, few of them distinct.
+    /// Texts with few distinct values.
     Word,
 }
 
@@ -34,20 +30,19 @@ pub struct Column {
     /// Name, unit and meaning.
     pub quantity: Quantity,
     pub content: Content,
-    /// Whether a value may be absent.
+    /// Whether values may be absent.
     pub nullable: bool,
-    /// The place of its text.
+    /// Alignment as text.
     pub align: Align,
 }
 
 impl Column {
-    /// A column without absent values; those of real numbers may always be absent, since a number that is not finite is
-    /// null.
+    /// A column without absent values, except that non-finite reals are always null.
     pub fn new(quantity: Quantity, content: Content) -> Self {
         Column { quantity, content, nullable: content == Content::Real, align: content.into() }
     }
 
-    /// The same column, whose values may be absent.
+    /// Allows absent values.
     #[must_use]
     pub fn nullable(self) -> Self {
         Column { nullable: true, ..self }
@@ -57,12 +52,12 @@ impl Column {
 /// The values of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values<'a> {
-    /// Real numbers; one that is not finite is null: the maximum or the mean of a column is a number for every reader.
+    /// Non-finite numbers are null, so that aggregates stay finite.
     Real(Cow<'a, [f64]>),
     Count(Vec<u64>),
-    /// Counts as rows in memory have them; one that is not finite is null.
+    /// Counts stored as doubles; non-finite ones are null.
     Counted(Cow<'a, [f64]>),
-    /// Texts; absent ones are null.
+    /// Absent texts are null.
     Text(Vec<Option<Cow<'a, str>>>),
 }
 
@@ -76,12 +71,11 @@ pub enum Cell<'a> {
 }
 
 impl<'a> Values<'a> {
-    /// Texts without absent ones.
+    /// Texts without nulls.
     pub fn words<T: Into<Cow<'a, str>>>(words: impl IntoIterator<Item = T>) -> Self {
         Values::Text(words.into_iter().map(|word| Some(word.into())).collect())
     }
 
-    /// The content of their column.
     pub fn content(&self) -> Content {
         match self {
             Values::Real(_) => Content::Real,
@@ -90,7 +84,6 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The number of rows.
     pub fn count(&self) -> usize {
         match self {
             Values::Real(values) | Values::Counted(values) => values.len(),
@@ -111,23 +104,23 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Columns with their values, all of one length.
+/// Columns of equal length with their values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table<'a> {
     pub columns: Vec<Column>,
-    /// The values of each column.
+    /// One per column.
     pub values: Vec<Values<'a>>,
-    /// Notes on the table as a whole that its file carries beside those of its plan.
+    /// Notes for the file, in addition to those of the plan.
     pub notes: BTreeMap<String, String>,
 }
 
 impl<'a> Table<'a> {
-    /// A table with a row for each of `rows`, to which columns are added one by one.
+    /// Builds a table with a row for each of `rows`, column by column.
     pub fn of<R>(rows: &'a [R]) -> TableOf<'a, R> {
         TableOf { rows, table: Table::default() }
     }
 
-    /// A table of texts with these heads, to which rows are added one by one.
+    /// A table of texts with these heads, to be filled row by row.
     pub fn with<H: Into<String>>(columns: impl IntoIterator<Item = (H, Align)>) -> Self {
         let mut table = Table::default();
         for (head, align) in columns {
@@ -137,7 +130,7 @@ impl<'a> Table<'a> {
         table
     }
 
-    /// Adds a row of texts; cells that are not given are empty.
+    /// Adds a row of texts; missing cells are empty.
     pub fn row<C: Into<String>>(&mut self, cells: impl IntoIterator<Item = C>) {
         let mut cells = cells.into_iter();
         for values in &mut self.values {
@@ -148,23 +141,21 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The table as lines of at most `width` characters.
+    /// Lines of at most `width` characters.
     pub fn text(&self, width: usize) -> String {
         Text::of(self).lines(width)
     }
 
-    /// Adds a column.
     pub fn push(&mut self, column: Column, values: Values<'a>) {
         self.columns.push(column);
         self.values.push(values);
     }
 
-    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.values.first().map_or(0, Values::count)
     }
 
-    /// The numbers of the column `name`, and its description; `None` if there is no such column of real numbers.
+    /// The column `name` of real numbers with its description; `None` if there is none.
     pub fn numbers(&self, name: &str) -> Option<(&Quantity, &[f64])> {
         let index = self.columns.iter().position(|column| column.quantity.name() == name)?;
         match &self.values[index] {
@@ -174,7 +165,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// A table that is being made, column by column, with a row for each of `rows`.
+/// Builder of a table with a row for each of `rows`.
 #[derive(Debug)]
 pub struct TableOf<'a, R> {
     rows: &'a [R],
@@ -188,7 +179,7 @@ impl<'a, R> TableOf<'a, R> {
         self
     }
 
-    /// Adds a column of numbers, which may be absent.
+    /// Adds a column of nullable numbers.
     pub fn real(&mut self, name: &str, meaning: &str, value: impl Fn(&'a R) -> Option<f64>) -> &mut Self {
         let values = self.rows.iter().map(|row| value(row).unwrap_or(f64::NAN)).collect();
         self.push(name, meaning, Content::Real, true, Values::Real(values))
@@ -199,7 +190,7 @@ impl<'a, R> TableOf<'a, R> {
         self.push(name, meaning, Content::Count, false, Values::Count(values))
     }
 
-    /// Adds a column of texts, which may be absent.
+    /// Adds a column of nullable texts.
     pub fn text<T: Into<Cow<'a, str>>>(
         &mut self,
         name: &str,
@@ -210,12 +201,12 @@ impl<'a, R> TableOf<'a, R> {
         self.push(name, meaning, Content::Word, true, Values::Text(values))
     }
 
-    /// Adds a column of texts without absent ones.
+    /// Adds a column of texts.
     pub fn word<T: Into<Cow<'a, str>>>(&mut self, name: &str, meaning: &str, value: impl Fn(&'a R) -> T) -> &mut Self {
         self.push(name, meaning, Content::Word, false, Values::words(self.rows.iter().map(value)))
     }
 
-    /// Gives the last column a unit.
+    /// Sets the unit of the last column.
     pub fn unit(&mut self, unit: &str) -> &mut Self {
         if let Some(Column { quantity, .. }) = self.table.columns.last_mut() {
             let [name, meaning] = [quantity.name(), quantity.meaning()].map(str::to_owned);
@@ -224,7 +215,7 @@ impl<'a, R> TableOf<'a, R> {
         self
     }
 
-    /// Adds a note on the table as a whole.
+    /// Adds a note to the table.
     pub fn note(&mut self, key: &str, text: impl Into<String>) -> &mut Self {
         self.table.notes.insert(key.to_owned(), text.into());
         self

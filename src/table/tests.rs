@@ -1,14 +1,13 @@
-//! Laws of the writers: each is read back, over a table with every kind of value.
+//! Laws of the writers: a table with every kind of value is read back.
 
 use super::{Cell, Column, Content, Table, Values, csv, json};
 use crate::run::Quantity;
 
-/// Numbers that a format may lose: the largest, the smallest, zeros of both signs, one that needs 17 digits, and those
-/// that are null.
+/// Fragile numbers: largest, smallest, signed zeros, 17 digits, and nulls.
 const NUMBERS: [f64; 10] =
     [0.0, -0.0, 0.1 + 0.2, -1.5e300, f64::MAX, f64::MIN_POSITIVE, 5e-324, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// Texts that a format may lose: with its own signs, with line ends, empty, absent, long.
+/// Fragile texts: delimiters, line ends, empty, absent, long.
 pub(crate) fn texts() -> [Option<String>; 10] {
     let all = ["a,b", "say \"no\"", "two\nlines", "\r\n", "", "<b>&amp;'", "\u{3b1} \u{2212}1", " space ", "null"];
     let long = all.concat().repeat(40);
@@ -33,7 +32,7 @@ pub(crate) fn every_kind() -> Table<'static> {
     table
 }
 
-/// Law: the cells of CSV, read by another implementation, are those of the table, bit for bit; a null is empty.
+/// Law: CSV cells, read by another implementation, equal those of the table bit for bit; null is empty.
 #[test]
 fn csv_comes_back() {
     let table = every_kind();
@@ -56,7 +55,7 @@ fn csv_comes_back() {
     }
 }
 
-/// Law: the objects of JSON have the cells of the table, bit for bit, through their text too.
+/// Law: JSON cells equal those of the table bit for bit, also through text.
 #[test]
 fn json_comes_back() {
     let table = every_kind();

@@ -1,26 +1,24 @@
-//! Tables as aligned text: lines that fit a terminal. Every table on a screen is written here.
+//! Tables as aligned text for terminals.
 //!
-//! A cell is never broken: a number stays whole and beside its unit. Where the lines are too narrow, names are
-//! shortened, then the columns at the right go to lines of their own below the row.
+//! Cells are never broken: a number stays whole and next to its unit. If lines are too narrow, names are shortened,
+//! then the right columns continue on lines below the row.
 
 use std::borrow::Cow;
 
 use crate::table::wrapped::{fitted, wrapped};
 use crate::table::{Cell, Content, Table};
 
-/// The place of the text of a column.
+/// Alignment and shortening of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// At the left: names. Shortened in their middle where the lines are too narrow.
+    /// Left: names, shortened in the middle if necessary.
     Left,
-    /// At the left, the first column: names, on lines of their own above the other cells where the lines are too
-    /// narrow.
+    /// Left, the first column: names, above the other cells if necessary.
     Title,
-    /// At the left, never shortened: verdicts, texts with numbers.
+    /// Left, never shortened: verdicts, texts with numbers.
     Whole,
     Right,
-    /// At the left, the last column: sentences, broken into lines in their column, or below the other cells where that
-    /// is too narrow.
+    /// Left, the last column: sentences, wrapped within their column, or below the other cells if that is too narrow.
     Sentence,
 }
 
@@ -30,34 +28,33 @@ impl From<Content> for Align {
     }
 }
 
-/// Blank characters before each line, and between columns.
+/// Spaces before each line, and between columns.
 const GAP: usize = 2;
-/// Least width of a column of sentences; narrower ones stand below their rows.
+/// Minimum width of sentences beside their row.
 const LEAST_SENTENCE: usize = 24;
-/// Indentation of sentences below their rows.
+/// Indentation of sentences below their row.
 const BELOW: usize = 6;
-/// Indentation of the columns that go to lines below their row, beside the gap before each line.
+/// Extra indentation of continued rows.
 const CONTINUED: usize = 4;
-/// A name is not shortened to less.
+/// Minimum width of a shortened name.
 const LEAST_NAME: usize = 12;
 
 /// A table as text.
 #[derive(Clone, Debug)]
 pub struct Text<'t> {
     aligns: Vec<Align>,
-    /// Lines of heads, of units where there are any, then of the rows.
+    /// Heads, units if any, rows.
     rows: Vec<Vec<Cow<'t, str>>>,
-    /// The number of lines of heads.
+    /// Number of lines of heads.
     heads: usize,
-    /// The least width of each column.
+    /// Minimum width of each column.
     least: Vec<usize>,
-    /// Blank characters before each line, and between columns.
+    /// Spaces before each line, and between columns.
     gaps: [usize; 2],
 }
 
 impl<'t> Text<'t> {
-    /// The text of `table`. Names of columns are heads, with their units below; a line in which all are empty is left
-    /// out.
+    /// Column names are heads, with units below; empty lines are omitted.
     pub fn of(table: &'t Table<'_>) -> Self {
         let quantities = || table.columns.iter().map(|column| &column.quantity);
         let heads: [Vec<Cow<'t, str>>; 2] = [
@@ -77,62 +74,62 @@ impl<'t> Text<'t> {
         Text { least: vec![0; aligns.len()], aligns, rows, heads, gaps: [GAP; 2] }
     }
 
-    /// The same with these blank characters before each line and between columns.
+    /// Sets the spaces before each line and between columns.
     #[must_use]
     pub fn spaced(self, before: usize, between: usize) -> Self {
         Text { gaps: [before, between], ..self }
     }
 
-    /// The same, whose columns are this wide at least: of lines that are shown one by one.
+    /// Sets minimum column widths, for tables shown row by row.
     #[must_use]
     pub fn at_least(self, widths: &[usize]) -> Self {
         Text { least: widths.to_vec(), ..self }
     }
 
-    /// Its heads and first `rows` rows.
+    /// Limits the table to its first `rows` rows.
     #[must_use]
     pub fn first(mut self, rows: usize) -> Self {
         self.rows.truncate(self.heads.saturating_add(rows));
         self
     }
 
-    /// The width of a column where nothing is shortened.
+    /// Full width of a column.
     fn widest(&self, column: usize) -> usize {
         self.rows.iter().map(|row| letters(&row[column])).fold(self.least[column], usize::max)
     }
 
-    /// Number of characters of lines with columns of these widths.
+    /// Line width for these column widths.
     fn used(&self, widths: &[usize]) -> usize {
         let [before, between] = self.gaps;
         before + widths.iter().sum::<usize>() + between * widths.len().saturating_sub(1)
     }
 
-    /// Number of characters of its lines where nothing is shortened or broken.
+    /// Full line width.
     pub fn width(&self) -> usize {
         self.width_of(self.aligns.len())
     }
 
-    /// The same of its first `count` columns.
+    /// Full width of the first `count` columns.
     pub fn width_of(&self, count: usize) -> usize {
         self.used(&(0..count).map(|column| self.widest(column)).collect::<Vec<_>>())
     }
 
-    /// The lines, none longer than `width` characters unless a single cell is.
+    /// Lines of at most `width` characters, unless a single cell is wider.
     pub fn lines(&self, width: usize) -> String {
         self.blocks(width).concat()
     }
 
-    /// The lines of the heads.
+    /// The heads only.
     pub fn head(&self, width: usize) -> String {
         self.blocks(width)[..self.heads].concat()
     }
 
-    /// The lines of the rows.
+    /// The rows only.
     pub fn body(&self, width: usize) -> String {
         self.blocks(width)[self.heads..].concat()
     }
 
-    /// The first column of each line of a row: greedily as many columns as fit, of those from `first` on.
+    /// The first column of each line of a row, filled greedily from column `first`.
     fn starts(&self, widths: &[usize], first: usize, width: usize) -> Vec<usize> {
         let [before, between] = self.gaps;
         let (mut starts, mut used) = (vec![first], before);
@@ -149,7 +146,7 @@ impl<'t> Text<'t> {
         starts
     }
 
-    /// The lines of each row.
+    /// The text of each row.
     fn blocks(&self, width: usize) -> Vec<String> {
         let [before, between] = self.gaps;
         let has_sentences = self.aligns.last() == Some(&Align::Sentence);
@@ -168,7 +165,7 @@ impl<'t> Text<'t> {
         if let Some(widest) = widest {
             widths[widest] = widths[widest].min(widths[widest].saturating_sub(excess).max(LEAST_NAME));
         }
-        // a title above leaves its gap, so that the columns stand where they would beside it
+        // a title above leaves its gap, so that columns keep their place
         let starts = self.starts(&widths, 0, width);
         let mut blocks = Vec::with_capacity(self.rows.len());
         for (index, row) in self.rows.iter().enumerate() {
@@ -194,7 +191,7 @@ impl<'t> Text<'t> {
             let sentence = row.last().filter(|_| has_sentences).map_or("", |sentence| sentence);
             if is_below || starts.len() > 1 {
                 push_line(&mut text, &line);
-                // rows that say the same say it once
+                // repeated sentences appear once
                 let is_said_later = self.rows.get(index + 1).is_some_and(|next| next.last() == row.last());
                 if !sentence.is_empty() && !is_head && !is_said_later {
                     text += &wrapped(&format!("{:BELOW$}{sentence}\n", ""), width);
@@ -212,7 +209,7 @@ impl<'t> Text<'t> {
     }
 }
 
-/// Adds a line without blank characters at its end.
+/// Adds a line without trailing spaces.
 fn push_line(text: &mut String, line: &str) {
     *text += line.trim_end();
     text.push('\n');
@@ -236,8 +233,7 @@ mod tests {
         table
     }
 
-    /// Law: at every width that a terminal has no line is longer, each number stands whole, and every word of a
-    /// sentence is there, in its order.
+    /// Law: at every width of a terminal lines fit, numbers stay whole, and sentences keep their words in order.
     #[test]
     fn a_table_fits_and_says_all() {
         for width in 30..140 {
@@ -252,8 +248,7 @@ mod tests {
         }
     }
 
-    /// Law: numbers end and names begin in one column; a wide table has a line for each row; below their rows equal
-    /// sentences stand once.
+    /// Law: columns are aligned; a wide table has a line per row; repeated sentences below rows appear once.
     #[test]
     fn columns_stand_below_each_other() {
         let text = table().text(120);
@@ -267,7 +262,7 @@ mod tests {
         assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
     }
 
-    /// Law: lines that are shown one by one stand below each other as those of the whole table do.
+    /// Law: rows shown one by one align as in the whole table.
     #[test]
     fn single_lines_are_those_of_the_table() {
         let new = || Table::with([("a", Align::Left), ("b", Align::Right)]);
@@ -282,9 +277,8 @@ mod tests {
         assert_eq!((text(&all), shown.lines().last()), (shown.clone(), Some("three     -12.5")));
     }
 
-    /// Law: at every width of a terminal, whatever the aligns of the columns are, each number stands whole with its
-    /// unit, in the order of the columns, and no line is longer; a table that fits has a line for each row. With a
-    /// table of a hundred columns, so that every width is too narrow for it.
+    /// Law: at every width and for all alignments, numbers stay whole with their units and in order, and lines fit; a
+    /// table that fits has a line per row. A table of a hundred columns never fits.
     #[test]
     fn numbers_are_never_broken() {
         let number = |row: usize, column: usize| format!("{}.{}e-{} km/s", 7 * row + column, column * column, row + 1);
@@ -314,8 +308,7 @@ mod tests {
         }
     }
 
-    /// Law: a table with every kind of value has each of its numbers and texts; what is absent is a dash, and units
-    /// stand below the heads.
+    /// Law: all values of every kind appear; null is a dash, units stand below the heads.
     #[test]
     fn every_kind_of_value_is_shown() {
         let table = every_kind();

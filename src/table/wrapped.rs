@@ -1,8 +1,7 @@
-//! Lines that fit a terminal.
+//! Wrapping of text for terminals.
 
-/// `text` with each line that is longer than `width` characters broken at spaces; what is broken off is indented as far
-/// as the text after the last gap of several spaces in the first half of the line is, else two characters more than the
-/// line.
+/// Wraps the lines of `text` at spaces. Continuations align with the text after the last gap of several spaces in the
+/// left half, else are indented by two more characters.
 pub fn wrapped(text: &str, width: usize) -> String {
     let mut lines = String::with_capacity(text.len());
     for line in text.split_inclusive('\n') {
@@ -37,8 +36,8 @@ pub fn wrapped(text: &str, width: usize) -> String {
     lines
 }
 
-/// The same of a message: lines of a file with their marks stay as they are, and a command at the end of a line stays
-/// whole, to be copied, on a line of its own.
+/// Wraps a message. Marked lines of a file stay as they are; a command at the end of a line moves whole to a line of
+/// its own, for copying.
 pub fn message(text: &str, width: usize) -> String {
     let of_line = |line: &str| {
         let is_long = line.trim_end_matches('\n').chars().count() > width;
@@ -57,14 +56,11 @@ pub fn message(text: &str, width: usize) -> String {
     text.split_inclusive('\n').map(of_line).collect()
 }
 
-/// How a command at the end of a line begins.
 const COMMAND: &str = ": spindrift ";
 
-/// What stands for letters that are left out.
 const ELLIPSIS: &str = "...";
 
-/// `text`, or its beginning and its end where it is wider than `width`: names that differ in a number at their end stay
-/// different.
+/// Shortens `text` in the middle to `width`, so that names with different numbers at the end stay distinct.
 pub fn fitted(text: &str, width: usize, measure: impl Fn(&str) -> usize) -> String {
     if measure(text) <= width {
         return text.to_owned();
@@ -82,7 +78,7 @@ pub fn fitted(text: &str, width: usize, measure: impl Fn(&str) -> usize) -> Stri
 mod tests {
     use super::*;
 
-    /// Law: no line with spaces to break at is longer than the width; words keep their order; what fits stays as it is.
+    /// Law: no line with spaces exceeds the width; words keep their order; fitting text is unchanged.
     #[test]
     fn long_lines_are_broken_at_spaces() {
         let text = "  PASS   p99 of energy\n  one two three four five six seven\nshort\n";
@@ -98,8 +94,7 @@ mod tests {
         assert_eq!(wrapped(text, 100), text);
     }
 
-    /// Law: at every width all words of a message are there, in their order; only a marked line, a command, and a word
-    /// alone are longer.
+    /// Law: all words of a message stay in order; only marked lines, commands and single words exceed the width.
     #[test]
     fn messages_are_broken_and_marks_stay() {
         let marked = "    | colour = \"a colour that nobody has seen on any spacecraft\"\n    | ^^^^^^";

@@ -20,7 +20,7 @@ impl Uniform {
     }
 }
 
-/// The statistics of the first observable of `plan`, from groups with these values and numbers of lost runs.
+/// Statistics of the first observable of `plan`, from groups of values with numbers of lost runs.
 fn described_of(plan: &Plan, groups: &[Vec<f64>], lost: &[u64]) -> ColumnStatistics {
     let mut counts = ColumnCounts::default();
     for values in groups {
@@ -35,7 +35,7 @@ fn described_of(plan: &Plan, groups: &[Vec<f64>], lost: &[u64]) -> ColumnStatist
     described(plan, (population, loss, lost), (&Observed::all(plan)[0], false), counts, &common)
 }
 
-/// A plan with a requirement on the mean of its first observable, which is within [0, 2].
+/// A plan with a requirement on the mean of its first observable, within [0, 2].
 fn bounded_plan(more: &str) -> Plan {
     let name = Observed::all(&small_plan(7, ""))[0].quantity.name().to_owned();
     let require =
@@ -45,13 +45,13 @@ fn bounded_plan(more: &str) -> Plan {
 
 const CAMPAIGNS: u64 = 300;
 const RUNS: usize = 200;
-/// The probability of a failure of each law where it holds.
+/// Probability of a false alarm of each law.
 const ALPHA: f64 = 1e-3;
 
 /// H0: a 95% interval of a quantile or of the mean covers the truth in at least 95% of campaigns of 200 runs, uniform
-/// in [0, 2], whichever runs are lost: the fastest 2, 3.5 or 4.5%, the slowest, both, or any. 300 campaigns each, seeds
-/// 1 to 300, alpha = 1e-3 for each interval. p50 is always bounded on both sides, p95 on one at least, the mean only if
-/// its range is known. The counter-test: intervals of the values alone miss p95 in most.
+/// in [0, 2], whichever runs are lost: the largest 2, 3.5 or 4.5%, the smallest, both, or any. 300 campaigns each,
+/// seeds 1 to 300, alpha = 1e-3 for each interval. p50 is always bounded on both sides, p95 on at least one, the mean
+/// only if its range is known. Counter-test: intervals of the values alone usually miss p95.
 #[test]
 fn intervals_cover_whichever_runs_are_lost() {
     let (bounded, plain) = (bounded_plan(""), small_plan(201, ""));
@@ -98,7 +98,7 @@ fn intervals_cover_whichever_runs_are_lost() {
 }
 
 /// Law: the interval of replicates is the hull of those with the lost runs below and above all others, each in its own
-/// replicate; for the mean at the ends of the range.
+/// replicate; for the mean, at the ends of the range.
 #[test]
 fn replicates_have_the_hull_too() {
     let plan = bounded_plan("design = { kind = \"sobol\", replicates = 10 }");

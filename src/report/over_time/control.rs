@@ -1,4 +1,4 @@
-//! What a control loop does over time: errors of its estimates, phases, wheels, thrusters, the way to the debris.
+//! Figures of a control loop: estimation errors, phases, wheels, thrusters, approach to the debris.
 
 use crate::control::STANDARD_GRAVITY;
 use crate::ensemble::SingleRun;
@@ -10,20 +10,19 @@ use crate::report::over_time::limits;
 use crate::report::page::readable::with_unit;
 use crate::scene::Arc;
 
-/// How many times the error that a filter expects is drawn beside the errors.
+/// Multiple of the filter's standard deviation shown with an error.
 const SIGMAS: f64 = 3.0;
-/// Half the height of a phase, of the height of its row.
+/// Half the height of a phase strip, relative to its row.
 const HALF: f64 = 0.32;
 
 impl Curves<'_> {
-    /// The error of an estimate, and three times what the filter of the run expects of it.
+    /// The error of an estimate with the filter's 3 sigma.
     pub(super) fn estimated(&self, listed: &ListedFigure, series: Series, expected: &str) -> Option<Figure> {
         let (name, unit) = self.name(series);
         let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
         let bound: Vec<f64> = self.recorded(expected)?.iter().map(|error| SIGMAS * error).collect();
         let mut caption = self.caption(&name);
         if self.is_plot() {
-            // beside the other curve
             for mark in &mut marks {
                 if let Mark::Line { label, .. } = mark {
                     *label = "the error".to_owned();
@@ -35,7 +34,7 @@ impl Curves<'_> {
             caption += " 3 sigma: covariance of the filter in the nominal run.";
         }
         let mut figure = self.judged(listed, (&name, &unit), (listed.title, caption), marks);
-        // errors become small by decades
+        // errors shrink by decades
         let least = bound.into_iter().filter(|bound| *bound > 0.0).fold(f64::INFINITY, f64::min);
         let largest = figure.marks.iter().map(Mark::largest).fold(0.0, f64::max);
         if least < largest {
@@ -45,7 +44,7 @@ impl Curves<'_> {
         Some(figure)
     }
 
-    /// When the run is in which phase.
+    /// The phases of the run.
     pub(super) fn phases(&self, listed: &ListedFigure) -> Option<Figure> {
         let spec = self.plan.law.as_ref()?.spec()?;
         let (times, phase) = (self.times(), self.recorded("phase")?);
@@ -59,7 +58,7 @@ impl Curves<'_> {
                 visits.push((row, [*time, *time]));
             }
         }
-        // phases that the run is never in are not shown: they would be rows without anything
+        // skip unvisited phases
         let rows: Vec<usize> = (0..spec.phases.len()).filter(|row| visits.iter().any(|(of, _)| of == row)).collect();
         let names = rows.iter().map(|row| spec.phases[*row].name.to_string()).collect();
         let strip = |(row, span): (usize, [f64; 2])| {
@@ -72,7 +71,7 @@ impl Curves<'_> {
         Some(over_time("phases", listed.title, caption, Axis::names(names), marks))
     }
 
-    /// A series of all wheels, with the limits of those that the loop drives.
+    /// A series of all wheels with the limits of the driven ones.
     pub(super) fn all_wheels(&self, listed: &ListedFigure, series: Series, limit: WheelLimit) -> Figure {
         let mut marks = Vec::new();
         for (index, wheel) in self.wheels.iter().enumerate() {
@@ -86,7 +85,7 @@ impl Curves<'_> {
                 }
                 None => {
                     let values = self.nominal(series.of_wheel(index));
-                    // wheels that do the same lie on each other
+                    // identical curves stay visible
                     let dash = if self.is_plot() { Dash::of_curve(index) } else { Dash::Solid };
                     marks.extend(lines(wheel.as_str(), (hue, dash), &self.times(), &values));
                 }
@@ -100,14 +99,13 @@ impl Curves<'_> {
             let shown = self.plan.analysis.display.of(&self.shown_as(listed, &name), &unit);
             marks.extend(limits::of_actuators(&limits, &shown, limit == WheelLimit::Torque));
         }
-        // title and file say the same, since both are the row's
         let title = format!("{} of the wheels", listed.title);
         let file = format!("wheel_{}", listed.title.to_lowercase().replace(' ', "_"));
         let figure = self.judged(listed, (&name, &unit), (&title, caption), marks);
         Figure { name: file, ..figure }
     }
 
-    /// The impulses of the thrusters up to the points of the run, N s: thruster by thruster.
+    /// Accumulated impulse of each thruster at the points of the run, N s.
     fn impulses(&self) -> Option<Vec<(String, Vec<f64>)>> {
         let (run, spec) = (self.run?, self.plan.law.as_ref()?.spec()?);
         let of = |place: &usize| {
@@ -117,13 +115,13 @@ impl Curves<'_> {
         Some(spec.thrusters.iter().map(of).collect())
     }
 
-    /// The mean thrusts between the points of the run, with the largest ones.
+    /// Mean thrust between points, with the maximum thrusts.
     pub(super) fn thrust(&self, listed: &ListedFigure) -> Option<Figure> {
         let (times, run) = (self.times(), self.run?);
         let impulses = self.impulses()?;
         let mut marks = Vec::new();
         for (index, (name, impulse)) in impulses.iter().enumerate() {
-            // a step from point to point
+            // constant between points
             let (mut x, mut y) = (Vec::new(), Vec::new());
             for (time, sum) in times.windows(2).zip(impulse.windows(2)) {
                 x.extend(time);
@@ -143,7 +141,7 @@ impl Curves<'_> {
         Some(self.judged(listed, ("thrust", "N"), (listed.title, caption), marks))
     }
 
-    /// The impulse of each thruster, and that of all.
+    /// The impulse of each thruster and their sum.
     pub(super) fn impulse(&self, listed: &ListedFigure) -> Option<Figure> {
         let impulses = self.impulses()?;
         let (name, unit) = self.name(Series::Impulse);
@@ -165,7 +163,7 @@ impl Curves<'_> {
         Some(self.judged(listed, (&name, &unit), (listed.title, caption), marks))
     }
 
-    /// The propellant used, where the specific impulse is known.
+    /// Propellant used, if the specific impulse is known.
     pub(super) fn propellant(&self, listed: &ListedFigure) -> Option<Figure> {
         let isp = self.constant("isp_s").filter(|isp| *isp > 0.0)?;
         let mass =
@@ -184,7 +182,7 @@ impl Curves<'_> {
         self.plan.nominal.control.law.named(key).and_then(|numbers| numbers.first().copied())
     }
 
-    /// The limits of the way to the debris: keep-out sphere and station.
+    /// Keep-out sphere and station as limits.
     pub(super) fn distances(&self, name: &str, unit: &str) -> Vec<Mark> {
         let launches = self.plan.law.as_ref().and_then(|law| law.spec()).is_some_and(|spec| spec.launches());
         let station = self.constant("launch_distance_m").filter(|_| launches);
@@ -198,7 +196,7 @@ impl Curves<'_> {
     }
 }
 
-/// The impulse of a `force` up to each of `times` in a run, N s.
+/// Accumulated impulse of a `force` at each of `times`, N s.
 pub fn impulse(run: &SingleRun, times: &[f64], force: impl Fn(&Arc) -> f64) -> Vec<f64> {
     let (mut sum, mut next) = (0.0, 0);
     let at = |time: &f64| {
@@ -206,20 +204,19 @@ pub fn impulse(run: &SingleRun, times: &[f64], force: impl Fn(&Arc) -> f64) -> V
             sum += force(arc) * (arc.applied.until - arc.start);
             next += 1;
         }
-        // the arc that has not ended
+        // the current arc
         let part = run.arcs.get(next).filter(|arc| arc.start < *time && !arc.applied.ends_run);
         sum + part.map_or(0.0, |arc| force(arc) * (time - arc.start))
     };
     times.iter().map(at).collect()
 }
 
-/// The name of a thruster with the curve `values`: one that gives nothing, as a dead one does, may be what decides the
-/// run, and says so.
+/// The label of a thruster; an idle one is marked, since a dead thruster may decide the run.
 fn named(name: &str, values: &[f64]) -> String {
     if values.iter().all(|value| *value == 0.0) { format!("{name}: none") } else { name.to_owned() }
 }
 
-/// The sum of the impulses of all thrusters.
+/// The sum over all thrusters.
 fn total(impulses: &[(String, Vec<f64>)]) -> Vec<f64> {
     let points = impulses.first().map_or(0, |(_, sum)| sum.len());
     (0..points).map(|point| impulses.iter().map(|(_, sum)| sum[point]).sum()).collect()

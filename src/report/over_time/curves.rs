@@ -1,4 +1,4 @@
-//! [`Curves`]: the nominal run and the bands of the ensemble, as the figures that the scene calls for.
+//! [`Curves`]: the nominal run and the bands of the ensemble as the figures of a scene.
 
 use std::ops::Range;
 
@@ -12,26 +12,26 @@ use crate::report::over_time::figure_list::{ListedFigure, Place, Shows, Traits, 
 use crate::report::over_time::limits;
 use crate::scene::Name;
 
-/// Quantiles of a series over time, of the runs that are ok.
+/// Quantiles of a series over time, over the ok runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeBands {
-    /// The series, as the columns of a time series name it.
+    /// Column name in a time series.
     pub name: String,
     /// Times, s.
     pub times: Vec<f64>,
     /// The 5, 25, 50, 75 and 95% quantiles at these times.
     pub quantiles: [Vec<f64>; 5],
-    /// How many runs there are.
+    /// Number of runs.
     pub runs: u64,
-    /// How many of them the quantiles are of: all, or the first ones.
+    /// Number of runs behind the quantiles: all, or the first ones.
     pub counted: u64,
-    /// How many of them have not ended at each time, whatever they have of this series.
+    /// Runs in flight at each time, with or without a value.
     pub in_flight: Vec<u64>,
 }
 
-/// A band is drawn where at least as many runs have a value: the 5% quantile of fewer is their smallest one.
+/// Fewest runs for a band: the 5% quantile of fewer is their minimum.
 pub const FEWEST: u64 = 20;
-/// The axis ends where this share of the runs is left: at the 99% quantile of the times at which they end.
+/// The time axis ends when this share of the runs is left.
 const LEFT: f64 = 0.01;
 
 /// Curves of one run, and bands of the ensemble.
@@ -43,55 +43,53 @@ pub struct Curves<'a> {
     pub(super) wheels: &'a [Name],
     pub(super) traits: Traits,
     place: Place,
-    /// What the figures bear on that come first.
+    /// Observables whose figures come first.
     order: Vec<String>,
-    /// The runs that were flown for the page, that of `run` among them.
+    /// Replayed runs of the page, including `run`.
     flown: Vec<&'a SingleRun>,
 }
 
-/// Angles that are rounding, rad: some hundred roundings of a turn.
+/// Angles below this are rounding errors, rad.
 const NO_ANGLE_RAD: f64 = 1e-12;
-/// With fewer times than this in each oscillation bands do not show it.
+/// Fewest band times per oscillation.
 const PER_TURN: usize = 4;
-/// The fraction of the width of the bands from which on a swing is seen beside them.
+/// A swing is visible above this fraction of the bands' width.
 const SEEN_SWING: f64 = 0.05;
 
 impl<'a> Curves<'a> {
-    /// On the page of `plan`: of the nominal run, where it could be run, and bands of the ensemble; `wheels` are those
-    /// that turn.
+    /// For the page of `plan`: the nominal run, if it ran, and bands; `wheels` are those that turn.
     pub fn of_page(plan: &'a Plan, run: Option<&'a SingleRun>, bands: &'a [TimeBands], wheels: &'a [Name]) -> Self {
         let (traits, place) = (Traits::of(plan, wheels), Place::Page);
         Curves { plan, run, bands, wheels, traits, place, order: Vec::new(), flown: Vec::new() }
     }
 
-    /// The same with the figures that bear on the observables and series `asked` first, in their order.
+    /// Puts the figures of the observables and series `asked` first.
     #[must_use]
     pub fn ordered_by(self, asked: &[String]) -> Self {
         Curves { order: asked.to_vec(), ..self }
     }
 
-    /// The same with all runs that were flown for the page.
+    /// Adds the replayed runs.
     #[must_use]
     pub fn among(self, flown: Vec<&'a SingleRun>) -> Self {
         Curves { flown, ..self }
     }
 
-    /// In a plot of the run `run` of `plan`.
+    /// For a plot of `run`.
     pub fn of_plot(plan: &'a Plan, run: &'a SingleRun) -> Self {
         Curves { place: Place::Plot, ..Curves::of_page(plan, Some(run), &[], &run.request.wheels) }
     }
 
-    /// Whether they are in a plot of one run, and not on a page.
     pub(super) fn is_plot(&self) -> bool {
         self.place == Place::Plot
     }
 
-    /// Times that the nominal run reached, s.
+    /// Times reached by the nominal run, s.
     pub fn times(&self) -> Vec<f64> {
         self.run.map_or_else(Vec::new, |run| run.grid.times()[..run.outcome.points.min(run.grid.points())].to_vec())
     }
 
-    /// A series of the nominal run; empty where it has none.
+    /// A series of the nominal run; empty if absent.
     pub fn nominal(&self, series: Series) -> Vec<f64> {
         let Some(run) = self.run else { return Vec::new() };
         let values = run.series.iter().find(|(other, _)| *other == series).map(|(_, values)| values.as_slice());
@@ -103,8 +101,7 @@ impl<'a> Curves<'a> {
         self.bands.iter().find(|bands| bands.name == name)
     }
 
-    /// Bands and median of the quantity `name`, and its values in the nominal run; `of` comes before the names in the
-    /// legend.
+    /// Bands, median and nominal values of the quantity `name`; `of` prefixes the labels.
     pub(super) fn marks(&self, name: &str, nominal: Vec<f64>, hue: Hue, of: &str) -> Vec<Mark> {
         let label = |text: &str| if of.is_empty() { text.to_owned() } else { format!("{of}, {text}") };
         let mut marks = Vec::new();
@@ -126,7 +123,7 @@ impl<'a> Curves<'a> {
         marks
     }
 
-    /// Whether the nominal run oscillates so that it is seen, and too fast for the instants of the bands.
+    /// Whether the nominal run oscillates visibly, but too fast for the times of the bands.
     fn is_aliased(&self, bands: &TimeBands, nominal: &[f64]) -> bool {
         let ends = bands.quantiles[0].iter().zip(&bands.quantiles[4]);
         let width = ends.map(|(low, high)| high - low).fold(0.0, f64::max);
@@ -134,8 +131,8 @@ impl<'a> Curves<'a> {
         is_seen && self.run.is_some_and(|run| run.grid.points() > bands.times.len())
     }
 
-    /// In place of bands that would miss an oscillation: what the nominal run, and all that were flown for the page,
-    /// reach in each interval between the instants of the bands.
+    /// Replaces bands that would alias: the extremes of the nominal run, and of all replayed runs, between the times of
+    /// the bands.
     fn envelopes(
         &self,
         name: &str,
@@ -166,7 +163,7 @@ impl<'a> Curves<'a> {
         marks
     }
 
-    /// The values of the run; on the page those that turn too often to be seen as their envelope.
+    /// The values of the run; on the page, dense oscillations become their envelope.
     pub(super) fn of_run(&self, label: &str, (hue, dash): (Hue, Dash), values: &[f64]) -> Vec<Mark> {
         let times = self.times();
         let piece = |piece: Range<usize>| {
@@ -179,7 +176,7 @@ impl<'a> Curves<'a> {
         pieces(times.len().min(values.len()), |point| values[point].is_finite()).into_iter().map(piece).collect()
     }
 
-    /// What the bands of a quantity mean.
+    /// Explains the bands of a quantity.
     pub(super) fn caption(&self, name: &str) -> String {
         let of = |series: &&(Series, Vec<f64>)| {
             series.0.quantity(self.wheels).is_some_and(|quantity| quantity.name() == name)
@@ -188,7 +185,7 @@ impl<'a> Curves<'a> {
         self.caption_of(name, nominal)
     }
 
-    /// The same of a quantity with the values `nominal` in the nominal run.
+    /// As [`Curves::caption`], for given `nominal` values.
     pub(super) fn caption_of(&self, name: &str, nominal: &[f64]) -> String {
         let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
         if self.is_aliased(bands, nominal) {
@@ -230,15 +227,14 @@ impl<'a> Curves<'a> {
         quantity.map_or_else(Default::default, |quantity| (quantity.name().to_owned(), quantity.unit().to_owned()))
     }
 
-    /// What the loop of the run recorded as `name` at its points; `None` where it did not.
+    /// The telemetry `name` at the points of the run.
     pub(super) fn recorded(&self, name: &str) -> Option<Vec<f64>> {
         let telemetry = &self.run?.telemetry;
         let place = telemetry.quantities.iter().position(|quantity| quantity.name() == name)?;
         telemetry.held_at(&self.times()).into_iter().nth(place)
     }
 
-    /// Every figure that the scene calls for, those that bear on a requirement first, else in the order of the list;
-    /// those that have nothing to show are not visible.
+    /// All figures of the scene, those of requirements first; empty ones are invisible.
     pub fn figures(&self) -> Vec<Figure> {
         let mut listed: Vec<&ListedFigure> = figures_of(&self.traits, self.place).collect();
         let place = |listed: &&ListedFigure| {
@@ -250,11 +246,10 @@ impl<'a> Curves<'a> {
         figures.map(|figure| self.in_flight(figure)).collect()
     }
 
-    /// The same with the runs in flight, and an axis that ends where all but one in a hundred have ended, and the
-    /// nominal run.
+    /// Adds the runs in flight; the axis ends with the nominal run or when all but one in a hundred have ended.
     pub(super) fn in_flight(&self, mut figure: Figure) -> Figure {
         if let (true, [first, .., last]) = (self.is_plot() && figure.is_over_time, &self.times()[..]) {
-            // one time axis, also where a curve is not there at all times
+            // common time axis for all panels
             figure.x = figure.x.within(*first, *last);
         }
         let Some(bands) = self.bands.first().filter(|_| figure.is_over_time) else { return figure };
@@ -273,7 +268,6 @@ impl<'a> Curves<'a> {
         figure
     }
 
-    /// What one line of the list is.
     fn listed(&self, listed: &ListedFigure) -> Vec<Figure> {
         match listed.shows {
             Shows::One(series) => self.single(listed, series).into_iter().collect(),
@@ -295,13 +289,12 @@ impl<'a> Curves<'a> {
 
     fn single(&self, listed: &ListedFigure, series: Series) -> Option<Figure> {
         let (name, unit) = self.name(series);
-        // the nominal run does not differ from itself
+        // zero by definition
         if series == Series::FromNominal && self.band(&name).is_none() {
             return None;
         }
         let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
         if unit == "rad" && marks.iter().all(|mark| mark.largest() < NO_ANGLE_RAD) {
-            // an angle below rounding is none
             marks.clear();
         }
         if series == Series::DebrisDistance {
@@ -323,7 +316,7 @@ impl<'a> Curves<'a> {
         Some(self.judged(listed, (&name, &unit), (&title, caption), marks))
     }
 
-    /// A figure called `name`, with the limits of the requirements on what it shows and an axis that has what matters.
+    /// A figure called `name` with the limits of its requirements and an axis that includes the near ones.
     pub(super) fn judged(
         &self,
         listed: &ListedFigure,
@@ -339,22 +332,21 @@ impl<'a> Curves<'a> {
         }
         let axis = Axis::linear(listed.quantity, unit).showing(shown_as);
         let axis = match limits::range(&marks, self.traits.has_loop) {
-            // a share ends at all
+            // a share is at most 1
             Some([low, high]) => axis.within(low, if listed.quantity == "share" { high.min(1.0) } else { high }),
             None => axis,
         };
         over_time(name, title, caption, axis, marks)
     }
 
-    /// The column whose unit the figure `name` is in: one that a requirement is about, else its own.
+    /// The column that determines the unit: a required one, else `name`.
     pub(super) fn shown_as(&self, listed: &ListedFigure, name: &str) -> String {
         let mut judged = self.traits.judged(listed.judged_by);
         let asked = judged.find(|one| self.plan.analysis.requirements.iter().any(|asked| asked.name() == one));
         asked.unwrap_or_else(|| name.to_owned())
     }
 
-    /// A figure of its own for each of the `bodies`: its series, its name, its colour. `lead`: what the caption begins
-    /// with.
+    /// A figure for each of `bodies`: series, name, colour. `lead` begins the caption.
     pub(super) fn each(
         &self,
         listed: &ListedFigure,
@@ -370,20 +362,19 @@ impl<'a> Curves<'a> {
         bodies.map(figure).collect()
     }
 
-    /// Each wheel, with its place in `series`.
+    /// Each wheel's series, name and colour.
     pub(super) fn each_wheel(&self, series: Series) -> impl Iterator<Item = (Series, String, Hue)> {
         let wheels = self.wheels.iter().enumerate();
         wheels.map(move |(index, name)| (series.of_wheel(index), format!("wheel {name}"), Hue::Wheel(index)))
     }
 }
 
-/// Whether `times` times are fewer than [`PER_TURN`] in each oscillation of a curve that turns back so often, twice in
-/// each.
+/// Whether `times` samples give fewer than [`PER_TURN`] per oscillation (two turns).
 fn is_coarse(turns: usize, times: usize) -> bool {
     PER_TURN * turns > 2 * times.saturating_sub(1)
 }
 
-/// The ranges of points, of `count`, in which all are there: what is null between is not drawn.
+/// Runs of consecutive points that have values.
 fn pieces(count: usize, is_there: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for point in (0..count).filter(|point| is_there(*point)) {
@@ -395,13 +386,13 @@ fn pieces(count: usize, is_there: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
     found
 }
 
-/// A curve, in pieces where it is null between.
+/// A curve, split at missing values.
 pub(super) fn lines(label: &str, (hue, dash): (Hue, Dash), x: &[f64], y: &[f64]) -> Vec<Mark> {
     let line = |piece: Range<usize>| Mark::line(label, hue, dash, x[piece.clone()].to_vec(), y[piece].to_vec());
     pieces(x.len().min(y.len()), |point| y[point].is_finite()).into_iter().map(line).collect()
 }
 
-/// The area between two curves, in pieces where these are null.
+/// An area, split at missing values.
 pub(super) fn areas(label: &str, (hue, opacity): (Hue, f64), x: &[f64], [low, high]: [&Vec<f64>; 2]) -> Vec<Mark> {
     let area = |piece: Range<usize>| {
         let ends = [low, high].map(|end| end[piece.clone()].to_vec());
@@ -426,8 +417,8 @@ mod tests {
     use crate::run::Grid;
     use crate::sampling::SampleId;
 
-    /// Law: times are too few for a curve exactly where fewer than four of them are in each of its oscillations,
-    /// whatever the number of these.
+    /// Law: sampling is too coarse if and only if an oscillation has fewer than four samples, for any number of
+    /// oscillations.
     #[test]
     fn four_times_show_an_oscillation() {
         for oscillations in [1, 5, 20, 50] {
@@ -444,9 +435,8 @@ mod tests {
         assert!(!is_coarse(0, 2));
     }
 
-    /// Law: where the nominal run oscillates faster than the instants of the bands, no band of instants is drawn: the
-    /// envelopes hold every value of the nominal run and of all flown runs; with bands at as many instants they are
-    /// drawn.
+    /// Law: if the nominal run oscillates faster than the bands' times, envelopes replace the bands and contain all
+    /// values of their runs; with dense times, bands are drawn.
     #[test]
     fn a_band_never_aliases() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");

@@ -1,22 +1,21 @@
-//! The relative errors of the balances over time.
+//! Relative errors of the balances over time.
 
 use crate::observables::Series;
 use crate::report::figure::{Axis, Figure, FigureSection, Hue, Mark};
 use crate::report::over_time::curves::{Curves, over_time};
 
-/// The axis is not shorter: the rounding of some operations does not look like a drift.
+/// Minimum range of the axis: rounding errors must not look like drift.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
-/// A limit that is larger than the errors by this factor is outside of the axis, and named at its edge.
+/// Limits beyond this multiple of the errors are named at the edge of the axis.
 const FAR: f64 = 3.0;
 
 impl Curves<'_> {
-    /// The relative tolerance of a step, of a method that follows one.
+    /// The relative tolerance of a method with step control.
     fn tolerance(&self) -> Option<f64> {
         (!self.plan.method.has_fixed_step()).then_some(self.plan.tolerance.relative)
     }
 
-    /// Drift of the balances over time: relative errors, with the tolerance, of a method that follows one, and the
-    /// rounding of doubles.
+    /// Relative errors of the balances with the tolerance and the rounding error of a double.
     pub fn drift(&self) -> Vec<Figure> {
         let tolerance = self.tolerance();
         let energy = [(Series::EnergyError, "", Hue::Body)];
@@ -61,14 +60,13 @@ impl Curves<'_> {
     }
 }
 
-/// Adds the limits of the errors `marks` of a run to them; the axis of both. `is_signed`: whether errors may be
-/// negative.
+/// Adds the limits to the curves `marks` and returns the axis. `is_signed`: errors may be negative.
 fn limited(marks: &mut Vec<Mark>, tolerance: Option<f64>, is_signed: bool) -> Axis {
     let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
     let own = largest.max(ROUNDING);
     let shown = tolerance.filter(|tolerance| *tolerance <= FAR * own).map_or(own, |tolerance| tolerance.max(own));
     let tolerance = tolerance.map(|tolerance| (format!("tolerance {tolerance:e}"), tolerance));
-    // among larger errors nobody sees it
+    // invisible among larger errors
     let rounding = (shown <= FAR * f64::EPSILON).then(|| ("rounding of a double".to_owned(), f64::EPSILON / 2.0));
     for (label, at) in tolerance.into_iter().chain(rounding) {
         marks.push(Mark::Limit { label, at, vertical: false });

@@ -1,4 +1,4 @@
-//! Energies over time: of each body, and what goes from one to another.
+//! Energies of the bodies over time, and the transfer between them.
 
 use crate::analysis::spectrum::{amplitudes, dominant};
 use crate::findings::number::short;
@@ -7,24 +7,22 @@ use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
 use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 
-/// A change by less than this fraction of a variable's magnitude is what rounding makes of a constant in some thousands
-/// of operations.
+/// Relative changes below this are the rounding errors of thousands of operations.
 const ROUNDING: f64 = 1e-12;
 
 impl Curves<'_> {
-    /// The place of each body among `series`, that of the body and that of wheels; its name and its colour.
+    /// Series, name and colour of the body and of each wheel.
     fn bodies(&self, series: [Series; 2]) -> impl Iterator<Item = (Series, String, Hue)> {
         core::iter::once((series[0], "the body".to_owned(), Hue::Body)).chain(self.each_wheel(series[1]))
     }
 
-    /// The energy of each body and of the debris.
     pub(super) fn energies(&self, listed: &ListedFigure) -> Vec<Figure> {
         let debris = (Series::EnergyDebris, "the debris".to_owned(), Hue::Debris);
         let bodies = self.bodies([Series::EnergyBody, Series::EnergyWheel]).chain([debris]);
         self.each(listed, bodies, "Kinetic energy in F_e. ")
     }
 
-    /// The change of the energy of each body; without bands the figure of all bodies together shows as much.
+    /// The change of each energy; without bands, the transfer figure suffices.
     pub(super) fn changes(&self, listed: &ListedFigure) -> Vec<Figure> {
         let figure = |(series, of, hue): (Series, String, Hue)| {
             let (name, unit) = self.name(series);
@@ -42,18 +40,17 @@ impl Curves<'_> {
         self.bodies([Series::ComBody, Series::ComWheel]).filter_map(figure).collect()
     }
 
-    /// Energy transfer between body and wheels in the nominal run: over time, and its spectrum.
+    /// Energy transfer between body and wheels in the nominal run, and its spectrum.
     pub(super) fn transfer(&self, listed: &ListedFigure) -> Vec<Figure> {
         let (times, body) = (self.times(), changes(&self.nominal(Series::ComBody)));
         let wheels: Vec<Vec<f64>> =
             (0..self.wheels.len()).map(|index| changes(&self.nominal(Series::ComWheel.of_wheel(index)))).collect();
         let size = self.nominal(Series::ComBody).iter().fold(0.0, |size: f64, value| value.abs().max(size));
-        // what rounding makes of constants is no transfer
         let is_constant = body.iter().all(|change| change.abs() <= ROUNDING * size);
         let named = || self.wheels.iter().enumerate().zip(&wheels);
         let bodies = named().map(|((index, name), y)| (format!("wheel {name}"), Hue::Wheel(index), y));
         let mut marks = stacked(&times, bodies.chain([("body".to_owned(), Hue::Body, &body)]));
-        // how far other runs are from the nominal one
+        // spread of the other runs
         if let Some(bands) = self.band("exchange_body_j") {
             for (label, quantile) in [("body, 5% of runs", 0), ("body, 95% of runs", 4)] {
                 let (x, y) = (bands.times.clone(), bands.quantiles[quantile].clone());
@@ -73,7 +70,7 @@ impl Curves<'_> {
     }
 }
 
-/// The values of several bodies on top of each other: positive ones above zero, negative ones below.
+/// Stacks the values of several bodies: gains above zero, losses below.
 fn stacked<'v>(times: &[f64], bodies: impl Iterator<Item = (String, Hue, &'v Vec<f64>)>) -> Vec<Mark> {
     let mut ends = vec![[0.0; 2]; times.len()];
     let mut mark = |(label, hue, values): (String, Hue, &Vec<f64>)| {
@@ -89,12 +86,11 @@ fn stacked<'v>(times: &[f64], bodies: impl Iterator<Item = (String, Hue, &'v Vec
     bodies.map(&mut mark).collect()
 }
 
-/// Differences from the first value.
 fn changes(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| value - values[0]).collect()
 }
 
-/// The spectrum of the energy of the body, with its dominant frequency.
+/// The spectrum of the body's energy, with its dominant frequency.
 fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
     let (frequencies, amplitudes) = amplitudes(times, body)?;
     let peak = dominant(&frequencies, &amplitudes)?;
@@ -112,7 +108,7 @@ fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
 mod tests {
     use super::*;
 
-    /// Law: gains are on top of each other, losses below each other, and the height of each is its value.
+    /// Law: gains stack upward, losses downward, each with the height of its value.
     #[test]
     fn gains_and_losses_are_stacked() {
         let values = [vec![1.0, -2.0], vec![3.0, 5.0], vec![-4.0, -3.0]];

@@ -1,7 +1,4 @@
-//! [`FIGURES`]: which figures over time a scene gets, on the page and in `simulate --plot`; `simulate` prints their
-//! columns.
-//!
-//! A figure is there where the scene calls for it, or where a requirement is about what it shows.
+//! [`FIGURES`]: the figures over time of a scene, on the page and in `simulate --plot`; `simulate` prints their columns. A figure appears if the scene or a requirement calls for it.
 
 use crate::campaign::Plan;
 use crate::observables::Series;
@@ -12,30 +9,30 @@ use crate::scene::{Name, WheelModel};
 #[derive(Clone, Debug)]
 pub struct Traits {
     pub has_loop: bool,
-    /// More phases of the loop than one.
+    /// The loop has several phases.
     pub changes_phase: bool,
-    /// A phase of the loop that wants an attitude.
+    /// A phase controls the attitude.
     pub points: bool,
-    /// An estimator that does not know the truth.
+    /// An estimator is in the loop.
     pub estimates: bool,
-    /// Debris that the loop goes to.
+    /// The loop approaches debris.
     pub approaches: bool,
     pub debris: bool,
     pub orbit: bool,
-    /// An orbit with a date.
+    /// The orbit has a date.
     pub dated_orbit: bool,
     pub wheels: bool,
-    /// Wheels that the loop drives.
+    /// The loop drives wheels.
     pub drives: bool,
     pub fires: bool,
-    /// What the requirements are about.
+    /// Required observables.
     asked: Vec<String>,
-    /// The names of the wheels that turn.
+    /// Turning wheels.
     wheel_names: Vec<Name>,
 }
 
 impl Traits {
-    /// Of the scenes of `plan`, in which `wheels` turn.
+    /// The traits of `plan` with the turning `wheels`.
     pub fn of(plan: &Plan, wheels: &[Name]) -> Self {
         let spec = plan.loop_spec();
         let is = |what: fn(&crate::control::LoopSpec) -> bool| spec.is_some_and(what);
@@ -56,12 +53,12 @@ impl Traits {
         }
     }
 
-    /// Which of `names`, with that of each wheel in place of `{wheel}`, a requirement is about.
+    /// Whether a requirement is on one of `names` (see [`Traits::judged`]).
     fn asked(&self, names: &[&str]) -> bool {
         self.judged(names).any(|name| self.asked.contains(&name))
     }
 
-    /// `names` with that of each wheel in place of `{wheel}`.
+    /// Expands `{wheel}` in `names` to each wheel.
     pub fn judged<'t>(&'t self, names: &[&'t str]) -> impl Iterator<Item = String> {
         let of = |name: &&'t str| match name.contains("{wheel}") {
             true => self.wheel_names.iter().map(|wheel| name.replace("{wheel}", wheel.as_str())).collect(),
@@ -73,23 +70,23 @@ impl Traits {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// On the page: the nominal run and bands of the others.
+    /// The nominal run and bands.
     Page,
-    /// In `simulate --plot`: one run.
+    /// A single run.
     Plot,
 }
 
-/// Which limit of the wheels of a loop holds for what a figure shows.
+/// The limit of driven wheels that a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WheelLimit {
-    /// That of the motor's torque, N m, in both directions.
+    /// Motor torque, N m, both signs.
     Torque,
-    /// That of the speed, rad/s, of its magnitude.
+    /// Speed, rad/s, magnitude.
     Speed,
 }
 
 impl WheelLimit {
-    /// The limit of `wheel`, N m or rad/s; infinite without one.
+    /// The limit of `wheel`, N m or rad/s; may be infinite.
     pub fn of(self, wheel: &WheelModel) -> f64 {
         match self {
             WheelLimit::Torque => wheel.torque_limit,
@@ -97,7 +94,6 @@ impl WheelLimit {
         }
     }
 
-    /// The unit of the limit, which is that of what the figure shows.
     pub const fn unit(self) -> &'static str {
         match self {
             WheelLimit::Torque => "N m",
@@ -108,61 +104,57 @@ impl WheelLimit {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
-    /// A series of the observables.
     One(Series),
-    /// The error of an estimate, with three times what the filter expects of it: the column of the telemetry.
+    /// An estimation error, with the telemetry column of the filter's standard deviation.
     Estimated(Series, &'static str),
-    /// A series of wheels: under a loop in one figure with their limits, else a figure for each.
+    /// A series of wheels: with a loop one figure with limits, else a figure per wheel.
     Wheels(Series, WheelLimit),
-    /// Components of a state; of wheels all of them.
+    /// Components of a state; for wheels all.
     State(StateField, &'static [&'static str]),
-    /// The place on the Earth below the spacecraft.
     GroundTrack,
-    /// The phases of the loop.
     Phases,
     Thrust,
-    /// The impulses of the thrusters.
     Impulse,
     Propellant,
-    /// The energies of the bodies, a figure for each.
+    /// A figure per body.
     Energies,
-    /// The changes of the energies of the bodies, a figure for each with bands.
+    /// A figure per body with bands.
     Changes,
-    /// The energy transfer between body and wheels: over time, against each other, and its spectrum.
+    /// Over time and as a spectrum.
     Transfer,
-    /// The drift of the balances, in several figures.
+    /// Several figures.
     Drift,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub struct ListedFigure {
     pub shows: Shows,
-    /// Its title; where there is one for each wheel or body, its beginning.
+    /// Title, or its beginning if there is one per wheel or body.
     pub title: &'static str,
-    /// What is along its vertical axis.
+    /// Quantity of the vertical axis.
     pub quantity: &'static str,
     pub hue: Hue,
-    /// Whether a scene calls for it at a place.
+    /// Whether a scene calls for it.
     called: fn(&Traits, Place) -> bool,
-    /// The observables and quantities over time whose requirements call for it too, and have their limits in it.
+    /// Observables whose requirements call for it too; their limits are drawn.
     pub judged_by: &'static [&'static str],
 }
 
 impl ListedFigure {
-    /// Whether a requirement is about what it shows.
+    /// Whether a requirement is on it.
     pub fn is_asked(&self, traits: &Traits) -> bool {
         traits.asked(self.judged_by)
     }
 }
 
-/// The figures of scenes like `traits` at `place`, in their order.
+/// The figures of a scene at `place`, in order.
 pub fn figures_of(traits: &Traits, place: Place) -> impl Iterator<Item = &'static ListedFigure> {
     FIGURES.iter().filter(move |figure| (figure.called)(traits, place) || figure.is_asked(traits))
 }
 
 const XYZ: &[&str] = &["x", "y", "z"];
 const WXYZ: &[&str] = &["w", "x", "y", "z"];
-/// Requirements about energies, which a loop has no figures of otherwise.
+/// Energies with requirements; a loop has no other energy figures.
 const ENERGIES: &[&str] = &[
     "energy_body_j",
     "energy_body_initial_j",
@@ -180,12 +172,9 @@ const ENERGIES: &[&str] = &[
 ];
 const CHANGES: &[&str] = &["exchange_body_j", "exchange_{wheel}_j"];
 const FREE: fn(&Traits, Place) -> bool = |scene, _| !scene.has_loop;
-/// The same, on the page alone, or in plots alone.
 const FREE_ON_PAGE: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Page;
 const FREE_IN_PLOT: fn(&Traits, Place) -> bool = |scene, place| !scene.has_loop && place == Place::Plot;
-/// On an orbit.
 const ON_ORBIT: fn(&Traits, Place) -> bool = |scene, _| scene.orbit;
-/// The loop estimates where the debris is.
 const ESTIMATED_DEBRIS: fn(&Traits, Place) -> bool = |scene, _| scene.estimates && scene.approaches;
 
 type Called = fn(&Traits, Place) -> bool;
@@ -199,7 +188,7 @@ const fn figure(
     ListedFigure { shows, title, quantity, hue, called, judged_by }
 }
 
-/// Every figure, in the order of the page.
+/// All figures, in page order.
 #[rustfmt::skip]
 pub const FIGURES: &[ListedFigure] = {
     use Shows::*;
@@ -271,7 +260,7 @@ pub const FIGURES: &[ListedFigure] = {
         figure(Impulse, ("Impulse of the thrusters", "impulse", Hue::Curve(0)), |scene, _| scene.fires,
             &["impulse_n_s", "impulse_total_n_s"]),
         figure(Propellant, ("Propellant used", "mass", Hue::Total), |scene, _| scene.fires, &["propellant_kg"]),
-        // energies: where nothing is controlled, or where they are asked for
+        // energies: for free motion or by requirement
         figure(One(Series::AngularMomentumSquare), ("Angular momentum about the centre of mass", "momentum",
             Hue::Body), FREE_IN_PLOT, &[]),
         figure(One(Series::LinearMomentumSquare), ("Linear momentum in F_e", "momentum", Hue::Body), FREE_IN_PLOT, &[]),
@@ -289,7 +278,7 @@ pub const FIGURES: &[ListedFigure] = {
 mod tests {
     use super::*;
 
-    /// Law: no two rows have one title, and the limit that a row of wheels states is of the quantity that it shows.
+    /// Law: titles are unique, and the limit of a wheel row has the unit of its series.
     #[test]
     fn rows_say_what_they_show() {
         let names = [Name::new("w1").expect("a name")];

@@ -1,4 +1,4 @@
-//! The ground track: where on the Earth the run passes, in light and in shadow.
+//! The ground track, in sunlight and in shadow.
 
 use crate::ensemble::surroundings::{self, Surroundings};
 use crate::report::figure::{Axis, Figure, FigureSection, Hue, Mark, PointShape};
@@ -6,11 +6,11 @@ use crate::report::over_time::curves::Curves;
 use crate::report::over_time::figure_list::ListedFigure;
 use crate::run::StateField;
 
-/// Coordinates are rounded to multiples of this, deg: they take less space on a page.
+/// Rounding of coordinates, deg, to save space on the page.
 const UNIT: f64 = 1.0 / 1024.0;
 
 impl Curves<'_> {
-    /// The track of the run, a dot for each of its points; `None` where there is none.
+    /// A dot for each point of the run; `None` without a dated orbit.
     pub(super) fn ground_track(&self, listed: &ListedFigure) -> Option<Figure> {
         let (run, times) = (self.run?, self.times());
         let (around, hidden) = (Surroundings::of(&run.scene)?, surroundings::hidden(run, times.len())?);

@@ -1,4 +1,4 @@
-//! The limits in figures over time: those of requirements, and those of actuators.
+//! Limits in figures over time, of requirements and of actuators.
 
 use crate::campaign::{Plan, ShownUnit};
 use crate::findings::number::typeset;
@@ -6,15 +6,14 @@ use crate::findings::requirement::limit_text;
 use crate::report::figure::Mark;
 use crate::report::page::readable::with_unit;
 
-/// A limit that is larger than the values by this factor is outside of the axis, and named at its edge.
+/// Limits beyond this multiple of the values are named at the edge of the axis.
 const FAR: f64 = 3.0;
-/// A limit that is smaller than the largest value by this factor is on an axis by decades: on a linear one it would be
-/// on the axis.
+/// Limits this many times below the largest value need a logarithmic axis.
 const SMALL: f64 = 30.0;
-/// Where values vary by less than this fraction of the largest, an axis from zero would hide how.
+/// Values that vary by less than this fraction of the largest get an axis that excludes zero.
 const VARIES: f64 = 0.5;
 
-/// The limits of the requirements on `names`; `unit` is that of the figure, as the plan computes with it.
+/// The limits of the requirements on `names`; `unit` is that of the plan.
 pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) -> Vec<Mark> {
     let names: Vec<String> = names.collect();
     let mut marks: Vec<Mark> = Vec::new();
@@ -35,8 +34,7 @@ pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) ->
     marks
 }
 
-/// The limits of actuators, a line for each value, with it in the unit `shown`: those of all alike have no name of an
-/// actuator. `signed`: also below zero.
+/// A line per distinct actuator limit in the unit `shown`, named unless common to all. `signed`: also below zero.
 pub fn of_actuators(limits: &[(String, f64)], shown: &ShownUnit, signed: bool) -> Vec<Mark> {
     let finite: Vec<&(String, f64)> = limits.iter().filter(|(_, at)| at.is_finite() && *at > 0.0).collect();
     let mut values: Vec<f64> = finite.iter().map(|(_, at)| *at).collect();
@@ -53,8 +51,7 @@ pub fn of_actuators(limits: &[(String, f64)], shown: &ShownUnit, signed: bool) -
     values.into_iter().flat_map(mark).collect()
 }
 
-/// The range of an axis by decades, where a limit is far below the largest of positive values; `None` where a linear
-/// axis shows it.
+/// The range of a logarithmic axis, if a limit is far below the largest of positive values.
 pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
     let largest = marks.iter().map(Mark::largest).fold(0.0, f64::max);
     let limits = marks.iter().filter_map(|mark| match mark {
@@ -71,8 +68,8 @@ pub fn decades(marks: &[Mark]) -> Option<[f64; 2]> {
     (SMALL * least < largest && largest.is_finite() && !is_signed).then(|| [least / SMALL, 1.5 * largest])
 }
 
-/// The range of the vertical axis of `marks`: from zero where no value is negative and they vary, or belong to a loop,
-/// with the limits that are near; `None` where values alone say it.
+/// The vertical range with near limits, from zero if no value is negative and they vary or a loop controls them; `None`
+/// if the values suffice.
 pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut take = |values: &[f64]| {
@@ -106,7 +103,7 @@ pub fn range(marks: &[Mark], is_controlled: bool) -> Option<[f64; 2]> {
     let top = near.iter().fold(high, |top, at| top.max(*at));
     let bottom = near.iter().fold(low, |bottom, at| bottom.min(*at));
     let bottom = if is_positive { bottom.min(0.0) } else { bottom };
-    // an axis may end with a limit: that is drawn at its edge
+    // a limit at the end is drawn on the edge
     let free = 0.04 * (top - bottom);
     Some([
         if is_positive || near.contains(&bottom) { bottom } else { bottom - free },
@@ -127,8 +124,8 @@ mod tests {
         Mark::Limit { label: String::new(), at, vertical: false }
     }
 
-    /// Law: an axis of positive quantities begins at zero, has the limits that are near and all values, and one of a
-    /// free motion that hardly varies is its own.
+    /// Law: an axis of positive quantities begins at zero and contains all values and near limits; nearly constant
+    /// values of free motion get their own range.
     #[test]
     fn axes_have_what_matters() {
         let of = |y: &[f64], limits: &[f64], is_controlled| {

@@ -1,7 +1,5 @@
-//! Figures over time, of the page and of `simulate --plot`.
-//!
-//! [`figure_list`]: which figures a scene gets. [`curves`]: the nominal run and the bands of the ensemble as marks;
-//! `states`, `control`, `energies`, `ground_track` and `drift`: what the figures show. `limits`: the limits in them.
+//! Figures over time, for the page and for `simulate --plot`: [`figure_list`] selects them, [`curves`] draws runs and
+//! bands.
 
 pub mod control;
 pub mod curves;

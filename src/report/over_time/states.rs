@@ -1,4 +1,4 @@
-//! States over time, component by component, in plots of one run.
+//! Components of states over time, in plots of one run.
 
 use crate::report::figure::{Axis, Dash, Figure, Hue, Mark};
 use crate::report::over_time::curves::{Curves, over_time};
@@ -6,8 +6,7 @@ use crate::report::over_time::figure_list::ListedFigure;
 use crate::run::StateField;
 
 impl Curves<'_> {
-    /// The components of `field`, by the names `components`; of wheels all of them. One that is zero throughout, as
-    /// those of a part that the scene does not have, has no curve.
+    /// The `components` of `field`, or all wheels. Components that are always zero, as of missing parts, get no curve.
     pub(super) fn state(&self, listed: &ListedFigure, field: StateField, components: &[&str]) -> Figure {
         let wheels = self.wheels.iter().enumerate().map(|(wheel, name)| (name.to_string(), Hue::Wheel(wheel)));
         let named = components.iter().enumerate().map(|(index, name)| ((*name).to_owned(), Hue::Curve(index)));

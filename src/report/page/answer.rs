@@ -1,5 +1,5 @@
-//! What the page answers first, as static HTML: name and verdict, what has to be known before any number, and one table
-//! with a row a requirement, or a row an outcome where nothing is required.
+//! The first screen of the page as static HTML: name, verdict, warnings, and a table of requirements, or of outcomes if
+//! nothing is required.
 
 use crate::analysis::survey::Survey;
 use crate::campaign::{Plan, Statement};
@@ -10,22 +10,22 @@ use crate::report::escaped::escaped;
 use crate::report::figure::Figure;
 use crate::report::page::pictures::{self, HATCH};
 
-/// A requirement as an example, where the file has none.
+/// Example for files without requirements.
 const EXAMPLE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9";
-/// Most outcomes in the table where nothing is required.
+/// Maximum number of outcomes without requirements.
 const MOST_OUTCOMES: usize = 8;
 
-/// A text of a finding as it is shown.
+/// A text of a finding as HTML.
 pub fn text(said: &str) -> String {
     escaped(&typeset(said))
 }
 
-/// A sentence of a finding as it is shown, with its end; keys of the file in it as code.
+/// A sentence of a finding as HTML with its full stop; keys become code.
 pub fn full(said: &str) -> String {
     let said = text(sentence(said).trim_end_matches('.'));
     let word = |word: &str| {
         let key = word.trim_matches(|letter: char| !letter.is_ascii_alphanumeric());
-        // names of frames, as F_e, are no keys
+        // frames such as F_e are no keys
         match key.contains('_') && key.len() > "omega_es".len() {
             true => word.replace(key, &format!("<code>{key}</code>")),
             false => word.to_owned(),
@@ -34,7 +34,7 @@ pub fn full(said: &str) -> String {
     format!("{}.", said.split(' ').map(word).collect::<Vec<_>>().join(" "))
 }
 
-/// A shape of its own for each verdict: a disc with a tick, a square with a cross, a diamond with a question mark.
+/// The shape of a verdict: a disc with a tick, a square with a cross, a diamond with a question mark.
 const fn shape(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => r#"<circle cx="12" cy="12" r="11"/><path class="sign" d="M6 12.5l4 4 8-9"/>"#,
@@ -50,7 +50,7 @@ const fn shape(verdict: Verdict) -> &'static str {
     }
 }
 
-/// Its class in the style sheet.
+/// CSS class.
 const fn class(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "pass",
@@ -59,7 +59,7 @@ const fn class(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What stands in the title of the browser's tab: the verdict on all, or that most runs have no numbers.
+/// For the browser's tab: the overall verdict, or that most runs have no numbers.
 pub fn word(found: &Findings, survey: &Survey) -> Option<&'static str> {
     let lost = is_mostly_lost(survey).then_some("NOT COMPUTED");
     found.verdict.map(Verdict::word).or(lost)
@@ -116,7 +116,7 @@ pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
     )
 }
 
-/// What comes before every number: warnings, and which runs were not computed, why, and the command that replays one.
+/// Warnings, and the lost runs with reasons and replay commands.
 pub fn first(found: &Findings) -> String {
     let warning = |one: &Finding| format!("<p><b>{}:</b> {}</p>", escaped(&one.title), full(&one.sentence));
     let mut lines: String = found.of(Kind::Warning).map(warning).collect();
@@ -135,14 +135,13 @@ fn reason(one: &Finding) -> String {
     format!("<b>{}</b>: {}.{notes}{command}", text(&one.title), text(one.sentence.trim_end_matches('.')))
 }
 
-/// A row of the table of answers.
+/// A row of the table.
 struct Row<'f> {
     finding: &'f Finding,
-    /// How its outcome is distributed.
     outcome: Option<&'f Finding>,
-    /// The large figure: of its outcome, or over time of what has to hold at each time.
+    /// The large figure: of the outcome, or over time for a band.
     figure: Option<&'f Figure>,
-    /// Whether no single run meets or misses the requirement.
+    /// Whether no single run can violate the requirement.
     is_of_mean: bool,
     drivers: Vec<&'f Finding>,
 }
@@ -189,7 +188,7 @@ impl<'f> Row<'f> {
         )
     }
 
-    /// The outcome as a small picture, and its numbers below.
+    /// The outcome as a small picture with its numbers.
     fn picture(&self) -> String {
         let yes = self.outcome.and_then(|one| one.number("yes"));
         let picture = match (yes, self.figure) {
@@ -230,8 +229,8 @@ impl<'f> Row<'f> {
     }
 }
 
-/// The table of answers: a row a requirement, nearest to its limit first, else a row an outcome, and an example of a
-/// requirement; then what the verdicts say together, and what else the numbers leave unsaid.
+/// The table of requirements, nearest to the limit first, or of outcomes with an example requirement; then the remarks
+/// on verdicts and numbers.
 pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     let has_verdicts = found.verdict.is_some();
     let outcomes = || found.of(Kind::Outcome).filter(|one| one.rank == 0 && !one.numbers.is_empty());
@@ -286,8 +285,7 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     )
 }
 
-/// How runs and missions ended, and how well they were computed, in a line each. `is_off`: errors are above what the
-/// tolerance promises.
+/// Ends of runs and missions, and accuracy, one line each. `is_off`: errors exceed the promise of the tolerance.
 pub fn ended(found: &Findings, nominal_end: Option<&str>, is_off: bool) -> String {
     let above = match is_off {
         true => ": <b>above what the tolerance promises</b>, see <a href=\"#numerics\">Numerics</a>",

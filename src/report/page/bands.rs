@@ -1,17 +1,16 @@
-//! [`time_bands`]: the bands of a campaign as figures over time need them.
+//! [`time_bands`]: the bands of a campaign for figures over time.
 
 use crate::ensemble::Bands;
 use crate::report::over_time::curves::{FEWEST, TimeBands};
 
-/// Quantiles of the bands of the page.
 const BANDS: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
-/// The quantiles of each series at each time, where enough runs have a value.
+/// Quantiles of each series at each time with enough runs.
 pub fn time_bands(bands: &Bands) -> Vec<TimeBands> {
     let points = bands.times().len();
     let count = |series: usize, point: usize| bands.count(series, point);
     let all = 0..bands.layout().series.len();
-    // some series are null in some phases; those of the motion never are
+    // the motion has values in all phases, other series may not
     let in_flight = |point: usize| all.clone().map(|series| count(series, point)).max().unwrap_or(0);
     let in_flight: Vec<u64> = (0..points).map(in_flight).collect();
     let values = |series: usize, point: usize| {

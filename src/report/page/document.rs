@@ -1,5 +1,5 @@
-//! The page as one file: static HTML first, then numbers, libraries and scripts. Nothing is loaded from anywhere, and a
-//! content security policy in the page forbids it.
+//! The page as one file: static HTML, then numbers, libraries and scripts. Nothing is loaded from elsewhere; a content
+//! security policy enforces this.
 
 use serde_json::Value;
 
@@ -8,12 +8,11 @@ use crate::report::page::payload::{encoded, packed};
 
 const STYLE: &str = include_str!("../../../assets/report/page.css");
 const LICENCES: &str = include_str!("../../../assets/report/vendor/licences.txt");
-/// The library of charts, compressed.
+/// The chart library, compressed.
 pub(in crate::report) static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js.gz");
 static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
 
-/// The modules of the page, each after those that it imports: they are put into one script, without their imports and
-/// exports.
+/// The modules of the page in import order, to be joined into one script without imports and exports.
 const MODULES: [(&str, &str); 18] = [
     ("numbers.js", include_str!("../../../assets/report/numbers.js")),
     ("theme.js", include_str!("../../../assets/report/theme.js")),
@@ -35,7 +34,7 @@ const MODULES: [(&str, &str); 18] = [
     ("main.js", include_str!("../../../assets/report/main.js")),
 ];
 
-/// What no script may load: everything but what is in the page.
+/// Restricts scripts to the contents of the page.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
     base-uri 'none'; form-action 'none'";
 
@@ -43,21 +42,19 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 pub struct PageSection {
     pub anchor: &'static str,
     pub title: &'static str,
-    /// What it answers, in a sentence.
+    /// Summary in one sentence.
     pub lead: String,
     pub html: String,
-    /// Whether figures are put into it.
     pub has_figures: bool,
-    /// Whether figures and content are folded away, and then whether that is open at first.
+    /// Whether the content is folded, and initially open.
     pub fold: Option<bool>,
 }
 
-/// The modules as one script.
 fn script() -> String {
     script_of(&MODULES.map(|(name, _)| name))
 }
 
-/// The modules of these names, each after those that it imports, as one script without imports and exports.
+/// The named modules as one script, without imports and exports.
 pub(in crate::report) fn script_of(names: &[&str]) -> String {
     let line = |line: &str| {
         let line = line.strip_prefix("export ").unwrap_or(line);
@@ -68,11 +65,9 @@ pub(in crate::report) fn script_of(names: &[&str]) -> String {
     format!("\"use strict\";\n{text}")
 }
 
-/// The whole page. `numbers` is a compressed payload, `data` says what is where in it.
-///
-/// `title` is that of the browser's tab.
+/// The whole page. `data` locates the numbers in the compressed payload `numbers`; `title` is that of the tab.
 pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
-    // a page of figures alone has no answers
+    // pages of figures alone have no verdicts
     let answers = first_screen.contains("id=\"verdicts\"").then_some(("verdicts", "Verdicts"));
     let links: String = answers
         .into_iter()
@@ -126,7 +121,7 @@ pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data:
 mod tests {
     use super::*;
 
-    /// Law: the modules do not end the script that they are in, are in the order of their imports, and share no name.
+    /// Law: the modules do not end their script element, stand in import order, and share no name.
     #[test]
     fn the_modules_make_one_script() {
         let text = script();

@@ -1,4 +1,4 @@
-//! Figures of the numerical errors: histograms, exceedance, estimate against audited error, work.
+//! Figures of numerical errors: histograms, exceedance, estimates against audits, steps.
 
 use crate::analysis::bins::{bins, counts};
 use crate::analysis::order_statistics::share_interval;
@@ -10,21 +10,19 @@ use crate::run::Status;
 use crate::statistics::quantile::percent;
 use crate::statistics::sketch::{Sketch, middle};
 
-/// In place of what an interval is, where there is none.
+/// Replaces the interval's description if there is none.
 pub const NO_INTERVAL: &str = "No interval: these runs are no random part of all.";
-/// Fewer runs than this have no distribution to be seen.
+/// Fewest runs for a distribution.
 const FEWEST_RUNS: u64 = 8;
-/// Errors with figures of their own.
+/// Maximum number of errors with figures.
 const MOST_ERRORS: usize = 8;
-/// Steps of the ranks of an exceedance plot: this many to a factor of ten.
+/// Points per decade of rank in an exceedance plot.
 const RANKS_PER_DECADE: f64 = 12.0;
 
-/// How much smaller than the largest the smallest value of an exceedance plot is: runs without any error would lengthen
-/// its axis by three hundred decades.
+/// Dynamic range of an exceedance plot: exact runs would add three hundred decades.
 const TAIL_RANGE: f64 = 1e12;
 
-/// Histogram and exceedance of each error, estimate against truth, steps. `has_intervals`: whether the runs are
-/// independent.
+/// Histogram and exceedance of each error, estimates against audits, steps. `has_intervals`: the runs are independent.
 pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
     if survey.statuses.ok() < FEWEST_RUNS {
@@ -39,14 +37,14 @@ pub fn figures(survey: &Survey, has_intervals: bool) -> Vec<Figure> {
         figures.push(exceedance(outcome, has_intervals));
     }
     figures.extend(audits(survey));
-    // as many in all runs, as a fixed step takes, have no distribution
+    // a constant number of steps has no distribution
     let steps = survey.outcome("steps").filter(|(_, steps)| steps.sketch.min() != steps.sketch.max());
     figures.extend(steps.map(|steps| histogram(survey, steps, FigureSection::Numerics, &[])));
     figures.retain(Figure::is_visible);
     figures
 }
 
-/// How many of how many runs a figure is of.
+/// "100 runs", "50 of 100 runs, chosen by sample number".
 pub fn of_runs(shown: usize, all: u64) -> String {
     if shown as u64 == all {
         format!("{} runs", all)
@@ -55,8 +53,7 @@ pub fn of_runs(shown: usize, all: u64) -> String {
     }
 }
 
-/// How many dispersed runs have a value, `shown` of them in a figure, and how many were computed, where others have
-/// none.
+/// The number of dispersed runs with a value, of computed runs if others lack it, and of runs shown.
 pub fn having(survey: &Survey, values: &Sketch, shown: usize) -> String {
     let computed = computed(survey);
     match values.count() {
@@ -68,7 +65,7 @@ pub fn having(survey: &Survey, values: &Sketch, shown: usize) -> String {
     }
 }
 
-/// The runs that have a value, of those that were computed where others have none, in words that follow "of".
+/// As [`having`], in words that follow "of".
 pub fn all_having(survey: &Survey, values: &Sketch) -> String {
     let (count, computed) = (values.count(), computed(survey));
     match count < computed {
@@ -77,13 +74,13 @@ pub fn all_having(survey: &Survey, values: &Sketch) -> String {
     }
 }
 
-/// How many runs were computed that count: the dispersed ones, or the only one.
+/// Number of computed runs that count: the dispersed ones, or the only one.
 pub fn computed(survey: &Survey) -> u64 {
     let is_alone = survey.statuses.runs() == 1;
     survey.statuses.ok() - u64::from(survey.statuses.has_nominal() && !is_alone)
 }
 
-/// The dispersed runs of the thinned table that are ok: their rows.
+/// Rows of the thinned table: dispersed and ok.
 pub fn shown_rows(survey: &Survey) -> Vec<usize> {
     let thinned = &survey.thinned;
     let is_alone = survey.statuses.runs() == 1;
@@ -92,7 +89,7 @@ pub fn shown_rows(survey: &Survey) -> Vec<usize> {
         .collect()
 }
 
-/// The histogram of an outcome over the thinned table; of an error, of its magnitude. `limits` are those on it.
+/// The histogram of an outcome over the thinned table; of the magnitude of an error. Its axis includes `limits`.
 pub fn histogram(
     survey: &Survey,
     (index, outcome): (usize, &SurveyedOutcome),
@@ -120,11 +117,11 @@ pub fn histogram(
     }
     let axis = if is_log { Axis::log } else { Axis::linear };
     let what = magnitude(outcome);
-    // the meaning of a column that the file defines is in its own names, which the glossary has
+    // derived columns are described by other column names, which only the glossary explains
     let meaning = outcome.quantity.meaning();
     let is_name = |word: &str| word.contains('_') && word.len() > "(F_e).".len();
     let meaning = if meaning.split_whitespace().any(is_name) { "" } else { meaning };
-    // how many runs have no value is a number here, not a clause
+    // the caption counts the missing values
     let meaning = meaning.split_once("; null if").map_or(meaning.to_owned(), |(meaning, _)| format!("{meaning}."));
     let caption = format!("{}. {meaning}", having(survey, &outcome.sketch, values.len())).trim_end().to_owned();
     Figure::of(
@@ -135,14 +132,13 @@ pub fn histogram(
     )
 }
 
-/// What an axis of an outcome says: of errors that have a sign, that it shows their magnitudes.
+/// Axis label of an outcome; signed errors are shown as magnitudes.
 pub fn magnitude(outcome: &SurveyedOutcome) -> String {
     let (column, name) = (outcome.quantity.name(), names::of_quantity(&outcome.quantity));
     let has_sign = outcome.is_error && !["_max", "_estimate"].iter().any(|end| column.ends_with(end));
     if has_sign { format!("|{name}|") } else { name }
 }
 
-/// What an interval of this confidence is called.
 pub fn interval_label(confidence: f64) -> String {
     format!("{}% interval", percent(confidence))
 }
@@ -150,8 +146,8 @@ pub fn interval_label(confidence: f64) -> String {
 /// Values, fractions, and the ends of their intervals.
 pub type Curve = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 
-/// The fraction of the runs that have at most the value of each of the ranks, or, counted from the largest value, at
-/// least that; the ends of its interval wherever lost runs are. By ascending value, those above `least`.
+/// The fraction of runs with at most (or `is_from_largest`, at least) the value at each rank, with intervals that allow
+/// for lost runs. Only values above `least`, ascending.
 pub fn curve(outcome: &SurveyedOutcome, ranks: impl Iterator<Item = u64>, is_from_largest: bool, least: f64) -> Curve {
     let (count, sketched) = (outcome.sketch.count(), outcome.sketch.ranks());
     let mut found = Curve::default();
@@ -167,14 +163,14 @@ pub fn curve(outcome: &SurveyedOutcome, ranks: impl Iterator<Item = u64>, is_fro
     found
 }
 
-/// A curve of fractions called `label`, with the band of its intervals where there are some.
+/// A curve of fractions, with a band if `has_intervals`.
 pub fn with_band(outcome: &SurveyedOutcome, label: &str, (x, y, low, high): Curve, has_intervals: bool) -> Vec<Mark> {
     let interval = interval_label(outcome.confidence);
     let band = has_intervals.then(|| Mark::area(interval, (Hue::Total, 0.15), x.clone(), [low, high]));
     band.into_iter().chain([Mark::line(label, Hue::Total, Dash::Solid, x, y)]).collect()
 }
 
-/// The fraction of runs above a value, on logarithmic axes, at ranks spaced by decades.
+/// The fraction of runs above a value on logarithmic axes, at logarithmically spaced ranks.
 fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let count = outcome.sketch.count();
     let rank = |k: u32| libm::pow(10.0, f64::from(k) / RANKS_PER_DECADE) as u64;
@@ -197,7 +193,7 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     Figure::of(FigureSection::Numerics, said, [x, Axis::log("fraction of runs", "")], marks)
 }
 
-/// The estimate of a run's error against its audit.
+/// Error estimates against audits.
 fn audits(survey: &Survey) -> Option<Figure> {
     let shown: Vec<&[f64; 3]> = survey.audits.iter().filter(|audit| audit[1] > 0.0 && audit[2] > 0.0).collect();
     let ends = shown
@@ -224,15 +220,13 @@ fn audits(survey: &Survey) -> Option<Figure> {
     Some(Figure::of(FigureSection::Numerics, said, axes, marks))
 }
 
-/// Whether the balance of any run is off by more than the tolerance that its method follows explains, or the error of
-/// its state is estimated to be seen.
+/// Whether any run's balance error exceeds the tolerance of its method, or its estimated state error is visible.
 pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
     /// A thousandth of a degree.
     const SEEN: f64 = 2e-5;
-    /// The tolerance bounds the error of one step, and a balance shows what all steps of a run have left. In the worst
-    /// of 1,000 runs of `assets/start.toml`, of five steps each, that is 1.2 to 2.7 times the tolerance, for tolerances
-    /// of 1e-15 to 1e-12. The roundings of N steps leave about 3e-16 sqrt(N) (`tests/accuracy/round_off.rs`): ten times
-    /// 1e-14 after 1e5 steps.
+    /// The tolerance bounds one step, a balance accumulates all. The worst of 1,000 runs of `assets/start.toml`, of
+    /// five steps each, reaches 1.2 to 2.7 times the tolerance, for tolerances of 1e-15 to 1e-12. Rounding of N steps
+    /// leaves about 3e-16 sqrt(N) (`tests/accuracy/round_off.rs`): ten times 1e-14 after 1e5 steps.
     const STEPS: f64 = 10.0;
     let tolerance = if plan.method.has_fixed_step() { SEEN } else { STEPS * plan.tolerance.relative };
     survey.outcomes.iter().filter(|outcome| outcome.is_error).any(|outcome| {

@@ -1,21 +1,21 @@
-//! [`Fate`]: whether a run is as the campaign wants it, by which figures colour their runs.
+//! [`Fate`]: success of a run, for the colours of figures.
 
 use crate::analysis::survey::{FAILURE, Survey};
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::run::Status;
 
-/// What became of a run, by the limits that a figure is about.
+/// The fate of a run with regard to the limits of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// It is within all limits, or nothing is required of it.
+    /// Within all limits.
     Met,
-    /// It misses the limit of a requirement on runs, or, by all that the campaign wants, its mission failed.
+    /// Violates a requirement on runs, or its mission failed.
     Missed,
     NotComputed,
 }
 
 impl Fate {
-    /// Its number in the page.
+    /// Code in the page.
     pub const fn place(self) -> f64 {
         match self {
             Fate::Met => 0.0,
@@ -25,20 +25,18 @@ impl Fate {
     }
 }
 
-/// What became of each run of the thinned table, by all that the campaign wants: for figures about all requirements
-/// together.
+/// The fate of each run of the thinned table by all requirements.
 pub fn fates(plan: &Plan, survey: &Survey) -> Vec<Fate> {
     let failure = survey.outcome(FAILURE).map(|(index, _)| &survey.thinned.outcomes[index][..]);
     judged(survey, &limits(plan, survey, |_| true), failure)
 }
 
-/// The same by the limits on the outcome `name` alone: in a figure about it a run that misses another requirement is
-/// none that failed.
+/// As [`fates`], by the limits on the outcome `name` only.
 pub fn of_outcome(plan: &Plan, survey: &Survey, name: &str) -> Vec<Fate> {
     judged(survey, &limits(plan, survey, |one| one.observable() == Some(name)), None)
 }
 
-/// What the fates are called, by their places: of a campaign without requirements they are those of its missions.
+/// Labels of the fates in order; without requirements they describe missions.
 pub fn words(plan: &Plan) -> [&'static str; 3] {
     match plan.analysis.requirements.is_empty() {
         true => ["mission did not fail", "mission failed", "not computed"],
@@ -46,7 +44,7 @@ pub fn words(plan: &Plan) -> [&'static str; 3] {
     }
 }
 
-/// What the runs miss that miss a limit on the outcome `name`: the only one, or one of several.
+/// The violated limit on the outcome `name` in words.
 pub fn limit_word(plan: &Plan, name: &str) -> &'static str {
     let all = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
     let limits = all.map(|one| (one.limit, one.never_meets));
@@ -55,13 +53,13 @@ pub fn limit_word(plan: &Plan, name: &str) -> &'static str {
     if is_one { "its limit" } else { "a limit" }
 }
 
-/// The limits of the requirements that are wanted, each with the values of its observable.
+/// The selected requirements, each with the values of its observable.
 fn limits<'s, 'p>(
     plan: &'p Plan,
     survey: &'s Survey,
     is_wanted: impl Fn(&Requirement) -> bool,
 ) -> Vec<(&'s [f64], &'p Requirement)> {
-    // a mean is no limit of single runs, and a band is at one time
+    // neither a mean nor a band limits single runs
     let is_of_runs = |one: &&Requirement| one.statement != Statement::Mean && one.band().is_none() && is_wanted(one);
     let of_column = |one: &'p Requirement| {
         let (index, _) = survey.outcome(one.observable()?)?;

@@ -1,20 +1,17 @@
-//! What the page needs to draw a [`Figure`] (`assets/report/chart.js`); numbers go to its payload.
+//! A [`Figure`] as JSON for `assets/report/chart.js`; its numbers go to the payload.
 
 use serde_json::{Value, json};
 
 use crate::report::figure::{Axis, Figure, Hue, Mark, PointShape, Scale};
 use crate::report::page::payload::Payload;
 
-/// Opacity of bars.
 const BAR: f64 = 0.55;
 
-/// Opacity of bars in a colour: those of runs that miss a requirement stand in front of all runs, and are not mixed
-/// with their colour.
+/// Bars of violating runs stand in front of all runs and are opaque.
 fn bar_opacity(hue: Hue) -> f64 {
     if hue == Hue::Failed { 1.0 } else { BAR }
 }
 
-/// What the page needs to draw `figure`.
 pub(in crate::report) fn json_of(figure: &Figure, payload: &mut Payload) -> Value {
     let marks: Vec<Value> = figure.marks.iter().map(|one| mark(one, payload)).collect();
     json!({

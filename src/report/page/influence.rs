@@ -1,5 +1,4 @@
-//! Figures of what decides the outcomes: shares of the variance with intervals, an outcome against its drivers, and the
-//! share of the runs in which an event occurs against them.
+//! Figures of drivers: shares of the variance, outcomes against drivers, conditional probabilities of events.
 
 use crate::analysis::drivers::{Question, Ranking};
 use crate::analysis::event::{Event, distinct};
@@ -18,17 +17,16 @@ use crate::report::page::fates::{self, Fate};
 use crate::run::Quantity;
 use crate::statistics::correlation::ascending_order;
 
-/// Inputs of a chart, at most; and at least, where there are so many: the strongest of those that are no drivers stand
-/// beside them.
+/// Maximum and minimum number of inputs in a chart; the strongest others fill it up.
 const MOST_INPUTS: usize = 12;
 const FEWEST_INPUTS: usize = 6;
-/// Drivers against which an outcome is plotted.
+/// Plotted drivers per ranking.
 const PLOTTED: usize = 2;
-/// Classes of an input with many values, of equally many runs; one with no more values has a class for each.
+/// Classes of equally many runs for an input with more values.
 const CLASSES: usize = 6;
 
-/// For each ranking with a driver the outcome against its strongest drivers, each once, and the shares of all inputs.
-/// Runs that miss several requirements are ranked once.
+/// For each ranking with drivers: the outcome against the strongest ones, and the shares of all inputs. Identical
+/// rankings of several requirements appear once.
 pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_intervals: bool) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
     let mut seen: Vec<Vec<(String, [u64; 3])>> = Vec::new();
@@ -50,7 +48,7 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
                     Question::Event(event) => conditional(plan, survey, input, (index, outcome), event, has_intervals),
                     Question::Spread => None,
                 };
-                // yes or no against a number says less than the shares
+                // a scatter plot of yes or no adds nothing
                 let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
                 let scatter = is_plotted.then(|| scatter(plan, survey, input, index, outcome)).filter(is_spread);
                 for figure in against.into_iter().chain(scatter) {
@@ -59,7 +57,7 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
                     }
                 }
             }
-            // too few runs have no shares, or show nothing of them
+            // skip uninformative shares
             let is_known =
                 |(_, share): &(String, [f64; 3])| share[0].is_finite() && !(share[1] <= 0.0 && share[2] >= 1.0);
             if shares.iter().any(is_known) {
@@ -71,7 +69,7 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
     figures
 }
 
-/// The share of each input with the ends of its interval, NaN where there is none, in the order of the ranking.
+/// The share of each input with its interval, NaN if unknown, in ranking order.
 fn shares(ranking: &Ranking<'_>) -> Vec<(String, [f64; 3])> {
     let of = |share: Option<crate::statistics::correlation::Estimate>| {
         share.map_or([f64::NAN; 3], |share| [share.value, share.lower, share.upper])
@@ -79,7 +77,7 @@ fn shares(ranking: &Ranking<'_>) -> Vec<(String, [f64; 3])> {
     ranking.inputs.iter().map(|one| (one.input.input.clone(), of(one.share))).collect()
 }
 
-/// Whether the points of a scatter plot differ in their abscissae.
+/// Whether a scatter plot has different abscissae.
 fn is_spread(figure: &Figure) -> bool {
     let points = figure.marks.iter().filter_map(|mark| if let Mark::Points { x, .. } = mark { Some(x) } else { None });
     let mut all = points.flatten();
@@ -94,7 +92,7 @@ fn tornado(
 ) -> Figure {
     let (all, drivers) = (shares.len(), ranking.drivers().count());
     let inputs = &shares[..all.min((drivers + 2).clamp(FEWEST_INPUTS, MOST_INPUTS))];
-    // a share is between 0 and 1, whatever its estimate is; one that is not known stays so
+    // estimates outside [0, 1] are clamped, NaN stays
     let column = |place: usize| inputs.iter().map(|(_, value)| value[place].clamp(0.0, 1.0)).collect::<Vec<f64>>();
     let columns = [0, 1, 2].map(column);
     let largest = columns.iter().flatten().copied().fold(0.0, f64::max);
@@ -139,8 +137,7 @@ fn tornado(
     .wide(4)
 }
 
-/// The share of the runs in which `event` of an outcome occurs, in classes of an input; `None` where the shown runs do
-/// not have it.
+/// The share of runs with `event` in classes of an input; `None` if the shown runs lack the event.
 fn conditional(
     plan: &Plan,
     survey: &Survey,
@@ -209,7 +206,6 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     let name = names::of_input(plan, input);
     let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
     let thinned = &survey.thinned;
-    // a run without a value of the outcome is no point
     let rows: Vec<usize> =
         shown_rows(survey).into_iter().filter(|row| thinned.outcomes[index][*row].is_finite()).collect();
     let samples: Vec<u64> = rows.iter().map(|row| thinned.samples[*row]).collect();
@@ -240,7 +236,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     let failed: Vec<usize> =
         (0..thinned.samples.len()).filter(|row| fates[*row] == Fate::NotComputed).take(SCATTER).collect();
     if !failed.is_empty() {
-        // a run that failed has no outcome: it is marked at the lower edge
+        // failed runs have no outcome: mark them at the lower edge
         let edge = if lowest.is_finite() { lowest } else { 0.0 };
         let y = vec![edge; failed.len()];
         marks.push(points(&failed, "not computed (at the lower edge)", Hue::Reference, PointShape::Cross, y));
@@ -263,7 +259,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     .wide(4)
 }
 
-/// Convergence of the median and of a high quantile of an outcome with the number of runs.
+/// Convergence of the median and a high quantile of an outcome with the number of runs.
 pub fn convergence(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let growth = &outcome.growth;
     let column = |place: usize| growth.iter().map(|row| row[place]).collect::<Vec<f64>>();

@@ -1,4 +1,4 @@
-//! The inputs, one line each: what was drawn as a small histogram, what was asked for, and the nominal value.
+//! One line per input: histogram of the draws, distribution, nominal value.
 
 use crate::campaign::Plan;
 use crate::findings::names::{self, sentence, unit_of_input};
@@ -8,7 +8,7 @@ use crate::report::figure::Figure;
 use crate::report::page::pictures::histogram;
 use crate::report::page::readable::with_unit;
 
-/// A line for each input that has a figure among `figures`; it opens to the figure.
+/// A line, which opens its figure, for each input with a figure among `figures`.
 pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
     let row = |index: usize| {
         let column = &plan.dispersions.columns()[index];

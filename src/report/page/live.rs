@@ -1,4 +1,4 @@
-//! The numbers that change while a run is replayed, and the marks on its slider.
+//! Live numbers of the replay, and the marks on its slider.
 
 use serde_json::{Value, json};
 
@@ -15,32 +15,31 @@ use crate::report::over_time::control::impulse;
 use crate::report::page::payload::Payload;
 use crate::run::StateField;
 
-/// What is smaller than this share of the largest value of a number over the run is round-off.
+/// Values below this share of the maximum over the run are rounding errors.
 const ROUND_OFF: f64 = 1e-12;
 
-/// A quantity of one or several components over time, as the replay shows it.
+/// A quantity over time, with one or more components.
 #[derive(Default)]
 struct LiveNumber {
     name: String,
-    /// The column whose unit it has: one that a requirement may be about.
+    /// Column that determines the unit.
     column: String,
     unit: &'static str,
-    /// The names of its components; one without a name is alone.
+    /// Names of the components; empty for a scalar.
     components: Vec<String>,
-    /// Whether it keeps its value until the next point: it is known at the ticks of a loop.
+    /// Held until the next point, as values at the ticks of a loop are.
     is_held: bool,
-    /// What is said in place of zero, of values between, and of one; `None` of one that is shown as a number.
+    /// Words for zero, values between, and one, instead of numbers.
     words: Option<[&'static str; 3]>,
-    /// In SI, component by component at each point.
+    /// SI, component by component at each point.
     values: Vec<f64>,
 }
 
-/// A number of a row; `None` where it has none.
 fn of_row(row: &[(String, f64)], name: &str) -> Option<f64> {
     row.iter().find(|(column, _)| column == name).map(|(_, value)| *value).filter(|value| value.is_finite())
 }
 
-/// What is shown of the first `points` points of `run`, with the place of its numbers.
+/// The quantities over the first `points` points of `run`.
 pub fn numbers(
     plan: &Plan,
     (run, row): (&SingleRun, &[(String, f64)]),
@@ -48,7 +47,6 @@ pub fn numbers(
     payload: &mut Payload,
 ) -> Vec<Value> {
     let shown = |mut number: LiveNumber| {
-        // what is only round-off beside the rest of the run is shown as the zero that it stands for
         let largest = number.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         number.values.iter_mut().filter(|value| value.abs() < ROUND_OFF * largest).for_each(|value| *value = 0.0);
         let unit = plan.analysis.display.of(&number.column, number.unit);
@@ -109,8 +107,8 @@ fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     })
 }
 
-/// Propellant used since the start, in the ratio that the row has of propellant and impulse; the impulse itself where
-/// the specific impulse is not known. `None` where no thruster fires.
+/// Propellant used, scaled from the impulse by the totals of the row, or the impulse if the specific impulse is
+/// unknown; `None` if no thruster fires.
 fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Option<LiveNumber> {
     let ratio = of_row(row, "propellant_kg").zip(of_row(row, "impulse_total_n_s"));
     let ratio = ratio.filter(|(_, impulse)| *impulse > 0.0).map(|(mass, impulse)| mass / impulse);
@@ -126,7 +124,7 @@ fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Opti
     Some(LiveNumber { name: name.to_owned(), column: column.to_owned(), unit, values: used, ..LiveNumber::default() })
 }
 
-/// Distance and speed relative to the debris, of the centres of mass.
+/// Distance and speed between the centres of mass.
 fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     let apart = |[a, b]: [StateField; 2]| -> Vec<f64> {
         (0..points).map(|point| norm(difference(run.table.at::<3>(a, point), run.table.at::<3>(b, point)))).collect()
@@ -145,7 +143,7 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     list.into_iter().filter(|_| run.request.debris).map(number).collect()
 }
 
-/// Whether the spacecraft is in the shadow of the Earth.
+/// The share of the Sun hidden by the Earth.
 fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     Some(LiveNumber {
         name: "Sunlight".to_owned(),
@@ -158,8 +156,7 @@ fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     })
 }
 
-/// The times at which the phases of a loop first began, and at which the mission or an event ended the run, with their
-/// names, by time.
+/// Times and names of the beginnings of phases, and of the end by mission or event.
 pub fn marks(plan: &Plan, row: &[(String, f64)]) -> Vec<Value> {
     let begins = |name: &str| Some((of_row(row, &format!("phase_{name}_begin_s"))?, name.to_owned()));
     let spec = plan.law.as_ref().and_then(|law| law.spec());

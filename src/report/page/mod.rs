@@ -1,17 +1,7 @@
-//! [`Page`]: the report of a campaign as one HTML file that needs no network.
+//! [`Page`]: the report of a campaign as one offline HTML file, a pure function of plan and rows.
 //!
-//! It is a pure function of the plan and the rows (and what was computed from them): the same result gives the same
-//! bytes. What is said comes from [`crate::findings`]; here it is put in order, with figures beside it.
-//!
-//! - [`answer`], `pictures`: the first screen.
-//! - `influence`, `outcomes`, `errors`: figures, with those of [`crate::report::over_time`] and
-//!   [`crate::report::inputs`].
-//! - `figure_json`: what the scripts need to draw them.
-//! - [`runs`], `replay` (with `live`, `sky`): the runs to look at.
-//! - [`tables`], `document`: the rest of the HTML.
-//! - `payload`: numbers.
-//!
-//! The scripts and styles are in `assets/report/`.
+//! [`crate::findings`] supplies the words; this module arranges them with the figures. Scripts and styles are in
+//! `assets/report/`.
 
 pub mod answer;
 mod bands;
@@ -53,22 +43,20 @@ use crate::report::inputs::DrawnInputs;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
-/// What the page is made of.
+/// The contents of the page.
 #[derive(Clone, Debug)]
 pub struct Contents<'a> {
     pub analysed: &'a Analysed,
-    /// What is said of it.
     pub found: &'a Findings,
-    /// The runs that it lists, in their order, each with why it does ([`runs::listed`]).
+    /// Listed runs in order, with reasons ([`runs::listed`]).
     pub listed: Vec<(SampleId, String)>,
-    /// Their rows.
     pub rows: Vec<KnownRow>,
     /// Names and SHA-256 of the files of the result.
     pub files: Vec<(String, String)>,
 }
 
 impl Contents<'_> {
-    /// How many runs are flown again: of a campaign of one run that one, else as many as a page has the time for.
+    /// Number of replayed runs: a single run always, else as many as the time allows.
     fn replays(&self, plan: &Plan) -> usize {
         let evaluations = self.analysed.statistics.column("evaluations").and_then(|row| row.moments.mean());
         replays(plan.rows(), evaluations.unwrap_or(0.0)).max(usize::from(plan.rows() == 1))
@@ -78,25 +66,25 @@ impl Contents<'_> {
 #[derive(Clone, Debug)]
 pub struct Page {
     pub html: String,
-    /// Its figures, in their order.
+    /// In page order.
     pub figures: Vec<Figure>,
-    /// How many of the runs that it lists it does not show, and the command that does; nothing where there is none.
+    /// Listed runs that are not replayed, with the command to replay them.
     pub left_out: Option<String>,
 }
 
-/// Whether the dispersed runs are independent, so that the intervals of order statistics hold.
+/// Whether the dispersed runs are independent: order statistics need that for intervals.
 pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
 }
 
-/// When the events of the file happen.
+/// Events of the file at their median times.
 fn event_times(plan: &Plan, statistics: &[ColumnStatistics]) -> Vec<Mark> {
     let times = statistics.iter().filter_map(|column| event_time(plan, column));
     times.map(|(label, at)| Mark::Limit { label, at, vertical: true }).collect()
 }
 
 impl Page {
-    /// The page of a campaign. Runs the nominal and the worst samples again, to show them over time.
+    /// Replays the nominal and the worst samples and assembles the page.
     pub fn new(ensemble: &Ensemble<'_>, contents: &Contents<'_>) -> Self {
         let (plan, analysed, found) = (ensemble.plan(), contents.analysed, contents.found);
         let survey = &analysed.survey;
@@ -133,7 +121,7 @@ impl Page {
     }
 }
 
-/// The figures in the order of the page, in the units that people see.
+/// The figures in page order, in display units.
 fn figures(
     ensemble: &Ensemble<'_>,
     (analysed, found): (&Analysed, &Findings),
@@ -147,7 +135,7 @@ fn figures(
     let curves = curves.among(flown).ordered_by(&required(plan, found.of(Kind::Requirement)));
     let events = event_times(plan, &statistics.columns);
     let marked = |mut figure: Figure| {
-        // rows of names, as of phases, have no place for more words
+        // rows of names leave no room for labels
         let is_marked = figure.is_over_time && !matches!(figure.y.scale, Scale::Names(_));
         figure.marks.extend(events.iter().filter(|_| is_marked).cloned());
         figure
@@ -171,8 +159,7 @@ fn figures(
     figures.into_iter().map(|figure| figure.in_units(&plan.analysis.display)).collect()
 }
 
-/// The sections after the first screen, in the order of what a reader asks next; one that has nothing to show is not
-/// there.
+/// The sections after the first screen; empty ones are omitted.
 fn sections(
     plan: &Plan,
     contents: &Contents<'_>,
@@ -250,8 +237,7 @@ fn sections(
     .collect()
 }
 
-/// What decides the outcomes: one list, the strongest first, each with the figures that show it; `None` where nothing
-/// was asked.
+/// The drivers, strongest first, with their figures; `None` if none were sought.
 fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
     let is_drawn = |name: &String| drawn.iter().any(|figure| figure.name == *name);
     let mut placed: Vec<String> = Vec::new();
@@ -277,7 +263,7 @@ fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
     if all.is_empty() {
         return None;
     }
-    // those with figures first; what was found of others, as of the same runs, follows in a line each, folded away
+    // with figures first, the rest folded into lines
     let (with, without): (Vec<String>, Vec<String>) =
         all.into_iter().map(entry).partition(|said| said.starts_with("<article"));
     let others = match with.is_empty() || without.is_empty() {
@@ -298,7 +284,7 @@ fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
     })
 }
 
-/// Columns that the reader may plot against each other: thinned, in single precision.
+/// Columns for the reader's own scatter plots: thinned, single precision.
 fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
     let thinned = &survey.thinned;
     let rows = survey::chosen(&thinned.samples, survey::SCATTER);

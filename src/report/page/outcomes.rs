@@ -1,5 +1,4 @@
-//! Figures of the outcomes: how each is distributed, and how many runs stay below a value, with limits, quantiles and
-//! their intervals.
+//! Figures of outcomes: histograms and cumulative distributions, with limits, quantiles and intervals.
 
 use crate::analysis::bins::counts;
 use crate::analysis::order_statistics::share_interval;
@@ -16,16 +15,16 @@ use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::number;
 use crate::statistics::gate::GateLimit;
 
-/// Points of a cumulative curve, at most.
+/// Maximum number of points of a cumulative curve.
 const MOST_POINTS: u64 = 400;
-/// Values up to which the curve is drawn in steps; of more none is seen.
+/// Maximum number of distinct values for a stepped curve.
 const MOST_STEPS: usize = 100;
-/// Fewer runs than this have no distribution to be seen.
+/// Fewest runs for a distribution.
 const FEWEST_RUNS: u64 = 8;
-/// Most outcomes whose cumulative curves stand beside their distributions.
+/// Up to this many outcomes have curves next to their histograms.
 const BESIDE: usize = 2;
 
-/// Distribution and cumulative curve of each outcome.
+/// Histogram and cumulative curve of each outcome.
 pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], has_intervals: bool) -> Vec<Figure> {
     let outcomes = survey.outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_outcome);
     let shown = outcomes.filter(|(_, outcome)| outcome.sketch.count() >= FEWEST_RUNS);
@@ -44,7 +43,7 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], ha
         distribution.marks.extend(missed);
         distribution.marks.extend(limits);
         let mut curve = cumulative(plan, survey, outcome, row, has_intervals);
-        // both on one kind of axis, where the values allow it
+        // use the same scale if the values allow it
         if distribution.x.scale == Scale::Log && outcome.sketch.min().is_some_and(|min| min > 0.0) {
             curve.x.scale = Scale::Log;
         }
@@ -54,11 +53,10 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], ha
     laid_out(distributions, curves)
 }
 
-/// What the names of figures of cumulative distributions begin with.
+/// Prefix of figure names.
 const CUMULATIVE: &str = "cumulative_";
 
-/// Where the cumulative curves of many outcomes are put: they are folded away. Nothing where each stands beside its
-/// distribution.
+/// A folded place for the cumulative curves of many outcomes; empty if they stand next to their histograms.
 pub fn folded_curves(drawn: &[Figure]) -> String {
     let names: Vec<&str> =
         drawn.iter().map(|figure| figure.name.as_str()).filter(|name| name.starts_with(CUMULATIVE)).collect();
@@ -72,8 +70,7 @@ pub fn folded_curves(drawn: &[Figure]) -> String {
     }
 }
 
-/// One or two outcomes in rows of two figures, each beside its cumulative curve; more in rows of three, the curves
-/// after the distributions.
+/// Few outcomes: rows of histogram and curve. Many: rows of three, curves last.
 fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
     let is_pairs = curves.len() == distributions.len() && curves.len() <= BESIDE;
     let columns = if is_pairs { 6 } else { 4 };
@@ -84,8 +81,7 @@ fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
     all.into_iter().map(|figure| Figure { columns, ..figure }).collect()
 }
 
-/// The runs in the bars of a histogram that miss the limit on its own outcome, as bars of their own in front of these;
-/// nothing where no run does.
+/// The violating runs as bars in front of the others, if any.
 fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome, marks: &[Mark]) -> Option<Mark> {
     let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
     let edges = marks.iter().find_map(|mark| if let Mark::Bars { edges, .. } = mark { Some(edges) } else { None })?;
@@ -98,7 +94,7 @@ fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome,
     any.then(|| Mark::Bars { label, hue: Hue::Failed, heights, edges: edges.clone() })
 }
 
-/// The share of the first N runs in which an outcome is 1, against N, with its interval.
+/// The running share of runs in which an outcome is 1, with its interval.
 fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     let growth = &outcome.growth;
     let x: Vec<f64> = growth.iter().map(|row| row[0]).collect();
@@ -116,7 +112,7 @@ fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure 
         _ => None,
     }));
     let lowest = marks.iter().map(lowest).fold(1.0, f64::min);
-    // shares that are all near 1 are seen from the tenth below them
+    // shares near 1 are shown from the tenth below
     let from = if lowest > 0.5 { (libm::floor(10.0 * lowest - 0.2) / 10.0).max(0.0) } else { 0.0 };
     let name = names::of_quantity(&outcome.quantity);
     Figure::of(
@@ -135,7 +131,7 @@ fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure 
     .wide(4)
 }
 
-/// The lowest ordinate of a mark of shares.
+/// The lowest ordinate.
 fn lowest(mark: &Mark) -> f64 {
     match mark {
         Mark::Line { y: values, .. } | Mark::Band { low: values, .. } => values.iter().copied().fold(1.0, f64::min),
@@ -144,7 +140,6 @@ fn lowest(mark: &Mark) -> f64 {
     }
 }
 
-/// The limits on an outcome.
 fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
     let of = |requirement: &&Requirement| requirement.observable() == Some(outcome.quantity.name());
     let shown = plan.analysis.display.of(outcome.quantity.name(), outcome.quantity.unit());
@@ -161,8 +156,7 @@ fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
     marks
 }
 
-/// The same with an axis that leaves out the limits that are far from the runs: they are named at its edge, and the
-/// runs keep a third of it.
+/// Excludes far limits from the axis; they are named at its edge, and the runs keep a third of it.
 fn near_limits(mut figure: Figure) -> Figure {
     const REACH: f64 = 2.0;
     const MARGIN: f64 = 0.04;
@@ -186,14 +180,14 @@ fn near_limits(mut figure: Figure) -> Figure {
     if reach > 0.0 && !far.is_empty() {
         values.extend(near);
         let [low, high] = ends(&values);
-        // an axis of what is never negative does not begin below 0
+        // keep an axis of non-negative values at or above 0
         let floor = if low >= 0.0 { 0.0 } else { f64::NEG_INFINITY };
         figure.x = figure.x.within((low - MARGIN * (high - low)).max(floor), high + MARGIN * (high - low));
     }
     figure
 }
 
-/// The quantiles that are marked: those that the file requires, else the median and the highest up to 99%.
+/// The marked quantiles: the required ones, else the median and the highest up to 99%.
 fn marked(plan: &Plan, outcome: &SurveyedOutcome, row: Option<&ColumnStatistics>) -> Vec<[f64; 4]> {
     let all = row.map_or(Vec::new(), ColumnStatistics::quantile_numbers);
     let required = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(outcome.quantity.name()));
@@ -248,14 +242,14 @@ fn cumulative(
     )
 }
 
-/// The same in steps where the values are few: the fraction rises at a value, and not on the way to it.
+/// A stepped curve if there are few distinct values.
 fn stepped(curve: Curve) -> Curve {
     let (x, y, low, high) = &curve;
     if 1 + x.windows(2).filter(|pair| pair[0] < pair[1]).count() > MOST_STEPS {
         return curve;
     }
     let places = 0..x.len();
-    // where it stands, and before a higher value where it stood
+    // repeat the last fraction before a higher value
     let rows = places.flat_map(|k| (k > 0 && x[k - 1] < x[k]).then(|| (k, k - 1)).into_iter().chain([(k, k)]));
     let rows: Vec<(usize, usize)> = rows.collect();
     let of = |values: &[f64]| rows.iter().map(|(_, k)| values[*k]).collect();
@@ -266,7 +260,7 @@ fn stepped(curve: Curve) -> Curve {
 mod tests {
     use super::*;
 
-    /// Law: an axis has the limits that are near the runs; one that is far would squeeze them, and is outside.
+    /// Law: an axis includes near limits and excludes far ones.
     #[test]
     fn far_limits_are_outside_of_the_axis() {
         let figure = |limits: &[f64]| {

@@ -7,21 +7,20 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::{Compression, GzBuilder};
 use serde_json::{Value, json};
 
-/// Arrays of numbers, one after the other.
+/// Concatenated arrays.
 #[derive(Clone, Debug, Default)]
 pub struct Payload {
     doubles: Vec<u8>,
-    /// Whether numbers stand where they are used, and not here.
     is_inline: bool,
 }
 
 impl Payload {
-    /// No payload: numbers stand where they are used.
+    /// No payload: numbers stay in the JSON.
     pub fn inline() -> Self {
         Payload { is_inline: true, ..Payload::default() }
     }
 
-    /// Adds numbers in full precision; returns the place where the page finds them.
+    /// Adds doubles; returns their location, or inline the numbers.
     pub fn array(&mut self, values: &[f64]) -> Value {
         if self.is_inline {
             return json!(values);
@@ -31,11 +30,11 @@ impl Payload {
         json!([at, values.len(), 8])
     }
 
-    /// Adds numbers in single precision, for pictures of motion; returns the place where the page finds them.
+    /// Adds single-precision numbers, for animations; returns their location.
     pub fn singles(&mut self, values: &[f64]) -> Value {
         let at = self.doubles.len();
         values.iter().for_each(|value| self.doubles.extend((*value as f32).to_le_bytes()));
-        // doubles begin at multiples of their size
+        // align doubles
         self.doubles.resize(self.doubles.len().next_multiple_of(8), 0);
         json!([at, values.len(), 4])
     }
@@ -46,10 +45,8 @@ impl Payload {
     }
 }
 
-/// Bytes compressed with gzip, as Base64 (RFC 4648). The same bytes give the same text: the header has no time and no
-/// name.
-///
-/// At level 6: at level 9 compressing takes twice as long, for a page that is less than 1% shorter.
+/// Bytes compressed with gzip, as Base64 (RFC 4648); reproducible, without time and name in the header. Level 6: level
+/// 9 takes twice as long for less than 1% of the page.
 pub fn packed(bytes: &[u8]) -> String {
     let mut encoder = GzBuilder::new().mtime(0).write(Vec::new(), Compression::default());
     // writing to memory does not fail
@@ -57,7 +54,6 @@ pub fn packed(bytes: &[u8]) -> String {
     encoded(&compressed)
 }
 
-/// Bytes as Base64.
 pub fn encoded(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }

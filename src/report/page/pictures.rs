@@ -1,5 +1,4 @@
-//! Pictures of a few lines' height beside a text: a histogram with its limit, an estimate with its interval on a scale.
-//! They are part of the static page, and are read before any script runs.
+//! Inline pictures of a few lines' height, as static SVG: histograms with limits, estimates on a scale.
 
 use crate::findings::number::{trimmed, typeset};
 use crate::findings::{Finding, Number};
@@ -7,22 +6,22 @@ use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Figure, Hue, Mark, Scale};
 use crate::statistics::gate::GateLimit;
 
-/// Width of a small picture, pixels.
+/// Width, pixels.
 pub const WIDTH: f64 = 220.0;
-/// Height of its bars, and of the words below them.
+/// Height of bars, and of the labels below.
 const HEIGHT: f64 = 26.0;
 const WORDS: f64 = 13.0;
-/// Width of a letter of the words, and on paper, where they are larger.
+/// Width of a letter on screen, and on paper, where text is larger.
 const LETTER: f64 = 5.4;
 const LETTER_ON_PAPER: f64 = 6.8;
-/// A limit that is farther from the runs than this many times their range is named at the edge.
+/// Limits beyond this multiple of the runs' range are named at the edge.
 const FAR: f64 = 6.0;
-/// The bars that miss a limit are hatched with this pattern, which the page has once.
+/// Pattern of bars beyond a limit, defined once per page.
 pub const HATCH: &str = "<svg width=\"0\" height=\"0\" class=\"defs\" aria-hidden=\"true\"><defs><pattern id=\"hatch\" \
     width=\"4\" height=\"4\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\"><rect class=\"ground\" \
     width=\"4\" height=\"4\"/><line x1=\"0\" x2=\"0\" y1=\"0\" y2=\"4\"/></pattern></defs></svg>\n";
 
-/// A part of an axis on a picture's width.
+/// The range of a picture's axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     ends: [f64; 2],
@@ -30,8 +29,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// From the first to the last of `values` that are finite, by decades where they are positive and span many; `None`
-    /// where they do not differ.
+    /// The range of the finite `values`, logarithmic for several positive decades; `None` if it is empty.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let known = values.into_iter().filter(|value| value.is_finite());
         let [low, high] = known.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
@@ -39,7 +37,7 @@ impl Span {
         (low < high).then_some(Span { ends: [low, high], is_log })
     }
 
-    /// The place of `value` on a width of one.
+    /// Relative position of `value`.
     fn part(&self, value: f64) -> f64 {
         let of = |value: f64| if self.is_log { libm::log10(value.max(f64::MIN_POSITIVE)) } else { value };
         let [low, high] = self.ends.map(of);
@@ -47,7 +45,7 @@ impl Span {
     }
 }
 
-/// A text at `x` with its middle there, or its end where it would leave the picture.
+/// A centred text at `x`, kept within the picture.
 fn label(x: f64, y: f64, text: &str) -> String {
     let half = 0.5 * LETTER * text.chars().count() as f64;
     let (anchor, x) = match () {
@@ -71,9 +69,8 @@ fn picture(class: &str, height: f64, name: &str, inside: &str) -> String {
     format!("<svg class=\"{class}\" viewBox=\"0 0 {WIDTH} {height}\" {said}>{inside}</svg>")
 }
 
-/// The scales of the first numbers of `found`, those of one unit on one scale, in their order: dot and interval, the
-/// side of the limit that is asked for, the limit; without a limit the scale is as long as all numbers of the outcomes.
-/// Empty where there is nothing to compare.
+/// The first number of each finding on a scale shared by its unit: estimate, interval, limit and required side. Without
+/// a limit the scale spans all numbers of the outcomes. Empty if there is nothing to compare.
 pub fn scales(found: &[&Finding]) -> Vec<String> {
     let known = |number: &Number| {
         let (value, [low, high], limit) = number.in_shown();
@@ -84,7 +81,7 @@ pub fn scales(found: &[&Finding]) -> Vec<String> {
         let of_unit = found.iter().filter(|one| one.numbers.first().is_some_and(|other| unit(other) == unit(number)));
         let is_limited = number.limit.is_some();
         let of_unit = of_unit.flat_map(|one| one.numbers.iter().take(if is_limited { 1 } else { usize::MAX }));
-        // a share ends at all, and the limits of shares are mostly near to it
+        // a share ends at 100%, and limits are mostly near it
         let all = (number.unit == "%").then_some(100.0);
         let span = Span::of(of_unit.flat_map(known).chain(all))?;
         number.value.is_finite().then(|| of_number(number, span))
@@ -124,8 +121,8 @@ fn of_number(number: &Number, span: Span) -> String {
     picture("scale", HEIGHT + WORDS, &typeset(&format!("{} {}", number.name, number.text())), &inside)
 }
 
-/// A histogram as a small picture, with the vertical lines on its axis whose names begin with `lines`, the runs that
-/// miss a limit in another colour, and what is expected as a curve; without `lines` bars alone. Empty without bars.
+/// A small histogram with the vertical lines whose labels begin with `lines`, violating runs highlighted, and the
+/// expected curve; without `lines` only bars. Empty without bars.
 pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
         Mark::Limit { label, at, vertical: true } if lines.is_some_and(|start| label.starts_with(start)) => Some(*at),
@@ -152,7 +149,7 @@ pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
         let class = if *hue == Hue::Failed && lines.is_some() { " class=\"missed\"" } else { "" };
         for (ends, count) in edges.windows(2).zip(*heights).filter(|(_, count)| **count > 0.0) {
             let (from, to) = (at(ends[0]), at(ends[1]));
-            // one run among many is still seen
+            // keep single runs visible
             let height = ((HEIGHT - 2.0) * count / highest).max(1.2);
             inside += &format!(
                 "<rect{class} x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{height:.1}\"/>",
@@ -176,7 +173,7 @@ pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
     picture("small", HEIGHT + WORDS, "", &(inside + &ends(&figure.x, span, &limits, &at)))
 }
 
-/// The ends of an axis in words below it, and its limits, which have the room first.
+/// Labels of the limits, then of the ends of the axis if there is room.
 fn ends(axis: &Axis, span: Span, limits: &[f64], at: &dyn Fn(f64) -> f64) -> String {
     let is_outside = |value: f64| value < span.ends[0] || value > span.ends[1];
     let text = |value: f64| {
@@ -201,7 +198,7 @@ fn ends(axis: &Axis, span: Span, limits: &[f64], at: &dyn Fn(f64) -> f64) -> Str
     said.iter().map(|(x, text)| label(*x, HEIGHT + WORDS - 2.0, text)).collect()
 }
 
-/// A bar of all runs with those that have not the outcome in another colour: of an outcome that is yes or no.
+/// The two shares of a yes-or-no outcome as a bar.
 pub fn shares(yes: &Number) -> String {
     let width = WIDTH * yes.value.clamp(0.0, 1.0);
     let count = libm::round(yes.value * yes.of as f64) as u64;
@@ -215,14 +212,14 @@ pub fn shares(yes: &Number) -> String {
     picture("small", HEIGHT + WORDS, "", &inside)
 }
 
-/// The numbers of an outcome below its picture: median, spread and extremes, as many as it has of them.
+/// Median, p95 and maximum of an outcome, as available.
 pub fn said_of(outcome: &Finding) -> String {
     let numbers = ["median", "p95", "max"].iter().filter_map(|name| outcome.number(name));
     let known = numbers.filter(|number| number.value.is_finite());
     let said = known.map(|number| (number, format!("{} {}", number.name, number.alone())));
     let (numbers, said): (Vec<&Number>, Vec<String>) = said.unzip();
     let unit = numbers.last().map_or("", |number| &number.shown.unit);
-    // how many runs have it is in the title
+    // the title ends with the number of runs that have it
     let of = outcome.title.split_once(" (").map_or_else(String::new, |(_, of)| format!(" ({of}"));
     typeset(format!("{} {unit}{of}", said.join(", ")).trim_end())
 }

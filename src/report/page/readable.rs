@@ -1,13 +1,13 @@
-//! Numbers of the page that no finding has: those of [`crate::findings::number`], typeset.
+//! Numbers of the page outside of findings, typeset.
 
 use crate::findings::number::{trimmed, typeset, with_interval};
 
-/// A number in at most four digits; "-" where there is none.
+/// At most four digits; "-" for NaN.
 pub fn number(value: f64) -> String {
     if value.is_nan() { "-".to_owned() } else { typeset(&trimmed(value, 4)) }
 }
 
-/// The same with its unit.
+/// As [`number`], with its unit.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         _ if unit.is_empty() || value.is_nan() => number(value),
@@ -16,7 +16,7 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
-/// A number with its interval in brackets; the number alone where neither end is known.
+/// With its interval if known.
 pub fn in_brackets(value: f64, interval: [f64; 2]) -> String {
     match interval.iter().any(|end| end.is_finite()) {
         true => typeset(&with_interval(value, interval)),

@@ -1,4 +1,4 @@
-//! What the 3D replay needs: the bodies as shapes, and the motion of each shown run, thinned to what is seen.
+//! Data of the 3D replay: shapes of the bodies, and the thinned motion of each shown run.
 
 use serde_json::{Value, json};
 
@@ -20,21 +20,21 @@ use crate::run::StateField;
 use crate::scene::unit_quaternion::unit_quaternion;
 use crate::scene::{DebrisInput, PartInput, PartShape, Plate, Scene, SceneInput, WheelMode};
 
-/// A part of the body as it is drawn.
+/// A drawn part of the body.
 #[derive(Clone, Debug)]
 pub struct ShownPart {
     pub name: String,
-    /// Its shape, as campaign files call it.
+    /// As named in campaign files.
     pub shape: &'static str,
     /// Radius and length, or sides, m.
     pub size: Vec<f64>,
     /// Its centre in F_s, m.
     pub position: [f64; 3],
-    /// The matrix that turns its own components into those of F_s.
+    /// Rotation from its own frame to F_s.
     pub turn: [[f64; 3]; 3],
 }
 
-/// The parts of the nominal body; the box of its inertia where it is given by that.
+/// The parts of the nominal body, or its equivalent box.
 pub fn shown_parts(plan: &Plan) -> Vec<ShownPart> {
     let input = &plan.nominal;
     if input.parts.is_empty() {
@@ -67,7 +67,7 @@ pub fn scene(plan: &Plan) -> Value {
     })
 }
 
-/// A written plate: a square of its area.
+/// A plate as a square of its area.
 fn plate(plate: &Plate) -> Value {
     json!({ "side": libm::sqrt(plate.area), "normal": plate.normal, "center": plate.center })
 }
@@ -89,7 +89,7 @@ fn part(part: &PartInput) -> ShownPart {
     }
 }
 
-/// The box that has the mass and the moments of inertia of a body that is given by them: l_x^2 = 6 (I_y + I_z - I_x)/m.
+/// The box with the mass and moments of inertia of the body: l_x^2 = 6 (I_y + I_z - I_x)/m.
 fn equivalent_box(scene: &Scene) -> ShownPart {
     let body = &scene.mass.body;
     let (moments, turn) = crate::math::symmetric::principal_axes(body.inertia);
@@ -101,7 +101,7 @@ fn equivalent_box(scene: &Scene) -> ShownPart {
 fn wheels(input: &SceneInput) -> Vec<Value> {
     let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
     let shape = |wheel: &crate::scene::WheelInput| {
-        // a wheel that is given by mass and inertia is shown as the solid cylinder with that inertia
+        // the solid cylinder with the given inertia
         let radius = wheel.radius_m.or_else(|| Some(libm::sqrt(2.0 * wheel.axial_inertia_kg_m2? / wheel.mass_kg?)));
         let radius = radius.unwrap_or(0.1);
         json!({
@@ -124,7 +124,7 @@ fn debris(debris: &DebrisInput) -> Value {
     match debris {
         DebrisInput::Cube { side_m, .. } => json!([side_m, side_m, side_m]),
         DebrisInput::Box { size_m, .. } => json!(size_m),
-        // the size of an irregular body is not known: a box of its inertia
+        // of unknown size: the equivalent box
         DebrisInput::Tensor { mass_kg, inertia_kg_m2 } => {
             let moments = [0, 1, 2].map(|axis| inertia_kg_m2[axis][axis]);
             let sum: f64 = moments.iter().sum();
@@ -137,12 +137,12 @@ fn debris(debris: &DebrisInput) -> Value {
 /// Start, end and thrusts of the nominal arcs.
 fn arcs(scene: &Option<Scene>) -> Vec<Value> {
     let schedule = scene.iter().flat_map(|scene| scene.schedule.iter());
-    // a thruster that is stuck on has no end, and JSON no infinite number
+    // JSON has no infinity
     let end = |arc: &crate::scene::Arc| arc.applied.until.min(f64::MAX);
     schedule.map(|arc| json!({ "start": arc.start, "end": end(arc), "thrust": arc.applied.thrust })).collect()
 }
 
-/// The motion of `shown`; `None` where nothing of it can be seen.
+/// The motion of `shown`; `None` without two points.
 pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Value> {
     let run = shown.run.as_ref()?;
     let points = run.outcome.points.min(run.grid.points());
@@ -185,7 +185,7 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
     Some(motion)
 }
 
-/// What a control loop did in `run`: the phase and the mean commanded thrusts at each point; `None` without a loop.
+/// Phase and mean commanded thrusts at each point; `None` without a loop.
 fn control(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
     let spec = plan.law.as_ref()?.spec()?;
     let held = run.telemetry.held_at(&run.grid.times()[..points]);
@@ -203,16 +203,16 @@ fn control(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -
     Some(json!({ "phases": phases, "phase": payload.singles(phase), "firing": payload.singles(&thrust) }))
 }
 
-/// What an approach leads to, relative to the debris in F_e.
+/// The goal of an approach, relative to the debris in F_e.
 #[derive(Clone, Copy, Debug)]
 pub struct ApproachGoal {
-    /// The unit vector of the axis A_d at the start.
+    /// Unit vector of the axis A_d at the start.
     pub axis: [f64; 3],
-    /// The distance of the station behind the debris, m.
+    /// Distance of the station behind the debris, m.
     pub distance: f64,
 }
 
-/// The goal of `run`; `None` without a loop that approaches, or where the debris has no axis.
+/// `None` without an approach, or if the debris has no axis.
 pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
     let spec = plan.law.as_ref()?.spec()?;
     if !spec.needs_axis() || !run.request.debris {
@@ -223,13 +223,13 @@ pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
     Some(ApproachGoal { axis, distance: launch.distance })
 }
 
-/// The radius within which a mission fails, m; zero without one.
+/// Radius within which a mission fails, m; zero without one.
 pub fn keep_out(plan: &Plan) -> f64 {
     let spec = plan.law.as_ref().and_then(|law| law.spec());
     if spec.is_some() { DebrisNumbers::of(&plan.nominal.control.law).keep_out } else { 0.0 }
 }
 
-/// What the run is about: names and values of the outcomes, and of the body's motion at the end, as they are shown.
+/// Names and shown values of the outcomes, and of the final rates.
 fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
     const FINAL: [&str; 4] = [
         "angular_rate_final_rad_s",
@@ -238,7 +238,7 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
         "omega_se_s_z_final_rad_s",
     ];
     let outcomes = outcomes(plan);
-    // the rates of a loop are among its live numbers, and near zero at the end
+    // a loop shows its rates live, and they end near zero
     let is_free = plan.law.is_none();
     let others = FINAL.into_iter().filter(|name| is_free && !outcomes.iter().any(|outcome| outcome == name));
     let names: Vec<&str> = outcomes.iter().map(String::as_str).chain(others).collect();
@@ -256,8 +256,7 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
     names.iter().filter_map(value).collect()
 }
 
-/// The angular momentum of the spacecraft about its centre of mass in F_e, N m s: J omega + sum J_i rate_i a_i, turned
-/// to F_e.
+/// Angular momentum of the spacecraft about its centre of mass in F_e, N m s.
 fn momentum(run: &SingleRun, point: usize) -> [f64; 3] {
     let (mass, table) = (&run.scene.mass, &run.table);
     let omega: [f64; 3] = table.at(StateField::Rate, point);

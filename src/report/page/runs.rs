@@ -1,5 +1,4 @@
-//! [`ShownRun`]: the runs that the page shows in full: the nominal one, those that failed first, those with the largest
-//! errors.
+//! [`ShownRun`]: the runs shown in full: nominal, failed, and worst.
 
 use crate::analysis::survey::Survey;
 use crate::analysis::worst_runs::WorstRuns;
@@ -14,37 +13,37 @@ use crate::report::page::readable::with_unit;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
-/// Places of a list of worst runs after the first, in words.
+/// Ordinals after the first.
 const PLACES: [&str; 9] = ["second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
 
-/// How many runs are in the table of the worst.
+/// Number of runs in the table of the worst.
 pub const WORST: usize = 10;
-/// Failed runs among them, at most.
+/// Maximum number of failed runs among them.
 const MOST_FAILED: usize = 5;
 
-/// The row of a run, as the result has it.
+/// The row of a run.
 #[derive(Clone, Debug)]
 pub struct KnownRow {
     pub sample: SampleId,
     pub status: Status,
-    /// Why it is not ok; empty where it is.
+    /// Empty if ok.
     pub reason: String,
-    /// Its numbers by the names of their columns.
+    /// Numbers by column name.
     pub numbers: Vec<(String, f64)>,
 }
 
-/// A run that the page shows.
+/// A run on the page.
 #[derive(Clone, Debug)]
 pub struct ShownRun {
     pub sample: SampleId,
     pub why: String,
     pub status: Status,
-    /// Why it is not ok, as people read it; empty where it is.
+    /// Readable reason; empty if ok.
     pub reason: String,
     pub inputs: Vec<f64>,
-    /// The numbers of its row, by the names of their columns.
+    /// Numbers by column name.
     pub row: Vec<(String, f64)>,
-    /// The run itself; `None` where it was not flown again, or its scene is not physical.
+    /// `None` if not replayed, or unphysical.
     pub run: Option<SingleRun>,
 }
 
@@ -57,8 +56,8 @@ impl ShownRun {
     }
 }
 
-/// The nominal run and the worst ones, in the order in which they are shown, each with why it is: the worst of the
-/// requirement that is nearest to its limit first. `asked`: the observables that requirements are about.
+/// The nominal run and the worst ones with reasons; the worst of the first of `asked`, the required observables, comes
+/// first.
 pub fn listed(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
     for (sample, why) in worst(plan, survey, asked) {
@@ -69,7 +68,7 @@ pub fn listed(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, 
     list
 }
 
-/// The runs of `list`, the first `flown` of them flown again with all of their states; `rows` are theirs.
+/// The runs of `list` with their `rows`; the first `flown` are replayed with all states.
 pub fn shown_runs(
     plan: &Plan,
     (list, rows): (&[(SampleId, String)], &[KnownRow]),
@@ -77,7 +76,7 @@ pub fn shown_runs(
     isa: Isa,
 ) -> Vec<ShownRun> {
     let row = |sample: SampleId| rows.iter().find(|row| row.sample == sample);
-    // a run that ended in a panic would do so again
+    // a panic would recur
     let is_flown = |sample: &SampleId| row(*sample).is_none_or(|row| row.status != Status::InternalError);
     let samples: Vec<SampleId> = list.iter().map(|(sample, _)| *sample).filter(is_flown).take(flown).collect();
     let numbers = rows.iter().filter(|row| samples.contains(&row.sample)).flat_map(|row| &row.numbers);
@@ -99,7 +98,7 @@ pub fn shown_runs(
     list.iter().map(one).collect()
 }
 
-/// How many of `runs` were not flown again for want of time, and the command that flies the first of them.
+/// Number of runs not replayed for lack of time, and the command that replays the first.
 pub fn left_out(runs: &[ShownRun]) -> Option<String> {
     let unflown = runs.iter().filter(|run| run.run.is_none());
     let mut left = unflown.filter(|run| !matches!(run.status, Status::InternalError | Status::InvalidSample));
@@ -113,14 +112,14 @@ pub fn left_out(runs: &[ShownRun]) -> Option<String> {
     ))
 }
 
-/// The inputs of a sample as applied.
+/// Applied inputs of a sample.
 fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
     let drawn = DrawnScenes::new(plan, sample, 1);
     drawn.columns.iter().filter_map(|column| column.first().copied()).collect()
 }
 
-/// Failed runs, the first of each kind first, then the worst values of each outcome in turn; of the errors where the
-/// campaign has no outcome.
+/// The first failures of each kind, then the worst values of each outcome in turn, or of the errors if there are no
+/// outcomes.
 fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in survey.statuses.failed() {
@@ -144,7 +143,7 @@ fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, Strin
         for outcome in &outcomes {
             let is_low = outcome.worst.is_low;
             if let Some((sample, value)) = outcome.worst.runs.get(place).filter(|(_, value)| is_low || *value != 0.0) {
-                // missions that did not launch are no worse than each other, and come first
+                // handled above: no order among missions that did not launch
                 if outcome.quantity.name() == LAUNCHED {
                     continue;
                 }
@@ -161,20 +160,19 @@ fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, Strin
         }
     }
     if !asked.is_empty() && list.len() > lost {
-        // what was asked for comes before what was not computed
+        // the first requirement precedes lost runs
         list[..=lost].rotate_right(1);
     }
     list
 }
 
-/// The first place in `worst` of the runs that are as bad as one with `value`, and how many these are, in words: they
-/// have no order.
+/// The first place of runs as bad as `value`, and the number of ties in words.
 fn tied(worst: &WorstRuns, value: f64) -> (usize, String) {
     let size = |value: f64| if worst.is_low { value } else { value.abs() };
     let is_same = |(_, other): &(SampleId, f64)| size(*other) == size(value);
     let first = worst.runs.iter().position(is_same).unwrap_or(0);
     let count = worst.runs[first..].iter().take_while(|run| is_same(run)).count();
-    // others that are not kept may be as bad
+    // runs beyond the kept ones may tie
     let more = if worst.is_full() && first + count == worst.runs.len() { " or more" } else { "" };
     (first, if count > 1 { format!("; {count}{more} runs tie") } else { String::new() })
 }
@@ -184,8 +182,8 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
 
-    /// Law: of the listed runs the first are flown, and how many are not is said, with the command that flies the first
-    /// of them; a run that ended in a panic is neither.
+    /// Law: the first listed runs are replayed; the others are counted, with a command for the first; a run that
+    /// panicked is neither.
     #[test]
     fn runs_that_are_not_flown_are_counted() {
         let text = include_str!("../../../campaigns/spin_sweep.toml");

@@ -1,5 +1,4 @@
-//! What the replay draws about a spacecraft on an orbit: nadir, velocity, Sun and magnetic field as directions in F_e,
-//! and the share of the Sun that is hidden.
+//! Directions of nadir, velocity, Sun and magnetic field in F_e for the replay, and the hidden share of the Sun.
 
 use serde_json::{Value, json};
 
@@ -9,28 +8,27 @@ use crate::math::vector::{norm, scaled};
 use crate::report::page::payload::Payload;
 use crate::run::StateField;
 
-/// Between two points that are drawn the orbit turns by this angle at most, rad, unless the run has fewer.
+/// Maximum turn of the orbit between drawn points, rad.
 const STEP: f64 = 0.07;
-/// Components of directions are rounded to multiples of this: they take less space.
+/// Rounding of direction components, to save space.
 const UNIT: f64 = 1.0 / 8192.0;
 
-/// The directions that are drawn, by the names of the replay's arrows.
+/// Names of the replay's arrows.
 const NAMES: [&str; 4] = ["nadir", "velocity", "sun", "field"];
 
-/// Where they point at `time` from `position` with `velocity`, F_e, of any length; `None` of what the scene does not
-/// have.
+/// The vectors at `time` for a position and velocity in F_e; `None` if the scene lacks them.
 fn vectors(around: &Surroundings, time: f64, [position, velocity]: [[f64; 3]; 2]) -> [Option<[f64; 3]>; 4] {
     let sun = around.sun(time, position).map(|(direction, _)| direction);
     [Some(Surroundings::nadir(position)), Some(velocity), sun, around.field(time, position)]
 }
 
-/// Position and velocity of the centre of mass of `run` at `point`.
+/// Position and velocity of the centre of mass.
 fn state(run: &SingleRun, point: usize) -> [[f64; 3]; 2] {
     [StateField::ComPosition, StateField::ComVelocity].map(|field| run.table.at::<3>(field, point))
 }
 
-/// The directions at some of the first `points` points of `run`, and the hidden share of the Sun at each; `None` where
-/// there is no orbit.
+/// The directions at some of the first `points` points of `run`, and the hidden share of the Sun; `None` without an
+/// orbit.
 pub fn directions(run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
     let (around, times) = (Surroundings::of(&run.scene)?, run.grid.times());
     let turned = |point: usize| {

@@ -1,4 +1,4 @@
-//! The tables of the page: worst runs, statistics, files, glossary. Static HTML; a script sorts and searches them.
+//! Tables of the page as static HTML: worst runs, statistics, provenance; a script sorts and searches them.
 
 use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::statistic::{STATISTICS, Statistic};
@@ -18,10 +18,10 @@ use crate::run::Status;
 use crate::sampling::Transform;
 use crate::sampling::distribution::traits::Quantile;
 
-/// Inputs of a run that are listed; those farthest from nominal first, as multiples of their spread.
+/// Listed inputs of a run: the farthest from nominal in units of their spread.
 const MOST_INPUTS: usize = 3;
 
-/// A cell that sorts by its number.
+/// A sortable cell.
 fn cell(value: f64) -> String {
     if value.is_finite() {
         format!("<td data-value=\"{value:e}\">{}</td>", number(value))
@@ -30,11 +30,11 @@ fn cell(value: f64) -> String {
     }
 }
 
-/// The statistics of every observable; intervals where the design has them.
+/// The statistics of every observable, with intervals if the design has them.
 pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
     let quantiles: String = first.quantiles.iter().map(|one| format!("<th>{}%</th>", number(100.0 * one.p))).collect();
-    // the quantiles stand before the last statistic
+    // quantiles precede the last statistic
     let of_list = |quantiles: String, text: &dyn Fn(&Statistic, &str) -> String| {
         let shown: Vec<String> = STATISTICS.iter().filter_map(|one| Some(text(one, one.head?))).collect();
         shown.split_last().map_or(String::new(), |(last, before)| before.concat() + &quantiles + last)
@@ -83,17 +83,16 @@ pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Disp
     )
 }
 
-/// Values whose relative difference is below this are shown by the difference.
+/// Relative difference below which values are shown by their difference.
 const ALIKE: f64 = 1e-3;
 
-/// Root mean square of the distances of `values` from the nominal one: by what an input is judged to be far from it.
+/// Root mean square deviation from the nominal value.
 fn spread(values: &[f64], nominal: f64) -> f64 {
     let squares: Vec<f64> = values.iter().map(|value| (value - nominal).powi(2)).filter(|x| x.is_finite()).collect();
     libm::sqrt(squares.iter().sum::<f64>() / squares.len().max(1) as f64).max(f64::MIN_POSITIVE)
 }
 
-/// A drawn value beside the nominal one, in `unit`: as a difference where both would be the same digits. A nominal
-/// value of zero is what a reader expects of an error.
+/// A drawn value with the nominal one, as a difference if nearly equal; a nominal zero goes without saying.
 fn drawn([value, nominal]: [f64; 2], unit: &str) -> String {
     let off = value - nominal;
     if nominal == 0.0 {
@@ -106,7 +105,7 @@ fn drawn([value, nominal]: [f64; 2], unit: &str) -> String {
     format!("{} (nominal {}, ", with_unit(value, unit), with_unit(nominal, unit))
 }
 
-/// The nominal run and the worst ones, with inputs, outcome, reason and the command that replays each.
+/// The nominal and the worst runs with inputs, reason, and replay command.
 pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
     let columns = plan.dispersions.columns();
     let spreads: Vec<f64> =
@@ -123,7 +122,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
                 let sigmas = (value - column.nominal).abs() / spreads[index];
                 let values = drawn([*value, column.nominal].map(|value| shown.value(value)), &shown.unit);
                 let text = match plan.dispersions.distribution_of(index) {
-                    // a thruster that is dead is not so many deviations away
+                    // deviations of a discrete distribution have no sigma
                     Some(Transform::Scalar(distribution)) if distribution.steps().is_some() => values
                         .strip_suffix(", ")
                         .map_or(values.trim_end_matches(" (").to_owned(), |of| format!("{of})")),
@@ -137,7 +136,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
         let listed = if shown.sample.0 == 0 { "nominal values".to_owned() } else { listed.join("<br>") };
         let reached = shown.run.as_ref().is_some_and(|run| run.outcome.points.min(run.grid.points()) > 1);
         let why = if shown.sample.0 == 0 { "nominal run" } else { &shown.why };
-        // a run that was computed and whose mission did not end has nothing to tell
+        // a computed run without an end has nothing to add
         let ended = if shown.status == Status::Done {
             loss::of_row(&shown.row).map(|end| escaped(&sentence(&end)))
         } else {
@@ -164,7 +163,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
     )
 }
 
-/// Where the page comes from: plan, files, how to make it again, what the columns mean.
+/// Plan, files, reproduction, glossary, licences.
 pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> String {
     let listed: String = files
         .iter()
