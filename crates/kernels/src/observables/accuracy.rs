@@ -1,4 +1,4 @@
-//! [`Accuracy`]: limits of accuracy beyond which a completed run is of no use.
+//! [`Accuracy`]: limits of error beyond which a completed run is of no use.
 
 use super::group::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
@@ -6,13 +6,13 @@ use super::reduction::ErrorStatistic;
 use super::request::Request;
 use super::table::{ColumnId, Series, error_id};
 
-/// Smallest estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) for
-/// `inaccurate`.
+/// Estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) from which a
+/// run is `inaccurate`.
 pub const INACCURATE_STATE: f64 = 0.1;
-/// Smallest relative error of a balance (energy, linear or angular momentum) for `inaccurate`.
+/// Relative error of a balance (energy, linear or angular momentum) from which a run is `inaccurate`.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
 
-/// Relative errors of the balances of spacecraft and debris; their maximum is the conservation error of a run.
+/// Relative errors of the balances, whose maximum is the conservation error of a run.
 pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
@@ -24,7 +24,7 @@ pub const BALANCES: [ColumnId; 5] = [
 /// Estimated errors of the rotational states of spacecraft and debris.
 pub const STATE_ERRORS: [ColumnId; 2] = [STATE_ERROR_ESTIMATE, DEBRIS_STATE_ERROR_ESTIMATE];
 
-/// The accuracy columns of a row with their limits; columns of groups that are not requested do not count.
+/// The requested columns of errors, with their limits.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
     limits: Vec<AccuracyLimit>,
@@ -32,7 +32,6 @@ pub struct Accuracy {
 
 #[derive(Clone, Copy, Debug)]
 struct AccuracyLimit {
-    /// Index in the row.
     index: usize,
     name: &'static str,
     limit: f64,
@@ -47,7 +46,7 @@ impl AccuracyLimit {
 }
 
 impl Accuracy {
-    /// The columns of `request`.
+    /// The columns in rows of `request`.
     pub fn new(request: &Request) -> Self {
         let balances = BALANCES.into_iter().map(|id| (id, INACCURATE_BALANCE));
         let states = STATE_ERRORS.into_iter().map(|id| (id, INACCURATE_STATE));
@@ -70,7 +69,7 @@ impl Accuracy {
     /// The columns of `row` beyond their limits, in words.
     pub fn reason(&self, row: &[f64]) -> String {
         let beyond = self.limits.iter().filter(|limit| !limit.holds(row));
-        let words = beyond.map(|AccuracyLimit { index, name, limit, .. }| match row[*index] {
+        let words = beyond.map(|AccuracyLimit { index, name, limit }| match row[*index] {
             value if value.is_nan() => format!("{name} is not a number"),
             value => format!("{name} is {value:.1e}, which is {limit} or more"),
         });
@@ -81,23 +80,13 @@ impl Accuracy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observables::request::wheel_names;
-    use crate::scene::Actuated;
+    use crate::observables::request::tests::request;
 
     /// Law: an error at its limit, or NaN, is inaccurate.
     #[test]
     fn what_is_not_a_number_is_not_accurate() {
-        let request = Request {
-            groups: [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics].into_iter().collect(),
-            debris: true,
-            actuated: Actuated::NONE,
-            effects: crate::dynamics::effects::ForceModel::NONE,
-            constrained: true,
-            wheels: wheel_names(&[]),
-            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
-            of_law: crate::observables::law_columns::LawColumns::NONE,
-            windows: crate::observables::window::NO_WINDOWS,
-        };
+        let groups = [Group::EnergyConservation, Group::MomentumConservation, Group::Numerics];
+        let request = request(&groups, true, true, &[]);
         let accuracy = Accuracy::new(&request);
         let right = vec![1e-3; request.columns().len()];
         assert!(accuracy.holds(&right) && accuracy.reason(&right).is_empty());

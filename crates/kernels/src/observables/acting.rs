@@ -1,4 +1,4 @@
-//! [`Acting`]: times of actuation of a run, and an upper bound of the torque.
+//! [`Acting`]: times of actuation of a run, and a bound of the torque.
 
 use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::effects::{largest_changing_torque, largest_constant_torque};
@@ -14,20 +14,20 @@ pub(super) struct Acting<'a> {
 
 #[derive(Clone, Copy)]
 enum Arcs<'a> {
-    /// A schedule, which may have gaps; the environment acts in addition.
+    /// A schedule, which may have gaps; the environment acts as well.
     Scheduled(&'a [Arc]),
-    /// Arcs flown, without gaps, with the effects that are constant over an arc.
+    /// Arcs flown, without gaps, including the effects that are constant over an arc.
     Flown(&'a ArcRecord),
 }
 
-/// Dipoles of torque rods in order of time.
+/// Dipoles of torque rods over time.
 pub(super) struct Rods<I> {
     later: I,
     last: Option<Arc>,
 }
 
 impl<I: Iterator<Item = Arc>> Rods<I> {
-    /// The dipole at `time`, F_s, A m^2; at a switch, of the arc that ends. Times do not descend.
+    /// Dipole at `time` in F_s, A m^2, before a switch at that time; times must not decrease.
     pub(super) fn dipole(&mut self, time: f64) -> [f64; 3] {
         while self.last.is_none_or(|arc| arc.end() < time)
             && let Some(next) = self.later.next()
@@ -43,12 +43,12 @@ impl<'a> Acting<'a> {
         Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }
 
-    /// The arcs flown by a run of `scene`, with its constant effects.
+    /// The arcs flown by a run of `scene`.
     pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
         Acting { scene, arcs: Arcs::Flown(arcs) }
     }
 
-    /// Dipoles of torque rods, if a law drives some.
+    /// Dipoles of torque rods, if a law drives any.
     pub(super) fn rods(&self) -> Option<Rods<impl Iterator<Item = Arc> + use<'a>>> {
         match self.arcs {
             Arcs::Flown(arcs) if !self.scene.torque_rods.is_empty() => Some(Rods { later: arcs.iter(), last: None }),
@@ -87,7 +87,7 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Upper bound of the torque on the body, N m: sum of the magnitudes of thrusters, motors, effects and body torque.
+    /// Upper bound of the torque on the body, N m.
     #[inline(always)]
     pub(super) fn largest_torque(&self) -> f64 {
         let changing = largest_changing_torque(self.scene);
@@ -106,7 +106,7 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Bound in `arc`, next to `effects`.
+    /// Bound in `arc`, in addition to `effects`.
     fn torque(&self, arc: &Arc, effects: f64) -> f64 {
         let applied = &arc.applied;
         let thrust = self.scene.thruster_torque_s(applied.thrust);

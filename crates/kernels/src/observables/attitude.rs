@@ -1,4 +1,4 @@
-//! Attitude of the body from the DCM or quaternion of a kernel, and its series.
+//! Attitude from the DCM or quaternion of a kernel, and its series.
 
 use fearless_simd::Simd;
 
@@ -9,8 +9,8 @@ use crate::math::vector::{dcm_from_quaternion, difference, dot, sum};
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 
-/// Source of C_es: the DCM if integrated, else the quaternion in its homogeneous form, so that an error of the norm
-/// shows in every rotated vector.
+/// Source of C_es: the DCM if integrated, else the quaternion in homogeneous form, so that an error of its norm shows
+/// in every rotated vector.
 #[derive(Clone, Copy)]
 pub(super) enum Attitude<'a> {
     Dcm([Column<'a>; 9]),
@@ -44,7 +44,7 @@ impl<'a> Attitude<'a> {
         }
     }
 
-    /// Largest entry of |C_es^T C_es - 1|; for a quaternion | |q|^4 - 1 |, since C_es is |q|^2 times a rotation.
+    /// Largest entry of |C_es^T C_es - 1|; | |q|^4 - 1 | for a quaternion, whose C_es is |q|^2 times a rotation.
     #[inline(always)]
     fn orthonormality<S: Simd>(self, simd: S, at: usize) -> Lanes<S> {
         let one = Lanes::broadcast(simd, 1.0);
@@ -86,8 +86,8 @@ pub(super) fn attitude_series<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
     }
 }
 
-/// tan^2 of half the angle between s3 and its initial direction: |a - b|^2/|a + b|^2 for unit vectors, exact to
-/// rounding near zero and half a turn (W. Kahan, *How Futile are Mindless Assessments of Roundoff*, 2006, section 12).
+/// tan^2 of half the angle between s3 and its initial direction, |a - b|^2/|a + b|^2 of unit vectors: accurate near
+/// zero and half a turn (W. Kahan, *How Futile are Mindless Assessments of Roundoff*, 2006, section 12).
 #[inline(always)]
 fn spin_axis_angle<S: Simd>(simd: S, attitude: Attitude<'_>, [out]: [&mut [[f64; WIDTH]]; 1]) {
     let mut start = constant(simd, [0.0; 3]);

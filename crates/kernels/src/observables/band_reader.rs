@@ -1,8 +1,7 @@
-//! [`BandReader`]: the values of a run at the points of its bands, and the buckets of their deviations from the nominal
-//! run.
+//! [`BandReader`]: values of a run at the points of its bands, and buckets of their deviations from the nominal run.
 //!
-//! Hundreds of values of every run: loops without branches over flat arrays, compiled for each instruction set
-//! ([`crate::math::isa::Work`]), which all give the same buckets (IEEE 754). Buckets are counted in `ensemble`.
+//! Branch-free loops over flat arrays handle the hundreds of values per run, compiled for each instruction set
+//! ([`crate::math::isa::Work`]) with the same buckets on all. Buckets are counted in `ensemble`.
 
 use fearless_simd::Simd;
 
@@ -19,7 +18,7 @@ pub struct BandReader {
     sources: Vec<BandSeries>,
     /// Observation points, ascending.
     points: Vec<usize>,
-    /// Reference of the deviations, by series and point.
+    /// Reference of deviations, by series and point.
     reference: Vec<f64>,
     kept: Vec<f64>,
     deviations: Vec<f64>,
@@ -27,18 +26,18 @@ pub struct BandReader {
 
 /// Output for a run, by series and point.
 pub struct BandColumns<'a> {
-    /// The smallest kept numbers so far.
+    /// Smallest kept numbers so far.
     pub min: &'a mut [f64],
-    /// The largest kept numbers so far.
+    /// Largest kept numbers so far.
     pub max: &'a mut [f64],
-    /// Number of runs without a value so far.
+    /// Runs without a value so far.
     pub without: &'a mut [u64],
-    /// Buckets of the deviations of this run, if counted.
+    /// Buckets of this run's deviations, if counted.
     pub codes: Option<&'a mut [Code]>,
 }
 
 impl BandReader {
-    /// Reads `sources` at `points`, ascending; deviations are from zero until [`BandReader::compare_with`].
+    /// Reads `sources` at `points`, ascending; the reference is zero until [`BandReader::compare_with`].
     pub fn new(sources: Vec<BandSeries>, points: Vec<usize>) -> Self {
         let columns = sources.len() * points.len();
         BandReader {
@@ -60,29 +59,29 @@ impl BandReader {
         &self.points
     }
 
-    /// Number of columns: series times points.
+    /// Series times points.
     pub fn columns(&self) -> usize {
         self.reference.len()
     }
 
-    /// Sets the reference of deviations to the kept numbers `nominal`, zero for NaN.
+    /// Sets the reference of deviations to kept numbers, with zero for NaN.
     pub fn compare_with(&mut self, nominal: &[f64]) {
         for (reference, nominal) in self.reference.iter_mut().zip(nominal) {
             *reference = if nominal.is_nan() { 0.0 } else { *nominal };
         }
     }
 
-    /// Kept numbers of the run with the states `table` last observed by `observer`; NaN at points not reached, and from
-    /// point `end` on.
+    /// Kept numbers of the run last observed by `observer`, with the states `table`; NaN at points not reached, and
+    /// from point `end` on.
     pub fn kept(&mut self, observer: &Observer, table: &StateTable, end: usize) -> &[f64] {
         self.keep(observer, table, end);
         &self.kept
     }
 
-    /// Reads the run with the states `table` last observed by `observer`, on `isa`, as [`BandReader::kept`].
+    /// Reads the run last observed by `observer`, see [`BandReader::kept`].
     ///
     /// # Panics
-    /// If the length of a list is not [`BandReader::columns`].
+    /// If a list does not have [`BandReader::columns`] entries.
     pub fn read(&mut self, isa: Isa, observer: &Observer, table: &StateTable, end: usize, out: BandColumns<'_>) {
         isa.run(Reading { reader: self, observer, table, end, out });
     }
@@ -124,7 +123,7 @@ impl Work for Reading<'_> {
         let (min, max) = (&mut out.min[..count], &mut out.max[..count]);
         let mut has_gaps = 0;
         for at in 0..count {
-            let value = kept[at] + 0.0; // one zero, so that the extremes do not depend on order
+            let value = kept[at] + 0.0; // -0 becomes 0, so that the extremes do not depend on order
             min[at] = if value < min[at] { value } else { min[at] };
             max[at] = if value > max[at] { value } else { max[at] };
             has_gaps |= u64::from(value.is_nan());

@@ -1,6 +1,5 @@
-//! [`BandSeries`]: quantities over time whose quantiles over a campaign are bands: series of the table of observables,
-//! and changes of series since the start (energy transfer). Only |omega| at the points of the bands needs a computation
-//! beyond the observed columns.
+//! [`BandSeries`]: quantities over time whose quantiles over a campaign form bands: series of the table of observables,
+//! and changes of series since the start. Only |omega| needs a computation beyond the observed columns.
 
 use super::group::Group;
 use super::law_columns::LawSeries;
@@ -10,21 +9,20 @@ use super::table::{CHANGES, Column, Series};
 use super::window::Window;
 use crate::run::{Quantity, StateField, StateTable};
 
-/// Stored form of a quantity: cheap at every point of every run, with deviations that can be counted.
+/// Kept form of a quantity, cheap at every point of every run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The quantity itself.
     Value,
-    /// Tangent of half of it: angles from 0 to pi without an arc tangent at every point.
+    /// Tangent of half the angle, from 0 to pi: saves an arc tangent at every point.
     HalfTangent,
 }
 
-/// Tangent of a right angle: finite, also in products of two.
+/// Stands for the tangent of a right angle; its square is finite.
 const VERTICAL: f64 = 1e100;
 
 impl Form {
-    /// Deviation of `kept` from `nominal`, in the same form. For half tangents tan(a - b) = (tan a - tan b)/(1 + tan a
-    /// tan b), with at least the relative error of the angle.
+    /// Deviation of `kept` from `nominal`, in the same form; for half tangents by the addition theorem.
     #[inline(always)]
     pub fn deviation(self, kept: f64, nominal: f64) -> f64 {
         match self {
@@ -33,7 +31,7 @@ impl Form {
         }
     }
 
-    /// The quantity of a kept number, or the deviation of a kept deviation.
+    /// Quantity of a kept number, or deviation of a kept deviation.
     pub fn shown(self, kept: f64) -> f64 {
         match self {
             Form::Value => kept,
@@ -42,16 +40,16 @@ impl Form {
     }
 }
 
-/// A quantity over time that has bands.
+/// A quantity over time with bands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandSeries {
     pub(super) series: Series,
     stored: Stored,
-    /// Divisor of its values.
+    /// Divisor of the values.
     pub(super) scale: Option<(Series, Reduction)>,
     /// True for the change of the series since the start.
     pub(super) is_change: bool,
-    /// True if no column needs the series: computed from the states at the points of the bands alone.
+    /// True if no column needs the series, so that it is computed at the points of the bands only.
     pub(super) is_own: bool,
     /// Name, unit and meaning.
     pub quantity: Quantity,
@@ -59,11 +57,11 @@ pub struct BandSeries {
     pub form: Form,
 }
 
-/// The series with bands although no column needs it: |omega|.
+/// The series that has bands even if no column needs it: |omega|.
 const OWN: Series = Series::RateSquare;
 
-/// Observed quantities with bands in runs of `request`: conservation errors, energy of each body, energy transfer,
-/// angles, |omega|, wheel speeds, records of a control loop, orbit and surroundings.
+/// Quantities with bands in runs of `request`: conservation errors, energy of each body, energy transfer, angles,
+/// |omega|, wheel speeds, records of a control loop, orbit and surroundings.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
     let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
     let energies = [Series::EnergyBody, Series::EnergyWheel];
@@ -95,8 +93,8 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
-/// Quantities of runs of `request` for events: every observed quantity over time, except errors relative to the largest
-/// value of a run, which depend on the observation points.
+/// Quantities for events in runs of `request`: all observed ones except errors relative to the largest value of a run,
+/// which depend on the observation points.
 pub fn event_series(request: &Request) -> Vec<BandSeries> {
     let of_values = Series::all().filter(|series| series.wheel().is_none_or(|wheel| wheel == 0));
     let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
@@ -107,26 +105,26 @@ pub fn event_series(request: &Request) -> Vec<BandSeries> {
 }
 
 impl BandSeries {
-    /// True if a control loop sets it at its ticks and holds it in between.
+    /// True if a control loop sets the quantity at its ticks and holds it in between.
     pub fn changes_at_ticks(&self) -> bool {
         LawSeries::place(self.series).is_some() && self.series.wheel().is_none()
     }
 
-    /// True if it compares the run with the nominal one.
+    /// True if the quantity compares the run with the nominal one.
     pub fn is_from_nominal(&self) -> bool {
         self.series == Series::FromNominal
     }
 
-    /// Its largest or smallest value in runs of `request` over the points from one time to another, s.
-    pub fn window(&self, request: &Request, is_highest: bool, times: [Option<f64>; 2]) -> Window {
+    /// Largest or smallest value in runs of `request` over a closed interval of time, s.
+    pub fn window(&self, request: &Request, is_highest: bool, [from_s, to_s]: [Option<f64>; 2]) -> Window {
         let shows = |column: &Column| column.value.of(self.series);
         let otherwise = if LawSeries::place(self.series).is_some() { Group::Control } else { Group::Motion };
         let group = request.columns().into_iter().find(shows).map_or(otherwise, |column| column.group);
-        Window::new(self.series, group, self.is_change, is_highest, times)
+        Window { series: self.series, group, is_change: self.is_change, is_highest, from_s, to_s }
     }
 }
 
-/// Bands of `series`, of each wheel if it is of wheels, or of its change since the start, if observed.
+/// Bands of `series`, or of its change since the start, for each wheel if there is one per wheel, if observed.
 fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeries> {
     let places = if series.wheel().is_some() { request.wheels.len() } else { 1 };
     let observed = request.series();
@@ -145,7 +143,7 @@ fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeri
     (0..places).filter_map(of_place).collect()
 }
 
-/// Kept numbers at `points` of a quantity computed from the states of `table`: |omega|, rad/s.
+/// Kept numbers of |omega|, rad/s, at `points`, from the states.
 #[inline(always)]
 pub(super) fn keep_own(table: &StateTable, points: &[usize], out: &mut [f64]) {
     let [x, y, z] = [0, 1, 2].map(|component| table.column(StateField::Rate, component));
@@ -173,7 +171,7 @@ pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usiz
         Stored::HalfTangentSquare => {
             for out in out {
                 let tangent = out.sqrt();
-                // unlike f64::min this keeps NaN
+                // keeps NaN, unlike f64::min
                 *out = if tangent > VERTICAL { VERTICAL } else { tangent };
             }
         }

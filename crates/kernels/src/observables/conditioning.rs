@@ -2,35 +2,34 @@
 //!
 //! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys
 //! eta' = eta x omega + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the
-//! energy T; Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899). They give the error across the
-//! curve of H at any time; only the shift along the curve is integrated. With w, the part of omega across H, and unit
-//! vectors along H, w and v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
+//! energy T; Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899), which gives the error across the
+//! curve of H at any time; only the shift along the curve is integrated. With w, the part of omega across H, and
+//! v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
 //!
 //! ```text
 //! X constant;   |w_i| Y_i = |w_k| Y_k + (mu_k - mu_i) |H| X,   mu = omega . H/|H|^2;   Z = alpha |H| |w|,
 //! alpha' = X A_wH/|w| + Y (A_ww - A_vv)/|w|      (alpha: the shift in time, s)
 //! ```
 //!
-//! Near an unstable equilibrium |w| stays small for long, and the shift grows like 1/|w|^2: the separatrix. The error
+//! Near an unstable equilibrium (a separatrix) |w| stays small for long, and the shift grows like 1/|w|^2. The error
 //! of the attitude across L follows from eta, since L is constant in F_e. The error about L is the integral of H . A
 //! eta/|H|, with the part of alpha, a derivative, integrated by parts. [`super::error_sums`] has the sums, over:
-//! - changes of |H|^2 and of T - mu_0 |H|^2/2 since point 0 beyond rounding: truncation of any method. The second
-//!   change is |w| Y. mu_0 is mu at minimal |w|: near a separatrix the second invariant is the distance from it;
+//! - truncation of any method: changes of |H|^2 and of T - mu_0 |H|^2/2 (which is |w| Y) since point 0 beyond rounding.
+//!   mu_0 is mu at minimal |w|, so that near a separatrix the second invariant is the distance from it;
 //! - rounding of each component, which the states do not show;
-//! - for kernels whose other states feed back into omega, and for truncation near a separatrix: errors along the curve,
-//!   and errors too small to show in the invariants;
+//! - with feedback of other states into omega, and near a separatrix: errors along the curve, and errors too small to
+//!   show in the invariants;
 //! - rounding of the wheels' momentum, which turns omega about it;
-//! - under torque, without invariants: the method's estimate of truncation, in proportion to |w|, at least the |w| made
-//!   by the torque within a radian of rotation.
+//! - under torque, without invariants: the method's estimate of truncation, in proportion to |w|, at least the |w| that
+//!   the torque causes within a radian of rotation.
 //!
-//! If H is small (at rest, or with cancelling wheel momenta), no curve is well conditioned, but errors hardly grow: the
-//! growth of |eta| is the symmetric part of H x A, at most |H| s with the distance s of A from a multiple of one. So
-//! |eta| is at most e^(integral of |H| s) times the sum of all errors, and the attitude's error at most |A| times the
-//! integral of that. This bound, with errors made at the start, is computed as well, and the smaller of both is the
-//! estimate, without a threshold. Rounded quantities are K omega and, in H x omega, the wheels' momenta, sum |h_i|.
+//! If H is small (at rest, or with cancelling wheel momenta), no curve is well conditioned, but errors hardly grow:
+//! |eta| grows by the symmetric part of H x A, at most |H| s with the distance s of A from a multiple of one. So |eta|
+//! is at most e^(integral of |H| s) times the sum of all errors, and the attitude's error |A| times its integral. The
+//! estimate is the smaller of both. Rounded quantities are K omega and, in H x omega, the wheels' momenta, sum |h_i|.
 //!
-//! Magnitudes are added, not signed numbers; errors are assumed to arise evenly along the run. The method's own
-//! estimates are [`crate::run::Outcome::local_errors`].
+//! Magnitudes are added; errors are assumed to arise evenly along the run. The method's own estimates are
+//! [`crate::run::Outcome::local_errors`].
 
 use fearless_simd::Simd;
 
@@ -44,27 +43,26 @@ use crate::math::vector::{constant, constant_matrix, cross, difference, dot, pro
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 
-/// Maximum number of examined points: enough to find the closest approach to a separatrix about as often as it occurs,
-/// at negligible cost.
+/// Most points examined first, which mostly show an approach to a separatrix.
 const POINTS: usize = 32;
 
-/// Maximum near a separatrix, where |w| is small for most of the time and varies by orders of magnitude between points.
+/// Most points examined near a separatrix, where |w| varies by orders of magnitude between points.
 const MOST_POINTS: usize = 128;
 
-/// |w| varies by more than this factor near a separatrix.
+/// Smallest over largest |w| below which a motion is near a separatrix.
 const NEAR: f64 = 0.1;
 
-/// Rate across H as a fraction of |omega| below which the motion is an equilibrium to rounding.
+/// |w|/|omega| below which a motion is an equilibrium to rounding.
 const STILL: f64 = 1e-12;
 
-/// Minimum of a rate across H as a fraction of |omega|: a tenth of rounding.
+/// Lower limit of |w|/|omega|: a tenth of rounding.
 const LEAST: f64 = 1e-17;
 
 /// Component along each of three axes of a unit error in a random direction: 1/sqrt(3).
 const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
-/// Safety factor from the runs of `tests/accuracy/error_estimate.rs`: with 1 the estimate is below the true error in up
-/// to half of the runs of a family (mostly by a third), with 2 in less than one of twenty.
+/// Safety factor: with 1 the estimate is below the true error in up to half of the runs of a family of
+/// `tests/accuracy/error_estimate.rs` (mostly by a third), with 2 in less than one of twenty.
 const SAFETY: f64 = 2.0;
 
 /// Half a turn: nothing is known.
@@ -76,7 +74,7 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 /// Relative rounding of a wheel's momentum.
 const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// Factor on the rounding of a component if principal axes are computed first.
+/// Factor on the rounding of a component by a change to principal axes.
 const TURNED: f64 = 4.0;
 
 /// The states of a run and the method's estimates of their errors.
@@ -85,7 +83,7 @@ pub(super) struct ObservedStates<'a> {
     pub(super) table: &'a StateTable,
     /// Times of the points of the table, s.
     pub(super) times: &'a [f64],
-    /// Number of points that have states, at least one.
+    /// Number of points with states, at least one.
     pub(super) filled: usize,
     pub(super) local: &'a LocalErrors,
 }
@@ -94,13 +92,13 @@ pub(super) struct ObservedStates<'a> {
 pub(super) struct ErrorEstimate {
     /// Estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
     pub(super) error: f64,
-    /// Largest growth factor of relative errors of omega that arise evenly along the run and in every direction, from
-    /// one to 1e200.
+    /// Largest growth factor, from one to 1e200, of relative errors of omega that arise evenly along the run and in
+    /// every direction.
     pub(super) amplification: f64,
 }
 
 impl ErrorEstimate {
-    /// A run that was not observed.
+    /// For a run that was not observed.
     pub(super) const UNKNOWN: ErrorEstimate = ErrorEstimate { error: f64::NAN, amplification: f64::NAN };
 }
 
@@ -157,7 +155,7 @@ impl Conditioning {
         }
     }
 
-    /// The estimate for a run under `acting`.
+    /// Estimate for a run under `acting`.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
@@ -183,7 +181,7 @@ impl Conditioning {
         ErrorEstimate { error: lesser(followed * made, LOST).larger(found.error), amplification }
     }
 
-    /// The estimate for the debris of inertia `inertia`.
+    /// Estimate for debris of this inertia.
     #[inline(always)]
     pub(super) fn estimate_debris<S: Simd>(
         &mut self,
@@ -222,8 +220,7 @@ impl Conditioning {
         self.scale = scale;
         // relative from here on
         let local = LocalErrors { truncation: local.truncation / scale, feedback: local.feedback / scale, ..*local };
-        // if the torque follows the attitude, a planar motion is no special case: truncation turns the body further and
-        // further
+        // a torque that follows the attitude leaves no equilibrium: truncation turns the body further and further
         let is_changed = acting.is_some_and(|acting| ForceModel::of(acting.scene()).changes_within_arcs());
         let curve = if widest <= STILL * largest && !is_changed {
             self.at_equilibrium(body, [count, stride, last], scale, table, &local)
@@ -242,7 +239,7 @@ impl Conditioning {
         }
     }
 
-    /// Fills at most `most` entries: the stride between points, and their number.
+    /// Fills at most `most` entries; returns the stride between points, and their number.
     #[inline(always)]
     fn examine<S: Simd>(&mut self, simd: S, body: &Body<'_>, states: ObservedStates<'_>, most: usize) -> [usize; 2] {
         let ObservedStates { table, times, filled, .. } = states;
@@ -258,7 +255,7 @@ impl Conditioning {
         [stride, count]
     }
 
-    /// Fills eight entries from `first` on; entry k is the point `stride` k, at most `last`.
+    /// Fills eight entries from `first` on; entry k is point `stride` k, at most `last`.
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, body: &Body<'_>, table: &StateTable, [first, stride, last]: [usize; 3]) {
         let mut points = [0; WIDTH];
@@ -315,8 +312,7 @@ impl Conditioning {
         (dot(w, slope) * per_w2).store(&mut self.widening[first..]);
         rate2.sqrt().store(&mut self.rate[first..]);
         wheels.larger(Lanes::broadcast(simd, body.wheels)).store(&mut self.wheels[first..]);
-        // effect of relative errors of the components on H: in the axes of integration, or of any component if these
-        // axes are computed first
+        // effect on H of relative errors of the components, of any one if a change of axes mixes them
         let [[x, ..], [_, y, _], [.., z]] = body.inertia;
         let moments = constant(zero, [x, y, z]);
         let magnitudes = if body.is_principal {
@@ -339,7 +335,7 @@ impl Conditioning {
         local: &LocalErrors,
     ) -> (f64, f64) {
         let (inertia, duration) = (body.size, self.times[count - 1]);
-        // errors are relative to omega: the momentum of a unit error
+        // momentum of a unit error, relative to omega
         let unit = inertia * largest;
         let is_driven = body.offset.is_none();
         let acting = acting.filter(|_| is_driven);
@@ -392,7 +388,7 @@ impl Conditioning {
             for (here, share) in &parts[..used] {
                 let share = *share;
                 even.advance(here, [share * PER_AXIS; 3]);
-                // a wheel's momentum turns omega by an angle that its rounding changes
+                // rounding of a wheel's momentum changes the angle by which it turns omega
                 let turned = 0.5 * self.wheels[k] * here.w * duration;
                 let made = [self.digits[0][k], self.digits[1][k], self.digits[2][k] + turned];
                 digits.advance(here, made.map(|made| share * made));
@@ -401,7 +397,7 @@ impl Conditioning {
                     continue;
                 }
                 if NEAR || local.feedback > 0.0 {
-                    // errors across H: only the part not shown by the balance
+                    // only the part of errors across H that the balance does not show
                     let points = count as f64;
                     let truncation = if NEAR { local.truncation } else { 0.0 };
                     let [fed, cut] = [local.feedback, truncation].map(|error| share * PER_AXIS * error / points);
@@ -424,7 +420,7 @@ impl Conditioning {
         dip([self.across[k - 1], self.across[k]], [self.widening[k - 1], self.widening[k]], step)
     }
 
-    /// Bounds of error and amplification of any motion, from the growth of |eta|; weak if H turns by many radians.
+    /// Bounds of error and amplification from the growth of |eta|; weak if H turns by many radians.
     #[inline(always)]
     fn bound(&self, body: &Body<'_>, count: usize, largest: f64, local: &LocalErrors) -> (f64, f64) {
         let (mut exponent, mut fastest, mut stirred) = (0.0, 0.0_f64, 0.0);
@@ -444,7 +440,7 @@ impl Conditioning {
         (amplification * (shown + rounded + local.truncation + local.feedback), amplification)
     }
 
-    /// Largest error of H, N m s, shown by |H| and energy beyond rounding if both are constant.
+    /// Largest error of H, N m s, that constant |H| and energy show beyond rounding.
     fn shown(&self, count: usize) -> f64 {
         let mut most = 0.0_f64;
         for k in 0..count {
@@ -457,7 +453,7 @@ impl Conditioning {
         most
     }
 
-    /// Error and amplification about an equilibrium with omega along H, from the linear equations.
+    /// Error and amplification about an equilibrium with omega along H, by the linear equations.
     fn at_equilibrium(
         &self,
         body: &Body<'_>,

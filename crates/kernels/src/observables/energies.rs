@@ -1,9 +1,8 @@
 //! Kinetic energies of each body and in total, in F_e and about the spacecraft's centre of mass c.
 //!
-//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, and (36) splits into the
-//! energy about c, a quadratic form of omega, and the motion of c: T_b = T_b^c + m_b (u . (omega x d_b) + u . u / 2). A
-//! wheel adds J_i Omega_i (omega . a_i + Omega_i / 2). Over the spacecraft the mixed terms cancel: T = T^c + m v_c .
-//! v_c / 2, without the attitude.
+//! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, and (36) splits into T_b =
+//! T_b^c + m_b (u . (omega x d_b) + u . u / 2) with T_b^c a quadratic form of omega. A wheel adds J_i Omega_i (omega .
+//! a_i + Omega_i / 2). Over the spacecraft the mixed terms cancel: T = T^c + m v_c . v_c / 2, without the attitude.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -19,10 +18,10 @@ use crate::run::{StateField, StateTable};
 use crate::scene::MAX_WHEELS;
 use crate::scene::mass::{MassProperties, Wheel};
 
-/// Symmetric quadratic form: coefficients of xx, yy, zz, xy, xz, yz.
+/// Coefficients of xx, yy, zz, xy, xz, yz.
 type Form = [f64; 6];
 
-/// T^c = omega . K omega / 2 of a body of mass `mass` at `offset` from c with inertia `inertia`.
+/// T^c = omega . K omega / 2 of a body with its centre at `offset` from c.
 #[inline(always)]
 fn form(mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Form {
     let [x, y, z] = offset;
@@ -49,7 +48,7 @@ fn quadratic<R: Real>(form: [R; 6], p: [R; 6]) -> R {
     squares + mixed
 }
 
-/// Inertia of an axisymmetric wheel about its centre in F_s: J_t (1 - a a^T) + J_a a a^T.
+/// J_t (1 - a a^T) + J_a a a^T.
 #[inline(always)]
 fn wheel_inertia(wheel: &Wheel) -> [[f64; 3]; 3] {
     let [x, y, z] = wheel.axis;
@@ -70,7 +69,7 @@ fn constant_form<S: Simd>(simd: S, a: Form) -> [Lanes<S>; 6] {
 
 #[derive(Clone, Copy)]
 struct BodyConstants<S: Simd> {
-    /// Energy about c, the wheels locked, as a form of omega.
+    /// Energy about c, with locked wheels, as a form of omega.
     form: [Lanes<S>; 6],
     /// m_b d_b, since m_b u . (omega x d_b) = m_b d_b . (u x omega).
     arm: [Lanes<S>; 3],
@@ -79,7 +78,7 @@ struct BodyConstants<S: Simd> {
 }
 
 impl<S: Simd> BodyConstants<S> {
-    // No closures on lanes here and below: a closure that is not inlined loses the instruction set.
+    // no closures on lanes here and below: if not inlined, they lose the instruction set
     #[inline(always)]
     fn of(simd: S, mass: f64, offset: [f64; 3], inertia: [[f64; 3]; 3]) -> Self {
         BodyConstants {
@@ -107,7 +106,7 @@ struct WheelConstants<S: Simd> {
 
 struct Constants<S: Simd, const W: usize> {
     body: BodyConstants<S>,
-    /// As many entries as there are wheels.
+    /// One entry per wheel.
     wheels: [WheelConstants<S>; W],
     /// m / 2.
     half_total: Lanes<S>,
@@ -147,7 +146,7 @@ fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
     Lanes::load(simd, &column[at])
 }
 
-/// Kinetic energies of redundant states, if any.
+/// Kinetic energies of redundant states.
 struct Redundant<'a, const W: usize> {
     body: Column<'a>,
     wheels: [Column<'a>; W],
@@ -177,7 +176,7 @@ impl<'a, const W: usize> Redundant<'a, W> {
     }
 }
 
-/// The energies of a run and their balance, with loops unrolled for common numbers of wheels.
+/// Energies of a run and their balance, with loops unrolled for common numbers of wheels.
 #[inline(always)]
 pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     match run.mass.wheels.len() {
@@ -206,10 +205,9 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
     let velocity = if total || inertial { needed(table, StateField::ComVelocity, vectors) } else { [&[][..]; 3] };
     let work: Option<[_; 2]> =
         if observed.has(Series::EnergyError) { columns(table, StateField::Work, vectors) } else { None };
-    // a kernel with redundant states conserves the energy of these states (36), which differs from that of the rates
-    // alone once the wheels have drifted off their constraints
+    // redundant states conserve their own energy (36), which departs from that of the rates with the constraints
     let redundant = Redundant::<W>::of(table, vectors);
-    // the debris is a body with its centre of mass at c
+    // the debris has its centre of mass at c
     let debris = match debris {
         Some(body) if total || observed.has(Series::EnergyDebris) => {
             let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);

@@ -1,25 +1,25 @@
-//! [`Sums`]: errors of the rotational state along a motion, in the axes H, w and v of [`super::conditioning`].
+//! [`Sums`]: errors of the rotational state along a motion, in the axes of [`super::conditioning`].
 
 use crate::math::Real;
 
-/// Sum of the errors of one kind up to a point.
+/// Accumulated errors of one kind.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
     /// Along H.
     along: f64,
     /// |w| Y.
     across: f64,
-    /// |mu - mu_0| |H| X: errors along H that become errors across it.
+    /// |mu - mu_0| |H| X: errors along H that turn into errors across it.
     tilted: f64,
     /// Shift in time.
     shift: f64,
     /// Rotation about L, without the shift.
     about: f64,
-    /// The largest error so far.
+    /// Largest error so far.
     pub(super) most: f64,
 }
 
-/// Operands of the sums at a point.
+/// Operands at a point.
 #[derive(Clone, Copy)]
 pub(super) struct Here {
     /// Time since the previous point and since the start, s.
@@ -32,15 +32,15 @@ pub(super) struct Here {
     pub(super) axial: f64,
     pub(super) twist: f64,
     pub(super) shear: f64,
-    /// The largest difference of mu |H| so far.
+    /// Largest difference of mu |H| so far.
     pub(super) range: f64,
-    /// Momentum of a unit error, and reference rate of errors of omega.
+    /// Momentum of a unit error, and reference rate of omega.
     pub(super) unit: f64,
     pub(super) largest: f64,
 }
 
 impl Sums {
-    /// Advances to a point with known error along H and change of the balance.
+    /// Advances to a point with a known error along H and a known change of the balance.
     #[inline(always)]
     pub(super) fn set(&mut self, at: &Here, along: f64, balance: f64) {
         let per_w = 1.0 / at.w;
@@ -53,7 +53,7 @@ impl Sums {
     /// Records an error of magnitude `total`.
     #[inline(always)]
     fn record(&mut self, at: &Here, total: f64) {
-        // across L: bounded by the constancy of L, and by the integral of the error of the rate
+        // across L: bounded since L is constant, and by the integral of the error of the rate
         let across = (at.unit / at.h * total).smaller((at.largest * at.since).mul_add(self.most, total));
         let turned = at.unit * 2.0_f64.mul_add(self.shift * at.range, self.about);
         self.most = self.most.larger(total.larger(across + turned));
@@ -75,13 +75,13 @@ impl Sums {
     }
 }
 
-/// Points more e-foldings of |w| apart do not follow the motion and show no dip between them: a body at 1e4 rad/s,
-/// sampled once a second, would have dips of thousands.
+/// Between points more e-foldings of |w| apart no dip is assumed: a body at 1e4 rad/s, sampled once a second, would
+/// have dips of thousands.
 const FOLLOWED: f64 = 16.0;
 
 /// Dip of |w| between two points `step` seconds apart, if it falls after the first and rises before the second:
-/// duration of its bottom, s, and |w| there. `across` is |w| at both, `widening` its relative slope, 1/s. Near an
-/// unstable equilibrium |w| = c cosh(lambda t), and the integral of its inverse square is 2/(lambda c^2).
+/// duration of its bottom, s, and |w| there. `across` is |w| at both points, `widening` its relative slope, 1/s. Near
+/// an unstable equilibrium |w| = c cosh(lambda t), and 1/|w|^2 integrates to 2/(lambda c^2).
 pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f64; 2]> {
     let (falls, rises) = (-widening[0], widening[1]);
     if !(falls > 0.0 && rises > 0.0) {

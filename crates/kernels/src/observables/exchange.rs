@@ -1,5 +1,5 @@
 //! Exchange of kinetic energy between body and wheels about the spacecraft's centre of mass: correlations and dominant
-//! frequency, in a fixed order of operations (see `reduce`).
+//! frequency.
 
 use fearless_simd::Simd;
 
@@ -8,8 +8,8 @@ use super::weights::{Weights, total, vectors};
 use crate::math::{Lanes, Real};
 use crate::scene::MAX_WHEELS;
 
-/// Swing of a body's energy over the total about the centre of mass below which it counts as constant: dozens of
-/// roundings of the total, from its sum of squares and the integration of omega.
+/// Swing of a body's energy, over the largest total about the centre of mass, below which it counts as constant: dozens
+/// of roundings of the total.
 pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Clone, Copy)]
@@ -22,14 +22,14 @@ pub(super) struct BodyEnergy<'a> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exchange {
-    /// Correlation of the body with each wheel; zero if one is constant.
+    /// Correlation of the body with each wheel; zero if one does not vary.
     pub(super) correlations: [f64; MAX_WHEELS],
-    /// Dominant frequency of the body, Hz; zero if constant, NaN on a grid without a spectrum.
+    /// Dominant frequency of the body, Hz; NaN if it does not vary or the grid has no spectrum.
     pub(super) frequency: f64,
 }
 
 impl Exchange {
-    /// A run that was not observed.
+    /// For a run that was not observed.
     pub(super) const UNKNOWN: Exchange = Exchange { correlations: [f64::NAN; MAX_WHEELS], frequency: f64::NAN };
 }
 
@@ -60,7 +60,6 @@ pub(super) fn exchange<'w, S: Simd>(
     Exchange { correlations, frequency }
 }
 
-/// Correlation of the energies of `a` and `b`; zero if one is constant.
 #[inline(always)]
 fn correlation<S: Simd>(simd: S, weights: &Weights, a: BodyEnergy<'_>, b: BodyEnergy<'_>) -> f64 {
     let zero = Lanes::broadcast(simd, 0.0);

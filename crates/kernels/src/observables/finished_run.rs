@@ -1,4 +1,4 @@
-//! [`FinishedRun`]: values of a run that are not reduced from a series.
+//! [`FinishedRun`]: values of a run not reduced from a series.
 
 use super::conditioning::ErrorEstimate;
 use super::exchange::Exchange;
@@ -7,25 +7,25 @@ use crate::math::symmetric::principal_axes;
 use crate::run::{Outcome, StateField, StateTable};
 use crate::scene::MassProperties;
 
-/// Error of the state from rounding of the input alone above which a run is ill conditioned, rad or relative to the
-/// rate.
+/// Error of the rotational state, rad or relative to the rate, by rounding of the input alone, above which a run is ill
+/// conditioned.
 const MEANINGLESS: f64 = 1e-3;
 
 pub(super) struct FinishedRun<'a> {
     pub(super) table: &'a StateTable,
     pub(super) outcome: &'a Outcome,
     pub(super) time_reached: f64,
-    /// Number of points reached.
+    /// Points reached.
     pub(super) filled: usize,
     /// Times of the points, s.
     pub(super) times: &'a [f64],
-    /// Last point with finite rotational states, if the final state is observed.
+    /// Last point with finite rotational states; `None` if the final state is not observed.
     pub(super) final_point: Option<usize>,
     pub(super) exchange: Exchange,
     pub(super) estimate: ErrorEstimate,
     pub(super) debris_estimate: ErrorEstimate,
     pub(super) mass: &'a MassProperties,
-    /// Principal moments of inertia of the spacecraft, ascending, kg m^2, if observed.
+    /// [`principal_moments`], if observed.
     pub(super) moments: [f64; 3],
 }
 
@@ -46,7 +46,7 @@ pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
     (0..filled).rev().find(finite)
 }
 
-/// 1 if rounding of the input alone makes the result meaningless, else 0.
+/// 1 if rounding of the input alone may change the result, else 0.
 fn is_ill_conditioned(estimate: &ErrorEstimate) -> f64 {
     f64::from(u8::from(estimate.amplification * f64::EPSILON > MEANINGLESS))
 }

@@ -1,7 +1,6 @@
-//! [`Group`]: columns that a campaign requests by name (`[observe] groups = [...]`).
+//! [`Group`]: columns that a campaign requests by name (`[observe] groups`).
 
-/// The list of groups, `Group: "name";` each: those of a campaign without a choice, those only by name, those not by
-/// name.
+/// The groups, each `Group: "name";`: defaults of a campaign, those requested by name, and those of other tables.
 macro_rules! groups {
     (
         default { $($(#[$default_doc:meta])* $Default:ident: $default:literal;)* }
@@ -17,14 +16,14 @@ macro_rules! groups {
         }
 
         impl Group {
-            /// All groups that a campaign can name, in order of the columns.
+            /// All groups that campaigns can name, in order of the columns.
             pub const ALL: [Group; [$($default,)* $($named),*].len()] = [$(Group::$Default,)* $(Group::$Named),*];
 
-            /// Groups of a campaign without a choice. [`Group::Motion`] and [`Group::Orbit`] cost about as much as a
+            /// Groups of a campaign that chooses none. [`Group::Motion`] and [`Group::Orbit`] cost about as much as a
             /// run; [`Group::MassProperties`] follow from the dispersed values.
             pub const DEFAULT: [Group; [$($default),*].len()] = [$(Group::$Default),*];
 
-            /// The name in campaign files.
+            /// Name in campaign files.
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Group::$Default => $default,)*
@@ -38,22 +37,21 @@ macro_rules! groups {
 
 groups! {
     default {
-        /// Error of total kinetic energy minus the work of the actuators.
+        /// Error of total kinetic energy minus work.
         EnergyConservation: "energy_conservation";
-        /// Errors of linear momentum minus impulse and of angular momentum about the centre of mass minus angular
-        /// impulse.
+        /// Errors of linear momentum minus impulse, and of angular momentum minus angular impulse.
         MomentumConservation: "momentum_conservation";
-        /// Orthonormality of the attitude, and the angle of s3 from its initial direction.
+        /// Orthonormality of the attitude, and angle of s3 from its initial direction.
         Attitude: "attitude";
-        /// Residuals of the constraints, for kernels with constraints.
+        /// Residuals of the constraints.
         Constraints: "constraints";
         /// Kinetic energy of each body in F_e.
         Energies: "energies";
-        /// Kinetic energy of each body about the spacecraft's centre of mass, independent of the frame.
+        /// Kinetic energy of each body about the spacecraft's centre of mass.
         EnergiesCom: "energies_com";
-        /// Exchange of kinetic energy between body and wheels, about the spacecraft's centre of mass.
+        /// Exchange of kinetic energy between body and wheels about the spacecraft's centre of mass.
         Exchange: "exchange";
-        /// The last state.
+        /// Last state.
         FinalState: "final_state";
         /// Steps and evaluations.
         StepStatistics: "effort";
@@ -61,18 +59,17 @@ groups! {
         Numerics: "numerics";
     }
     by_name {
-        /// Angular rate, nutation, attitude relative to the nominal run, wheel speeds and momenta, direction of the
-        /// debris.
+        /// Angular rate, nutation, attitude relative to the nominal run, wheels, direction of the debris.
         Motion: "motion";
-        /// Mass, centre of mass and principal moments of inertia of the spacecraft, as dispersed.
+        /// Mass, centre of mass and principal moments of inertia of the spacecraft.
         MassProperties: "mass_properties";
-        /// Distance from the central body, angle of s3 from nadir, torque of the gravity gradient.
+        /// Distance from the central body, pointing relative to nadir, torques of the environment.
         Orbit: "orbit";
     }
     others {
-        /// Columns reported by the campaign's control law, if any.
+        /// Columns of the campaign's control law.
         Control: "control";
-        /// Times of events and failures, if the file has such tables.
+        /// Times of events and failures.
         Events: "events";
     }
 }

@@ -1,4 +1,4 @@
-//! [`HEADLINES`]: the columns of a summary.
+//! [`HEADLINES`]: columns of a summary.
 
 use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ValueStatistic};
@@ -11,8 +11,7 @@ pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValu
 /// Estimated error of the debris' rotation.
 pub const DEBRIS_STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::DebrisStateError);
 
-/// The columns of a summary in order: main errors, exchange, effort, numerics. A column of wheels stands for those of
-/// each wheel.
+/// Columns of a summary, in order; a column of wheels stands for one per wheel.
 pub const HEADLINES: &[ColumnId] = &{
     use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
     [
@@ -40,7 +39,7 @@ pub const HEADLINES: &[ColumnId] = &{
     ]
 };
 
-/// Positions in a row of the columns of a summary.
+/// Positions of [`HEADLINES`] in a row.
 pub fn headlines(request: &Request) -> Vec<usize> {
     let of_wheels = |id: &ColumnId| {
         let wheels = if id.is_of_wheel() { request.wheels.len() } else { 1 };
@@ -54,7 +53,7 @@ mod tests {
     use super::*;
     use crate::observables::table;
 
-    /// Law: every handle of a headline is a column's; a value of one kind of scene is in no other.
+    /// Law: every handle of a headline has a column.
     #[test]
     fn headlines_are_columns() {
         for id in HEADLINES {

@@ -1,14 +1,8 @@
-//! Inputs of each series and value of the table: statistics, scales, fields of the state table.
+//! Inputs of each value of the table: statistics, scales, fields of the state table.
 
 use super::reduction::{OrderStatistic, Reduction};
 use super::rows::Need;
-use super::table::{DIRECT_VALUES, DirectRow, DirectValue, FRACTION_SCALE, Series, Value};
-
-impl DirectValue {
-    pub(super) fn row(self) -> &'static DirectRow {
-        &DIRECT_VALUES[self as usize]
-    }
-}
+use super::table::{FRACTION_SCALE, Series, Value};
 
 impl Value {
     pub(super) fn of_wheel(self, wheel: usize) -> Self {
@@ -19,7 +13,7 @@ impl Value {
         }
     }
 
-    /// The statistic to which the value is relative.
+    /// Statistic by which the value is divided.
     pub(super) fn scale(self) -> Option<(Series, Reduction)> {
         match self {
             Value::Of(_, Reduction::Fraction) => Some(FRACTION_SCALE),
@@ -28,17 +22,17 @@ impl Value {
         }
     }
 
-    /// True if the value is a statistic of `series`.
+    /// True if the value is reduced from `series`.
     pub(super) fn of(self, series: Series) -> bool {
         matches!(self, Value::Of(own, _) | Value::Window(own, _) if own == series)
     }
 
-    /// Every statistic from which the value is computed.
+    /// Statistics from which the value is computed.
     pub(super) fn inputs(self) -> impl Iterator<Item = (Series, Reduction)> {
         let (own, direct, wheel) = match self {
             Value::Of(series, reduction) => (Some((series, reduction)), [].as_slice(), 0),
             Value::Direct(value, wheel) => (None, value.row().inputs, usize::from(wheel)),
-            // the cheapest statistic: the extreme is computed from the series itself
+            // the cheapest one: the extreme itself comes from the series
             Value::Window(series, _) => (Some((series, Reduction::Order(OrderStatistic::Initial))), [].as_slice(), 0),
             Value::Law(_) => (None, [].as_slice(), 0),
         };
@@ -46,7 +40,7 @@ impl Value {
         own.into_iter().chain(self.scale()).chain(direct)
     }
 
-    /// Every field from which the value is computed.
+    /// Fields from which the value is computed.
     pub(super) fn needs(self) -> impl Iterator<Item = Need> {
         let direct = match self {
             Value::Of(..) | Value::Window(..) | Value::Law(_) => [].as_slice(),
@@ -56,7 +50,7 @@ impl Value {
         of_series.chain(direct).copied()
     }
 
-    /// True if the value is known for a failed run.
+    /// True if a failed run has the value.
     pub(super) fn is_known_after_failure(self) -> bool {
         match self {
             Value::Of(..) | Value::Window(..) | Value::Law(_) => false,
@@ -70,10 +64,9 @@ mod tests {
     use super::*;
     use crate::observables::law_columns::LawSeries;
     use crate::observables::reduction::Stored;
-    use crate::observables::table::all;
+    use crate::observables::table::{DirectValue, all};
 
-    /// Law: every row of the tables of series and direct values is used by a column, records of a control loop by
-    /// bands.
+    /// Law: a column uses every series and direct value, except the series of control loops, which bands use.
     #[test]
     fn no_row_is_idle() {
         let used: Vec<Series> = all().flat_map(|column| column.value.inputs()).map(|(series, _)| series).collect();
@@ -83,10 +76,10 @@ mod tests {
                 .all(|series| used.contains(&series))
         );
         let direct = all().filter(|column| matches!(column.value, Value::Direct(..))).count();
-        assert_eq!(direct, DIRECT_VALUES.len());
+        assert_eq!(direct, DirectValue::COUNT);
     }
 
-    /// Law: a series that stores a function of its quantity has order statistics only.
+    /// Law: a series stored as a function of its quantity has order statistics only.
     #[test]
     fn statistics_are_those_of_the_quantity() {
         for column in all() {

@@ -1,5 +1,5 @@
-//! [`LawColumns`]: columns reported by a control law at the end of a run; [`LawSeries`]: its records over time. The
-//! values come from [`crate::dynamics::actuation::ActuationLaw::report`], not from the observer.
+//! [`LawColumns`]: columns that a control law reports at the end of a run; [`LawSeries`]: its records over time. The
+//! values come from [`crate::dynamics::actuation::ActuationLaw::report`].
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,25 +14,25 @@ use crate::scene::MAX_WHEELS;
 pub struct LawColumn {
     /// Name, unit and meaning.
     pub quantity: Quantity,
-    /// True numbers or counts.
+    /// Real numbers or counts.
     pub kind: ColumnKind,
-    /// Meanings of the counts 0, 1, ... if they are codes.
+    /// Meanings of the counts 0, 1, ..., if they are codes.
     pub codes: &'static [&'static str],
 }
 
-/// A set of series recorded by a control loop at the observation points.
+/// Set of series that a control loop records at the observation points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LawSeries(u32);
 
 impl LawSeries {
-    /// No quantity.
+    /// No series.
     pub const NONE: LawSeries = LawSeries(0);
-    /// Every quantity.
+    /// Every series.
     pub const ALL: LawSeries = LawSeries(u32::MAX);
-    /// Number of series, one per possible wheel: columns of a record, in the order of the table.
+    /// Number of such series, with one per possible wheel: columns of a record, in the order of the table.
     pub const COUNT: usize = Series::MotorTorque.index() + MAX_WHEELS - Series::PointingError.index();
 
-    /// The set with `series`.
+    /// This set and `series`.
     ///
     /// # Panics
     /// If no control loop records it.
@@ -52,14 +52,14 @@ impl LawSeries {
     }
 }
 
-/// Reports of a campaign's control law: columns of its rows, and records over time. NaN stands for no value.
+/// Reports of a control law: columns of rows, and records over time. NaN means no value.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LawColumns {
     /// The columns.
     pub list: &'static [LawColumn],
-    /// Number of columns, at the end, for times of events and failures: not the law's.
+    /// Number of these columns, at the end, that are times of events and failures.
     pub of_events: usize,
-    /// Quantities over time.
+    /// Recorded series.
     pub over_time: LawSeries,
 }
 
@@ -75,8 +75,7 @@ impl LawColumns {
     /// No reports.
     pub const NONE: LawColumns = LawColumns { list: &[], of_events: 0, over_time: LawSeries::NONE };
 
-    /// The columns `list`, known at run time only. Each list is kept forever: as many as kinds of campaigns opened by a
-    /// program.
+    /// Columns known at run time only. A list is kept forever, once for each kind of campaign that a program opens.
     pub fn kept(list: Vec<LawColumn>) -> Self {
         static KEPT: Mutex<Vec<&'static [LawColumn]>> = Mutex::new(Vec::new());
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -89,7 +88,7 @@ impl LawColumns {
         LawColumns { list, ..LawColumns::NONE }
     }
 
-    /// Appends the columns `events`, times of events and failures.
+    /// Appends columns of times of events and failures.
     #[must_use]
     pub fn with_events(self, events: Vec<LawColumn>) -> Self {
         if events.is_empty() {
@@ -99,7 +98,7 @@ impl LawColumns {
         LawColumns { of_events, over_time: self.over_time, ..Self::kept([self.list.to_vec(), events].concat()) }
     }
 
-    /// The handles of the columns.
+    /// Handles of the columns.
     pub(super) fn ids(self) -> impl Iterator<Item = ColumnId> {
         let of_law = self.list.len() - self.of_events;
         let group = move |index: usize| if index < of_law { Group::Control } else { Group::Events };

@@ -1,5 +1,4 @@
-//! Series from states, by source. Computations: [`super::energies`], [`super::momenta`], [`super::attitude`],
-//! [`super::motion`], [`super::orbit`], [`super::surroundings`]; reduction to numbers: [`super::reduce`].
+//! Series from states, by source, before their reduction in [`super::reduce`].
 
 use fearless_simd::Simd;
 
@@ -35,7 +34,7 @@ pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesT
     out.pad(run.observed, run.points);
 }
 
-/// Records of the control law, NaN if there are none.
+/// Records of the control law, else NaN.
 fn recorded(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let of_each = run.of_law.len() / LawSeries::COUNT;
     for series in Series::all().filter(|series| run.observed.has(*series)) {
@@ -46,7 +45,6 @@ fn recorded(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// Residuals of the constraints.
 fn residuals(run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let vectors = run.vectors();
     let residuals: [Column<'_>; 3] = needed(run.table, StateField::Residuals, vectors);

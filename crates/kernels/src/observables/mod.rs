@@ -1,8 +1,8 @@
-//! Layer 3: observables of a run.
-//!
-//! Sources of energies and momenta: Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
-//! (Zhukovskii; Volterra 1899). Nothing depends on the integration of a run, and nothing is assumed to be conserved:
-//! every error is measured from the computed states.
+//! Layer 3: observables of a run, by Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
+//! (Zhukovskii; Volterra 1899). Nothing is assumed to be conserved: every error is measured from the computed states.
+
+#[macro_use]
+mod rows;
 
 pub mod accuracy;
 mod acting;
@@ -30,8 +30,6 @@ pub mod reduction;
 pub mod request;
 mod rotor;
 mod row_plan;
-#[macro_use]
-mod rows;
 mod spectrum;
 mod surroundings;
 pub mod table;

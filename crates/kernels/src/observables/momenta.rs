@@ -1,10 +1,10 @@
 //! Linear and angular momenta of spacecraft and debris, and their departures from the first value.
 //!
-//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, wheels locked in J, minus
-//! the angular impulse of thrusters and body torques; for the debris m_d v_d and C_ed J_d omega_d.
+//! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, with locked wheels in J,
+//! minus the angular impulse of thrusters and body torques; for the debris m_d v_d and C_ed J_d omega_d.
 //!
-//! Errors are relative to the sum of the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| +
-//! |impulse| and, if the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
+//! Errors are relative to the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| + |impulse|
+//! and, if the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -21,7 +21,7 @@ use crate::math::{Lanes, Real};
 use crate::run::StateField;
 use crate::scene::MAX_WHEELS;
 
-/// Outputs of a momentum: |balance - its first value| and |momentum|^2.
+/// Series of a momentum: |balance - its first value| and |momentum|^2.
 struct Sink<'a, S: Simd> {
     error: &'a mut [[f64; WIDTH]],
     square: &'a mut [[f64; WIDTH]],
@@ -34,7 +34,7 @@ impl<'a, S: Simd> Sink<'a, S> {
         Sink { error, square, start: constant(simd, [0.0; 3]) }
     }
 
-    /// Writes vector `at`; `balance` is the momentum minus the impulse of the actuators.
+    /// Writes vector `at`; `balance` is the momentum minus the impulse.
     #[inline(always)]
     fn put(&mut self, simd: S, at: usize, momentum: [Lanes<S>; 3], balance: [Lanes<S>; 3]) {
         if at == 0 {
@@ -68,7 +68,7 @@ pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
     let velocity: [_; 3] = needed(table, StateField::ComVelocity, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::Impulse, vectors);
     let total = Lanes::broadcast(simd, mass.total);
-    // a kernel with constraints integrates the DCM, and the velocity of p instead of c
+    // constraints come with the DCM and the velocity of p instead of c
     let spin: Option<[_; 3]> =
         if table.has(StateField::Dcm) { columns(table, StateField::Rate, vectors) } else { None };
     let arm = Lanes::broadcast(simd, mass.total * dot(mass.center, mass.center).sqrt());

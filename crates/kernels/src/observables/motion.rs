@@ -1,9 +1,8 @@
-//! Angular rate, nutation, attitude relative to the nominal run and to the initial one, wheels, direction of the
-//! debris.
+//! Angular rate, nutation, attitude relative to the nominal run and to the start, wheels, direction of the debris.
 //!
-//! Angles between vectors are atan2(|a x b|, a . b), exact to rounding everywhere (W. Kahan, *How Futile are Mindless
-//! Assessments of Roundoff*, 2006, section 12). The angle between two attitudes is stored as tan^2 of its half,
-//! |v|^2/s^2 of the quaternion conj(q_nominal) q = (s, v).
+//! Angles between vectors are atan2(|a x b|, a . b), accurate to rounding (W. Kahan, *How Futile are Mindless
+//! Assessments of Roundoff*, 2006, section 12). The angle between attitudes is stored as tan^2 of its half, |v|^2/s^2
+//! of the quaternion conj(q_nominal) q = (s, v).
 
 use fearless_simd::Simd;
 
@@ -49,8 +48,8 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// Angle of s3, or of another axis, from the angular momentum; squares of wheel rates and of momenta J_i (Omega_i + a_i
-/// . omega).
+/// Angle of s3, or another axis, from the angular momentum; squares of wheel rates and of momenta J_i (Omega_i + a_i .
+/// omega).
 #[inline(always)]
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (run.mass, run.table, run.vectors());
@@ -89,7 +88,7 @@ fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     }
 }
 
-/// tan^2 of half the angle from the nominal attitude; NaN if unknown.
+/// tan^2 of half the angle from the nominal attitude; NaN without one.
 #[inline(always)]
 fn from_nominal<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let vectors = run.vectors();
@@ -105,7 +104,7 @@ fn from_nominal<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) 
     }
 }
 
-/// Rotation from the first attitude of the run.
+/// tan^2 of half the angle from the first attitude of the run.
 #[inline(always)]
 fn from_initial<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let attitude: [_; 4] = needed(run.table, StateField::Attitude, run.vectors());
@@ -116,7 +115,7 @@ fn from_initial<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) 
     }
 }
 
-/// tan^2 of half the angle from attitude `a` to attitude `b`, quaternions of any length.
+/// tan^2 of half the angle between two attitudes, quaternions of any length.
 #[inline(always)]
 fn half_tangent_square<R: Real>(a: [R; 4], b: [R; 4]) -> R {
     let [s, x, y, z] = hamilton(conjugate(a), b);

@@ -1,4 +1,4 @@
-//! [`NominalAttitude`]: the attitude of the nominal run at the observation points.
+//! [`NominalAttitude`]: attitude of the nominal run at the observation points.
 
 use crate::math::lanes::WIDTH;
 use crate::run::{Outcome, StateField, StateTable};
@@ -8,10 +8,10 @@ use crate::run::{Outcome, StateField, StateTable};
 pub struct NominalAttitude([Vec<[f64; WIDTH]>; 4]);
 
 impl NominalAttitude {
-    /// The attitude of the run with the states `table` and the outcome `outcome`.
+    /// The attitude of a run.
     ///
     /// # Panics
-    /// If the table does not have the attitude.
+    /// If the table lacks the attitude.
     pub fn of(table: &StateTable, outcome: &Outcome) -> Self {
         NominalAttitude(std::array::from_fn(|component| {
             let mut column = table.column(StateField::Attitude, component).to_vec();

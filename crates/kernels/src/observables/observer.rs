@@ -38,7 +38,7 @@ pub struct FlownRun<'a> {
     pub scene: &'a Scene,
     /// Its arcs.
     pub arcs: &'a ArcRecord,
-    /// Records of the law at the points, by series ([`super::LawSeries`]), or empty.
+    /// Records of the law at the points, by series ([`super::LawSeries`]); empty without records.
     pub of_law: &'a [f64],
 }
 
@@ -53,7 +53,7 @@ pub struct Observer {
     shown: Vec<Series>,
     times: Vec<f64>,
     weights: Weights,
-    /// Weights of the last run, if its law ended it before the last point.
+    /// Weights of the last run if its law ended it early.
     ended_weights: Option<Weights>,
     spectrum: Option<Spectrum>,
     series: SeriesTable,
@@ -65,7 +65,7 @@ pub struct Observer {
     nominal: Option<NominalAttitude>,
     windows: Vec<(Window, Range<usize>)>,
     accuracy: Accuracy,
-    /// Number of points of the last run.
+    /// Points of the last run.
     filled: usize,
 }
 
@@ -97,7 +97,7 @@ impl Observer {
         }
     }
 
-    /// Adds the attitude of the nominal run on the same grid. Angles from it are NaN otherwise.
+    /// Adds the attitude of the nominal run on the same grid, without which angles from it are NaN.
     #[must_use]
     pub fn with_nominal(self, nominal: Option<NominalAttitude>) -> Self {
         Observer { nominal, ..self }
@@ -108,17 +108,16 @@ impl Observer {
         &self.request
     }
 
-    /// Writes the values of [`Request::columns`] of the run of `scene` by its own schedule with the states `table`.
+    /// Writes the values of [`Request::columns`] for the run of `scene` by its own schedule with the states `table`.
     ///
     /// Returns the status of `outcome`, or [`Status::Inaccurate`] for a complete run with errors beyond any use
-    /// ([`super::accuracy`]), whose columns all have values. A run ended by its law
-    /// ([`crate::scene::Actuation::ends_run`]) counts up to there. Without [`Status::Done`] only step statistics, mass
-    /// properties and final state (at the last finite point) are numbers, everything else is NaN. Counts are whole
-    /// numbers.
+    /// ([`super::accuracy`]), whose row is complete. A run ended by its law ([`crate::scene::Actuation::ends_run`])
+    /// counts up to there. For any other status than [`Status::Done`] only step statistics, mass properties and the
+    /// final state (at the last finite point) are numbers, everything else is NaN.
     ///
     /// # Panics
-    /// If the table lacks a field of [`Request::fields`] or has other points than the grid, the requested debris is
-    /// missing, or `row` does not have the length of [`Request::columns`].
+    /// If the table lacks a field of [`Request::fields`] or differs from the grid in its points, if the requested
+    /// debris is missing, or if `row` and [`Request::columns`] differ in length.
     pub fn observe(
         &mut self,
         isa: Isa,
@@ -130,7 +129,7 @@ impl Observer {
         self.observe_acting(isa, Acting::scheduled(scene), &[], table, outcome, row)
     }
 
-    /// As [`Observer::observe`], for a run under a law.
+    /// [`Observer::observe`] for a run under a law.
     ///
     /// # Panics
     /// As [`Observer::observe`].
@@ -185,8 +184,8 @@ impl Observer {
         self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
         let of_windows = row.len() - self.windows.len();
         for (value, (window, points)) in row[of_windows..].iter_mut().zip(&self.windows) {
-            let scale = window.series().row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
-            let column = &self.series.column(window.series())[..self.filled];
+            let scale = window.series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
+            let column = &self.series.column(window.series)[..self.filled];
             *value = window.extreme(column, points.start..points.end.min(self.filled), scale);
         }
         if outcome.status != Status::Done {
@@ -196,8 +195,7 @@ impl Observer {
         if self.accuracy.holds(row) { Status::Done } else { Status::Inaccurate }
     }
 
-    /// The reason, in words, for which the run of `row` with `status`, as returned by [`Observer::observe`], is not
-    /// `ok`; empty if it is.
+    /// Reason, in words, why the run of `row`, with the status from [`Observer::observe`], is not `ok`; else empty.
     pub fn reason(&self, status: Status, outcome: &Outcome, row: &[f64]) -> String {
         match status {
             Status::Inaccurate => self.accuracy.reason(row),
@@ -205,8 +203,8 @@ impl Observer {
         }
     }
 
-    /// The series of the last run in the order of [`Request::series`], at the points reached. Relative errors are
-    /// divided by their scales, as in the row.
+    /// Series of the last run, in the order of [`Request::series`], at the points reached; relative errors are divided
+    /// by their scales.
     pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
         self.shown.iter().map(|series| {
             let scale = series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
@@ -222,7 +220,7 @@ impl Observer {
         self.filled
     }
 
-    /// Stored numbers of the series of `band` at the points reached, and their divisor.
+    /// Stored numbers of a series at the points reached, and their divisor.
     #[inline(always)]
     pub(super) fn observed_column(&self, band: &BandSeries) -> (&[f64], f64) {
         let scale = band.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
@@ -239,7 +237,7 @@ impl Observer {
         }
     }
 
-    /// Exchange between body and wheels about the centre of mass.
+    /// Exchange of energy between body and wheels about the centre of mass.
     #[inline(always)]
     fn find_exchange<S: Simd>(&mut self, simd: S) {
         let (series, values) = (&self.series, &self.statistics);

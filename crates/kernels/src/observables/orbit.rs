@@ -1,6 +1,5 @@
-//! Position and pointing on an orbit: distance, angle of s3 from nadir (the direction from the centre of mass to the
-//! central body), torque of the gravity gradient ([`crate::dynamics::effects::gravity_gradient`]), magnetic field and
-//! its torque on residual dipole and torque rods.
+//! Distance, angle of s3 from nadir, torque of the gravity gradient ([`crate::dynamics::effects::gravity_gradient`]),
+//! and the magnetic field with its torque on residual dipole and torque rods.
 
 use fearless_simd::Simd;
 

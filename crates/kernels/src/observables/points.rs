@@ -1,4 +1,4 @@
-//! Columns of the state table and of the series, eight points at a time.
+//! Columns of states and series, eight points at a time.
 
 use core::ops::Range;
 
@@ -16,68 +16,67 @@ use crate::run::{StateField, StateTable};
 use crate::scene::mass::{Body, MassProperties};
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// A component of a field as vectors of eight neighbouring points. Columns of one common length need no bounds checks
-/// inside loops.
+/// A component of a field, as vectors of eight neighbouring points; columns of one length need no bounds checks in
+/// loops.
 pub(super) type Column<'a> = &'a [[f64; WIDTH]];
 
 /// Input of the measurement of a run.
 pub(super) struct MeasuredRun<'a> {
-    /// The series to compute.
+    /// Series to compute.
     pub(super) observed: SeriesSet,
     pub(super) sources: &'a [SeriesSource],
     pub(super) mass: &'a MassProperties,
-    /// The debris, if observed.
+    /// Debris, if observed.
     pub(super) debris: Option<&'a Body>,
-    /// Attitude of the nominal run, if known.
     pub(super) nominal: Option<&'a NominalAttitude>,
     /// Axis of nutation in F_s, if not s3.
     pub(super) nutation_axis: Option<[f64; 3]>,
-    /// Gravitational parameter of the central body, m^3/s^2; NaN without an orbit.
+    /// Gravitational parameter of the central body, m^3/s^2; NaN off an orbit.
     pub(super) mu: f64,
-    /// Magnetic field and dipoles, if any.
+    /// Magnetic field and dipoles.
     pub(super) magnetism: Option<Magnetism<'a>>,
     pub(super) scene: &'a Scene,
-    /// The observation times, s.
+    /// Observation times, s.
     pub(super) times: &'a [f64],
-    /// Records of the control law by series ([`super::law_columns::LawSeries`]) and point, or empty.
+    /// Records of the control law, by series ([`super::law_columns::LawSeries`]) and point; may be empty.
     pub(super) of_law: &'a [f64],
     pub(super) table: &'a StateTable,
-    /// Number of filled points, at least one.
+    /// Filled points, at least one.
     pub(super) points: usize,
 }
 
 #[derive(Clone, Copy)]
 pub(super) struct Magnetism<'a> {
     pub(super) field: MagneticField<f64>,
-    /// The residual dipole, F_s, A m^2.
+    /// Residual dipole in F_s, A m^2.
     pub(super) dipole: [f64; 3],
-    /// Source of the torque rods' dipoles.
+    /// Source of the dipoles of torque rods.
     pub(super) acting: Acting<'a>,
 }
 
 impl MeasuredRun<'_> {
-    /// Number of vectors that contain the filled points.
+    /// Vectors that contain the filled points.
     #[inline(always)]
     pub(super) fn vectors(&self) -> usize {
         self.points.div_ceil(WIDTH)
     }
 }
 
-/// Values of every series, with one vector of padding more than a column of the state table, so that every point has a
-/// readable neighbour.
+/// Values of every series, padded by one more vector than a column of states, so that every point has a readable
+/// neighbour.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesTable {
     columns: [Vec<[f64; WIDTH]>; Series::COUNT],
 }
 
 impl SeriesTable {
-    /// Series of `points` points, NaN at first.
+    /// `points` points per series, NaN at first.
     pub(super) fn new(points: usize) -> Self {
         let vectors = points.div_ceil(WIDTH) + 1;
         SeriesTable { columns: std::array::from_fn(|_| vec![[f64::NAN; WIDTH]; vectors]) }
     }
 
-    /// The values of a series, with padding.
+    /// Values of a series, with padding.
     #[inline(always)]
     pub(super) fn column(&self, series: Series) -> &[f64] {
         self.columns[series.index()].as_flattened()
@@ -89,7 +88,7 @@ impl SeriesTable {
         columns.expect("no series is written twice at once").map(|column| &mut column[..vectors])
     }
 
-    /// Columns of disjoint blocks of series ([`Series::block`]), for writing.
+    /// Columns of disjoint blocks ([`Series::block`]), writable.
     #[inline(always)]
     pub(super) fn blocks<const N: usize>(&mut self, blocks: [Range<usize>; N]) -> [&mut [Vec<[f64; WIDTH]>]; N] {
         self.columns.get_disjoint_mut(blocks).expect("no series is written twice at once")
@@ -122,13 +121,13 @@ pub(super) fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usi
     columns.each_mut().map(|column| &mut column[..vectors])
 }
 
-/// Loop count over wheels: `W`, known at compile time, or the actual number in a loop for any number.
+/// Loop count over wheels: `W` if known at compile time, else the number of wheels.
 #[inline(always)]
 pub(super) fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
     if W < MAX_WHEELS { W } else { wheels }
 }
 
-/// Three components of a field at the eight points of vector `at`.
+/// Three components at the eight points of vector `at`.
 #[inline(always)]
 pub(super) fn three<S: Simd>(simd: S, [x, y, z]: [Column<'_>; 3], at: usize) -> [Lanes<S>; 3] {
     [Lanes::load(simd, &x[at]), Lanes::load(simd, &y[at]), Lanes::load(simd, &z[at])]
@@ -150,7 +149,7 @@ pub(super) fn constant_matrix<S: Simd>(simd: S, m: [[f64; 3]; 3]) -> [[Lanes<S>;
     [constant(simd, m[0]), constant(simd, m[1]), constant(simd, m[2])]
 }
 
-/// Broadcast of lane 0: the value at point 0 in the first vector of a column.
+/// Lane 0 in all lanes: the value at point 0 in the first vector of a column.
 #[inline(always)]
 pub(super) fn first<S: Simd>(simd: S, a: Lanes<S>) -> Lanes<S> {
     Lanes::broadcast(simd, a.lane(0))
@@ -161,7 +160,7 @@ pub(super) fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] 
     [first(simd, a[0]), first(simd, a[1]), first(simd, a[2])]
 }
 
-/// The first `vectors` vectors of the columns of a field; `None` if the table does not have it.
+/// The first `vectors` vectors of the components of a field; `None` if the table lacks it.
 #[inline(always)]
 pub(super) fn columns<const N: usize>(
     table: &StateTable,
@@ -178,7 +177,7 @@ pub(super) fn columns<const N: usize>(
     Some(columns)
 }
 
-/// Columns of a field of each wheel from component `first` on; empty beyond the existing wheels.
+/// Columns of a field, one per wheel, from component `first` on; empty beyond the existing wheels.
 #[inline(always)]
 pub(super) fn of_wheels<const W: usize>(
     table: &StateTable,

@@ -1,9 +1,8 @@
 //! Passes over a series: extremes, means, errors, transfers, in a fixed order of operations.
 //!
-//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ..., and the eight are joined as a fixed tree: bits depend
-//! on the values alone. Means are of departures from the first value: with n points the rounding error is at most n/8 +
-//! 4 roundings of the largest *departure*, for any practical grid far below one rounding of the value; so for slopes,
-//! whose error series starts at zero. Weights are zero in the padding.
+//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ..., and the eight are joined as a fixed tree, so that bits
+//! depend on the values alone. Means are of departures from the first value: with n points the rounding error is at
+//! most n/8 + 4 roundings of the largest *departure*. Weights are zero in the padding.
 
 use fearless_simd::Simd;
 
@@ -11,8 +10,8 @@ use super::reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Passes, 
 use super::weights::{Weights, largest, smallest, total, vectors};
 use crate::math::{Lanes, Real};
 
-/// Reduces the numbers `stored` of a series and writes the values to `out` at [`Reduction::index`]; errors and fraction
-/// over `scale`. `column` has one vector more than the weights, which repeats the last point.
+/// Reduces a series of numbers `stored` and writes the values to `out` at [`Reduction::index`]; errors and fraction are
+/// divided by `scale`. `column` has one vector more than the weights, with the last point repeated.
 #[inline(always)]
 pub(super) fn reduce<S: Simd>(
     simd: S,
@@ -23,59 +22,29 @@ pub(super) fn reduce<S: Simd>(
     scale: f64,
     out: &mut [f64; Reduction::COUNT],
 ) {
-    if passes.order.has_any() {
+    if passes.order.contains(&true) {
         let order = order(simd, weights, column);
-        for statistic in OrderStatistic::ALL.iter().filter(|statistic| passes.order.has(**statistic)) {
-            out[Reduction::Order(*statistic).index()] = stored.shown(order.get(*statistic));
+        for ((out, value), _) in out.iter_mut().zip(order).zip(passes.order).filter(|(_, is_needed)| *is_needed) {
+            *out = stored.shown(value);
         }
     }
     if passes.value {
-        let spread = spread(simd, weights, column);
-        for statistic in ValueStatistic::ALL {
-            out[Reduction::Value(*statistic).index()] = spread.get(*statistic);
-        }
-        out[Reduction::Fraction.index()] = spread.get(ValueStatistic::PeakToPeak) / scale;
+        let values = spread(simd, weights, column);
+        out[Reduction::VALUE..Reduction::ERROR].copy_from_slice(&values);
+        out[Reduction::FRACTION] = values[ValueStatistic::PeakToPeak as usize] / scale;
     }
     if passes.error {
         let errors = errors(simd, weights, column);
-        for statistic in ErrorStatistic::ALL {
-            out[Reduction::Error(*statistic).index()] = errors.get(*statistic) / scale;
-        }
+        out[Reduction::ERROR..Reduction::CHANGE].copy_from_slice(&errors.map(|error| error / scale));
     }
     if passes.change {
-        let transfer = transfer(simd, weights, column);
-        for statistic in ChangeStatistic::ALL {
-            out[Reduction::Change(*statistic).index()] = transfer.get(*statistic);
-        }
+        out[Reduction::CHANGE..Reduction::FRACTION].copy_from_slice(&transfer(simd, weights, column));
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Spread {
-    initial: f64,
-    last: f64,
-    min: f64,
-    max: f64,
-    mean: f64,
-}
-
-impl Spread {
-    fn get(&self, statistic: ValueStatistic) -> f64 {
-        match statistic {
-            ValueStatistic::Initial => self.initial,
-            ValueStatistic::Final => self.last,
-            ValueStatistic::Min => self.min,
-            ValueStatistic::Max => self.max,
-            ValueStatistic::Mean => self.mean,
-            ValueStatistic::PeakToPeak => self.max - self.min,
-            ValueStatistic::Net => self.last - self.initial,
-        }
-    }
-}
-
-/// Extremes and mean; all NaN if a value is.
+/// By [`ValueStatistic`]; extremes and mean are NaN if a value is.
 #[inline(always)]
-fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
+fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> [f64; ValueStatistic::ALL.len()] {
     let initial = column[0];
     let first = Lanes::broadcast(simd, initial);
     let mut min = first;
@@ -89,59 +58,23 @@ fn spread<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Spread {
     }
     let mean = initial + total(sum) / weights.points as f64;
     let last = column[weights.points - 1];
-    if mean.is_nan() {
-        return Spread { initial, last, min: f64::NAN, max: f64::NAN, mean };
-    }
-    Spread { initial, last, min: smallest(min), max: largest(max), mean }
+    let [min, max] = if mean.is_nan() { [f64::NAN; 2] } else { [smallest(min), largest(max)] };
+    [initial, last, min, max, mean, max - min, last - initial]
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Order {
-    initial: f64,
-    last: f64,
-    max: f64,
-}
-
-impl Order {
-    fn get(&self, statistic: OrderStatistic) -> f64 {
-        match statistic {
-            OrderStatistic::Initial => self.initial,
-            OrderStatistic::Final => self.last,
-            OrderStatistic::Max => self.max,
-        }
-    }
-}
-
+/// By [`OrderStatistic`].
 #[inline(always)]
-fn order<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Order {
+fn order<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> [f64; OrderStatistic::ALL.len()] {
     let mut max = Lanes::broadcast(simd, column[0]);
     for x in vectors(column, weights.one.len()) {
         max = Lanes::load(simd, x).larger(max);
     }
-    Order { initial: column[0], last: column[weights.points - 1], max: largest(max) }
+    [column[0], column[weights.points - 1], largest(max)]
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Errors {
-    max: f64,
-    last: f64,
-    rms: f64,
-    slope: f64,
-}
-
-impl Errors {
-    fn get(&self, statistic: ErrorStatistic) -> f64 {
-        match statistic {
-            ErrorStatistic::Max => self.max,
-            ErrorStatistic::Final => self.last,
-            ErrorStatistic::Rms => self.rms,
-            ErrorStatistic::Slope => self.slope,
-        }
-    }
-}
-
+/// By [`ErrorStatistic`].
 #[inline(always)]
-fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> Errors {
+fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> [f64; ErrorStatistic::ALL.len()] {
     let zero = Lanes::broadcast(simd, 0.0);
     let (mut max, mut squares, mut slope) = (zero, zero, zero);
     let count = weights.one.len();
@@ -155,39 +88,24 @@ fn errors<S: Simd>(simd: S, weights: &Weights, values: &[f64]) -> Errors {
     let rms = (total(squares) / weights.points as f64).sqrt();
     // a maximum by comparison skips NaN, a sum does not
     let max = if rms.is_nan() { f64::NAN } else { largest(max) };
-    Errors { max, last: values[weights.points - 1], rms, slope: total(slope) }
+    [max, values[weights.points - 1], rms, total(slope)]
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Transfer {
-    gross: f64,
-    power: f64,
-}
-
-impl Transfer {
-    fn get(&self, statistic: ChangeStatistic) -> f64 {
-        match statistic {
-            ChangeStatistic::Gross => self.gross,
-            ChangeStatistic::Power => self.power,
-        }
-    }
-}
-
-/// Sum of |dx| and maximum of |dx/dt| between neighbouring points.
+/// By [`ChangeStatistic`].
 #[inline(always)]
-fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> Transfer {
+fn transfer<S: Simd>(simd: S, weights: &Weights, column: &[f64]) -> [f64; ChangeStatistic::ALL.len()] {
     let mut gross = Lanes::broadcast(simd, 0.0);
     let mut power = gross;
     let count = weights.one.len();
     let (next, column) = (vectors(&column[1..], count), vectors(column, count));
     let inverse_step = &weights.inverse_step[..count];
     for at in 0..count {
-        // the padding repeats the last point, and adds nothing
+        // the padding repeats the last point and adds nothing
         let change = (Lanes::load(simd, &next[at]) - Lanes::load(simd, &column[at])).abs();
         gross += change;
         power = (change * Lanes::load(simd, &inverse_step[at])).larger(power);
     }
-    Transfer { gross: total(gross), power: largest(power) }
+    [total(gross), largest(power)]
 }
 
 #[cfg(test)]
@@ -203,7 +121,7 @@ mod tests {
 
     struct Reduce<'a>(&'a Weights, &'a [f64]);
     impl Work for Reduce<'_> {
-        type Output = (Spread, Errors, Transfer);
+        type Output = ([f64; 7], [f64; 4], [f64; 2]);
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> Self::Output {
             (spread(simd, self.0, self.1), errors(simd, self.0, self.1), transfer(simd, self.0, self.1))
@@ -231,8 +149,8 @@ mod tests {
             let points = times.len();
             let weights = Weights::of(&Grid::at(times.clone()));
             let line = column(points, |k| 2.0 - 0.75 * times[k]);
-            let (_, errors, Transfer { gross, power }) = Isa::best().run(Reduce(&weights, &line));
-            close(errors.slope, -0.75);
+            let (_, [.., slope], [gross, power]) = Isa::best().run(Reduce(&weights, &line));
+            close(slope, -0.75);
             close(gross, 0.75 * times[points - 1]);
             close(power, 0.75);
         }
@@ -244,15 +162,16 @@ mod tests {
             let times: Vec<f64> = (0..points).map(|k| k as f64 + 0.3 * (k as f64 * 0.7).floor()).collect();
             let weights = Weights::of(&Grid::at(times.clone()));
             let values = column(points, |k| ((k * 37 + 11) % 23) as f64 / 7.0 - 1.5);
-            let (spread, errors, Transfer { gross, power }) = Isa::best().run(Reduce(&weights, &values));
+            let ([initial, last, min, max, mean, ..], [error, last_error, rms, _], [gross, power]) =
+                Isa::best().run(Reduce(&weights, &values));
             let v = &values[..points];
             let n = points as f64;
-            assert_eq!(spread.min, v.iter().copied().fold(f64::INFINITY, f64::min));
-            assert_eq!(spread.max, v.iter().copied().fold(f64::NEG_INFINITY, f64::max));
-            assert_eq!((spread.initial, spread.last, errors.last), (v[0], v[points - 1], v[points - 1]));
-            close(spread.mean, v.iter().sum::<f64>() / n);
-            close(errors.rms, (v.iter().map(|x| x * x).sum::<f64>() / n).sqrt());
-            assert_eq!(errors.max, v.iter().map(|x| x.abs()).fold(0.0, f64::max));
+            assert_eq!(min, v.iter().copied().fold(f64::INFINITY, f64::min));
+            assert_eq!(max, v.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+            assert_eq!((initial, last, last_error), (v[0], v[points - 1], v[points - 1]));
+            close(mean, v.iter().sum::<f64>() / n);
+            close(rms, (v.iter().map(|x| x * x).sum::<f64>() / n).sqrt());
+            assert_eq!(error, v.iter().map(|x| x.abs()).fold(0.0, f64::max));
             close(gross, v.windows(2).map(|x| (x[1] - x[0]).abs()).sum());
             let slopes = v.windows(2).zip(times.windows(2)).map(|(x, t)| ((x[1] - x[0]) / (t[1] - t[0])).abs());
             close(power, slopes.fold(0.0, f64::max));
@@ -263,17 +182,15 @@ mod tests {
     fn a_small_swing_on_a_large_value_keeps_its_mean() {
         let weights = Weights::of(&Grid::uniform(1.0, 101));
         let values = column(101, |k| 1e6 + (k % 2) as f64);
-        let (spread, ..) = Isa::best().run(Reduce(&weights, &values));
-        assert_eq!(spread.mean, 1e6 + 50.0 / 101.0);
+        let ([.., mean, _, _], ..) = Isa::best().run(Reduce(&weights, &values));
+        assert_eq!(mean, 1e6 + 50.0 / 101.0);
     }
 
     #[test]
     fn what_is_not_a_number_is_not_lost_in_a_maximum() {
         let weights = Weights::of(&Grid::uniform(1.0, 20));
         let values = column(20, |k| if k == 13 { f64::NAN } else { k as f64 });
-        let (spread, errors, ..) = Isa::best().run(Reduce(&weights, &values));
-        for value in [spread.min, spread.max, spread.mean, errors.max, errors.rms] {
-            assert!(value.is_nan());
-        }
+        let ([_, _, min, max, mean, ..], [error, _, rms, _], _) = Isa::best().run(Reduce(&weights, &values));
+        assert!([min, max, mean, error, rms].into_iter().all(f64::is_nan));
     }
 }

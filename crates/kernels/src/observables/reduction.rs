@@ -1,48 +1,30 @@
-//! [`Reduction`]: kinds of numbers from a series.
-//!
-//! One variant per pass over a series. A pass has a value for every statistic of its list by an exhaustive `match`, so
-//! that an uncomputed statistic does not compile. The passes are in `reduce`.
+//! [`Reduction`]: kinds of numbers from a series, by the pass over it (`reduce`). A pass returns one value per
+//! statistic of its list, so that a statistic without a computation does not compile.
 
-macro_rules! statistics {
-    ($(#[$doc:meta])* $name:ident { $($(#[$of:meta])* $variant:ident,)* }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[repr(usize)]
-        pub enum $name {
-            $($(#[$of])* $variant,)*
-        }
-
-        impl $name {
-            /// Every statistic.
-            pub(super) const ALL: &[$name] = &[$($name::$variant),*];
-        }
-    };
-}
-
-statistics! {
-    /// A statistic that is one of the values: cheap, and a function of the values may be applied to it afterwards.
-    OrderStatistic {
-        /// The first value.
+listed! {
+    /// A statistic that is one of the values, so that a function of the values may be applied to it afterwards.
+    pub enum OrderStatistic {
+        /// First value.
         Initial,
-        /// The last value.
+        /// Last value.
         Final,
-        /// The maximum.
+        /// Maximum.
         Max,
     }
 }
 
-statistics! {
+listed! {
     /// A statistic of values.
-    ValueStatistic {
-        /// The first value.
+    pub enum ValueStatistic {
+        /// First value.
         Initial,
-        /// The last value.
+        /// Last value.
         Final,
-        /// The minimum.
+        /// Minimum.
         Min,
-        /// The maximum.
+        /// Maximum.
         Max,
-        /// The mean over the points.
+        /// Mean over the points.
         Mean,
         /// Maximum minus minimum.
         PeakToPeak,
@@ -51,23 +33,23 @@ statistics! {
     }
 }
 
-statistics! {
+listed! {
     /// A statistic of an error.
-    ErrorStatistic {
-        /// The maximum magnitude.
+    pub enum ErrorStatistic {
+        /// Maximum magnitude.
         Max,
-        /// The last value.
+        /// Last value.
         Final,
-        /// The root mean square over the points.
+        /// Root mean square over the points.
         Rms,
-        /// The slope of the least-squares line through e(t), per second.
+        /// Slope of the least-squares line through e(t), per second.
         Slope,
     }
 }
 
-statistics! {
+listed! {
     /// A statistic of the changes from point to point.
-    ChangeStatistic {
+    pub enum ChangeStatistic {
         /// Sum of |dx|.
         Gross,
         /// Maximum of |dx/dt|.
@@ -91,15 +73,15 @@ pub enum Reduction {
 }
 
 impl Reduction {
-    const VALUE: usize = OrderStatistic::ALL.len();
-    const ERROR: usize = Self::VALUE + ValueStatistic::ALL.len();
-    const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
-    const FRACTION: usize = Self::CHANGE + ChangeStatistic::ALL.len();
+    pub(super) const VALUE: usize = OrderStatistic::ALL.len();
+    pub(super) const ERROR: usize = Self::VALUE + ValueStatistic::ALL.len();
+    pub(super) const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
+    pub(super) const FRACTION: usize = Self::CHANGE + ChangeStatistic::ALL.len();
 
-    /// Number of values per series from [`reduce`].
+    /// Values per series.
     pub(super) const COUNT: usize = Self::FRACTION + 1;
 
-    /// Index of the value in the output of [`reduce`].
+    /// Index among the values of a series.
     pub(super) const fn index(self) -> usize {
         match self {
             Reduction::Order(statistic) => statistic as usize,
@@ -111,28 +93,11 @@ impl Reduction {
     }
 }
 
-/// A set of order statistics, each of which may need an elementary function.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct OrderStatistics(u8);
-
-impl OrderStatistics {
-    const fn with(self, statistic: OrderStatistic) -> Self {
-        OrderStatistics(self.0 | 1 << statistic as u8)
-    }
-
-    pub(super) const fn has(self, statistic: OrderStatistic) -> bool {
-        self.0 & (1 << statistic as u8) != 0
-    }
-
-    pub(super) const fn has_any(self) -> bool {
-        self.0 != 0
-    }
-}
-
 /// Passes over a series required by its reductions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Passes {
-    pub(super) order: OrderStatistics,
+    /// By statistic, since each may need an elementary function.
+    pub(super) order: [bool; OrderStatistic::ALL.len()],
     pub(super) value: bool,
     pub(super) error: bool,
     pub(super) change: bool,
@@ -142,7 +107,7 @@ impl Passes {
     #[must_use]
     pub(super) const fn with(mut self, reduction: Reduction) -> Self {
         match reduction {
-            Reduction::Order(statistic) => self.order = self.order.with(statistic),
+            Reduction::Order(statistic) => self.order[statistic as usize] = true,
             Reduction::Value(_) | Reduction::Fraction => self.value = true,
             Reduction::Error(_) => self.error = true,
             Reduction::Change(_) => self.change = true,
@@ -151,22 +116,18 @@ impl Passes {
     }
 }
 
-/// Stored form of a series: a monotone function of the quantity that is cheap at every point.
-///
-/// Its inverse is applied to order statistics and time series. Means, changes and errors would be those of the stored
-/// numbers: the table has none.
+/// Stored form of a series: a monotone function of the quantity, cheap at every point, whose inverse is applied to
+/// order statistics and time series. The table has no other statistics of such series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stored {
-    /// The quantity itself.
     Quantity,
-    /// Its square.
     Square,
     /// Square of the tangent of half the angle.
     HalfTangentSquare,
 }
 
 impl Stored {
-    /// The quantity of a stored number.
+    /// Quantity of a stored number.
     #[inline]
     pub(super) fn shown(self, stored: f64) -> f64 {
         match self {

@@ -1,14 +1,14 @@
-//! [`Request`]: observed columns, series and state fields for one kind of scene, with the reasons for the fields.
+//! [`Request`]: columns, series and state fields observed in one kind of scene.
 
 use core::ops::Range;
 
 use super::group::{Group, Groups};
 use super::law_columns::LawColumns;
 use super::reduction::{Passes, Reduction, Stored};
-use super::rows::{Scenes, SeriesSource};
+use super::rows::SeriesSource;
 use super::table::{self, Column, ColumnId, Series};
 use super::window::Windows;
-use crate::dynamics::effects::{Effect, ForceModel};
+use crate::dynamics::effects::ForceModel;
 use crate::math::list::List;
 use crate::math::symmetric::principal_axes;
 use crate::run::{StateField, StateFields};
@@ -17,40 +17,40 @@ use crate::scene::{Actuated, MAX_WHEELS, Name};
 /// Observed groups and kind of scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
-    /// The requested groups.
+    /// Requested groups.
     pub groups: Groups,
     /// True with a debris body.
     pub debris: bool,
-    /// Actuators in use at some time of a run.
+    /// Actuators used at some time.
     pub actuated: Actuated,
-    /// Effects on the runs.
+    /// Effects that act.
     pub effects: ForceModel,
-    /// True if the method integrates constraints and the DCM: the null-space method.
+    /// True for the null-space method, which integrates constraints and the DCM.
     pub constrained: bool,
     /// Names of the turning wheels.
     pub wheels: List<Name, MAX_WHEELS>,
     /// Axis of nutation.
     pub nutation_axis: NutationAxis,
-    /// Reports of the control law, in the columns before the last.
+    /// Reports of the control law; their columns precede those of the windows.
     pub of_law: LawColumns,
-    /// Extremes over intervals of time, in the last columns.
+    /// Extremes over intervals of time: the last columns.
     pub windows: Windows,
 }
 
-/// The axis whose angle from the spacecraft's angular momentum is called nutation.
+/// Axis whose angle from the spacecraft's angular momentum is the nutation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NutationAxis {
     /// s3.
     #[default]
     SpinAxis,
-    /// The principal axis nearest to s3 (wheels locked), in each run its own.
+    /// The run's own principal axis nearest to s3, with locked wheels.
     Principal,
     /// A unit vector in F_s.
     Along([f64; 3]),
 }
 
 impl NutationAxis {
-    /// The axis in F_s of a spacecraft with the inertia `inertia`; `None` for s3.
+    /// Axis in F_s for this inertia; `None` for s3.
     pub fn of(self, inertia: [[f64; 3]; 3]) -> Option<[f64; 3]> {
         match self {
             NutationAxis::SpinAxis => None,
@@ -60,19 +60,19 @@ impl NutationAxis {
     }
 }
 
-/// The principal axis of `inertia` nearest to s3, in its direction.
+/// Principal axis of `inertia` nearest to s3, pointing along it.
 pub fn nearest_principal_axis(inertia: [[f64; 3]; 3]) -> [f64; 3] {
     let (_, columns) = principal_axes(inertia);
     let axis = |k: usize| columns.map(|row| row[k]);
     let nearest = (0..3).max_by(|a, b| axis(*a)[2].abs().total_cmp(&axis(*b)[2].abs())).unwrap_or(2);
-    let found = axis(nearest);
-    if found[2] < 0.0 { found.map(|x| -x) } else { found }
+    let axis = axis(nearest);
+    if axis[2] < 0.0 { axis.map(|x| -x) } else { axis }
 }
 
 /// Names of wheels.
 pub type WheelNames = List<Name, MAX_WHEELS>;
 
-/// The list of wheel names.
+/// List of wheel names.
 ///
 /// # Panics
 /// If a name is invalid, or there are more than [`MAX_WHEELS`].
@@ -104,12 +104,12 @@ pub(super) struct SeriesTask {
     pub(super) series: Series,
     pub(super) passes: Passes,
     pub(super) stored: Stored,
-    /// Scale of its errors or fraction: a statistic of an earlier task.
+    /// Divisor of its errors or fraction: a statistic of an earlier task.
     pub(super) scale: Option<(Series, Reduction)>,
 }
 
 impl Request {
-    /// The columns of a row, in order: those of the requested groups that apply to the kind of scene.
+    /// Columns of a row, in order: those of the requested groups that exist in this kind of scene.
     pub fn columns(&self) -> Vec<Column> {
         let shown = |(column, wheel): (&Column, Option<usize>)| match wheel {
             Some(index) => column.of_wheel(index, self.wheels[index]),
@@ -136,19 +136,18 @@ impl Request {
         self.ids().position(|other| other == id)
     }
 
-    /// Rows of the table behind [`Request::columns`], each with its wheel, without the names, which take most of the
-    /// time.
+    /// The [`Request::columns`] of the table, each with its wheel; not named, which takes most of the time.
     fn rows(&self) -> Vec<(&'static Column, Option<usize>)> {
-        let is_asked = |column: &&Column| self.groups.contains(column.group) && self.includes(column.scenes);
+        let is_requested = |column: &&Column| self.groups.contains(column.group) && column.scenes.include(self);
         let mut rows = Vec::new();
         for family in table::families() {
-            let asked: Vec<&Column> = family.iter().filter(is_asked).collect();
-            if !asked.iter().any(|column| column.is_of_wheel()) {
-                rows.extend(asked.into_iter().map(|column| (column, None)));
-                continue;
-            }
-            for index in 0..self.wheels.len() {
-                rows.extend(asked.iter().map(|column| (*column, Some(index))));
+            let requested: Vec<&Column> = family.iter().filter(is_requested).collect();
+            if requested.iter().any(|column| column.is_of_wheel()) {
+                for index in 0..self.wheels.len() {
+                    rows.extend(requested.iter().map(|column| (*column, Some(index))));
+                }
+            } else {
+                rows.extend(requested.into_iter().map(|column| (column, None)));
             }
         }
         rows
@@ -162,18 +161,18 @@ impl Request {
         rows.chain(self.of_law.ids()).chain(self.windows.iter().enumerate().map(|(index, window)| window.id(index)))
     }
 
-    /// Columns of a time series, in order: the series behind [`Request::columns`] that have one.
+    /// Columns of a time series, in order.
     pub fn series(&self) -> Vec<Series> {
         let observed = self.observed();
         Series::all().filter(|series| observed.has(*series) && series.quantity(&self.wheels).is_some()).collect()
     }
 
-    /// Fields of the state table needed by the columns; no other is read.
+    /// Fields of the state table that the columns need; no others are read.
     pub fn fields(&self) -> StateFields {
         self.needs().into_iter().fold(StateFields::NONE, |fields, (_, field, _)| fields.with(field))
     }
 
-    /// The reasons for each needed field, in the order of the table: groups and purposes.
+    /// Groups and purposes for which each field is needed, in the order of the table.
     pub fn reasons(&self) -> Vec<(StateField, String)> {
         let needs = self.needs();
         let reason = |field: StateField| {
@@ -187,13 +186,13 @@ impl Request {
         StateField::ALL.into_iter().filter_map(reason).collect()
     }
 
-    /// Series behind the columns, their scales, and records of the control law.
+    /// Series behind the columns, with their scales, and those recorded by the control law.
     pub(super) fn observed(&self) -> SeriesSet {
         let of_columns = self.inputs().map(|(series, _)| series);
         of_columns.chain(self.of_law.over_time.series()).fold(SeriesSet::default(), SeriesSet::with)
     }
 
-    /// Passes over each observed series; scales of other series first.
+    /// Passes over the observed series; those that are scales of others come first.
     pub(super) fn tasks(&self) -> Vec<SeriesTask> {
         let (observed, values) = (self.observed(), self.ids().map(|id| id.value).collect::<Vec<_>>());
         let passes = |series: Series| {
@@ -213,40 +212,16 @@ impl Request {
         tasks
     }
 
-    /// Every statistic behind the columns, with repetitions.
+    /// Statistics behind the columns, with repetitions.
     fn inputs(&self) -> impl Iterator<Item = (Series, Reduction)> {
         self.ids().flat_map(|id| id.value.inputs().collect::<Vec<_>>())
     }
 
-    fn includes(&self, scenes: Scenes) -> bool {
-        match scenes {
-            Scenes::All => true,
-            Scenes::Debris => self.debris,
-            Scenes::Actuated => self.actuated.any(),
-            Scenes::Thrusters => self.actuated.thrusters,
-            Scenes::ExternalTorque => self.actuated.external(),
-            Scenes::Motors => self.actuated.motors && !self.wheels.is_empty(),
-            Scenes::Free => !self.actuated.any(),
-            Scenes::Constrained => self.constrained,
-            Scenes::ConstrainedBodies => self.constrained && (self.debris || !self.wheels.is_empty()),
-            Scenes::ConstrainedDebris => self.constrained && self.debris,
-            Scenes::IntegratedVelocity => self.constrained || self.actuated.thrusters,
-            Scenes::Unconstrained => !self.constrained,
-            Scenes::Wheels => !self.wheels.is_empty(),
-            Scenes::SeveralWheels => self.wheels.len() > 1,
-            Scenes::Orbit => self.effects.contains(Effect::Gravity),
-            Scenes::GravityGradient => self.effects.contains(Effect::GravityGradient),
-            Scenes::MagneticTorque => self.effects.contains(Effect::MagneticTorque),
-            Scenes::Drag => self.effects.contains(Effect::Drag),
-            Scenes::SolarPressure => self.effects.contains(Effect::SolarPressure),
-        }
-    }
-
-    /// Every (group, field, purpose) once, in the order of the columns.
+    /// Groups, fields and purposes, in the order of the columns, without repetition.
     fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
         let mut needs = Vec::new();
         for ColumnId { group, value } in self.ids() {
-            for need in value.needs().filter(|need| self.includes(need.scenes)) {
+            for need in value.needs().filter(|need| need.scenes.include(self)) {
                 let entry = (group, need.field, need.why);
                 if !needs.contains(&entry) {
                     needs.push(entry);
@@ -258,29 +233,36 @@ impl Request {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::observables::reduction::OrderStatistic;
     use crate::observables::table::series_id;
+    use crate::observables::window::NO_WINDOWS;
 
     const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
 
-    fn request(groups: &[Group], debris: bool, actuated: bool, constrained: bool) -> Request {
+    /// Without actuation, effects, columns of a law and windows.
+    pub(in crate::observables) fn request(
+        groups: &[Group],
+        debris: bool,
+        constrained: bool,
+        wheels: &[&str],
+    ) -> Request {
         Request {
             groups: groups.iter().copied().collect(),
             debris,
-            actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
+            actuated: Actuated::NONE,
             effects: ForceModel::NONE,
             constrained,
-            wheels: wheel_names(&["w1", "w2"]),
-            nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
-            of_law: crate::observables::law_columns::LawColumns::NONE,
-            windows: crate::observables::window::NO_WINDOWS,
+            wheels: wheel_names(wheels),
+            nutation_axis: NutationAxis::SpinAxis,
+            of_law: LawColumns::NONE,
+            windows: NO_WINDOWS,
         }
     }
 
-    /// Law: a linear momentum has an error if a velocity is integrated: for the spacecraft under thrust or with
-    /// constraints, for the debris with constraints. Otherwise it would be zero in every row.
+    /// Law: a linear momentum has an error only if a velocity is integrated: for the spacecraft under thrust or with
+    /// constraints, for the debris with constraints.
     #[test]
     fn linear_momentum_has_an_error_where_a_velocity_is_integrated() {
         let none = Actuated::NONE;
@@ -295,7 +277,7 @@ mod tests {
             (thrusters, true, &[own, debris]),
         ];
         for (actuated, constrained, expected) in cases {
-            let request = Request { actuated, ..request(&Group::DEFAULT, true, false, constrained) };
+            let request = Request { actuated, ..request(&Group::DEFAULT, true, constrained, &["w1", "w2"]) };
             for name in [own, debris] {
                 let is_expected = expected.contains(&name);
                 let columns = request.columns();
@@ -316,9 +298,7 @@ mod tests {
     #[test]
     fn residuals_are_of_bodies_that_are_joined() {
         let names = |debris: bool, wheels: &[&str]| -> Vec<String> {
-            let request =
-                Request { wheels: wheel_names(wheels), ..request(&[Group::Constraints], debris, false, true) };
-            let columns = request.columns();
+            let columns = request(&[Group::Constraints], debris, true, wheels).columns();
             let maxima = columns.iter().map(|column| column.quantity.name()).filter(|name| name.contains("_max"));
             maxima.map(str::to_owned).collect()
         };
@@ -329,7 +309,7 @@ mod tests {
         }
     }
 
-    /// Law: no column and no field belongs to actuation that the scene does not have.
+    /// Law: columns and fields of actuation exist only for actuators of the scene.
     #[test]
     fn work_is_that_of_what_acts() {
         let none = Actuated::NONE;
@@ -341,7 +321,7 @@ mod tests {
             (Actuated { body_torque: true, ..none }, &["work_thrusters_final_j"], &momentum[1..]),
         ];
         for (actuated, columns, fields) in cases {
-            let request = Request { actuated, ..request(&Group::DEFAULT, false, false, false) };
+            let request = Request { actuated, ..request(&Group::DEFAULT, false, false, &["w1", "w2"]) };
             let all = request.columns();
             let work: Vec<&str> =
                 all.iter().map(|column| column.quantity.name()).filter(|name| name.starts_with("work_")).collect();

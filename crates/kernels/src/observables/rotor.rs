@@ -6,11 +6,11 @@ use crate::run::{StateField, StateTable};
 use crate::scene::mass::MassProperties;
 
 pub(super) struct Body<'a> {
-    /// The spacecraft; `None` for the debris.
+    /// `None` for the debris.
     pub(super) mass: Option<&'a MassProperties>,
-    /// The field of its angular velocity.
+    /// Field of the angular velocity.
     pub(super) rates: StateField,
-    /// K, kg m^2, its inverse A, and a third of its trace.
+    /// K, kg m^2, its inverse A, and a third of the trace of K.
     pub(super) inertia: [[f64; 3]; 3],
     pub(super) inverse: [[f64; 3]; 3],
     pub(super) size: f64,
@@ -19,14 +19,14 @@ pub(super) struct Body<'a> {
     pub(super) spread: f64,
     /// True if K is diagonal.
     pub(super) is_principal: bool,
-    /// The wheels' momentum H - K omega if constant: without actuation.
+    /// The wheels' momentum H - K omega if constant, without actuation.
     pub(super) offset: Option<[f64; 3]>,
     /// sum |J_i Omega_i| at the first point, N m s.
     pub(super) wheels: f64,
 }
 
 impl<'a> Body<'a> {
-    /// The constants of a run for `duration` seconds with the states `table`.
+    /// Constants of a run over `duration` seconds.
     pub(super) fn of(acting: Acting<'a>, table: &StateTable, duration: f64) -> Self {
         let mass = &acting.scene().mass;
         let inertia = mass.inertia_rotating();
@@ -44,7 +44,7 @@ impl<'a> Body<'a> {
         Body { mass: Some(mass), rates: StateField::Rate, wheels, ..Body::alone(inertia, offset) }
     }
 
-    /// The debris: no wheels, no torque.
+    /// The debris, without wheels and torque.
     pub(super) fn debris(inertia: [[f64; 3]; 3]) -> Self {
         Body::alone(inertia, Some([0.0; 3]))
     }
@@ -61,7 +61,7 @@ impl<'a> Body<'a> {
             row[i] -= mean;
             square += dot(row, row);
         }
-        // the largest eigenvalue of a traceless symmetric matrix with this sum of squares: (2, -1, -1)/sqrt(6)
+        // largest eigenvalue of a traceless symmetric matrix with this sum of squares: (2, -1, -1)/sqrt(6)
         let spread = (2.0 / 3.0 * square).sqrt();
         Body {
             mass: None,
@@ -78,7 +78,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The adjugate of a symmetric matrix, by rows.
+/// Adjugate of a symmetric matrix, by rows.
 pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
 }

@@ -1,5 +1,4 @@
-//! [`RowPlan`]: the columns of a request as flat index lists, resolved once per worker, so that rows are filled without
-//! the table.
+//! [`RowPlan`]: the columns of a request as flat index lists, resolved once per worker.
 
 use super::reduction::Reduction;
 use super::request::Request;
@@ -29,7 +28,7 @@ impl Statistics {
         self.0.as_flattened()[usize::from(slot.0)]
     }
 
-    /// A scale, or one if it is zero: errors are absolute there.
+    /// A scale, or one if it is zero: errors are then absolute.
     #[inline(always)]
     pub(super) fn scale(&self, slot: Slot) -> f64 {
         let scale = self.get(slot);
@@ -48,12 +47,11 @@ pub(super) struct RowPlan {
     /// Statistic of each column; arbitrary for a direct value or a window.
     slots: Vec<Slot>,
     direct_values: Vec<(usize, DirectValue, u8)>,
-    /// For each column, true if a failed run has it.
+    /// By column: true if a failed run has it.
     known_after_failure: Vec<bool>,
 }
 
 impl RowPlan {
-    /// The plan of the columns of `request`.
     pub(super) fn of(request: &Request) -> Self {
         let values: Vec<Value> = request.ids().map(|id| id.value).collect();
         let known_after_failure = values.iter().map(|value| value.is_known_after_failure()).collect();
@@ -96,14 +94,13 @@ impl RowPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observables::group::Groups;
-    use crate::observables::law_columns::LawColumns;
-    use crate::observables::request::wheel_names;
+    use crate::observables::group::Group;
+    use crate::observables::request::tests::request;
     use crate::scene::Actuated;
 
     /// Law: every column of every request has its statistic or direct value.
     #[test]
-    fn a_row_shows_what_the_table_says() {
+    fn columns_have_their_values() {
         let mut statistics = Statistics::unknown();
         for (at, series) in Series::all().enumerate() {
             for (index, value) in statistics.of(series).iter_mut().enumerate() {
@@ -114,15 +111,8 @@ mod tests {
         for bits in 0..8 {
             let [debris, actuated, constrained] = [1, 2, 4].map(|bit| bits & bit != 0);
             let request = Request {
-                groups: Groups::ALL,
-                debris,
                 actuated: if actuated { Actuated::ALL } else { Actuated::NONE },
-                effects: crate::dynamics::effects::ForceModel::NONE,
-                constrained,
-                wheels: wheel_names(&["w1", "w2", "w3"]),
-                nutation_axis: crate::observables::request::NutationAxis::SpinAxis,
-                of_law: LawColumns::NONE,
-                windows: crate::observables::window::NO_WINDOWS,
+                ..request(&Group::ALL, debris, constrained, &["w1", "w2", "w3"])
             };
             let plan = RowPlan::of(&request);
             let mut row = vec![f64::NAN; plan.columns()];

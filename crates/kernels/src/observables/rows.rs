@@ -1,5 +1,7 @@
 //! Types and macros of the table of observables; the rows are in [`super::table`].
 
+use super::request::Request;
+use crate::dynamics::effects::Effect;
 use crate::run::StateField;
 
 /// The kind of a value.
@@ -11,49 +13,73 @@ pub enum ColumnKind {
     Count,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scenes {
-    /// Every scene.
-    All,
-    /// With a debris body.
-    Debris,
-    /// With thrusters, motors or torques on the body.
-    Actuated,
-    /// With thrusters in the schedule.
-    Thrusters,
-    /// With thrusters or torques on the body.
-    ExternalTorque,
-    /// With motors in the schedule, or motors that hold the speed of their wheels.
-    Motors,
-    /// Without thrusters, motors and torques on the body.
-    Free,
-    /// Integrated with constraints: the null-space method.
-    Constrained,
-    /// Integrated with constraints between several bodies: wheels that turn, or debris.
-    ConstrainedBodies,
-    /// With a debris body, integrated with constraints.
-    ConstrainedDebris,
-    /// With thrusters in the schedule, or integrated with constraints: otherwise the velocity of c is constant.
-    IntegratedVelocity,
-    /// Integrated without constraints.
-    Unconstrained,
-    /// With wheels that turn.
-    Wheels,
-    /// With several of them.
-    SeveralWheels,
-    /// On an orbit.
-    Orbit,
-    /// With a gravity gradient.
-    GravityGradient,
-    /// With a magnetic dipole or torque rods.
-    MagneticTorque,
-    /// With drag.
-    Drag,
-    /// With the pressure of sunlight.
-    SolarPressure,
+/// An enum with the list of its variants.
+macro_rules! listed {
+    ($(#[$doc:meta])* $visibility:vis enum $name:ident { $($(#[$of:meta])* $variant:ident,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(usize)]
+        $visibility enum $name {
+            $($(#[$of])* $variant,)*
+        }
+
+        impl $name {
+            pub(super) const ALL: [$name; [$(stringify!($variant)),*].len()] = [$($name::$variant),*];
+        }
+    };
 }
 
-/// A field of the state table behind a value: kind of scene and purpose.
+macro_rules! scenes {
+    ($request:ident: $($name:ident: $words:literal, $included:expr;)*) => {
+        /// Kinds of scene with a column.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Scenes {
+            $($name,)*
+        }
+
+        impl Scenes {
+            pub(super) const fn words(self) -> &'static str {
+                match self {
+                    $(Scenes::$name => $words,)*
+                }
+            }
+
+            /// True if the runs of `$request` are of this kind.
+            pub(super) fn include(self, $request: &Request) -> bool {
+                match self {
+                    $(Scenes::$name => $included,)*
+                }
+            }
+        }
+    };
+}
+
+scenes! {
+    request:
+    All: "", true;
+    Debris: "with debris", request.debris;
+    Actuated: "with actuation", request.actuated.any();
+    Thrusters: "with thrusters that act", request.actuated.thrusters;
+    ExternalTorque: "with thrusters that act or a torque on the body", request.actuated.external();
+    Motors: "with motors that act", request.actuated.motors && !request.wheels.is_empty();
+    Free: "without actuation", !request.actuated.any();
+    Constrained: "null-space method", request.constrained;
+    ConstrainedBodies: "null-space method, with wheels that turn or debris",
+        request.constrained && (request.debris || !request.wheels.is_empty());
+    ConstrainedDebris: "null-space method, with debris", request.constrained && request.debris;
+    IntegratedVelocity: "with thrusters that act, or null-space method",
+        request.constrained || request.actuated.thrusters;
+    Unconstrained: "not the null-space method", !request.constrained;
+    Wheels: "with wheels that turn", !request.wheels.is_empty();
+    SeveralWheels: "with several wheels", request.wheels.len() > 1;
+    Orbit: "on an orbit", request.effects.contains(Effect::Gravity);
+    GravityGradient: "with a gravity gradient", request.effects.contains(Effect::GravityGradient);
+    MagneticTorque: "with a magnetic dipole or torque rods", request.effects.contains(Effect::MagneticTorque);
+    Drag: "with drag", request.effects.contains(Effect::Drag);
+    SolarPressure: "with solar pressure", request.effects.contains(Effect::SolarPressure);
+}
+
+/// A field of the state table that a value needs in some kinds of scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Need {
     pub(super) field: StateField,
@@ -61,96 +87,107 @@ pub(super) struct Need {
     pub(super) why: &'static str,
 }
 
-/// Computation of a series.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(usize)]
-pub(super) enum SeriesSource {
-    /// [`super::energies`].
-    Energies,
-    /// [`super::momenta`].
-    LinearMomentum,
-    /// [`super::momenta`].
-    AngularMomentum,
-    /// [`super::momenta`].
-    DebrisMomenta,
-    /// [`super::attitude`].
-    Attitude,
-    /// Copied from the state table.
-    Residuals,
-    /// [`super::motion`].
-    Motion,
-    /// [`super::orbit`].
-    Orbit,
-    /// [`super::surroundings`].
-    Surroundings,
-    /// Records of the control law at the points ([`super::law_columns::LawSeries`]).
-    Law,
+/// Lists of needs, `NAME: field scenes "purpose", ...;`.
+macro_rules! needs {
+    ($($name:ident: $($field:ident $scenes:ident $why:literal),*;)*) => {
+        $(const $name: &[Need] = &[
+            $(Need { field: StateField::$field, scenes: Scenes::$scenes, why: $why }),*
+        ];)*
+    };
 }
 
-impl SeriesSource {
-    /// Every source, in order of computation.
-    pub(super) const ALL: [SeriesSource; 10] = [
-        SeriesSource::Energies,
-        SeriesSource::LinearMomentum,
-        SeriesSource::AngularMomentum,
-        SeriesSource::Attitude,
-        SeriesSource::DebrisMomenta,
-        SeriesSource::Residuals,
-        SeriesSource::Motion,
-        SeriesSource::Orbit,
-        SeriesSource::Surroundings,
-        SeriesSource::Law,
-    ];
+listed! {
+    /// Computation of a series, in order of execution; see [`super::measure`].
+    pub(super) enum SeriesSource {
+        Energies,
+        LinearMomentum,
+        AngularMomentum,
+        Attitude,
+        DebrisMomenta,
+        Residuals,
+        Motion,
+        Orbit,
+        Surroundings,
+        Law,
+    }
 }
 
-pub(super) const fn need(field: StateField, scenes: Scenes, why: &'static str) -> Need {
-    Need { field, scenes, why }
+macro_rules! optional {
+    () => {
+        None
+    };
+    ($value:expr) => {
+        Some($value)
+    };
 }
 
-/// The table of series: `name [places]: source, stored form, scale, needs, column of a time series, meaning`. A series
-/// of wheels has a place per possible wheel, and `{wheel}` in its name and meaning.
+/// The table of series: `source { name [places] stored form / scale [needs] [column of a time series] meaning; }`. A
+/// series of wheels has a place per possible wheel, and `{wheel}` in its name and meaning.
 macro_rules! series {
-    ($($name:ident [$count:expr]: $source:ident, $stored:ident, $scale:expr, [$($need:ident),*], $shown:expr,
-    $meaning:literal;)*) => {
+    ($($source:ident {
+        $($name:ident [$count:expr] $stored:ident $(/ $scale:ident)? [$($need:ident),*]
+        [$($column:literal $unit:literal)?] $meaning:literal;)*
+    })*) => {
         #[derive(Clone, Copy)]
-        enum SeriesKind { $($name,)* }
+        enum SeriesKind { $($($name,)*)* }
 
-        const PLACES: &[usize] = &[$($count),*];
+        const PLACES: &[usize] = &[$($($count),*),*];
 
-        #[expect(non_upper_case_globals, reason = "names of series, as those of variants")]
+        #[expect(non_upper_case_globals, reason = "names of series are written like variants")]
         impl Series {
-            $(#[doc = $meaning] pub const $name: Series = Series::first(SeriesKind::$name as usize);)*
+            $($(#[doc = $meaning] pub const $name: Series = Series::first(SeriesKind::$name as usize);)*)*
         }
 
         static SERIES: [SeriesRow; PLACES.len()] = [
-            $(SeriesRow {
+            $($(SeriesRow {
                 source: SeriesSource::$source,
                 stored: Stored::$stored,
-                scale: $scale,
+                scale: optional!($((Series::$scale, MAX))?),
                 needs: &[$($need),*],
-                shown: match $shown {
-                    Some((name, unit)) => Some(Quantity::new(name, unit, $meaning)),
-                    None => None,
-                },
-            }),*
+                shown: optional!($(Quantity::new($column, $unit, $meaning))?),
+            }),*),*
         ];
     };
 }
 
-/// The table of direct values: `name: needs, inputs, known after a failure, meaning`.
+/// The table of direct values: `group [needs, inputs, known after a failure] { name scenes kind "column" "unit"
+/// meaning; }`.
 macro_rules! direct_values {
-    ($($name:ident: $needs:expr, $inputs:expr, $after_failure:ident, $meaning:literal;)*) => {
+    ($($group:ident [$needs:expr, $inputs:expr, $after_failure:literal] {
+        $($name:ident $scenes:ident $kind:ident $column:literal $unit:literal $meaning:literal;)*
+    })*) => {
         /// A number that is not reduced from a single series.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(usize)]
         pub enum DirectValue {
-            $(#[doc = $meaning] $name,)*
+            $($(#[doc = $meaning] $name,)*)*
         }
 
-        pub(super) static DIRECT_VALUES: &[DirectRow] = &[
-            $(DirectRow { needs: $needs, inputs: $inputs, after_failure: $after_failure }),*
-        ];
+        impl DirectValue {
+            #[cfg(test)]
+            pub(super) const COUNT: usize = [$($(stringify!($name)),*),*].len();
+
+            pub(super) const fn row(self) -> DirectRow {
+                match self {
+                    $($(DirectValue::$name)|* => {
+                        DirectRow { needs: $needs, inputs: $inputs, after_failure: $after_failure }
+                    })*
+                }
+            }
+
+            const fn column(self) -> Column {
+                match self {
+                    $($(DirectValue::$name => column!(
+                        $group, $scenes, $kind, Value::Direct(DirectValue::$name, 0), [$column], $unit, [$meaning]
+                    ),)*)*
+                }
+            }
+        }
     };
+}
+
+macro_rules! direct {
+    ($($name:ident),*) => { &[$(DirectValue::$name.column()),*] };
 }
 
 macro_rules! column {
@@ -166,77 +203,77 @@ macro_rules! column {
     };
 }
 
-macro_rules! of {
-    ($group:ident, $scenes:ident, $series:ident, $reduction:ident, [$($name:expr),*], $unit:expr,
-    [$($meaning:expr),*]) => {
-        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction), [$($name),*], $unit,
-            [$($meaning),*])
+macro_rules! reduction {
+    (Fraction) => {
+        Reduction::Fraction
     };
-    ($group:ident, $scenes:ident, $series:ident, $reduction:ident($statistics:ident::$statistic:ident),
-    [$($name:expr),*], $unit:expr, [$($meaning:expr),*]) => {
-        column!($group, $scenes, Float, Value::Of(Series::$series, Reduction::$reduction($statistics::$statistic)),
-            [$($name),*], $unit, [$($meaning),*])
+    (Order $statistic:ident) => {
+        Reduction::Order(OrderStatistic::$statistic)
+    };
+    (Value $statistic:ident) => {
+        Reduction::Value(ValueStatistic::$statistic)
+    };
+    (Error $statistic:ident) => {
+        Reduction::Error(ErrorStatistic::$statistic)
+    };
+    (Change $statistic:ident) => {
+        Reduction::Change(ChangeStatistic::$statistic)
     };
 }
 
-macro_rules! direct {
-    ($group:ident, $scenes:ident, $kind:ident, $value:ident, $name:literal, $unit:literal, $meaning:literal) => {
-        column!($group, $scenes, $kind, Value::Direct(DirectValue::$value, 0), [$name], $unit, [$meaning])
+/// Columns of reduced series: `group scenes: series [reduction] "column" "unit" meaning;`. Column and meaning may be
+/// given in parts, in brackets.
+macro_rules! columns {
+    ($group:ident $scenes:ident:
+    $($series:ident [$($reduction:ident)+] $name:literal $unit:literal $meaning:literal;)*) => {
+        columns!($group $scenes: $($series [$($reduction)+] [$name] $unit [$meaning];)*)
+    };
+    ($group:ident $scenes:ident:
+    $($series:ident [$($reduction:ident)+] [$($name:literal)+] $unit:literal [$($meaning:literal)+];)*) => {
+        &[$(column!(
+            $group, $scenes, Float, Value::Of(Series::$series, reduction!($($reduction)+)), [$($name),+], $unit,
+            [$($meaning),+]
+        )),*]
     };
 }
 
 /// Maximum magnitude, final value, root mean square and slope of an error.
-#[rustfmt::skip]
 macro_rules! errors {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
         errors!($group, $scenes, $series, $name, ["", ""], ["1/s", "_per_s"], $what)
     };
-    ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], [$rate:literal,
-    $rate_suffix:literal], $what:literal) => {
-        &[
-            of!($group, $scenes, $series, Error(ErrorStatistic::Max), [$name, "_max", $suffix], $unit,
-                ["Maximum magnitude of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Final), [$name, "_final", $suffix], $unit,
-                ["Final value of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Rms), [$name, "_rms", $suffix], $unit,
-                ["Root mean square over the points of ", $what]),
-            of!($group, $scenes, $series, Error(ErrorStatistic::Slope), [$name, "_rate", $rate_suffix], $rate,
-                ["Least-squares slope over time of ", $what]),
-        ]
+    ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal],
+    [$rate:literal, $rate_suffix:literal], $what:literal) => {
+        columns! { $group $scenes:
+            $series [Error Max] [$name "_max" $suffix] $unit ["Maximum magnitude of " $what];
+            $series [Error Final] [$name "_final" $suffix] $unit ["Final value of " $what];
+            $series [Error Rms] [$name "_rms" $suffix] $unit ["Root mean square over the points of " $what];
+            $series [Error Slope] [$name "_rate" $rate_suffix] $rate ["Least-squares slope over time of " $what];
+        }
     };
 }
 
 /// Initial and maximum value of a conserved quantity.
-#[rustfmt::skip]
 macro_rules! scales {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
-        &[
-            of!($group, $scenes, $series, Order(OrderStatistic::Initial), [$name, "_initial", $suffix], $unit,
-                ["Initial ", $what, "."]),
-            of!($group, $scenes, $series, Order(OrderStatistic::Max), [$name, "_max", $suffix], $unit, ["Maximum ",
-                $what, " on the grid."]),
-        ]
+        columns! { $group $scenes:
+            $series [Order Initial] [$name "_initial" $suffix] $unit ["Initial " $what "."];
+            $series [Order Max] [$name "_max" $suffix] $unit ["Maximum " $what " on the grid."];
+        }
     };
 }
 
 /// Initial, final, minimum, maximum, mean and peak-to-peak of an energy.
-#[rustfmt::skip]
 macro_rules! energies {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
-        &[
-            of!($group, $scenes, $series, Value(ValueStatistic::Initial), [$name, "_initial_j"], "J", ["Initial ",
-                $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Final), [$name, "_final_j"], "J", ["Final ", $what,
-                "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Min), [$name, "_min_j"], "J", ["Minimum ", $what,
-                " on the grid."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Max), [$name, "_max_j"], "J", ["Maximum ", $what,
-                " on the grid."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::Mean), [$name, "_mean_j"], "J",
-                ["Mean over the points of the ", $what, "."]),
-            of!($group, $scenes, $series, Value(ValueStatistic::PeakToPeak), [$name, "_peak_to_peak_j"], "J",
-                ["Maximum minus minimum ", $what, " on the grid."]),
-        ]
+        columns! { $group $scenes:
+            $series [Value Initial] [$name "_initial_j"] "J" ["Initial " $what "."];
+            $series [Value Final] [$name "_final_j"] "J" ["Final " $what "."];
+            $series [Value Min] [$name "_min_j"] "J" ["Minimum " $what " on the grid."];
+            $series [Value Max] [$name "_max_j"] "J" ["Maximum " $what " on the grid."];
+            $series [Value Mean] [$name "_mean_j"] "J" ["Mean over the points of the " $what "."];
+            $series [Value PeakToPeak] [$name "_peak_to_peak_j"] "J" ["Maximum minus minimum " $what " on the grid."];
+        }
     };
 }
 
@@ -244,21 +281,20 @@ macro_rules! energies {
 #[rustfmt::skip]
 macro_rules! exchange {
     ($series:ident, $scenes:ident, $body:literal, $what:literal) => {
-        &[
-            of!(Exchange, $scenes, $series, Value(ValueStatistic::PeakToPeak), ["exchange_", $body,
-                "_peak_to_peak_j"], "J", ["Maximum minus minimum of the kinetic energy of ", $what,
-                    " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Fraction, ["exchange_", $body, "_fraction"], "", ["Maximum minus minimum \
-                of the kinetic energy of ", $what, ", relative to the largest total energy about the centre of mass (0 \
-                    if that is 0)."]),
-            of!(Exchange, $scenes, $series, Value(ValueStatistic::Net), ["exchange_", $body, "_net_j"], "J",
-                ["Final minus initial kinetic energy of ", $what, " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Gross), ["exchange_", $body, "_gross_j"], "J",
-                ["Sum of |dT| from point to point, where T is the kinetic energy of ", $what,
-                " about the centre of mass."]),
-            of!(Exchange, $scenes, $series, Change(ChangeStatistic::Power), ["exchange_", $body, "_power_max_w"],
-                "W", ["Maximum of |dT/dt| from point to point, where T is the kinetic energy of ", $what,
-                    " about the centre of mass."]),
-        ]
+        columns! { Exchange $scenes:
+            $series [Value PeakToPeak] ["exchange_" $body "_peak_to_peak_j"] "J"
+                ["Maximum minus minimum of the kinetic energy of " $what " about the centre of mass."];
+            $series [Fraction] ["exchange_" $body "_fraction"] ""
+                ["Maximum minus minimum of the kinetic energy of " $what ", relative to the largest total energy about \
+                    the centre of mass (0 if that is 0)."];
+            $series [Value Net] ["exchange_" $body "_net_j"] "J"
+                ["Final minus initial kinetic energy of " $what " about the centre of mass."];
+            $series [Change Gross] ["exchange_" $body "_gross_j"] "J"
+                ["Sum of |dT| from point to point, where T is the kinetic energy of " $what
+                " about the centre of mass."];
+            $series [Change Power] ["exchange_" $body "_power_max_w"] "W"
+                ["Maximum of |dT/dt| from point to point, where T is the kinetic energy of " $what
+                " about the centre of mass."];
+        }
     };
 }

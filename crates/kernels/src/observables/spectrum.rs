@@ -1,13 +1,13 @@
 //! [`Spectrum`]: dominant frequency of an evenly sampled series.
 //!
 //! Periodogram of the series minus its least-squares line, with Hann's window (Harris 1978), zero-padded to a power of
-//! two; the largest ordinate at one cycle per horizon or more, refined by a parabola through the logarithms of it and
-//! its neighbours (Gasior & Gonzalez 2004). Own radix-2 transform of constant geometry (Pease, J. ACM 15, 1968: every
-//! stage reads two halves and writes them interleaved, so that all stages are vectors), since FFT crates choose their
-//! algorithm by the machine, and their bits differ.
+//! two. The largest ordinate from one cycle per horizon on is refined by a parabola through the logarithms of it and
+//! its neighbours (Gasior & Gonzalez 2004). The radix-2 transform has constant geometry (Pease, J. ACM 15, 1968): every
+//! stage reads two halves and writes them interleaved, so that all vectorise. FFT crates choose their algorithm by the
+//! machine, and their bits differ.
 //!
-//! A tone between one cycle per duration and half a cycle per interval is found within 0.05/duration (measured below);
-//! slower changes appear as about one cycle per duration.
+//! Tones between one cycle per duration and half a cycle per interval are found within 0.05/duration; slower changes
+//! appear as about one cycle per duration.
 
 use fearless_simd::Simd;
 
@@ -17,10 +17,10 @@ use crate::run::Grid;
 
 const FEWEST: usize = 8;
 
-/// Maximum unevenness of the grid in steps: rounding of the times only.
+/// Largest deviation of a time from the even grid, in steps: rounding only.
 const UNEVENNESS: f64 = 1e-6;
 
-/// The transform of one length, with scratch.
+/// Transform of one length, with scratch memory.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum {
     points: usize,
@@ -34,7 +34,7 @@ pub(super) struct Spectrum {
     size: usize,
     /// Position of coefficient k after the last stage.
     order: Vec<u32>,
-    /// exp(-2 pi i e / size) by stage; e is j with its last bits cleared, one per earlier stage; j < size / 2.
+    /// exp(-2 pi i e / size) for j < size / 2 by stage; e is j with its last bits cleared, one per earlier stage.
     stages: [Vec<f64>; 2],
     /// exp(-2 pi i k / (2 size)), k < size.
     turns: [Vec<f64>; 2],
@@ -44,7 +44,7 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// A transform for series on `grid`; `None` if it is too short or uneven.
+    /// Transform for series on `grid`; `None` if it is too short or uneven.
     pub(super) fn of(grid: &Grid) -> Option<Self> {
         let times = grid.times();
         let points = times.len();
@@ -58,7 +58,7 @@ impl Spectrum {
         }
         let size = points.next_power_of_two() / 2;
         let turn = |part: usize, whole: usize| 2.0 * std::f64::consts::PI * part as f64 / whole as f64;
-        // the window of period n + 1, so that no point has weight zero
+        // period n + 1, so that no point has weight zero
         let padded = points.next_multiple_of(2 * WIDTH);
         let mut window: Vec<f64> = (0..points).map(|k| 0.5 - 0.5 * libm::cos(turn(k + 1, points + 1))).collect();
         window.resize(padded, 0.0);
@@ -125,7 +125,7 @@ impl Spectrum {
         im[filled..].fill(0.0);
     }
 
-    /// Complex transform; coefficient k ends at `order[k]` of the first parts.
+    /// Complex transform, with coefficient k at `order[k]` of the first parts.
     #[inline(always)]
     fn transform<S: Simd>(&mut self, simd: S) {
         let half = self.size / 2;
@@ -159,7 +159,7 @@ impl Spectrum {
         }
     }
 
-    /// |X_k|^2 of the real series, k = 0 ... size, from the transform of its even and odd points.
+    /// |X_k|^2 of the real series, k = 0 ... size, from the transform of even and odd points.
     #[inline(always)]
     fn fill_power(&mut self) {
         let size = self.size;
@@ -181,7 +181,7 @@ impl Spectrum {
         }
     }
 
-    /// Frequency of the largest ordinate, Hz; NaN at an end of the spectrum, where it is no peak.
+    /// Frequency of the largest ordinate, Hz; NaN if it is at an end of the spectrum, and no peak.
     #[inline(always)]
     fn highest(&self) -> f64 {
         let bin = 1.0 / (2.0 * self.size as f64 * self.step);
@@ -218,8 +218,8 @@ mod tests {
     use crate::math::Isa;
     use crate::math::isa::Work;
 
-    /// Largest error of a pure tone's frequency in units of 1/horizon: the parabola's bias under Hann's window,
-    /// measured as 0.03 from two cycles per horizon on, with margin for interference of the mirror image.
+    /// Largest error of a tone's frequency in units of 1/horizon: the parabola's bias under Hann's window, 0.03 from
+    /// two cycles per horizon on, and a margin for the mirror image.
     const BIN_ERROR: f64 = 0.05;
 
     struct Peak<'a>(&'a mut Spectrum, &'a [f64], f64, f64);
@@ -231,7 +231,7 @@ mod tests {
         }
     }
 
-    /// A column with padding, here of arbitrary numbers.
+    /// A column with arbitrary numbers in the padding.
     fn padded(mut values: Vec<f64>) -> Vec<f64> {
         values.resize(values.len().next_multiple_of(2 * WIDTH), 1e3);
         values
@@ -258,7 +258,7 @@ mod tests {
                     x += spectrum.window[j] * value * libm::cos(angle);
                     y += spectrum.window[j] * value * libm::sin(angle);
                 }
-                // some roundings of a sum of two hundred terms of size one, squared; measured: 1.4e-12
+                // some roundings of sums of two hundred terms of size one, squared; measured 1.4e-12
                 assert!((spectrum.power[k] - (x * x + y * y)).abs() <= 1e-11, "{points} {k}");
             }
         }
@@ -270,15 +270,14 @@ mod tests {
         for points in [51, 64, 101, 128, 129, 1000, 5000] {
             for cycles in [2.2, 3.0, 4.55, 7.31, 11.5, 17.77, 20.01] {
                 let duration = 3.0;
-                let found = peak(points, duration, |t| {
-                    0.1 * libm::sin(2.0 * std::f64::consts::PI * cycles * t / duration + 0.3)
-                });
+                let turn = 2.0 * std::f64::consts::PI * cycles / duration;
+                let found = peak(points, duration, |t| 0.1 * libm::sin(turn * t + 0.3));
                 let error = (found * duration - cycles).abs();
                 worst = worst.max(error);
                 assert!(error <= BIN_ERROR, "{points} points, {cycles} cycles: {}", found * duration);
             }
         }
-        // measured: 0.016
-        assert!(worst > 2e-3, "the bound is meant to be near what is measured");
+        // measured 0.016
+        assert!(worst > 2e-3, "the bound is close to the measured error");
     }
 }

@@ -60,7 +60,7 @@ fn sunlight<S: Simd>(
     let one = Lanes::broadcast(simd, 1.0);
     let [hidden, torques] = out.write([Series::SunHidden, Series::SolarTorqueSquare], vectors);
     for at in 0..vectors {
-        // the last time is repeated beyond the last point
+        // beyond the last point its time is repeated
         let times: [f64; WIDTH] = core::array::from_fn(|lane| run.times[(WIDTH * at + lane).min(run.points - 1)]);
         let (sun, lit) = light.at(Lanes::load(simd, &times), three(simd, positions, at));
         let direction = transposed_product(attitude.c_es(simd, at), sun.direction);

@@ -1,14 +1,13 @@
-//! [`growth`]: amplification of small errors of the rotational state by the effects that change within an arc.
+//! [`growth`]: amplification of small errors of the rotational state by effects that change within an arc.
 //!
-//! A rotation of the body by theta changes their torque by M theta. With K omega' = tau - omega x H, H = K omega +
+//! A rotation of the body by theta changes the torque by M theta. With K omega' = tau - omega x H, H = K omega +
 //! wheels' momentum, small errors theta (body frame) and delta of omega obey theta' = delta - omega x theta, K delta' =
-//! M theta + H x delta - omega x K delta. If the points of a run follow its rotation, the covariance of errors that
-//! arise evenly along the run and in every direction is integrated with these equations; its largest root is the
-//! amplification. On an eccentric orbit errors of omega turn the body for a whole orbit before the next perigee changes
-//! omega by as much: growth is a product over orbits, although the torque is unstable for minutes alone.
+//! M theta + H x delta - omega x K delta. If the points of a run follow its rotation, these equations carry the
+//! covariance of errors that arise evenly along the run and in every direction; its largest root is the amplification.
+//! On an eccentric orbit growth is a product over orbits, although the torque is unstable for minutes only.
 //!
-//! If the body turns too fast for that, the torque changes sign many times between points and hardly amplifies: the
-//! growth is that of the free motion ([`super::conditioning`]) times the exponential of [`exponent`].
+//! If the body turns too fast, the torque changes sign many times between points and hardly amplifies: growth is that
+//! of the free motion ([`super::conditioning`]) times the exponential of [`exponent`].
 
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, ForceModel};
@@ -19,29 +18,29 @@ use crate::math::vector::{cross, difference, dot, hamilton, quaternion_from_dcm,
 use crate::run::{StateField, StateTable, rate_scale};
 use crate::scene::Scene;
 
-/// ln 1e200, beyond which growth counts as infinite.
+/// ln 1e200.
 pub(super) const LARGEST_EXPONENT: f64 = 460.5;
 
-/// Largest amplification, beyond which it counts as infinite.
+/// Largest amplification; more counts as infinite.
 pub(super) const MOST: f64 = 1e200;
 
-/// Maximum number of examined points: several in each half of a libration up to some orbits, a fair sample beyond.
+/// Most examined points: several in each half of a libration up to some orbits, a fair sample beyond.
 const POINTS: usize = 128;
 
-/// Rotation for finite differences of a torque, rad: the error is of its size, rounding is 1e-12.
+/// Rotation for finite differences of a torque, rad: its size is the error, rounding is 1e-12.
 const ROTATION: f64 = 1e-4;
 
-/// Maximum change of an error over a step of the covariance: the classical Runge-Kutta method then errs by less than a
-/// percent.
+/// Largest change of an error over a step of the covariance, for which the classical Runge-Kutta method errs by less
+/// than a percent.
 const STEP: f64 = 0.7;
 
-/// Steps between two points up to which they follow the rotation: coefficients are linear in between.
+/// Most steps between two points that follow the rotation, with linear coefficients in between.
 const FOLLOWED: f64 = 4.0;
 
-/// Limit of steps of a run, cheaper than the torques; a faster body needs more.
+/// Limit of steps of a run, cheaper than the torques.
 const MOST_STEPS: f64 = 128.0;
 
-/// Data of a point, in principal axes.
+/// A point, in principal axes.
 #[derive(Clone, Copy)]
 struct Station {
     time: f64,
@@ -55,17 +54,17 @@ struct Station {
 }
 
 pub(super) struct Growth {
-    /// Amplification of errors that arise evenly along the run (omega over its scale, attitude in rad), if the points
-    /// follow the rotation.
+    /// Amplification of errors that arise evenly along the run (omega over its scale, attitude in rad); `None` if the
+    /// points do not follow the rotation.
     pub(super) followed: Option<f64>,
-    /// Otherwise, factor on the growth in the free motion.
+    /// Otherwise: factor on the growth in the free motion.
     pub(super) beside: f64,
-    /// Change of omega by the torque along the run, in magnitude, over its scale.
+    /// Magnitude of the change of omega by the torque along the run, over its scale.
     pub(super) stirred: f64,
 }
 
-// Inlined with all callees, so that fused operations are instructions: torques at a thousand states of a run would
-// otherwise cost as much as its steps.
+// inlined with all callees, so that fused operations are instructions: torques at a thousand states would otherwise
+// cost as much as the steps of a run
 /// Growth over the first `filled` points of `table` of a run of `scene`; `None` if no effect changes within an arc.
 #[inline(always)]
 pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -> Option<Growth> {
@@ -102,7 +101,7 @@ pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: u
         for (wheel, spin) in scene.mass.wheels.iter().enumerate() {
             held = sum(held, scaled(spin.axial * table.column(StateField::WheelRates, wheel)[point], spin.axis));
         }
-        // one loop over all changes: the long effects are inlined once
+        // one loop, so that the long effects are inlined once
         let mut torques = [[0.0; 3]; 4];
         for (change, torque) in torques.iter_mut().enumerate() {
             *torque = effects.torque(&if change < 3 { turned(&motion, change) } else { motion });
@@ -124,7 +123,7 @@ pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: u
 
 type Matrix = [[f64; 3]; 3];
 
-/// Covariances of rotations; of rotations (rows) and changes of omega (columns); of changes of omega. Or their slopes.
+/// Covariances of rotations, of rotations (rows) and changes of omega (columns), of changes of omega; or their slopes.
 type Covariance = [Matrix; 3];
 
 /// Linear equations at a point: theta' = u delta - omega x theta, delta' = `pulled` theta + `carried` delta, delta in
@@ -136,7 +135,7 @@ struct Flow {
     carried: Matrix,
 }
 
-/// Amplification along `stations`, if few steps follow the rotation.
+/// Amplification along `stations`; `None` if that takes too many steps.
 #[inline(always)]
 fn covariance_growth(stations: &[Station], moments: [f64; 3], scale: f64) -> Option<f64> {
     let duration = stations[stations.len() - 1].time;
@@ -205,8 +204,7 @@ impl Flow {
         }
     }
 
-    /// Fastest change of an error, 1/s, by rotation and by a destabilising torque; rotation at a constant rate is exact
-    /// in any step.
+    /// Fastest change of an error, 1/s, by rotation and a destabilising torque.
     #[inline(always)]
     fn pace(&self, unit: f64) -> f64 {
         let most =
@@ -265,13 +263,12 @@ fn moved(a: &Covariance, by: f64, slope: &Covariance) -> Covariance {
 
 /// Logarithm of the growth by the torque beyond the free motion.
 ///
-/// For a body that does not turn relative to the torque's reference direction an error grows as exp(lambda t), with
-/// lambda^2 the largest positive eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2) (negative: libration). For a
-/// body that turns at a relative rate w, or is held by a momentum J w, M changes sign within 1/w and most of the gain
-/// is lost: growth of second order, lambda^3/w^2. In between, the exponent is the integral of lambda^3/(lambda^2 +
-/// w^2). Orientations left within half a period of an oscillation do not count: M and w^2 are averaged over spans of
-/// pi/lambda_0 first, lambda_0^2 being the largest magnitude of an eigenvalue. The reference direction turns with the
-/// orbit.
+/// If the body does not turn relative to the reference direction of the torque, which turns with the orbit, an error
+/// grows as exp(lambda t) with lambda^2 the largest positive eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2)
+/// (negative: libration). If it turns at a relative rate w, or is held by a momentum J w, M changes sign within 1/w,
+/// and growth is of second order, lambda^3/w^2. In between, the exponent is the integral of lambda^3/(lambda^2 + w^2).
+/// M and w^2 are first averaged over half periods pi/lambda_0 of an oscillation, lambda_0^2 being the largest magnitude
+/// of an eigenvalue.
 fn exponent(stations: &[Station], moments: [f64; 3]) -> f64 {
     let duration = stations[stations.len() - 1].time;
     let size = (moments[0] + moments[1] + moments[2]) / 3.0;

@@ -1,4 +1,4 @@
-//! [`Weights`]: constants of a grid for passes over a series; reductions of lanes.
+//! [`Weights`]: constants of a grid for passes over a series; joins of lanes.
 
 use fearless_simd::Simd;
 
@@ -9,13 +9,12 @@ use crate::run::Grid;
 /// Constants of a grid, zero in the padding.
 #[derive(Clone, Debug)]
 pub(super) struct Weights {
-    /// Number of points.
     pub(super) points: usize,
     /// One at every point.
     pub(super) one: Vec<[f64; WIDTH]>,
-    /// Least-squares slope of a series as a weighted sum of its values, 1/s.
+    /// Weights of the values whose sum is the least-squares slope, 1/s.
     pub(super) slope: Vec<[f64; WIDTH]>,
-    /// 1/distance to the next point, 1/s.
+    /// 1/step to the next point, 1/s.
     pub(super) inverse_step: Vec<[f64; WIDTH]>,
 }
 
@@ -46,13 +45,13 @@ impl Weights {
     }
 }
 
-/// The first `count` vectors of a column; columns of one common length need no bounds checks inside loops.
+/// The first `count` vectors of a column; columns of one length need no bounds checks in loops.
 #[inline(always)]
 pub(super) fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
     &column.as_chunks().0[..count]
 }
 
-/// Reduces the lanes as a fixed tree.
+/// Joins the lanes as a fixed tree.
 #[inline(always)]
 fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
     let [a, b, c, d, e, f, g, h] = lanes;

@@ -1,5 +1,4 @@
-//! [`Window`]: extreme of a quantity over an interval of time, a column for a requirement "at all times". Such a
-//! requirement needs one number per run; bands have numbers of all runs at each time.
+//! [`Window`]: extreme of a quantity over an interval of time, the column behind a requirement "at all times".
 
 use core::ops::Range;
 
@@ -32,30 +31,19 @@ pub const NO_WINDOWS: Windows = List::empty(BLANK);
 /// Extreme of a quantity with bands over the observation points in a closed interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    series: Series,
-    group: Group,
+    pub(super) series: Series,
+    pub(super) group: Group,
     /// True for the change of the series since the start.
-    is_change: bool,
+    pub(super) is_change: bool,
     /// True for the largest value, false for the smallest.
-    is_highest: bool,
-    from_s: Option<f64>,
-    to_s: Option<f64>,
+    pub(super) is_highest: bool,
+    pub(super) from_s: Option<f64>,
+    pub(super) to_s: Option<f64>,
 }
 
 impl Window {
-    /// The extreme of a series, or of its change since the start, in columns of `group`, from one time to another, s.
-    pub(super) fn new(
-        series: Series,
-        group: Group,
-        is_change: bool,
-        is_highest: bool,
-        [from_s, to_s]: [Option<f64>; 2],
-    ) -> Self {
-        Window { series, group, is_change, is_highest, from_s, to_s }
-    }
-
     pub(super) fn column(&self, wheels: &[Name], index: usize) -> Column {
-        let of = self.series.over_time(self.is_change, wheels).expect("bands are of quantities that have a name");
+        let of = self.series.over_time(self.is_change, wheels).expect("quantities with bands have names");
         Column {
             quantity: self.quantity(&of),
             group: self.group,
@@ -72,8 +60,8 @@ impl Window {
         let text = |time: f64| format!("{time:?}").trim_end_matches(".0").replace('.', "p").replace('-', "m");
         let end = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!("_{word}_{}_s", text(end)));
         let name = format!("{prefix}{}{}_{}", end("from", self.from_s), end("to", self.to_s), of.name());
-        let said = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end:?} s"));
-        let times = format!("{}{}", said("from", self.from_s), said("to", self.to_s));
+        let words = |word: &str, end: Option<f64>| end.map_or(String::new(), |end| format!(" {word} {end:?} s"));
+        let times = format!("{}{}", words("from", self.from_s), words("to", self.to_s));
         let meaning = format!("{word} value over the observation points{times} of {}: {}", of.name(), of.meaning());
         Quantity::named(name, of.unit().to_owned(), meaning)
     }
@@ -82,27 +70,23 @@ impl Window {
         ColumnId { group: self.group, value: Value::Window(self.series, index as u8) }
     }
 
-    /// Its observation points among `times`.
+    /// Observation points within the window, among `times`.
     pub fn points(&self, times: &[f64]) -> Range<usize> {
         let start = self.from_s.map_or(0, |from| points_before(times, from));
         let end = self.to_s.map_or(times.len(), |to| points_to(times, to));
         start..end.max(start)
     }
 
-    pub(super) fn series(&self) -> Series {
-        self.series
-    }
-
     /// Extreme over `points` of the stored numbers `column`, divided by `scale`; NaN if one is, or if there are none.
     pub(super) fn extreme(&self, column: &[f64], points: Range<usize>, scale: f64) -> f64 {
         let beyond = |a: f64, b: f64| if self.is_highest { a > b } else { a < b };
-        let further = |found: f64, value: &f64| if found.is_nan() || beyond(found, *value) { found } else { *value };
+        let further = |far: f64, value: &f64| if far.is_nan() || beyond(far, *value) { far } else { *value };
         let Some((first, rest)) = column.get(points).and_then(<[f64]>::split_first) else { return f64::NAN };
-        let found = rest.iter().fold(*first, further);
-        // stored numbers rise with the quantity
+        let extreme = rest.iter().fold(*first, further);
+        // stored numbers increase with the quantity
         match self.series.row().stored {
-            Stored::Quantity if self.is_change => found - column[0],
-            stored => stored.shown(found) / scale,
+            Stored::Quantity if self.is_change => extreme - column[0],
+            stored => stored.shown(extreme) / scale,
         }
     }
 }
