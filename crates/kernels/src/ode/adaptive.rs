@@ -1,4 +1,4 @@
-//! [`Adaptive`]: embedded pairs with steps that follow the tolerance, in the order of operations of ode45 (Shampine &
+//! [`Adaptive`]: embedded pairs whose steps follow the tolerance, in the order of operations of ode45 (Shampine &
 //! Reichelt 1997).
 
 use super::embedded::Embedded;
@@ -9,7 +9,7 @@ use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::real::{Mask, Real};
 
-/// Error of a step that is not finite: causes the strongest reduction of the step.
+/// Error assigned to a step that is not finite: causes the strongest reduction.
 const UNSOUND: f64 = 1e30;
 
 /// An embedded pair with adaptive steps.
@@ -58,7 +58,7 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
 }
 
 impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
-    /// Computes the derivative and the first step of lanes at the start of an arc.
+    /// Derivative and first step in lanes at the start of an arc.
     #[inline(always)]
     fn start<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) {
         let (state, starting) = (&lanes.now.state, self.starting);
@@ -77,9 +77,6 @@ impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
 
 impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, R, N> {
     #[inline(always)]
-    fn start_run(&mut self, _lane: usize) {}
-
-    #[inline(always)]
     fn start_arc(&mut self, lane: usize, _start: f64, _end: f64) {
         self.starting.set(lane, true);
         self.retry.set(lane, false);
@@ -95,7 +92,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         self.longest.set_lane(lane, 0.0);
     }
 
-    /// Within the bounds, and to the end of the arc if that is near.
+    /// Within bounds, or to the end of the arc if that is near.
     #[inline(always)]
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R> {
         if self.starting.any() {

@@ -1,4 +1,4 @@
-//! [`Embedded`]: an explicit method with an error estimate and dense output.
+//! [`Embedded`]: explicit methods with error estimate and dense output.
 
 use super::error_model::StepErrors;
 use super::explicit::{Carried, Step};
@@ -6,25 +6,25 @@ use super::step_control::Controller;
 use super::system::{System, Tolerance};
 use crate::math::real::Real;
 
-/// An attempted step, without the state at its end.
+/// Result of an attempted step.
 pub struct PairAttempt<R> {
-    /// Norm of its error in units of the tolerance.
+    /// Norm of the error in units of the tolerance.
     pub ratio: R,
     /// Zero if everything is finite, else NaN.
     pub poison: R,
 }
 
-/// An explicit method with an error estimate and dense output, whose last stage is the first of the next step.
+/// An explicit method with error estimate and dense output, whose last stage is the first of the next step.
 pub trait Embedded: Copy {
-    /// Its step-size controller.
+    /// Step-size controller.
     const CONTROLLER: Controller;
     /// Evaluations of the right-hand side per attempted step.
     const EVALUATIONS: f64;
     /// Evaluations at the start of an arc.
     const START_EVALUATIONS: f64;
-    /// Further evaluations in a step with observation points inside.
+    /// Additional evaluations in a step with observation points inside.
     const DENSE_EVALUATIONS: f64;
-    /// Further evaluations for each such point.
+    /// Additional evaluations for each of these points.
     const POINT_EVALUATIONS: f64;
     /// Relation of errors to estimates.
     const ERRORS: StepErrors;
@@ -35,13 +35,13 @@ pub trait Embedded: Copy {
     /// Memory for the stages.
     fn stages<R: Real, const N: usize>(zero: R) -> Self::Stages<R, N>;
 
-    /// The derivative at the start of the step.
+    /// Derivative at the start of the step.
     fn first<R: Real, const N: usize>(stages: &mut Self::Stages<R, N>) -> &mut [R; N];
 
-    /// The derivative at the start of the step, read-only.
+    /// [`Embedded::first`], read-only.
     fn at_start<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
 
-    /// The derivative at the end of the step.
+    /// Derivative at the end of the step.
     fn last<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
 
     /// First step of an arc, s, from the derivative `slope` at its start.
@@ -64,7 +64,7 @@ pub trait Embedded: Copy {
         end: &mut Carried<R, N>,
     ) -> PairAttempt<R>;
 
-    /// Prepares [`Embedded::inside`] for the last attempted step, if dense output needs evaluations of its own.
+    /// Prepares [`Embedded::inside`] for the last attempted step.
     #[inline(always)]
     fn prepare_inside<R: Real, Q: System<R, N>, const N: usize>(
         _system: &Q,
@@ -75,7 +75,7 @@ pub trait Embedded: Copy {
     ) {
     }
 
-    /// The state at the fraction `s` of the last attempted step.
+    /// State at the fraction `s` of the last attempted step.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,

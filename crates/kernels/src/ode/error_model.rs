@@ -3,9 +3,9 @@
 /// Relation of the errors of a method's steps to the data of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorModel {
-    /// Estimated per step; their sum is [`super::EndedRun::error_sum`].
+    /// Estimated per step, with the sum [`super::EndedRun::error_sum`].
     Estimated(StepErrors),
-    /// Not estimated: errors follow from the Taylor series of the solution.
+    /// Derived from the Taylor series of the solution.
     Remainder(Remainder),
 }
 
@@ -14,10 +14,10 @@ pub enum ErrorModel {
 pub struct StepErrors {
     /// Ratio of error to estimate at a tolerance of one.
     pub factor: f64,
-    /// 1/(order of the estimate + 1): the step continues with a formula of one order more than the estimate (local
-    /// extrapolation), and its error is smaller by a step length, the tolerance to this power.
+    /// 1/(order of the estimate + 1). With local extrapolation a step continues with one order more than the estimate,
+    /// and its error is smaller by a step length: the tolerance to this power.
     pub extrapolation: f64,
-    /// Error of dense output in units of the tolerance; later steps do not start from it.
+    /// Error of dense output in units of the tolerance, which later steps do not inherit.
     pub dense: f64,
 }
 
@@ -38,12 +38,11 @@ impl ErrorModel {
     }
 }
 
-/// Error model of a method of fixed steps: the first term of the solution's Taylor series that its steps do not
-/// reproduce.
+/// Error model of fixed steps: the first term of the solution's Taylor series that they do not reproduce.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Remainder {
     /// Order of the method.
     pub order: usize,
-    /// Error of a step over the term of order + 1 of the solution's series at its start.
+    /// Error of a step over the term of order + 1 of the series at its start.
     pub factor: f64,
 }

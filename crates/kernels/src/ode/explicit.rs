@@ -1,11 +1,10 @@
-//! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step y' = y + h sum_i b_i k_i shared
-//! by all methods, whose rounding error is carried to the next step (Kahan 1965).
+//! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step y' = y + h sum_i b_i k_i of all
+//! methods, which carries its rounding error to the next step (Kahan 1965).
 
-#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not inlined always, see `each`")]
-
-use core::ops::Range;
+#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not always inlined, see `each`")]
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
 pub use super::step::Step;
 use super::system::System;
@@ -20,12 +19,21 @@ impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
     const WEIGHTS: [f64; S] = if I < S { T::A[I] } else { [0.0; S] };
 }
 
-/// A vector by its components.
-///
-/// Replaces `core::array::from_fn` and `map` in hot code: these are not always inlined, and are then compiled without
-/// the chosen instruction set (measured: thirty times slower). Closures here are `inline(always)` for the same reason.
+/// A vector by its components, in place of `core::array::from_fn` and `map`, which are not always inlined, and then
+/// lack the chosen instruction set (measured: thirty times slower).
+macro_rules! each {
+    ($like:expr, |$n:ident| $component:expr) => {
+        $crate::ode::explicit::vector(
+            $like,
+            #[inline(always)]
+            |$n| $component,
+        )
+    };
+}
+pub(super) use each;
+
 #[inline(always)]
-pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
+pub(super) fn vector<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -> R) -> [R; N] {
     let mut vector = [like; N];
     for n in 0..N {
         vector[n] = component(n);
@@ -35,15 +43,11 @@ pub(super) fn each<R: Copy, const N: usize>(like: R, component: impl Fn(usize) -
 
 #[inline(always)]
 pub(super) fn scaled<R: Real, const N: usize>(length: R, slope: &[R; N]) -> [R; N] {
-    each(
-        length,
-        #[inline(always)]
-        |n| length * slope[n],
-    )
+    each!(length, |n| length * slope[n])
 }
 
-/// sum_j w_j k_j, unrolled for lanes. A single number on x86-64 means no fused instruction: each term is then a library
-/// call, and loops take a fifth of the code at the same speed.
+/// sum_j w_j k_j, unrolled for lanes. Single numbers on x86-64 mean a library call per term, for which loops take a fifth
+/// of the code at the same speed.
 #[inline(always)]
 pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
     if cfg!(target_arch = "x86_64") && R::LANES == 1 {
@@ -59,23 +63,19 @@ fn weighted_in_loops<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], w
 
 #[inline(always)]
 fn weighted_sum<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
-    each(
-        k[0][0],
-        #[inline(always)]
-        |n| {
-            let mut sum = k[0][n].zero();
-            for j in 0..S {
-                if weights[j] != 0.0 {
-                    sum = sum.splat(weights[j]).mul_add(k[j][n], sum);
-                }
+    each!(k[0][0], |n| {
+        let mut sum = k[0][n].zero();
+        for j in 0..S {
+            if weights[j] != 0.0 {
+                sum = sum.splat(weights[j]).mul_add(k[j][n], sum);
             }
-            sum
-        },
-    )
+        }
+        sum
+    })
 }
 
-/// sum_j a_ij k_j for stage `stage`. One arm per stage, so that the derivative is called in a loop and inlined once,
-/// not per stage, which matters for kernels of 62 components.
+/// sum_j a_ij k_j for stage i. The arms keep the call of the derivative in a loop, so that it is inlined once, not per
+/// stage.
 #[inline(always)]
 fn stage_slope<T, R, const N: usize, const S: usize>(stage: usize, k: &[[R; N]; S]) -> [R; N]
 where
@@ -93,12 +93,12 @@ where
     arms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
 }
 
-/// A state with its rounding error: the exact value is `state` + `carry`.
+/// A state with its rounding error; the exact value is `state` + `carry`.
 #[derive(Clone, Copy)]
 pub struct Carried<R, const N: usize> {
     /// The state.
     pub state: [R; N],
-    /// Rounding error of the state: exact value minus state.
+    /// Its rounding error.
     pub carry: [R; N],
 }
 
@@ -111,14 +111,10 @@ impl<R: Real, const N: usize> Carried<R, N> {
         }
     }
 
-    /// The state advanced by `length * slope`, without the carry, for a stage.
+    /// Argument of a stage: the state advanced by `length * slope`, without the carry.
     #[inline(always)]
     pub(super) fn shifted(&self, length: R, slope: &[R; N]) -> [R; N] {
-        each(
-            length,
-            #[inline(always)]
-            |n| length.mul_add(slope[n], self.state[n]),
-        )
+        each!(length, |n| length.mul_add(slope[n], self.state[n]))
     }
 
     #[inline(always)]
@@ -130,11 +126,7 @@ impl<R: Real, const N: usize> Carried<R, N> {
 /// `yes` in the lanes where `mask` is true, else `no`.
 #[inline(always)]
 pub(super) fn chosen<R: Real, const N: usize>(mask: R::Mask, yes: &[R; N], no: &[R; N]) -> [R; N] {
-    each(
-        yes[0],
-        #[inline(always)]
-        |n| R::select(mask, yes[n], no[n]),
-    )
+    each!(yes[0], |n| R::select(mask, yes[n], no[n]))
 }
 
 /// Zero if all components are finite, else NaN.
@@ -147,8 +139,8 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills the stages `stages` of `k` (stage zero is given) and writes the end of the step, the argument of stage
-/// `closing`, to `end`; a `closing` of `S` leaves the end to the caller.
+/// Fills `stages` of `k`, whose stage zero is given. The argument of stage `closing` is the end of the step, written to
+/// `end`; with `closing` = `S` the caller takes the step.
 #[inline(always)]
 pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     system: &Q,

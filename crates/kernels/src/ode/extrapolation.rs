@@ -1,9 +1,9 @@
 //! [`Extrapolation`]: steps of high order in any arithmetic, for reference solutions.
 //!
-//! Gragg's midpoint rule with 2, 4, 6, ... parts, without smoothing, extrapolated to parts of zero length by Neville's
-//! scheme in the square of their length (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations
-//! I*, 1993, section II.9, (9.10) and (9.13)); order 2j after j columns. Its coefficients are ratios of integers, exact
-//! in any arithmetic; those of Runge-Kutta methods of order 8 are published with 16 to 20 digits.
+//! Gragg's midpoint rule with 2, 4, 6, ... parts, without smoothing, extrapolated by Neville's scheme in the square of
+//! their length (E. Hairer, S. Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.9,
+//! (9.10) and (9.13)); order 2j after j columns. Its coefficients are ratios of integers, exact in any arithmetic,
+//! unlike the 16 to 20 published digits of Runge-Kutta methods of order 8.
 
 use super::explicit::{Step, each};
 use super::system::{System, Tolerance};
@@ -24,8 +24,8 @@ impl<R: Real, const N: usize> Extrapolation<R, N> {
         Extrapolation { row: [[zero; N]; COLUMNS] }
     }
 
-    /// Takes a step from `start` with the derivative `slope`: the state at its end, and the number of columns until the
-    /// last two agreed to the tolerance; `None` if they never do.
+    /// Takes a step from `start` with the derivative `slope`. Returns the state at its end, and the number of columns
+    /// after which two agree to the tolerance; `None` if they never do.
     #[inline(always)]
     pub fn step<Q: System<R, N>>(
         &mut self,
@@ -38,14 +38,7 @@ impl<R: Real, const N: usize> Extrapolation<R, N> {
         for j in 0..COLUMNS {
             let parts = 2 * (j + 1);
             let length = step.length / number(parts);
-            let (mut before, mut now) = (
-                *start,
-                each(
-                    length,
-                    #[inline(always)]
-                    |n| length.mul_add(slope[n], start[n]),
-                ),
-            );
+            let (mut before, mut now) = (*start, each!(length, |n| length.mul_add(slope[n], start[n])));
             for part in 1..parts {
                 let rate = system.derivative(number(part).mul_add(length, step.time), &now);
                 let twice = length + length;

@@ -1,7 +1,7 @@
 //! [`Fixed`]: one-step methods with fixed steps.
 //!
-//! An arc of length l is divided into ceil(l / step) equal steps. A point inside a step is reached by a shorter step
-//! from the same start: as accurate as the method, and with its invariants, unlike an interpolating polynomial.
+//! An arc of length l has ceil(l / step) equal steps. A point inside a step is reached by a shorter step from the same
+//! start, which keeps accuracy and invariants of the method, unlike interpolation.
 
 use super::error_model::{ErrorModel, Remainder};
 use super::explicit::{Carried, Step};
@@ -13,11 +13,10 @@ use crate::math::real::Real;
 /// Steps per arc by default.
 const DEFAULT_STEPS: f64 = 1000.0;
 
-/// Excess over an integer of the quotient of arc and step that counts as rounding of decimal fractions (0.3 / 0.1
-/// differs from 3 by one unit in the last place).
+/// Relative excess over an integer of the quotient of arc and step that counts as rounding of decimal fractions.
 const WHOLE: f64 = 4.0 * f64::EPSILON;
 
-/// A step, without the state at its end.
+/// Result of a step.
 pub struct Advance<R> {
     /// Zero if it is sound, else NaN.
     pub poison: R,
@@ -25,17 +24,16 @@ pub struct Advance<R> {
     pub evaluations: R,
 }
 
-/// A one-step method for steps of given length.
-///
-/// The end of a step is written to `end`, not returned, since moves of large states are copies.
+/// A one-step method for steps of given length, which writes the end of a step to `end`: returning a large state would
+/// copy it.
 pub trait FixedStep: Copy {
-    /// The error of its steps.
+    /// Error of its steps.
     const REMAINDER: Remainder;
 
     /// Data for the next step and for points inside.
     type Memory<R: Real, const N: usize>;
 
-    /// The memory before the first step.
+    /// Memory before the first step.
     fn memory<R: Real, const N: usize>(zero: R) -> Self::Memory<R, N>;
 
     /// Takes a step, the first of an arc in the lanes `first`.
@@ -49,7 +47,7 @@ pub trait FixedStep: Copy {
         end: &mut Carried<R, N>,
     ) -> Advance<R>;
 
-    /// Takes the fraction `s` of the last step; `part` is that part.
+    /// Takes `part`, the fraction `s` of the last step.
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         part: Step<R>,
@@ -75,7 +73,7 @@ impl<M: FixedStep> LaneMethod for Fixed<M> {
     fn stepper<R: Real, const N: usize>(self, zero: R, control: &Control) -> FixedStepper<M, R, N> {
         FixedStepper {
             tolerance: control.tolerance,
-            asked: control.step,
+            step: control.step,
             memory: M::memory(zero),
             start: zero,
             length: zero,
@@ -88,8 +86,8 @@ impl<M: FixedStep> LaneMethod for Fixed<M> {
 /// Steps of a fixed-step method in lanes.
 pub struct FixedStepper<M: FixedStep, R: Real, const N: usize> {
     tolerance: Tolerance,
-    /// Step given by the campaign, s.
-    asked: Option<f64>,
+    /// Requested step, s.
+    step: Option<f64>,
     memory: M::Memory<R, N>,
     /// Start of the arc and length of its steps, s.
     start: R,
@@ -101,12 +99,9 @@ pub struct FixedStepper<M: FixedStep, R: Real, const N: usize> {
 
 impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R, N> {
     #[inline(always)]
-    fn start_run(&mut self, _lane: usize) {}
-
-    #[inline(always)]
     fn start_arc(&mut self, lane: usize, start: f64, end: f64) {
         let length = end - start;
-        let steps = self.asked.map_or(DEFAULT_STEPS, |step| length / step);
+        let steps = self.step.map_or(DEFAULT_STEPS, |step| length / step);
         let count = (steps * (1.0 - WHOLE)).ceil().max(1.0);
         self.start.set_lane(lane, start);
         self.length.set_lane(lane, length / count);
@@ -146,17 +141,6 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
     }
 
     #[inline(always)]
-    fn prepare_inside<Q: System<R, N>>(
-        &mut self,
-        _system: &Q,
-        _step: Step<R>,
-        _end: &[R; N],
-        _inside: R::Mask,
-        _lanes: &mut StepperLane<R, N>,
-    ) {
-    }
-
-    #[inline(always)]
     fn inside<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -177,15 +161,4 @@ impl<M: FixedStep, R: Real, const N: usize> Stepper<R, N> for FixedStepper<M, R,
         self.taken += self.taken.splat(1.0);
         !attempt.sound
     }
-
-    #[inline(always)]
-    fn slopes(&self) -> [&[R; N]; 2] {
-        unreachable!("equal steps do not end at switches")
-    }
-
-    #[inline(always)]
-    fn cut(&mut self, _lanes: R::Mask, _length: R) {}
-
-    #[inline(always)]
-    fn renew<Q: System<R, N>>(&mut self, _system: &Q, _renewed: R::Mask, _lanes: &mut StepperLane<R, N>) {}
 }

@@ -1,9 +1,8 @@
-//! [`integrate`]: driver of all methods. Runs in lanes, each with its own time, step, arc and error.
+//! [`integrate`]: driver of all methods, with runs in lanes, each with its own time, step, arc and error.
 //!
-//! A cycle: every lane *proposes* a step, *attempts* it and *records* the observation points inside; completed runs
-//! *retire*, and their lanes load the next. Steps are proposed, attempted and accepted by a [`Stepper`]. All decisions
-//! are correctly rounded arithmetic on the lane's own numbers, so that lane i equals the scalar run bit for bit
-//! (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
+//! In each cycle a [`Stepper`] proposes and attempts a step in every lane; observation points inside are recorded, and
+//! the lanes of completed runs load the next. Decisions are correctly rounded arithmetic on the lane's own numbers, so
+//! that lane i equals the scalar run bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
 
 use super::explicit::Carried;
 use super::lane_slot::LaneSlots;
@@ -17,9 +16,9 @@ use crate::math::real::{Mask, Real};
 
 /// Integrates all runs to the end of their last arcs, in the arithmetic of `zero`.
 ///
-/// The recorder gets the components at every observation time: the initial state, the state at the end of a step, or
-/// dense output. A run ends early if its state becomes non-finite, its step too short, or its steps exceed
-/// `control.max_steps` (or clearly will). Steps end at switches. Call inside [`crate::math::Isa::run`].
+/// The recorder gets the state at every observation time: the initial one, the end of a step, or dense output. A run
+/// ends early if its state becomes non-finite, its step too short, or its steps exceed `control.max_steps` (or clearly
+/// will). Call inside [`crate::math::Isa::run`].
 #[inline(always)]
 pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
 where
@@ -103,7 +102,7 @@ where
     }
 }
 
-/// Records the observation points up to `limit` in all lanes, one of each at a time.
+/// Records the observation points up to `limit` in all lanes, one per lane at a time.
 #[inline(always)]
 fn record<R, Q, P, O, const N: usize>(
     system: &Q,

@@ -1,4 +1,4 @@
-//! [`LaneSlots`]: assignment of runs to lanes, without any arithmetic.
+//! [`LaneSlots`]: assignment of runs to lanes.
 
 use super::runs::{EndedRun, Recorder, Runs, Termination};
 use crate::math::lanes::WIDEST;
@@ -6,13 +6,11 @@ use crate::math::real::Real;
 
 pub(super) struct LaneSlots {
     /// The run in each lane.
-    lanes: [LaneSlot; WIDEST],
+    lanes: [Option<usize>; WIDEST],
     next_run: usize,
     /// Number of lanes with a run.
     occupied: usize,
 }
-
-type LaneSlot = Option<usize>;
 
 /// A run just loaded into a lane.
 pub(super) struct LoadedRun<const N: usize> {
@@ -33,12 +31,12 @@ impl LaneSlots {
     }
 
     #[inline(always)]
-    pub(super) fn run(&self, lane: usize) -> LaneSlot {
+    pub(super) fn run(&self, lane: usize) -> Option<usize> {
         self.lanes[lane]
     }
 
-    /// Loads the next run of the queue into lane `lane` and records its initial state; `None` if the queue is empty. A
-    /// run without arcs ends at once.
+    /// Loads the next run into lane `lane` and records its initial state; `None` without further runs. A run without
+    /// arcs ends at once.
     #[inline(always)]
     pub(super) fn load_lane<R, Q, O, const N: usize>(
         &mut self,

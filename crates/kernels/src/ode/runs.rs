@@ -1,12 +1,11 @@
-//! [`Runs`] and [`Recorder`]: source of runs and sink of their states, provided by the caller of an integrator.
+//! [`Runs`] and [`Recorder`]: source of runs and sink of their states, implemented by the caller of an integrator.
 
 use crate::math::real::Real;
 use crate::ode::system::System;
 
-/// Runs to integrate; a completed run's lane loads the next.
+/// Runs to integrate; the lane of a completed run loads the next.
 ///
-/// A run consists of arcs, with a smooth right-hand side but for switches ([`super::switches`]). Integration restarts
-/// exactly at every boundary.
+/// A run consists of arcs, smooth but for [`super::switches`]. Integration restarts exactly at every boundary.
 pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Number of runs.
     fn count(&self) -> usize;
@@ -14,12 +13,11 @@ pub trait Runs<R: Real, const N: usize>: System<R, N> {
     /// Loads run `run` into lane `lane` and returns its state at time zero.
     fn load(&mut self, lane: usize, run: usize) -> [f64; N];
 
-    /// Prepares lane `lane` for the arc from `state` at `time`, s, and returns the end of the arc, s, later than
-    /// `time`; `None` at the end of the run. Called at time zero and at the end of every arc.
+    /// Prepares lane `lane` for the arc from `state` at `time`, s: zero, or the end of the previous arc. Returns its
+    /// end, s, later than `time`; `None` at the end of the run.
     fn next_arc(&mut self, lane: usize, time: f64, state: &[f64; N]) -> Option<f64>;
 
-    /// Sets the branches for `time`, s, and `state` in the lanes `lanes` until the next call; only with
-    /// [`System::has_switches`].
+    /// Sets the branches for `_time`, s, and `_state` in `_lanes` until the next call; with [`System::has_switches`].
     #[inline(always)]
     fn choose_branches(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 }
@@ -36,7 +34,7 @@ pub trait Recorder<Q, const N: usize> {
     fn record(&mut self, lane: usize, state: &[f64; N]);
 
     /// Run `run` in lane `lane` has ended and is still loaded in `runs`. The order of runs depends on the number of
-    /// lanes, their results do not.
+    /// lanes.
     fn finish(&mut self, runs: &Q, lane: usize, run: usize, completion: &EndedRun);
 }
 

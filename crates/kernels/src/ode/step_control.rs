@@ -1,4 +1,4 @@
-//! Step control: settings of a campaign, constants of the controllers, shared arithmetic. Sources are with each method.
+//! Step control: settings of a campaign, constants of the controllers, shared arithmetic.
 
 use super::system::Tolerance;
 use crate::math::power::power;
@@ -11,15 +11,15 @@ pub struct Control {
     pub tolerance: Tolerance,
     /// Step of fixed-step methods, s; by default a thousandth of each arc. Ignored by adaptive methods.
     pub step: Option<f64>,
-    /// Limit of attempted steps of a run; it ends earlier if its end is out of reach ([`is_out_of_reach`]).
+    /// Limit of attempted steps of a run, which ends earlier if its end [`is_out_of_reach`].
     pub max_steps: u64,
 }
 
-/// Steps of an arc before its pace is judged: some 50 ms. Runs limited to fewer steps are not judged.
+/// Steps of an arc, some 50 ms, after which [`is_out_of_reach`] is evaluated.
 pub const PACE_STEPS: u64 = 20_000;
 
-/// Margin of two, times two for uneven steps: actuation is constant in an arc, and steps follow a periodic motion or a
-/// growing rate; they become longer on average, by two, if a torque brings a body to rest at the end of the arc.
+/// Margin of two, times two for steps that grow on average while a torque brings the body to rest. Otherwise steps
+/// follow a periodic motion or a growing rate.
 const UNEVEN: f64 = 4.0;
 
 /// True if an arc of `length` cannot end within `most` steps, its first [`PACE_STEPS`] steps having reached `time`.
@@ -30,9 +30,9 @@ pub fn is_out_of_reach(most: u64, time: f64, length: f64) -> bool {
 /// Constants of a step-size controller; errors are in units of the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controller {
-    /// The step is proportional to the error to minus this power: 1/(order of the estimate + 1).
+    /// 1/(order of the estimate + 1): the step is proportional to the error to minus this power.
     pub exponent: f64,
-    /// Factor on the step at which the error is expected to equal the tolerance.
+    /// Factor on the step whose error is expected to equal the tolerance.
     pub safety: f64,
     /// Maximum factor between steps.
     pub growth: f64,
@@ -40,15 +40,15 @@ pub struct Controller {
     pub shrink: f64,
     /// Factor of repeated rejections of a step; `None`: as for the first.
     pub shrink_again: Option<f64>,
-    /// True to keep the length after a step accepted after a rejection; otherwise it does not grow.
+    /// True to keep the length after a step accepted on retry; otherwise it may shrink.
     pub hold_after_rejection: bool,
-    /// A step that would reach the end of the arc if longer by this factor is changed to end there.
+    /// A step that would reach the end of the arc if longer by this factor ends there.
     pub landing: f64,
     /// Longest step as a fraction of the arc.
     pub longest: f64,
 }
 
-/// Shortest step as a fraction of the power of two below the time, 16 eps (`hmin = 16*eps(t)` of ode45).
+/// Shortest step over the power of two below the time (`hmin = 16*eps(t)` of ode45).
 const FLOOR: f64 = 16.0 * f64::EPSILON;
 
 /// Replaces smaller times, s, so that the shortest step is a normal number at t = 0.
@@ -60,8 +60,8 @@ pub(super) fn shortest_step<R: Real>(time: R) -> R {
 }
 
 impl Controller {
-    /// Factor for the next step (or attempt, if not `accepted`) after an error of `ratio`; `retry`: the attempt
-    /// followed a rejection of the same step.
+    /// Factor on the step after an attempt with the error `ratio`; `retry` marks attempts after a rejection of the same
+    /// step.
     #[inline(always)]
     pub(super) fn factor<R: Real>(&self, ratio: R, accepted: R::Mask, retry: R::Mask) -> R {
         let one = ratio.splat(1.0);
@@ -82,7 +82,7 @@ mod tests {
 
     /// Law: an arc is given up if it needs more than four times the remaining steps at its pace.
     #[test]
-    fn an_arc_is_given_up_where_it_is_out_of_reach() {
+    fn arcs_out_of_reach_are_given_up() {
         let most = 100 * PACE_STEPS;
         assert!(is_out_of_reach(most, 0.99, 400.0) && !is_out_of_reach(most, 1.01, 400.0));
         assert!(is_out_of_reach(most, 0.0, f64::MIN_POSITIVE) && is_out_of_reach(u64::MAX, 1e-300, f64::MAX));

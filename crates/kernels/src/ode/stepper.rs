@@ -1,4 +1,4 @@
-//! [`Stepper`]: choice and execution of steps in lanes; [`StepperLane`]: state of the lanes common to all methods.
+//! [`Stepper`]: choice and execution of steps in lanes, on the state in [`StepperLane`].
 
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, each};
@@ -11,12 +11,12 @@ use crate::math::real::Real;
 
 /// A method with its step control.
 pub trait LaneMethod: Copy {
-    /// Its error model.
+    /// Error model.
     const ERRORS: ErrorModel;
-    /// True for steps of given length instead of following the tolerance.
+    /// True for steps of given length, false if they follow the tolerance.
     const HAS_FIXED_STEP: bool;
 
-    /// Its steps in lanes.
+    /// Steps in lanes.
     type Stepper<R: Real, const N: usize>: Stepper<R, N>;
 
     /// A stepper for all lanes in the arithmetic of `zero`.
@@ -35,7 +35,7 @@ pub struct StepperLane<R, const N: usize> {
     pub(super) arc_start: R,
     /// Attempted steps of the run before the arc.
     pub(super) before: R,
-    /// Attempted steps of the run at the next check of [`StepperLane::gives_up`].
+    /// Attempted steps of the run at which [`StepperLane::gives_up`] is evaluated next.
     pub(super) judged: R,
     /// Next observation time, s.
     pub next: R,
@@ -45,7 +45,7 @@ pub struct StepperLane<R, const N: usize> {
     pub rejected: R,
     /// Evaluations of the right-hand side in the run.
     pub evaluations: R,
-    /// Sum of the error estimates of the accepted steps, in units of the tolerance.
+    /// Sum of the error estimates of accepted steps, in units of the tolerance.
     pub error_sum: R,
 }
 
@@ -58,7 +58,7 @@ pub struct Proposal<R: Real> {
     pub lands: R::Mask,
 }
 
-/// Result of an attempted step, without the state at its end.
+/// Result of an attempted step.
 pub struct Attempt<R: Real> {
     /// True if accepted.
     pub accepted: R::Mask,
@@ -70,19 +70,16 @@ pub struct Attempt<R: Real> {
 
 /// Choice and execution of a method's steps in all lanes.
 pub trait Stepper<R: Real, const N: usize> {
-    /// A run starts in lane `lane`.
-    fn start_run(&mut self, lane: usize);
-
     /// An arc from `start` to `end`, s, starts in lane `lane`.
     fn start_arc(&mut self, lane: usize, start: f64, end: f64);
 
-    /// Lane `lane` has no run: it takes steps of zero length that never reach the end of an arc.
+    /// Lane `lane` has no run; it takes steps of zero length.
     fn idle(&mut self, lane: usize);
 
     /// The next step of every lane.
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
 
-    /// Attempts the step and writes its end to `end`, since moves of large states are copies.
+    /// Attempts the step and writes its end to `end`: returning a large state would copy it.
     fn attempt<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -92,16 +89,18 @@ pub trait Stepper<R: Real, const N: usize> {
     ) -> Attempt<R>;
 
     /// Prepares [`Stepper::inside`] for the lanes `inside` of the attempted step.
+    #[inline(always)]
     fn prepare_inside<Q: System<R, N>>(
         &mut self,
-        system: &Q,
-        step: Step<R>,
-        end: &[R; N],
-        inside: R::Mask,
-        lanes: &mut StepperLane<R, N>,
-    );
+        _system: &Q,
+        _step: Step<R>,
+        _end: &[R; N],
+        _inside: R::Mask,
+        _lanes: &mut StepperLane<R, N>,
+    ) {
+    }
 
-    /// The state at the end of `part`, the first part of the attempted `step`, for the lanes `inside`.
+    /// State at the end of `part`, the first part of the attempted `step`, for the lanes `inside`.
     fn inside<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -111,18 +110,23 @@ pub trait Stepper<R: Real, const N: usize> {
         lanes: &mut StepperLane<R, N>,
     ) -> [R; N];
 
-    /// Chooses the length of the next step; true in lanes that cannot continue.
+    /// Chooses the length of the next step; returns the lanes that cannot continue.
     fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask;
 
-    /// Derivatives at both ends of the last attempted step.
-    fn slopes(&self) -> [&[R; N]; 2];
+    /// Derivatives at both ends of the last attempted step; only adaptive methods end steps at switches.
+    #[inline(always)]
+    fn slopes(&self) -> [&[R; N]; 2] {
+        unreachable!("equal steps do not end at switches")
+    }
 
-    /// After [`Stepper::advance`]: sets the length of the next step of the lanes `lanes`, s; later ones have the length
-    /// of the step that it replaces.
-    fn cut(&mut self, lanes: R::Mask, length: R);
+    /// After [`Stepper::advance`]: sets the length, s, of the next step in the lanes `_lanes`; later steps resume the
+    /// length of the step that it replaces.
+    #[inline(always)]
+    fn cut(&mut self, _lanes: R::Mask, _length: R) {}
 
-    /// Updates the derivative at the current time in the lanes `renewed`, whose branches have changed.
-    fn renew<Q: System<R, N>>(&mut self, system: &Q, renewed: R::Mask, lanes: &mut StepperLane<R, N>);
+    /// Updates the derivative at the current time in the lanes `_renewed`, whose branches have changed.
+    #[inline(always)]
+    fn renew<Q: System<R, N>>(&mut self, _system: &Q, _renewed: R::Mask, _lanes: &mut StepperLane<R, N>) {}
 }
 
 impl<R: Real, const N: usize> StepperLane<R, N> {
@@ -149,7 +153,7 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         of_lane(&self.now.state, lane)
     }
 
-    /// Starts `loaded`, next observed at `next`, in lane `lane`; idles the lane without a run.
+    /// Starts the run `loaded`, first observed at `next`, in lane `lane`; without a run the lane is idle.
     #[inline(always)]
     pub(super) fn start<P: Stepper<R, N>>(
         &mut self,
@@ -164,7 +168,7 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         self.evaluations.set_lane(lane, 0.0);
         self.error_sum.set_lane(lane, 0.0);
         let Some(run) = loaded else {
-            // an idle lane never reaches a limit of steps, an observation point or the end of an arc
+            // never reaches a limit of steps, an observation point or the end of an arc
             self.rejected.set_lane(lane, f64::NEG_INFINITY);
             self.arc_end.set_lane(lane, f64::INFINITY);
             self.next.set_lane(lane, f64::INFINITY);
@@ -177,7 +181,6 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         }
         self.rejected.set_lane(lane, 0.0);
         self.next.set_lane(lane, next);
-        stepper.start_run(lane);
         self.start_arc(lane, 0.0, run.end, stepper, control);
     }
 
@@ -203,7 +206,7 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
         self.accepted.lane(lane) + self.rejected.lane(lane)
     }
 
-    /// True if the run in lane `lane` has used up its steps, or cannot reach the end of its arc with them.
+    /// True if the run in lane `lane` has used up its steps, or will before the end of its arc.
     #[cold]
     pub(super) fn gives_up(&mut self, lane: usize, max_steps: u64) -> bool {
         let (attempts, before) = (self.attempts(lane), self.before.lane(lane));
@@ -233,9 +236,5 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
 
 #[inline(always)]
 pub(super) fn of_lane<R: Real, const N: usize>(state: &[R; N], lane: usize) -> [f64; N] {
-    each::<f64, N>(
-        0.0,
-        #[inline(always)]
-        |n| state[n].lane(lane),
-    )
+    each!(0.0, |n| state[n].lane(lane))
 }

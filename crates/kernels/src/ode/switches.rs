@@ -1,16 +1,15 @@
-//! Steps that end at changes of branches of the right-hand side.
+//! Steps that end where the right-hand side changes its branch.
 //!
-//! The signs of switch functions, smooth in time and state, select the branches. Branches are frozen within a step,
-//! which integrates their smooth continuation, so that a method keeps its order and its error estimate (E. Hairer, S.
-//! Norsett & G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson,
-//! *Event location for ordinary differential equations*, Comput. Math. Appl. 39, 2000). A step with a wrong branch at
-//! its end is rejected: the switch is located on its dense output, and a step to there replaces it. Branches are then
-//! chosen by the signs a little later, so that the side on which the step ended does not matter. A pair of switches
-//! within a step, after which all signs are restored, is found by the derivatives at both ends ([`dip`]): the step ends
-//! first at the minimum of the function.
+//! The signs of switch functions, smooth in time and state, select the branches. A step keeps its branches and
+//! integrates their smooth continuation, so that a method keeps its order and error estimate (E. Hairer, S. Norsett &
+//! G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson, *Event
+//! location for ordinary differential equations*, Comput. Math. Appl. 39, 2000). If a branch is wrong at the end of a
+//! step, the switch is located on the dense output and a step to it replaces the first one. Branches are then chosen by
+//! the signs a little later, whichever side the step ended on. A pair of switches within a step, which leaves all signs
+//! as they were, shows in the derivatives at both ends ([`dip`]): the step first ends at the minimum of the function.
 //!
-//! Nothing can hang: a switch function of zero within rounding does not count, a step is replaced at most eight times
-//! and then accepted with the switch at its end, and every accepted step counts against `max_steps`.
+//! Nothing hangs: a switch function that is zero to rounding does not count, a step is replaced at most eight times and
+//! then accepted, and every accepted step counts against `max_steps`.
 
 use super::explicit::{Step, each};
 use super::runs::Runs;
@@ -19,18 +18,17 @@ use super::stepper::{Attempt, Stepper, StepperLane};
 use super::system::System;
 use crate::math::real::{Mask, Real};
 
-/// A switch function below minus this has changed sign; functions are of order one, with rounding of some 1e-15.
+/// A switch function below minus this has changed sign; functions are of order one, rounding some 1e-15.
 const NOISE: f64 = 1e-12;
 
-/// Tolerated undershoot at the end of a step to a switch, times the square root of the tolerance: an error of second
-/// order, 1e-4/2 of the tolerance; dense output is as accurate as the tolerance.
+/// Tolerated undershoot at the end of a step to a switch, over the square root of the tolerance: an error of second
+/// order, 1e-4/2 of the tolerance.
 const LANDED: f64 = 1e-2;
 
-/// Branches are chosen by the signs after this fraction of a step: beyond the error of its location, and without effect
-/// at second order.
+/// Branches are chosen after this fraction of a step: beyond the error of location, and without effect at second order.
 const AHEAD: f64 = 1e-4;
 
-/// A switch is searched for after this fraction of the step; earlier ones have just been passed.
+/// Switches before this fraction of the step have just been passed.
 const LEAST: f64 = 1e-3;
 
 /// Limit of replacements of a step; measured for tumbling boxes: 3.
@@ -39,28 +37,27 @@ const MOST_CUTS: f64 = 8.0;
 /// Limit of evaluations of dense output for a switch.
 const MOST_EVALUATIONS: usize = 40;
 
-/// A switch is located if its function is below the first, or its time is known to the second as a fraction of the
-/// step.
+/// A switch is located once its function, or the bracket of its time as a fraction of the step, is below these.
 const LOCATED: [f64; 2] = [1e-14, 1e-15];
 
-/// A minimum within a step is examined if the cubic through its ends leaves less than this share of its depth. For a
-/// cosine the cubic errs by a tenth of it over a step of 2 rad.
+/// A minimum within a step is examined if the cubic through both ends leaves less than this share of its depth, the
+/// error of the cubic for a cosine over a step of 2 rad.
 const DOUBT: f64 = 0.1;
 
-/// Part of the step between the two times from which [`dip`] derives a slope.
+/// Distance, as a fraction of the step, of the two times from which [`dip`] computes a slope.
 const BESIDE: f64 = 1e-3;
 
 /// Pending switches, one run per lane.
 pub(super) struct Switches<R: Real> {
-    /// Lanes that must choose branches, and the delay, s.
+    /// Lanes that are to choose branches, and the delay, s.
     pending: R::Mask,
     ahead: R,
-    /// Lanes whose next step replaces one, number of replacements, length of the first, and of the next, s.
+    /// Lanes whose next step is a replacement, number of replacements, lengths of the first and the next, s.
     cut: R::Mask,
     cuts: R,
     whole: R,
     next: R,
-    /// Lanes whose present step replaces one.
+    /// Lanes whose present step is a replacement.
     landing: R::Mask,
     /// Smallest switch function at the end of such a step.
     landed: R,
@@ -91,7 +88,7 @@ impl<R: Real> Switches<R> {
         self.cuts.set_lane(lane, 0.0);
     }
 
-    /// Chooses branches in lanes with a new arc or a step that ended at a switch.
+    /// Chooses branches in lanes with a new arc or at a switch.
     #[inline(always)]
     pub(super) fn choose<Q, P, const N: usize>(&mut self, runs: &mut Q, stepper: &mut P, lanes: &mut StepperLane<R, N>)
     where
@@ -105,11 +102,7 @@ impl<R: Real> Switches<R> {
         let passed = self.pending & zero.lt(ahead);
         let state = &lanes.now.state;
         let [slope, _] = stepper.slopes();
-        let later = each(
-            zero,
-            #[inline(always)]
-            |n| R::select(passed, ahead.mul_add(slope[n], state[n]), state[n]),
-        );
+        let later = each!(zero, |n| R::select(passed, ahead.mul_add(slope[n], state[n]), state[n]));
         runs.choose_branches(self.pending, lanes.time + ahead, &later);
         if passed.any() {
             stepper.renew(&*runs, passed, lanes);
@@ -149,7 +142,7 @@ impl<R: Real> Switches<R> {
         self.cuts = R::select(attempt.accepted, zero, self.cuts + zero.indicator(cut));
     }
 
-    /// Shortens the next step to the switch and returns the lanes with one; after [`Stepper::advance`].
+    /// After [`Stepper::advance`]: shortens the next step to the switch, and returns the lanes with one.
     #[inline(always)]
     pub(super) fn cut<P: Stepper<R, N>, const N: usize>(&mut self, stepper: &mut P, attempt: &Attempt<R>) -> R::Mask {
         let ended = self.landing & attempt.accepted;
@@ -163,9 +156,9 @@ impl<R: Real> Switches<R> {
     }
 }
 
-/// Fraction of `step` at which its dense output reaches a switch in the lanes `over`, the margin at its end being
-/// `last`: false position with the margin of the retained end halved (M. Dowell & P. Jarratt, *A modified regula falsi
-/// method*, BIT 11, 1971).
+/// Fraction of `step` at which its dense output reaches a switch in the lanes `over`, for the margin `last` at its end:
+/// false position with the retained margin halved (M. Dowell & P. Jarratt, *A modified regula falsi method*, BIT 11,
+/// 1971).
 #[inline(always)]
 fn locate<R, Q, P, const N: usize>(
     system: &Q,
@@ -190,7 +183,7 @@ where
         let middle = number(0.5) * (low + high);
         let inner = R::select(low.lt(secant) & secant.lt(high), secant, middle);
         let s = if k == 0 { low } else { inner };
-        // no closure: it would be compiled without vector instructions
+        // a closure would be compiled without vector instructions
         let length = R::select(over, s * step.length, s.zero());
         let part = Step { time: step.time, end: step.time + length, length };
         let state = stepper.inside(system, step, part, over, lanes);
@@ -217,24 +210,18 @@ where
     found
 }
 
-/// Times at which [`dip`] needs a switch function, and states at the inner two, from states and derivatives at both
+/// Times at which [`dip`] needs a switch function, and the states at the inner two, from states and derivatives at both
 /// ends of `step`.
 #[inline(always)]
 pub fn beside<R: Real, const N: usize>(step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> ([R; 4], [[R; N]; 2]) {
     let short = step.length * step.length.splat(BESIDE);
-    let state = |[state, slope]: [&[R; N]; 2], time: R| {
-        each(
-            time,
-            #[inline(always)]
-            |n| time.mul_add(slope[n], state[n]),
-        )
-    };
+    let state = |[state, slope]: [&[R; N]; 2], time: R| each!(time, |n| time.mul_add(slope[n], state[n]));
     let times = [step.time, step.time + short, step.end - short, step.end];
     (times, [state(ends[0], short), state(ends[1], -short)])
 }
 
-/// Fraction of a step at which a switch function that is positive at both ends may be negative, by the cubic through
-/// both; infinite if none. The function is given at the times of [`beside`].
+/// Fraction of a step at which a switch function, positive at both ends, may be negative by the cubic through them;
+/// infinite if none. The function is given at the times of [`beside`].
 #[inline(always)]
 pub fn dip<R: Real>([start, after, before, end]: [R; 4]) -> R {
     let number = |value: f64| start.splat(value);
@@ -268,19 +255,19 @@ mod tests {
     use crate::ode::stepper::LaneMethod;
     use crate::ode::system::Tolerance;
 
-    /// y' = f(t, y) with one switch function g and the branch g > 0.
-    struct Case {
-        slope: fn(f64, &[f64; 2], bool) -> [f64; 2],
-        switch: fn(f64, &[f64; 2]) -> f64,
+    /// y' = f(t, on) with one switch function g(t), `on` if g > 0.
+    struct Case<'a> {
+        slope: &'a dyn Fn(f64, bool) -> [f64; 2],
+        switch: &'a dyn Fn(f64) -> f64,
         start: [f64; 2],
         end: f64,
         branch: bool,
         chosen: usize,
     }
 
-    impl System<f64, 2> for Case {
-        fn derivative(&self, time: f64, state: &[f64; 2]) -> [f64; 2] {
-            (self.slope)(time, state, self.branch)
+    impl System<f64, 2> for Case<'_> {
+        fn derivative(&self, time: f64, _state: &[f64; 2]) -> [f64; 2] {
+            (self.slope)(time, self.branch)
         }
         fn error_ratio(&self, error: &[f64; 2], _old: &[f64; 2], _new: &[f64; 2], tolerance: Tolerance) -> f64 {
             (error[0].abs() + error[1].abs()) / tolerance.absolute
@@ -288,8 +275,8 @@ mod tests {
         fn has_switches(&self) -> bool {
             true
         }
-        fn margin(&self, time: f64, state: &[f64; 2]) -> f64 {
-            (self.switch)(time, state) * if self.branch { 1.0 } else { -1.0 }
+        fn margin(&self, time: f64, _state: &[f64; 2]) -> f64 {
+            (self.switch)(time) * if self.branch { 1.0 } else { -1.0 }
         }
         fn dip(&self, step: Step<f64>, ends: [[&[f64; 2]; 2]; 2]) -> f64 {
             let (times, [after, before]) = beside(step, ends);
@@ -298,7 +285,7 @@ mod tests {
         }
     }
 
-    impl Runs<f64, 2> for Case {
+    impl Runs<f64, 2> for Case<'_> {
         fn count(&self) -> usize {
             1
         }
@@ -308,15 +295,15 @@ mod tests {
         fn next_arc(&mut self, _lane: usize, time: f64, _state: &[f64; 2]) -> Option<f64> {
             (time == 0.0).then_some(self.end)
         }
-        fn choose_branches(&mut self, _lanes: bool, time: f64, state: &[f64; 2]) {
-            self.branch = (self.switch)(time, state) > 0.0;
+        fn choose_branches(&mut self, _lanes: bool, time: f64, _state: &[f64; 2]) {
+            self.branch = (self.switch)(time) > 0.0;
             self.chosen += 1;
         }
     }
 
     struct Last([f64; 2], f64, Option<EndedRun>);
 
-    impl Recorder<Case, 2> for Last {
+    impl Recorder<Case<'_>, 2> for Last {
         fn begin(&mut self, _lane: usize, _run: usize) {}
         fn next_time(&self, _lane: usize) -> f64 {
             self.1
@@ -324,12 +311,12 @@ mod tests {
         fn record(&mut self, _lane: usize, state: &[f64; 2]) {
             (self.0, self.1) = (*state, f64::INFINITY);
         }
-        fn finish(&mut self, _runs: &Case, _lane: usize, _run: usize, ended: &EndedRun) {
+        fn finish(&mut self, _runs: &Case<'_>, _lane: usize, _run: usize, ended: &EndedRun) {
             self.2 = Some(*ended);
         }
     }
 
-    fn solved(method: impl LaneMethod, tolerance: f64, case: &mut Case) -> ([f64; 2], EndedRun) {
+    fn solved(method: impl LaneMethod, tolerance: f64, case: &mut Case<'_>) -> ([f64; 2], EndedRun) {
         let tolerance = Tolerance { relative: tolerance, absolute: tolerance };
         let mut last = Last([f64::NAN; 2], case.end, None);
         integrate(method, 0.0, case, &mut last, &Control { tolerance, step: None, max_steps: 100_000 });
@@ -337,58 +324,39 @@ mod tests {
         assert_eq!(ended.termination, Termination::Completed);
         (last.0, ended)
     }
-    type Switch = fn(f64, &[f64; 2]) -> f64;
 
-    /// Truth: the integral of max(0, cos t - c) over ten turns. Law: pulses much shorter than a step, without a net
-    /// change of branch, are all found.
+    /// Law: pulses much shorter than a step, without a net change of branch, are all found. Truth: the integral of
+    /// max(0, cos t - c) over ten turns.
     #[test]
     fn short_pulses_within_a_step_are_found() {
         for depth in [0.3, 1e-2, 1e-4, 1e-6] {
             let half = libm::acos(1.0 - depth);
             let pulse = 2.0 * (libm::sin(half) - (1.0 - depth) * half);
-            macro_rules! case {
-                ($($depth:literal)*) => {
-                    match depth {
-                        $(depth if depth == $depth => Case {
-                            // an oscillator in parallel sets the length of the steps
-                            slope: |t, _, on| [if on { libm::cos(t) - (1.0 - $depth) } else { 0.0 }, libm::cos(t)],
-                            switch: |t, _| libm::cos(t) - (1.0 - $depth),
-                            start: [0.0, 0.0],
-                            end: 20.0 * core::f64::consts::PI + 3.0,
-                            branch: true,
-                            chosen: 0,
-                        },)*
-                        _ => unreachable!(),
-                    }
-                };
-            }
-            let mut own = case!(0.3 1e-2 1e-4 1e-6);
-            let (found, ended) = solved(Adaptive(Dop853), 1e-9, &mut own);
+            let switch = |t: f64| libm::cos(t) - (1.0 - depth);
+            // an oscillator in parallel sets the length of the steps
+            let slope = |t: f64, on: bool| [if on { switch(t) } else { 0.0 }, libm::cos(t)];
+            let end = 20.0 * core::f64::consts::PI + 3.0;
+            let mut case = Case { slope: &slope, switch: &switch, start: [0.0, 0.0], end, branch: true, chosen: 0 };
+            let (found, ended) = solved(Adaptive(Dop853), 1e-9, &mut case);
             let expected = 10.5 * pulse;
             println!("{depth:e}: {:e} for {expected:e}, {} steps", found[0], ended.accepted);
             assert!((found[0] - expected).abs() < 1e-8 * expected + 1e-10, "{depth:e}: {} for {expected}", found[0]);
         }
     }
 
-    /// Law: nothing hangs: a switch function of zero within rounding, one that touches zero, one with an unmodelled
-    /// kink, and one that is always wrong cost no more than some steps.
+    /// Law: difficult switch functions cost no more than some steps.
     #[test]
     fn nothing_hangs() {
-        let noisy = |t: f64, _: &[f64; 2]| 1e-15 * libm::sin(1e5 * t);
-        let touching = |t: f64, _: &[f64; 2]| 1.0 - libm::cos(t);
-        let kinked = |t: f64, _: &[f64; 2]| (t - 3.0).abs() - 1e-9;
-        let steep = |t: f64, _: &[f64; 2]| 1e6 * libm::sin(t);
-        let wrong = |t: f64, _: &[f64; 2]| if t == 0.0 { 1.0 } else { libm::sin(1e3 * t) };
-        let switches: [(&str, Switch, u64); 5] = [
-            ("noisy", noisy, 100),
-            ("touching", touching, 200),
-            ("kinked", kinked, 200),
-            ("steep", steep, 500),
-            ("wrong", wrong, 40_000),
+        let switches: [(&str, &dyn Fn(f64) -> f64, u64); 5] = [
+            ("zero to rounding", &|t| 1e-15 * libm::sin(1e5 * t), 100),
+            ("touches zero", &|t| 1.0 - libm::cos(t), 200),
+            ("has a kink", &|t| (t - 3.0).abs() - 1e-9, 200),
+            ("steep", &|t| 1e6 * libm::sin(t), 500),
+            ("always wrong", &|t| if t == 0.0 { 1.0 } else { libm::sin(1e3 * t) }, 40_000),
         ];
         for (name, switch, most) in switches {
-            let slope = |t: f64, _: &[f64; 2], above: bool| [libm::cos(t), f64::from(u8::from(above))];
-            let mut case = Case { slope, switch, start: [0.0, 1.0], end: 20.0, branch: true, chosen: 0 };
+            let slope = |t: f64, above: bool| [libm::cos(t), f64::from(u8::from(above))];
+            let mut case = Case { slope: &slope, switch, start: [0.0, 1.0], end: 20.0, branch: true, chosen: 0 };
             let (_, ended) = solved(Adaptive(Dop853), 1e-10, &mut case);
             println!("{name}: {} steps, {} rejected, {} choices", ended.accepted, ended.rejected, case.chosen);
             assert!(ended.accepted + ended.rejected < most, "{name}: {ended:?}");

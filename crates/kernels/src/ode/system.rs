@@ -8,27 +8,26 @@ pub trait System<R: Real, const N: usize> {
     /// f(t, y).
     fn derivative(&self, time: R, state: &[R; N]) -> [R; N];
 
-    /// Norm of a step's local error in units of the tolerance: accepted if at most one.
+    /// Norm of the local error of a step in units of the tolerance; accepted if at most one.
     ///
-    /// `error` is the difference of the embedded solutions, `old` and `new` the states at both ends; each kernel scales
-    /// its components. The norm must be homogeneous in `error`, since the choice of the first step also measures
-    /// derivatives and states by it.
+    /// `error` is the difference of the embedded solutions, `old` and `new` the states at both ends. The norm must be
+    /// homogeneous in `error`, since the choice of the first step also applies it to derivatives and states.
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R;
 
-    /// True if f has branches ([`super::switches`]); the following are needed only then.
+    /// True if f has branches ([`super::switches`]), for which the following methods are.
     #[inline(always)]
     fn has_switches(&self) -> bool {
         false
     }
 
-    /// The smallest switch function; negative once a branch has ended.
+    /// Smallest switch function; negative once a branch has ended.
     #[inline(always)]
     fn margin(&self, time: R, _state: &[R; N]) -> R {
         time.splat(f64::INFINITY)
     }
 
-    /// Lanes in which f is not smooth even within its branches, as near an edge with a fractional power: higher order
-    /// gains nothing there.
+    /// Lanes in which f is not smooth even within its branches, as near a fractional power, so that higher order gains
+    /// nothing.
     #[inline(always)]
     fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()
@@ -45,8 +44,8 @@ pub trait System<R: Real, const N: usize> {
 /// Relative and absolute tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Relative to the magnitude of the component (or of the vector that it belongs to).
+    /// Relative to the magnitude of the component, or of its vector.
     pub relative: f64,
-    /// Absolute, in the unit of the component (or in units of the vector's natural scale).
+    /// In the unit of the component, or in units of the natural scale of its vector.
     pub absolute: f64,
 }

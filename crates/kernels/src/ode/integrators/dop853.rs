@@ -30,7 +30,7 @@ impl Embedded for Dop853 {
         landing: 1.01,
         longest: 1.0,
     };
-    // The twelfth is the derivative at the end, evaluated for rejected steps too: lanes do not wait for each other.
+    // with the derivative at the end, which lanes with rejected steps evaluate too
     const EVALUATIONS: f64 = 12.0;
     const START_EVALUATIONS: f64 = 2.0;
     const DENSE_EVALUATIONS: f64 = 3.0;
@@ -71,17 +71,9 @@ impl Embedded for Dop853 {
         let rate = system.error_ratio(slope, state, state, tolerance);
         let tiny = rate.lt(longest.splat(1e-5)) | size.lt(longest.splat(1e-5));
         let guess = R::select(tiny, longest.splat(1e-6), longest.splat(0.01) * (size / rate)).smaller(longest);
-        let euler = each(
-            guess,
-            #[inline(always)]
-            |n| guess.mul_add(slope[n], state[n]),
-        );
+        let euler = each!(guess, |n| guess.mul_add(slope[n], state[n]));
         let end = system.derivative(time + guess, &euler);
-        let turn = each(
-            guess,
-            #[inline(always)]
-            |n| end[n] - slope[n],
-        );
+        let turn = each!(guess, |n| end[n] - slope[n]);
         let bend = system.error_ratio(&turn, state, state, tolerance) / guess;
         let largest = bend.abs().larger(rate);
         let straight = (guess * longest.splat(1e-3)).larger(longest.splat(1e-6));
@@ -147,14 +139,10 @@ impl Embedded for Dop853 {
         stages: &Dop853Stages<R, N>,
     ) -> [R; N] {
         let (start, r) = (&start.state, s.splat(1.0) - s);
-        each(
-            s,
-            #[inline(always)]
-            |n| {
-                let c = &stages.interpolant;
-                let inner = c[6][n].mul_add(s, c[5][n]).mul_add(r, c[4][n]).mul_add(s, c[3][n]);
-                inner.mul_add(r, c[2][n]).mul_add(s, c[1][n]).mul_add(r, c[0][n]).mul_add(s, start[n])
-            },
-        )
+        each!(s, |n| {
+            let c = &stages.interpolant;
+            let inner = c[6][n].mul_add(s, c[5][n]).mul_add(r, c[4][n]).mul_add(s, c[3][n]);
+            inner.mul_add(r, c[2][n]).mul_add(s, c[1][n]).mul_add(r, c[0][n]).mul_add(s, start[n])
+        })
     }
 }

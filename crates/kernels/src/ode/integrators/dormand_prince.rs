@@ -16,16 +16,14 @@ const FINEST: f64 = 100.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince;
 
-/// Dormand-Prince 5(4) that reaches a point inside a step by a shorter step from the same start.
-///
-/// Its steps are those of [`DormandPrince`], and so of ode45, whose interpolant (ntrp45) of order 4 has an error of the
-/// size of the tolerance; a shorter step has order 5 at five evaluations per point.
+/// [`DormandPrince`] that reaches a point inside a step by a shorter step of order 5 from the same start, with five
+/// evaluations; the interpolant of ode45 (ntrp45), of order 4, has errors of the size of the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceRestepped;
 
-/// States inside a step, the only difference between the two variants.
+/// States inside a step, in which the two variants differ.
 trait PointsInside: Copy {
-    /// Evaluations of the right-hand side for each point.
+    /// Evaluations of the right-hand side per point.
     const EVALUATIONS: f64;
     /// [`StepErrors::factor`].
     const ERROR_FACTOR: f64;
@@ -137,27 +135,19 @@ impl PointsInside for DormandPrince {
         stages: &[[R; N]; 7],
     ) -> [R; N] {
         let (length, start) = (step.length, &start.state);
-        let weights: [R; 7] = each(
-            s,
-            #[inline(always)]
-            |i| {
-                let c = DormandPrinceTableau::DENSE[i];
-                let cubic = s.splat(c[3]).mul_add(s, s.splat(c[2])).mul_add(s, s.splat(c[1])).mul_add(s, s.splat(c[0]));
-                length * (s * cubic)
-            },
-        );
-        each(
-            s,
-            #[inline(always)]
-            |n| {
-                let mut sum = start[n];
-                // Stage 1 has no weight.
-                for i in [0, 2, 3, 4, 5, 6] {
-                    sum = weights[i].mul_add(stages[i][n], sum);
-                }
-                sum
-            },
-        )
+        let weights: [R; 7] = each!(s, |i| {
+            let c = DormandPrinceTableau::DENSE[i];
+            let cubic = s.splat(c[3]).mul_add(s, s.splat(c[2])).mul_add(s, s.splat(c[1])).mul_add(s, s.splat(c[0]));
+            length * (s * cubic)
+        });
+        each!(s, |n| {
+            let mut sum = start[n];
+            // stage 1 has no weight
+            for i in [0, 2, 3, 4, 5, 6] {
+                sum = weights[i].mul_add(stages[i][n], sum);
+            }
+            sum
+        })
     }
 }
 

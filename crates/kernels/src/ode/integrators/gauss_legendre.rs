@@ -1,12 +1,12 @@
 //! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, exact in quadratic invariants up to rounding.
 //!
-//! The stages follow from fixed-point iteration to round-off, until the change is zero or stops decreasing (Hairer,
-//! McLachlan & Razakarivony 2008, *Achieving Brouwer's law with implicit Runge-Kutta methods*); not by Newton's method,
-//! since rotations are not stiff, and a few sweeps cost less than a Jacobian. Each lane stops by its own criterion.
+//! Stages by fixed-point iteration until the change is zero or stops decreasing (Hairer, McLachlan & Razakarivony 2008,
+//! *Achieving Brouwer's law with implicit Runge-Kutta methods*), in each lane by itself; rotations are not stiff, so
+//! that a few sweeps cost less than the Jacobian of Newton's method.
 
 #![allow(
     clippy::needless_range_loop,
-    reason = "iterators over lanes are not inlined always, see `super::super::explicit::each`"
+    reason = "iterators over lanes are not always inlined, see `explicit::each`"
 )]
 
 use super::super::error_model::Remainder;
@@ -16,11 +16,11 @@ use super::super::system::{System, Tolerance};
 use super::super::tableau::{GaussLegendreTableau, Tableau};
 use crate::math::real::{Mask, Real};
 
-/// Sweeps after which a step is too long for the iteration; a contraction by one half reaches round-off in 52.
+/// Sweeps after which the step is too long: a contraction by one half reaches round-off in 52.
 const MOST_SWEEPS: usize = 60;
 
-/// Relative change of the stages below which the iteration may end because the change stops decreasing: far above
-/// 2^-52, since stages are sums of several roundings, and far below any tolerance.
+/// Relative change of the stages below which the iteration may end if the change stops decreasing: far above the
+/// rounding of stages, far below any tolerance.
 const NEAR_ROUND_OFF: f64 = 1e-12;
 
 /// Gauss-Legendre collocation.
@@ -40,11 +40,7 @@ fn lagrange<R: Real>(x: R, i: usize, j: usize, l: usize) -> R {
 #[inline(always)]
 fn derivative_at<R: Real, const N: usize>(k: &Stages<R, N>, x: R) -> [R; N] {
     let w = [lagrange(x, 0, 1, 2), lagrange(x, 1, 0, 2), lagrange(x, 2, 0, 1)];
-    each(
-        x,
-        #[inline(always)]
-        |n| w[0].mul_add(k[0][n], w[1].mul_add(k[1][n], w[2] * k[2][n])),
-    )
+    each!(x, |n| w[0].mul_add(k[0][n], w[1].mul_add(k[1][n], w[2] * k[2][n])))
 }
 
 /// Iterates the stages from the guess `k` and takes the step.
@@ -68,13 +64,9 @@ fn solved<R: Real, Q: System<R, N>, const N: usize>(
         for i in 0..3 {
             let slope = weighted(k, &GaussLegendreTableau::A[i]);
             let found = system.derivative(step.at(GaussLegendreTableau::C[i]), &start.shifted(step.length, &slope));
-            let moved = each(
-                zero,
-                #[inline(always)]
-                |n| step.length * (found[n] - k[i][n]),
-            );
+            let moved = each!(zero, |n| step.length * (found[n] - k[i][n]));
             change = system.error_ratio(&moved, state, state, tolerance).larger(change);
-            // Gauss-Seidel: later stages already use it.
+            // Gauss-Seidel: later stages already use it
             k[i] = chosen(open, &found, &k[i]);
         }
         evaluations += R::select(open, zero.splat(3.0), zero);

@@ -1,11 +1,9 @@
-//! The list of integrators. A row has an integrator's file, name, method with step control and meaning; names in
-//! messages, `spindrift precision` and the engine of each gyrostat follow.
+//! The list of integrators, from which their names, `spindrift precision` and the engines of gyrostats follow.
 //!
 //! - [`DormandPrince`] follows ode45: Shampine & Reichelt 1997, *The MATLAB ODE Suite*, and ode45.m.
 //! - [`Dop853`] follows DOP853: Hairer, Norsett & Wanner 1993, sections II.4 to II.6, and dop853.f.
 //!
-//! The kernel defines the norm of errors ([`super::System::error_ratio`]); step control is in [`super::adaptive`] and
-//! [`super::fixed`], coefficients in [`super::tableau`].
+//! Kernels define the norm of errors ([`super::System::error_ratio`]).
 
 use super::adaptive::Adaptive;
 use super::fixed::Fixed;
@@ -13,14 +11,14 @@ use super::stepper::LaneMethod;
 
 /// An operation on the method of any integrator.
 pub trait Visitor {
-    /// Its result.
+    /// Result.
     type Output;
 
-    /// Applies it to `method`.
+    /// Applies the operation to `method`.
     fn visit<M: LaneMethod + Send + 'static>(self, method: M) -> Self::Output;
 }
 
-/// `Type, file, "name", method with step control, "meaning";` for each integrator, in the order of lists for a user.
+/// `Type, file, "name", method with step control, "meaning";` for each integrator.
 macro_rules! integrators {
     ($($Type:ident, $file:ident, $name:literal, $method:expr, $meaning:literal;)+) => {
         $(mod $file; pub use $file::$Type;)+
@@ -30,7 +28,7 @@ macro_rules! integrators {
         pub enum Integrator { $(#[doc = concat!($meaning, ".")] $Type,)+ }
 
         impl Integrator {
-            /// All integrators, in the order of lists for a user.
+            /// All integrators, in the order shown to users.
             pub const ALL: &'static [Integrator] = &[$(Integrator::$Type),+];
 
             /// The name in campaign files and tables.
