@@ -1,11 +1,10 @@
-//! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits, for reference solutions: algorithms 6, 12
-//! and 18 of M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017, with their error bounds. Not a
-//! crate, since kernels need exactly [`Real`] with fused operations.
+//! [`DoubleDouble`]: a number as the unevaluated sum of two `f64`, 106 bits, for reference solutions, by algorithms 6,
+//! 12 and 18 of M. Joldes, J.-M. Muller & V. Popescu, ACM Trans. Math. Softw. 44(2), 2017.
 
-use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::sums;
-use crate::math::real::Real;
+use crate::math::real::{Real, assign_operators};
 
 /// `high + low` with |low| <= ulp(high)/2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -98,19 +97,7 @@ impl Neg for DoubleDouble {
     }
 }
 
-impl AddAssign for DoubleDouble {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for DoubleDouble {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+assign_operators!(DoubleDouble);
 
 impl Real for DoubleDouble {
     type Mask = bool;
@@ -120,7 +107,7 @@ impl Real for DoubleDouble {
     fn splat(self, value: f64) -> Self {
         DoubleDouble::exact(value)
     }
-    /// Two roundings, each at 2^-104, sufficient at this precision.
+    /// Two roundings, each at 2^-104.
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
@@ -155,8 +142,7 @@ impl Real for DoubleDouble {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
-    /// The nearest integer to the value rounded to `f64`: a sum with a large number, which rounds one `f64`, keeps the
-    /// fraction of two.
+    /// Of the value rounded to `f64`: adding a large number would keep the fraction of a double-double.
     #[inline(always)]
     fn nearest_integer(self) -> Self {
         DoubleDouble::exact(self.high.nearest_integer())
@@ -191,7 +177,7 @@ impl Real for DoubleDouble {
 mod tests {
     use super::*;
 
-    /// 16 u^2 = 2^-102: the largest stated bound with a margin for two operations.
+    /// 16 u^2 = 2^-102: the largest bound, with a margin for two operations.
     const BOUND: f64 = 1.972_152_263_052_53e-31;
 
     fn dd(x: f64) -> DoubleDouble {

@@ -1,15 +1,13 @@
 //! The regularised incomplete beta function I_x(a, b) and its inverse, for shapes from 1e-3 to 1e15.
 //!
 //! I_x by a continued fraction (Lentz's method modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986)
-//! 490), from the side of convergence. Its factor x^a (1-x)^b / B(a, b) by the saddle-point form of C. Loader, *Fast
-//! and Accurate Computation of Binomial Probabilities* (2000): logarithms of gamma functions would lose as many digits
-//! as the shapes have. Elementary functions from `libm`.
+//! 490) on the side on which it converges; its factor x^a (1-x)^b / B(a, b) in [`super::saddle_point`] form.
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
-/// Limit of terms of the continued fraction; the worst case needs about 3 sqrt(max(a, b)).
+/// Limit of terms; the worst case needs about 3 sqrt(max(a, b)).
 const MAX_TERMS: u32 = 100_000_000;
 /// Replaces a zero, so that Lentz's method continues (Thompson & Barnett).
 const TINY: f64 = 1e-300;
@@ -25,8 +23,8 @@ pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
         return Probability { lower: 1.0, upper: 0.0 };
     }
     let front = front(x, y, a, b);
-    // From the mean a/(a + b) to 0.1 (a + 1)/(a + b + 2), which is beyond it for a below 0.1, the fraction of the far
-    // side takes up to thousands of terms, that of the near one a few, and the complement loses less than two digits.
+    // from the mean a/(a + b) to 0.1 (a + 1)/(a + b + 2), if a is below 0.1, the fraction of the far side takes up to
+    // thousands of terms, that of the near side a few, and the complement loses less than two digits
     let is_short = |x: f64, a: f64, b: f64| front <= 0.98 * a && x * (a + b + 2.0) <= 0.1 * (a + 1.0);
     let is_lower = if b * x <= a * y { !is_short(y, b, a) } else { is_short(x, a, b) };
     if is_lower {
@@ -39,8 +37,6 @@ pub fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> Probability {
 }
 
 /// x with I_x(a, b) = `p`, for `p` in [0, 1] given with its complement `q` = 1 - p; returned with 1 - x.
-///
-/// Newton's method in the logarithm of the smaller of x and 1 - x, with bisection for steps that leave the bracket.
 pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     if p <= 0.0 {
         return [0.0, 1.0];
@@ -48,7 +44,7 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     if q <= 0.0 {
         return [1.0, 0.0];
     }
-    // the side of the root decides whether x or 1 - x is the unknown
+    // the unknown is x or 1 - x, whichever is smaller
     let middle = incomplete_beta(0.5, 0.5, a, b);
     let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
     if below {
@@ -60,13 +56,12 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     }
 }
 
-/// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0; neither x nor 1 - x loses digits
-/// or vanishes.
+/// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0, to full accuracy of x and 1 - x.
 pub fn logit_quantile(p: f64, q: f64, a: f64, b: f64) -> f64 {
     let middle = incomplete_beta(0.5, 0.5, a, b);
     let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
     let logit = |p: f64, q: f64, a: f64, b: f64| {
-        // the first term of the series, x^a / (a B), alone
+        // first term of the series, x^a / (a B)
         let first = (libm::log(p) + libm::log(a) + log_beta(a, b)) / a;
         let log_x = if first < -300.0 { first } else { log_of_smaller_root(p, q, a, b) };
         log_x - libm::log1p(-libm::exp(log_x))
@@ -83,11 +78,9 @@ fn log_beta(a: f64, b: f64) -> f64 {
 
 /// ln x with I_x(a, b) = p = 1 - q, x <= 1/2.
 fn log_of_smaller_root(p: f64, q: f64, a: f64, b: f64) -> f64 {
-    // x is the exponential of the unknown: roots near zero keep their relative accuracy
+    // with ln x as unknown, roots near zero keep their relative accuracy
     let (low, high) = (-745.0_f64, -core::f64::consts::LN_2);
-    // the first term of the series x^a / (a B), or else the mean
-    let mean = libm::log((a / (a + b)).clamp(1e-300, 0.5));
-    let log_x = mean.clamp(low, high);
+    let log_x = libm::log((a / (a + b)).clamp(1e-300, 0.5)).clamp(low, high);
     log_of_quantile(Probability { lower: p, upper: q }, log_x, [low, high], |log_x| {
         let x = libm::exp(log_x);
         (incomplete_beta(x, 1.0 - x, a, b), front(x, 1.0 - x, a, b) / (1.0 - x))
@@ -102,9 +95,9 @@ fn front(x: f64, y: f64, a: f64, b: f64) -> f64 {
     libm::exp(exponent) * libm::sqrt(a * b / (2.0 * PI * n))
 }
 
-/// Continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x below about its mean a/(a + b): A. R. DiDonato
+/// Continued fraction of x^a y^b / (B(a, b) I_x(a, b)), y = 1 - x, for x up to about its mean a/(a + b): A. R. DiDonato
 /// & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans. Math. Softw. 18
-/// (1992) 360, equation (9), whose terms do not cancel for large shapes, unlike DLMF 8.17.22.
+/// (1992) 360, equation (9); its terms do not cancel for large shapes, unlike those of DLMF 8.17.22.
 fn continued_fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
     let nonzero = |value: f64| if value.abs() < TINY { TINY } else { value };
     let lambda = a * y - b * x;
@@ -150,7 +143,7 @@ mod tests {
         (2e-06, 0.05, 3000.0, 0.79513779144805185, 0.20486220855194815),
     ];
 
-    /// Measured: at most 2.8e-14 via the complement of 0.98; 7.6e-15 elsewhere.
+    /// Measured: 2.8e-14 by the complement of 0.98, 7.6e-15 elsewhere.
     const RELATIVE_ERROR: f64 = 5e-14;
 
     #[test]

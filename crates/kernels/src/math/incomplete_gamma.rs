@@ -2,14 +2,13 @@
 //! 1e6.
 //!
 //! P by its series for x < a + 1 (DLMF 8.11.4), else Q by its continued fraction (DLMF 8.9.2, Lentz's method modified
-//! by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490); their factor x^a e^-x / Gamma(a + 1) by the
-//! saddle-point form of C. Loader (2000).
+//! by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490); their factor in [`super::saddle_point`] form.
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
-/// Limit of terms of series and fraction; the worst case needs about 9 sqrt(a).
+/// Limit of terms; the worst case needs about 9 sqrt(a).
 const MAX_TERMS: u32 = 1_000_000;
 /// Replaces a zero, so that Lentz's method continues.
 const TINY: f64 = 1e-300;
@@ -59,7 +58,7 @@ pub fn incomplete_gamma(a: f64, x: f64) -> Probability {
 
 /// ln x with P(a, x) = `p` and Q(a, x) = `q` = 1 - p, both above zero.
 pub fn log_quantile(p: f64, q: f64, a: f64) -> f64 {
-    // the first term of the series, exact to the last digit below x = 1e-18
+    // first term of the series, exact below x = 1e-18
     let first = (libm::log(p) + libm::lgamma(a + 1.0)) / a;
     if first < -42.0 {
         return first;

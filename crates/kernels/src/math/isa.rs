@@ -1,7 +1,7 @@
 //! [`Isa`]: the instruction set of the kernels, chosen once per process.
 //!
-//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), with the same bits on every
-//! path: all arithmetic is IEEE 754, fused only in [`super::Real::mul_add`].
+//! One portable binary contains the kernels three times (AVX-512, AVX2 with FMA, plain), with the same bits: arithmetic
+//! is IEEE 754, fused only in [`super::Real::mul_add`].
 
 use std::sync::OnceLock;
 
@@ -20,10 +20,8 @@ pub struct Isa {
     name: &'static str,
 }
 
-/// Work compiled once per instruction set, for [`Isa::run`].
-///
-/// A trait, since closures cannot be generic over the token. `run` and all hot callees should be `#[inline(always)]`,
-/// or they are compiled without the instruction set.
+/// Work compiled once per instruction set, for [`Isa::run`]; closures cannot be generic over the token. `run` and all
+/// hot callees should be `#[inline(always)]`, else they are compiled without the instruction set.
 pub trait Work {
     /// Result of the work.
     type Output;
@@ -31,8 +29,7 @@ pub trait Work {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Work compiled for lanes on AVX2, otherwise for one number at a time, for [`Isa::run_narrow`]: methods that need not
-/// be the fastest, since every instruction set costs compile time.
+/// Work compiled for lanes of AVX2 and for one number at a time only, to save compile time, for [`Isa::run_narrow`].
 pub trait NarrowWork {
     /// Result of the work.
     type Output;
@@ -44,9 +41,9 @@ pub trait NarrowWork {
 
 /// Work in as many lanes as suit the registers, for [`Isa::run_wide`].
 ///
-/// AVX-512 (32 registers of eight lanes) takes sixteen lanes; AVX2 (16 of four) takes eight. The plain path of x86-64
-/// takes one number at a time: nearly all its time is the fused operation, a library call per number, and lanes would
-/// cost several times the machine code.
+/// AVX-512 (32 registers of eight lanes) takes sixteen lanes, AVX2 (16 of four) eight. The plain path of x86-64 takes
+/// one number at a time: its time is spent in library calls for the fused operation, and lanes would cost several times
+/// the machine code.
 pub trait WideWork {
     /// Result of the work.
     type Output;
@@ -58,16 +55,12 @@ impl Isa {
     /// The best instruction set of this processor.
     pub fn best() -> Self {
         let level = Level::new();
-        Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(|| Self::plain(level))
+        Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(Self::plain)
     }
 
     /// The path `name` (`avx512`, `avx2`, `plain`), if known and available.
     pub fn from_name(name: &str) -> Option<Self> {
-        let level = Level::new();
-        match name {
-            "plain" => Some(Self::plain(level)),
-            _ => Self::named(level, name),
-        }
+        if name == "plain" { Some(Self::plain()) } else { Self::named(Level::new(), name) }
     }
 
     /// The choice of this process: the value of [`VARIABLE`], else the best.
@@ -110,9 +103,8 @@ impl Isa {
         }
     }
 
-    /// The path of the target's baseline; on x86-64 every fused operation is a library call.
-    fn plain(level: Level) -> Self {
-        let _ = level;
+    /// The target's baseline; on x86-64 fused operations are library calls.
+    fn plain() -> Self {
         Isa { level: Level::baseline(), name: "plain" }
     }
 

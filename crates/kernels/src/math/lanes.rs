@@ -1,12 +1,11 @@
-//! [`Lanes`]: eight `f64` as one [`Real`], a thin wrapper of `fearless_simd::f64x8`, which contains the token of the
-//! instruction set.
+//! [`Lanes`]: eight `f64` as one [`Real`], by `fearless_simd::f64x8`.
 
-use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x8, mask64x8, u64x8};
 
 pub use super::real::TWO_52;
-use crate::math::real::{Mask, Real};
+use crate::math::real::{Mask, Real, assign_operators};
 
 /// Number of lanes of [`Lanes`].
 pub const WIDTH: usize = 8;
@@ -50,13 +49,13 @@ impl<S: Simd> Lanes<S> {
         self.0.to_array()
     }
 
-    /// The lanes of `self` and `other` alternating: the first eight, the last eight.
+    /// The alternating lanes of `self` and `other`: the first eight and the last eight.
     #[inline(always)]
     pub fn interleave(self, other: Self) -> (Self, Self) {
         (Lanes(self.0.zip_low(other.0)), Lanes(self.0.zip_high(other.0)))
     }
 
-    /// The even and the odd of the sixteen numbers in `self` and `other`.
+    /// The even and the odd numbers of the sixteen in `self` and `other`.
     #[inline(always)]
     pub fn deinterleave(self, other: Self) -> (Self, Self) {
         (Lanes(self.0.unzip_low(other.0)), Lanes(self.0.unzip_high(other.0)))
@@ -81,8 +80,7 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-/// The fused operation without hardware support: eight library calls, not inlined, since inlined ones take minutes to
-/// compile.
+/// The fused operation by eight library calls, which take minutes to compile if inlined.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 fn plain_mul_add<S: Simd>(x: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {
@@ -112,18 +110,7 @@ impl<S: Simd> Neg for Lanes<S> {
         Lanes(-self.0)
     }
 }
-impl<S: Simd> AddAssign for Lanes<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-impl<S: Simd> SubAssign for Lanes<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+assign_operators!(Lanes<S>, S: Simd);
 
 impl<S: Simd> Mask for mask64x8<S> {
     const LANES: usize = WIDTH;
@@ -199,7 +186,7 @@ impl<S: Simd> Real for Lanes<S> {
     }
     #[inline(always)]
     fn lane(&self, lane: usize) -> f64 {
-        // the bit mask avoids a bounds check in loops over series
+        // the bit mask saves a bounds check
         self.0[lane & (WIDTH - 1)]
     }
     #[inline(always)]

@@ -1,5 +1,4 @@
-//! [`List`]: up to `N` values in place. Unlike a vector it is copied as a plain value, and samples are resolved without
-//! allocation.
+//! [`List`]: up to `N` values in place, so that samples are resolved without allocation.
 
 use core::ops::{Deref, DerefMut};
 

@@ -1,8 +1,7 @@
 //! Probability and quantile of the standard normal distribution, in portable arithmetic.
 //!
 //! Quantile: M. J. Wichura, *Algorithm AS 241: The Percentage Points of the Normal Distribution*, Applied Statistics 37
-//! (1988) 477-484, routine PPND16 (relative error about 1e-16). `log`, `erfc` from `libm`; no fused operations, which
-//! are library calls outside a feature-enabled function.
+//! (1988) 477-484, routine PPND16 (relative error about 1e-16). No fused operations, which may be library calls.
 
 // The digits are those that the paper prints.
 #![allow(clippy::excessive_precision)]
@@ -91,7 +90,7 @@ pub fn quantile(p: f64) -> f64 {
     if q.abs() <= CENTRAL { q * ratio(&CENTER, 0.180_625 - q * q) } else { tail_quantile(p) }
 }
 
-/// [`quantile`] of eight numbers, bit for bit: vectorised about 1/2, one by one in the tails (one in seven).
+/// [`quantile`] of eight numbers, bit for bit: vectorised about 1/2, one by one in the tails.
 #[inline]
 pub fn quantiles(p: &[f64; 8], z: &mut [f64; 8]) {
     for (z, p) in z.iter_mut().zip(p) {
@@ -105,7 +104,7 @@ pub fn quantiles(p: &[f64; 8], z: &mut [f64; 8]) {
     }
 }
 
-/// Half width of the interval about 1/2 of the rational function without a logarithm.
+/// Half-width of the interval about 1/2 without a logarithm.
 const CENTRAL: f64 = 0.425;
 
 /// [`quantile`] beyond [`CENTRAL`] from 1/2.
@@ -125,7 +124,7 @@ pub fn probability(z: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Quantiles solved in 40 digits from the complementary error function, for the doubles nearest to p.
+    /// Quantiles for the doubles nearest to p, solved in 40 digits from the complementary error function.
     const TRUTH: [(f64, f64); 13] = [
         (1e-300, -37.047096299361199237),
         (1e-20, -9.2623400897984075796),

@@ -1,30 +1,32 @@
 //! [`Pair`]: two [`Real`]s as one, for twice as many independent operations in flight: two fused operations per cycle
-//! with a latency of four cycles need eight chains, which a kernel with four sums per vector has on two vectors. Lanes
-//! never mix, so that pairing changes no bit.
+//! with a latency of four need eight chains. Lanes never mix, so that pairing changes no bit.
 
-use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use crate::math::real::{Mask, Real};
+use crate::math::real::{Mask, Real, assign_operators};
 
 /// Two numbers (or vectors of numbers); the lanes of the first come first.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<R>(pub R, pub R);
 
 macro_rules! operator {
-    ($trait:ident, $method:ident, $op:tt) => {
-        impl<R: Real> $trait for Pair<R> {
+    ($pair:ident, $bound:ident, $trait:ident, $method:ident, $op:tt) => {
+        impl<R: $bound> $trait for $pair<R> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Pair(self.0 $op other.0, self.1 $op other.1)
+                $pair(self.0 $op other.0, self.1 $op other.1)
             }
         }
     };
 }
-operator!(Add, add, +);
-operator!(Sub, sub, -);
-operator!(Mul, mul, *);
-operator!(Div, div, /);
+operator!(Pair, Real, Add, add, +);
+operator!(Pair, Real, Sub, sub, -);
+operator!(Pair, Real, Mul, mul, *);
+operator!(Pair, Real, Div, div, /);
+operator!(PairMask, Mask, BitAnd, bitand, &);
+operator!(PairMask, Mask, BitOr, bitor, |);
+assign_operators!(Pair<R>, R: Real);
 
 impl<R: Real> Neg for Pair<R> {
     type Output = Self;
@@ -33,37 +35,11 @@ impl<R: Real> Neg for Pair<R> {
         Pair(-self.0, -self.1)
     }
 }
-impl<R: Real> AddAssign for Pair<R> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-impl<R: Real> SubAssign for Pair<R> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
 
 /// Masks of a [`Pair`].
 #[derive(Clone, Copy, Debug)]
 pub struct PairMask<M>(M, M);
 
-impl<M: Mask> BitAnd for PairMask<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        PairMask(self.0 & other.0, self.1 & other.1)
-    }
-}
-impl<M: Mask> BitOr for PairMask<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        PairMask(self.0 | other.0, self.1 | other.1)
-    }
-}
 impl<M: Mask> Not for PairMask<M> {
     type Output = Self;
     #[inline(always)]

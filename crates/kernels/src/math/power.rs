@@ -1,20 +1,19 @@
-//! Powers from [`Real`] operations alone, with the same bits in a scalar and in lanes, for step control. Values of a
-//! row use `libm`.
+//! Powers from [`Real`] operations alone, with the same bits in scalars and lanes, for step control.
 //!
-//! [`power`] has twelve digits: the logarithm is the series of artanh about the nearest power of two, the exponential a
-//! Taylor polynomial within half an octave (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1). [`log2_rough`] and
-//! [`exp2_rough`] have four digits, for Taylor steps.
+//! [`power`] has twelve digits, by the series of artanh about the nearest power of two and a Taylor polynomial within
+//! half an octave (Abramowitz & Stegun 1964, 4.1.27 and 4.2.1). [`log2_rough`] and [`exp2_rough`] have four digits, for
+//! Taylor steps.
 
 use super::real::NEAREST;
 use crate::math::real::Real;
 
-/// The smallest normal number, a lower limit of arguments.
+/// Lower limit of arguments.
 const SMALLEST: f64 = f64::MIN_POSITIVE;
 
-/// The largest number whose power of two has a normal reciprocal, an upper limit of arguments.
+/// Upper limit of arguments: their power of two has a normal reciprocal.
 const LARGEST: f64 = f64::MAX / 2.0;
 
-/// Coefficients of the artanh series; the first neglected term is below 2e-14 at |t| <= 0.172.
+/// Series of artanh; the first neglected term is below 2e-14 at |t| <= 0.172.
 const LOGARITHM: [f64; 8] = [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0];
 
 /// 1/k!; the first neglected term is below 1e-14 at |x| <= ln(2)/2.
@@ -42,8 +41,8 @@ fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
     sum
 }
 
-/// log2 of a positive number, to an absolute error of 1e-13. Zero, negative and subnormal numbers and NaN count as the
-/// smallest normal number, anything above 2^1023 as 2^1023.
+/// log2 of a positive number, to an absolute error of 1e-13. Arguments are clamped to normal numbers up to 2^1023; NaN
+/// counts as the smallest.
 #[inline(always)]
 pub fn log2<R: Real>(x: R) -> R {
     let x = x.larger(x.splat(SMALLEST)).smaller(x.splat(LARGEST));
@@ -67,14 +66,14 @@ pub fn exp2<R: Real>(x: R) -> R {
 }
 
 /// `x^exponent` for positive `x` and |exponent| <= 1, to a relative error of [`POWER_ERROR`]. Arguments are clamped as
-/// in [`log2`]; callers check for non-finite values.
+/// in [`log2`].
 #[inline(always)]
 pub fn power<R: Real>(x: R, exponent: f64) -> R {
     exp2(log2(x) * x.splat(exponent))
 }
 
 /// Error bound of [`power`]: half a unit in the last place of log2 at the ends of the range (1.1e-13), and of its
-/// product with the exponent, times ln 2; rounded up.
+/// product with the exponent, times ln 2.
 pub const POWER_ERROR: f64 = 3e-13;
 
 /// log2 x with an absolute error up to [`ROUGH_ERROR`] for positive normal x below 2^1022; about -1020 for zero.
@@ -93,7 +92,7 @@ pub fn log2_rough<R: Real>(x: R) -> R {
 /// 2^x with a relative error up to [`ROUGH_ERROR`] for |x| < 1000.
 #[inline(always)]
 pub fn exp2_rough<R: Real>(x: R) -> R {
-    // in double-double the sum keeps the fraction: good enough for steps, whose bits stay as they are
+    // in double-double the sum keeps the fraction, which is good enough for steps
     let whole = (x + x.splat(NEAREST)) - x.splat(NEAREST);
     let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
     let mut series = x.splat(1.0 / 120.0);

@@ -9,13 +9,13 @@ pub struct Probability {
     pub upper: f64,
 }
 
-/// Limit of Newton steps or bisections; some ten are needed.
+/// Limit of steps; some ten are needed.
 const MAX_STEPS: u32 = 200;
 
 /// ln x of the value x with the probability `target`, from the guess `log_x` within `bracket`.
 ///
-/// `at` is the distribution function at ln x and its derivative with respect to ln x. Newton's method for the logarithm
-/// of the smaller probability, which has the digits, with bisection for steps that leave the bracket.
+/// `at` is the distribution function and its derivative with respect to ln x. Newton's method for the logarithm of the
+/// smaller probability, with bisection for steps that leave the bracket.
 pub fn log_of_quantile(
     target: Probability,
     mut log_x: f64,

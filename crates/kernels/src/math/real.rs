@@ -1,12 +1,12 @@
 //! [`Real`]: the arithmetic of kernels.
 //!
 //! One trait for scalars and lanes, so that lane `i` equals the scalar run bit for bit: every operation is correctly
-//! rounded (IEEE 754), and `mul_add` is always fused. Comparisons give a [`Mask`] for `&`, `|` and `!`. Elementary
-//! functions are not here: values of a row use `libm` or these operations.
+//! rounded (IEEE 754), and `mul_add` is always fused. For elementary functions, values of a row use `libm` or these
+//! operations.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-/// 2^52: the last bits of 2^52 + n are the integer n, which reads and writes exponents without a conversion.
+/// 2^52: the last bits of 2^52 + n are the integer n, which gives access to exponents without a conversion.
 pub const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// 1.5 * 2^52: adding and subtracting it rounds to the nearest integer.
@@ -17,7 +17,7 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
     /// Number of lanes.
     const LANES: usize;
 
-    /// True if it is true in any lane.
+    /// True if any lane is.
     fn any(self) -> bool;
 
     /// The value in lane `lane`.
@@ -43,6 +43,25 @@ impl Mask for bool {
         *self = value;
     }
 }
+
+/// `AddAssign` and `SubAssign` by the operators, for a type with these generic parameters.
+macro_rules! assign_operators {
+    ($type:ty $(, $parameter:ident: $bound:ident)?) => {
+        impl$(<$parameter: $bound>)? core::ops::AddAssign for $type {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl$(<$parameter: $bound>)? core::ops::SubAssign for $type {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+}
+pub(super) use assign_operators;
 
 /// A real number, or several that share no decision.
 pub trait Real:
@@ -79,7 +98,7 @@ pub trait Real:
     /// Absolute value.
     fn abs(self) -> Self;
 
-    /// The larger number; `other` if either is NaN, so that `error.larger(maximum)` does not detect NaN.
+    /// The larger number; `other` if either is NaN: `error.larger(maximum)` ignores an error of NaN.
     fn larger(self, other: Self) -> Self;
 
     /// The smaller number; `other` if either is NaN.
@@ -91,7 +110,7 @@ pub trait Real:
     /// `yes` in the lanes where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// One in the lanes where `mask` is true, else zero, for counts; `self` only determines the type.
+    /// One in the lanes where `mask` is true, else zero; `self` only determines the type.
     #[inline(always)]
     fn indicator(self, mask: Self::Mask) -> Self {
         Self::select(mask, self.splat(1.0), self.zero())
@@ -127,8 +146,8 @@ pub trait Real:
     /// Writes the numbers to the start of a slice, as [`Real::lane`].
     fn write(self, values: &mut [f64]);
 
-    /// The result of `work`, in a function of its own for lanes (compiled for their instruction set) and for `f64`
-    /// (compiled for the target's baseline): for long work needed in several places. `self` only determines the type.
+    /// The result of `work` in a function of its own, compiled for the instruction set of lanes, or for the baseline of
+    /// the target for `f64`: for long work needed in several places.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()

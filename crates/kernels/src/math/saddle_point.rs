@@ -1,5 +1,5 @@
-//! Functions of the saddle-point form of binomial and Poisson probabilities: C. Loader, *Fast and Accurate Computation
-//! of Binomial Probabilities* (2000). Logarithms of gamma functions would lose as many digits as their arguments have.
+//! Saddle-point form of binomial and Poisson probabilities: C. Loader, *Fast and Accurate Computation of Binomial
+//! Probabilities* (2000). Logarithms of gamma functions would lose as many digits as their arguments have.
 
 use core::f64::consts::PI;
 

@@ -4,8 +4,8 @@ use crate::math::real::Real;
 
 /// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more is allowed), each within 2 ulp of 1.
 ///
-/// Reduction to |angle| <= pi/4 by quarter turns is exact; polynomials of fdlibm (Sun Microsystems, 1993:
-/// `__kernel_sin`, `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
+/// Exact reduction to |angle| <= pi/4 by quarter turns; polynomials of fdlibm (Sun Microsystems, 1993: `__kernel_sin`,
+/// `__kernel_cos`; minimax on [-pi/4, pi/4], error below 2^-58).
 #[inline(always)]
 pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
     let quarters = (turns.splat(4.0) * turns).nearest_integer();
@@ -36,7 +36,7 @@ pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
     }
     let sin = (x * z).mul_add(sine_sum, x);
     let cos = z.mul_add(z.mul_add(cosine_sum, turns.splat(-0.5)), turns.splat(1.0));
-    // quarters in {-2, ..., 2}: swap on odd ones, then the signs
+    // quarters in {-2, ..., 2}: swapped on odd ones, then signs
     let even = turns.splat(0.5).lt((quarters.abs() - turns.splat(1.0)).abs());
     let (s, k) = (R::select(even, sin, cos), R::select(even, cos, sin));
     let two = turns.splat(1.5).lt(quarters.abs());

@@ -7,11 +7,11 @@ use crate::math::real::Real;
 /// Limit of sweeps: convergence is quadratic, five are typical.
 const SWEEPS: usize = 16;
 
-/// Relative to the difference of its diagonal entries, an off-diagonal entry this small changes no bit of an eigenvalue
-/// or axis, in double-double either.
+/// Off-diagonal entry, relative to the difference of its diagonal entries, that changes no bit of an eigenvalue or
+/// axis, even in double-double.
 const NEGLIGIBLE: f64 = 1e-36;
 
-/// True if a symmetric matrix (lower triangle) is positive definite, by the pivots of its Cholesky factor.
+/// True if a symmetric matrix (lower triangle) is positive definite, by its Cholesky pivots.
 pub fn is_positive_definite(m: [[f64; 3]; 3]) -> bool {
     let (a, b, c) = (m[0][0], m[1][0], m[2][0]);
     let second = m[1][1] - b * b / a;
@@ -23,9 +23,8 @@ pub fn is_positive_definite(m: [[f64; 3]; 3]) -> bool {
 /// Eigenvalues ("moments") of a symmetric matrix, and the rotation C_sb from its principal frame F_b to F_s: m = C_sb
 /// diag(moments) C_sb^T, by cyclic Jacobi rotations.
 ///
-/// C_sb is by rows (the columns are the principal axes), with determinant +1. For a diagonal matrix it is exactly the
-/// identity, with the moments in order; otherwise the order follows from the rotations, none above 45 degrees. Error: a
-/// few ulp of the largest moment; test `principal_axes_rebuild_the_matrix`.
+/// C_sb is by rows (its columns are the principal axes), with determinant +1; for a diagonal matrix it is exactly the
+/// identity, otherwise no rotation exceeds 45 degrees. Error: a few ulp of the largest moment.
 pub fn principal_axes<R: Real>(m: [[R; 3]; 3]) -> ([R; 3], [[R; 3]; 3]) {
     let zero = m[0][0].zero();
     let (one, two, half) = (zero.splat(1.0), zero.splat(2.0), zero.splat(0.5));
@@ -53,7 +52,7 @@ pub fn principal_axes<R: Real>(m: [[R; 3]; 3]) -> ([R; 3], [[R; 3]; 3]) {
             let t = if theta.lane(0) < 0.0 { -size } else { size };
             let cosine = one / t.mul_add(t, one).sqrt();
             let sine = t * cosine;
-            // 1 - cosine without cancellation, so that x - sine (y + tau x) rounds once at the size of the correction
+            // 1 - cosine without cancellation: x - sine (y + tau x) rounds once at the size of the correction
             let tau = sine / (one + cosine);
             let turned = |x: R, y: R| (x - sine * tau.mul_add(x, y), y + sine * tau.mul_add(-y, x));
 

@@ -1,6 +1,5 @@
-//! Three-vectors, 3x3 matrices and quaternions (Hamilton, scalar first) as plain arrays of [`Real`], for lanes. Written
-//! out without `map`, whose closures are compiled without the caller's vector instructions (measured: twenty times
-//! slower).
+//! Three-vectors, 3x3 matrices and quaternions (Hamilton, scalar first) as plain arrays of [`Real`], without `map`,
+//! whose closures lack the caller's vector instructions (measured: twenty times slower).
 
 use crate::math::real::Real;
 
@@ -87,7 +86,7 @@ pub fn hamilton<R: Real>(p: [R; 4], q: [R; 4]) -> [R; 4] {
     ]
 }
 
-/// DCM of a quaternion, by rows, in the homogeneous form `|q|^2` times a rotation, so that a drift of the norm shows.
+/// DCM of a quaternion, by rows, in homogeneous form: `|q|^2` times a rotation.
 #[inline(always)]
 pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     let [w, x, y, z] = q;
@@ -102,9 +101,8 @@ pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
 }
 
 /// A multiple of the quaternion of a DCM by rows (one number per entry, no lanes) by Shepperd's method (J. Guidance and
-/// Control 1(3), 1978), and the index of its largest component: the factor is four times that component, positive, so
-/// that nothing is divided and nothing cancels. The caller normalises, which distributes any deviation from
-/// orthonormality.
+/// Control 1(3), 1978), and the index of its largest component, whose positive value times four is the factor: nothing
+/// is divided and nothing cancels. The caller normalises, which distributes deviations from orthonormality.
 #[inline(always)]
 pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     let (one, two) = (c[0][0].splat(1.0), c[0][0].splat(2.0));
@@ -127,7 +125,7 @@ pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
 pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
     let half = c[0][0].splat(0.5);
     let (largest, scaled) = scaled_quaternion_from_dcm(c);
-    // four times the square of the component, and so twice the component
+    // twice the component, the root of four times its square
     let root = scaled[largest].sqrt();
     let mut q = scaled.map(|component| half / root * component);
     q[largest] = half * root;

@@ -1,15 +1,15 @@
 //! [`Grid`]: the observation times of a run.
 
-/// Relative tolerance of equal times: a tick k T and a grid point D (k/n) of the same decimal time have five roundings
+/// Relative tolerance of equal times: a tick k T and a grid point D (k/n) at the same decimal time have five roundings
 /// of half an ulp together, 5.6e-16.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
-/// Number of `times`, ascending, up to and including `end`.
+/// Number of ascending `times` up to and including `end`.
 pub fn points_to(times: &[f64], end: f64) -> usize {
     times.partition_point(|time| *time <= end + SAME * end.abs())
 }
 
-/// Number of `times`, ascending, before `start`.
+/// Number of ascending `times` before `start`.
 pub fn points_before(times: &[f64], start: f64) -> usize {
     times.partition_point(|time| *time < start - SAME * start.abs())
 }
@@ -41,7 +41,7 @@ impl Grid {
         &self.times
     }
 
-    /// The times with the last one repeated up to a multiple of eight, as in the columns of a [`super::StateTable`].
+    /// The times, with the last repeated up to a multiple of eight, as in a [`super::StateTable`].
     pub fn padded_times(&self) -> &[f64] {
         &self.padded
     }
@@ -56,7 +56,7 @@ impl Grid {
         *self.times.last().expect("a grid has at least one time")
     }
 
-    /// `count` of its points, evenly distributed, with the first and the last; all if there are no more.
+    /// Indices of `count` points, evenly distributed from the first to the last; all if there are no more.
     pub fn evenly(&self, count: usize) -> Vec<usize> {
         let (points, count) = (self.points(), count.min(self.points()));
         let intervals = count.saturating_sub(1).max(1);
@@ -68,8 +68,7 @@ impl Grid {
 mod tests {
     use super::*;
 
-    /// Law: the point at the decimal time of a tick is among the points up to that tick and from it on, on every such
-    /// grid; its neighbours are not.
+    /// Law: on every grid a point at the decimal time of a tick is the last up to that tick and the first from it on.
     #[test]
     fn a_point_at_a_tick_is_at_the_tick() {
         let mut rounded = [0; 2];
@@ -93,7 +92,7 @@ mod tests {
                 }
             }
         }
-        // comparisons of the numbers themselves lose points at both ends
+        // plain comparisons lose points at both ends
         assert!(rounded.iter().all(|count| *count > 20), "{rounded:?}");
     }
 

@@ -2,59 +2,51 @@
 
 use crate::math::real::Real;
 
-/// Status of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Status {
+macro_rules! statuses {
+    ($($(#[$doc:meta])* $name:ident: $text:literal;)*) => {
+        /// Status of a run.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Status {
+            $($(#[$doc])* $name,)*
+        }
+
+        impl Status {
+            /// All values, in the order of their codes.
+            pub const ALL: [Status; [$($text),*].len()] = [$(Status::$name),*];
+
+            /// Name in rows and summaries.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Status::$name => $text,)*
+                }
+            }
+        }
+    };
+}
+
+statuses! {
     /// Reached the end of its horizon.
-    Done,
-    /// The maximum number of steps was reached, or makes the end of the horizon unreachable.
-    StepLimit,
+    Done: "ok";
+    /// Reached the maximum number of steps, or would before the end of the horizon.
+    StepLimit: "step_limit";
     /// The step required by the tolerance is below the resolution of the time.
-    StepFloor,
+    StepFloor: "step_floor";
     /// A state component became infinite or NaN.
-    NonFinite,
+    NonFinite: "non_finite";
     /// The sampled scene is physically impossible; nothing was integrated.
-    InvalidSample,
+    InvalidSample: "invalid_sample";
     /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
-    Inaccurate,
-    /// The program failed in this run, a defect of spindrift; other runs are not affected.
-    InternalError,
+    Inaccurate: "inaccurate";
+    /// A defect of spindrift showed in this run; other runs are not affected.
+    InternalError: "internal_error";
     /// Reached the surface of the central body of its orbit.
-    Surface,
+    Surface: "surface";
     /// Ended by its control loop, which is unstable.
-    Diverged,
+    Diverged: "diverged";
 }
 
 impl Status {
-    /// All values, in the order of their codes.
-    pub const ALL: [Status; 9] = [
-        Status::Done,
-        Status::StepLimit,
-        Status::StepFloor,
-        Status::NonFinite,
-        Status::InvalidSample,
-        Status::Inaccurate,
-        Status::InternalError,
-        Status::Surface,
-        Status::Diverged,
-    ];
-
-    /// The name in rows and summaries.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Status::Done => "ok",
-            Status::StepLimit => "step_limit",
-            Status::StepFloor => "step_floor",
-            Status::NonFinite => "non_finite",
-            Status::InvalidSample => "invalid_sample",
-            Status::Inaccurate => "inaccurate",
-            Status::InternalError => "internal_error",
-            Status::Surface => "surface",
-            Status::Diverged => "diverged",
-        }
-    }
-
-    /// The reason for this status after `time` seconds, in words, if it does not depend on the run.
+    /// Reason for this status after `time` seconds, in words, if it does not depend on the run.
     pub fn reason(self, time: f64) -> Option<String> {
         Some(match self {
             Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError | Status::Diverged => {
@@ -68,7 +60,7 @@ impl Status {
     }
 }
 
-/// Effort of a run, in counts that do not depend on the machine.
+/// Effort of a run, in counts independent of the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepStatistics {
     /// Accepted steps.
@@ -82,17 +74,17 @@ pub struct StepStatistics {
 /// Status, time and effort of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// Its status.
+    /// Status.
     pub status: Status,
-    /// Time reached, s: the duration if the status is [`Status::Done`].
+    /// Time reached, s; the duration if the status is [`Status::Done`].
     pub time: f64,
-    /// Number of filled observation points, from the first: all if the status is [`Status::Done`].
+    /// Number of filled observation points; all if the status is [`Status::Done`].
     pub points: usize,
-    /// Its effort.
+    /// Effort.
     pub effort: StepStatistics,
     /// Estimated errors of the method.
     pub local_errors: LocalErrors,
-    /// Estimated errors of the debris' rotation; zero without, or if it was not integrated.
+    /// Estimated errors of the debris' rotation; zero if it was not integrated.
     pub debris_errors: LocalErrors,
 }
 
@@ -109,21 +101,21 @@ impl Outcome {
 }
 
 /// Reference rate of errors of omega, rad/s: the largest |omega| of the run, at least one radian over the `duration`,
-/// s. A body that turns by less than a radian may have any rate, down to none; its error is then the resulting angle.
+/// s. The error of a body that turns by less is then the resulting angle.
 #[inline(always)]
 pub fn rate_scale(largest: f64, duration: f64) -> f64 {
     if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }
 }
 
-/// Estimated errors of the rotational state over all steps of a run, added in magnitude, before amplification by the
-/// motion, by their proportionality.
+/// Estimated errors of the rotational state over all steps of a run, added in magnitude, before their amplification by
+/// the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalErrors {
     /// Of omega, rad/s, proportional to its rate of change: truncation.
     pub truncation: f64,
     /// Of omega, relative, proportional to its components: rounding.
     pub rounding: f64,
-    /// Of omega, rad/s, in any direction: from kernels whose other states feed back into it.
+    /// Of omega, rad/s, in any direction: feedback from other states.
     pub feedback: f64,
     /// Of the attitude alone, rad: truncation, rounding and dense output.
     pub attitude: f64,

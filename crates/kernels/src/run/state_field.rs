@@ -1,6 +1,6 @@
 //! [`StateField`]: physical quantities of a state, and sets of them.
 
-/// The list of fields, `Field: number of components;` each, of a spacecraft with `wheels` wheels.
+/// The fields, `Field: number of components;`, of a spacecraft with `wheels` wheels.
 macro_rules! state_fields {
     (of $wheels:ident: $($(#[$doc:meta])* $Field:ident: $width:expr;)*) => {
         /// A field of the state: components that are present or absent together.

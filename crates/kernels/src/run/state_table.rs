@@ -1,10 +1,10 @@
-//! [`StateTable`]: physical states of one run at its observation points: the interface between integrators and
-//! observables, owned and reused by a worker. Only requested fields have columns; access to another field panics.
+//! [`StateTable`]: physical states of a run at its observation points, the interface between integrators and
+//! observables.
 
 use crate::run::state_field::{StateField, StateFields};
 
-/// States at the observation points by component, eight points to a vector. The stride is a multiple of eight, with the
-/// last point repeated in the padding.
+/// States at the observation points, for requested fields only; access to others panics. Columns are padded to a
+/// multiple of eight with the last point.
 #[derive(Clone, Debug)]
 pub struct StateTable {
     fields: StateFields,
@@ -18,7 +18,7 @@ pub struct StateTable {
 
 const ABSENT: usize = usize::MAX;
 
-/// Panics on access to an absent field. Out of line, so that the check costs one comparison.
+/// Panics on access to an absent field, out of line.
 #[cold]
 #[inline(never)]
 fn refuse(field: StateField, component: usize, width: usize) -> ! {
@@ -27,8 +27,7 @@ fn refuse(field: StateField, component: usize, width: usize) -> ! {
 }
 
 impl StateTable {
-    /// A table of zeros with `points` >= 1 observation points and the given fields of a spacecraft with `wheels`
-    /// wheels.
+    /// A table of zeros with `points` >= 1 observation points and these fields of a spacecraft with `wheels` wheels.
     pub fn new(fields: StateFields, wheels: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
         let mut columns = [ABSENT; StateField::ALL.len()];
@@ -85,7 +84,7 @@ impl StateTable {
     /// Component `component` of `field` at all points (with padding).
     ///
     /// # Panics
-    /// If the table does not have the field, or the field has no such component.
+    /// If the table lacks the component.
     #[inline]
     pub fn column(&self, field: StateField, component: usize) -> &[f64] {
         let start = self.start(field, component);
@@ -95,7 +94,7 @@ impl StateTable {
     /// [`StateTable::column`], writable.
     ///
     /// # Panics
-    /// If the table does not have the field, or the field has no such component.
+    /// If the table lacks the component.
     #[inline]
     pub fn column_mut(&mut self, field: StateField, component: usize) -> &mut [f64] {
         let start = self.start(field, component);
@@ -105,7 +104,7 @@ impl StateTable {
     /// The first `N` components of `field` at point `point`.
     ///
     /// # Panics
-    /// If the table does not have the field, or the field has fewer components.
+    /// If the table lacks a component.
     pub fn at<const N: usize>(&self, field: StateField, point: usize) -> [f64; N] {
         std::array::from_fn(|component| self.column(field, component)[point])
     }
@@ -113,15 +112,14 @@ impl StateTable {
     /// Writes the first `N` components of `field` at point `point`.
     ///
     /// # Panics
-    /// If the table does not have the field, or the field has fewer components.
+    /// If the table lacks a component.
     pub fn set<const N: usize>(&mut self, field: StateField, point: usize, values: [f64; N]) {
         for (component, value) in values.into_iter().enumerate() {
             self.column_mut(field, component)[point] = value;
         }
     }
 
-    /// Writes zero for the wheels from `first` on, so that a run with fewer wheels than columns leaves no numbers of an
-    /// earlier run.
+    /// Zeroes the wheels from `first` on, in which a run with fewer wheels would leave numbers of an earlier run.
     pub fn clear_wheels(&mut self, first: usize) {
         for wheel in first..self.wheels {
             for field in [StateField::WheelRates, StateField::WheelAngles] {
@@ -161,7 +159,7 @@ mod tests {
         assert_eq!(table.column(StateField::WheelRates, 1), [0.0, 0.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0]);
     }
 
-    // counted from the marker of an absent field, this component would wrap around to the first column
+    // added to the marker of an absent field, this component would wrap around to the first column
     #[test]
     #[should_panic = "does not have the field Attitude"]
     fn an_absent_field_cannot_be_read_as_another() {

@@ -11,8 +11,7 @@ pub struct Telemetry {
     pub times: Vec<f64>,
     /// One value per column for each time; NaN if there is none.
     pub rows: Vec<Vec<f64>>,
-    /// Tolerance of equal times, s: a tick is a product of number and period, which rounds differently from the same
-    /// time on a grid.
+    /// Tolerance of equal times, s, for the rounding of ticks and grid points.
     pub same: f64,
 }
 
@@ -44,8 +43,8 @@ mod tests {
         assert_eq!(held[0][1..], [1.0, 1.0, 2.0, 2.0]);
     }
 
-    /// Law: tick k of a period of 0.1 s holds at the grid point of the same decimal time, whichever rounds below the
-    /// other; without the tolerance some points show the tick before.
+    /// Law: tick k of a period of 0.1 s holds at the grid point of the same decimal time; without the tolerance some
+    /// points show the tick before.
     #[test]
     fn rounding_shows_no_tick_before() {
         let ticks = 400;

@@ -1,7 +1,6 @@
-//! [`Trajectory`]: integrated components of one run at its observation points.
+//! [`Trajectory`]: integrated components of a run, which a kernel completes to a [`super::StateTable`].
 
-/// Integrated components of one run at its observation points, completed by a kernel to a [`super::StateTable`]. The
-/// stride is a multiple of eight, with the last point repeated in the padding.
+/// Integrated components of a run at its observation points, padded as in a [`super::StateTable`].
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     components: usize,
