@@ -1,8 +1,6 @@
-//! Exact inference about a fraction from counts of independent runs: binomial distribution, Clopper-Pearson bounds, the
-//! test behind a requirement.
-//!
-//! C. J. Clopper & E. S. Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*,
-//! Biometrika 26 (1934) 404.
+//! Exact inference about a success rate from independent trials: binomial distribution, Clopper-Pearson bounds (C. J.
+//! Clopper & E. S. Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*,
+//! Biometrika 26 (1934) 404), and the test behind a requirement.
 
 use crate::math::incomplete_beta::{incomplete_beta, inverse_incomplete_beta};
 use crate::math::normal;
@@ -21,8 +19,7 @@ pub fn at_least(k: u64, trials: u64, p: f64) -> f64 {
     }
 }
 
-/// One-sided lower confidence bound of a fraction (Clopper-Pearson), at most the true fraction with probability
-/// `confidence` or more.
+/// One-sided lower bound (Clopper-Pearson): at most the true rate with probability `confidence` or more.
 pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     if successes == 0 {
         return 0.0;
@@ -30,7 +27,7 @@ pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     inverse_incomplete_beta(1.0 - confidence, confidence, successes as f64, (trials - successes) as f64 + 1.0)[0]
 }
 
-/// One-sided upper confidence bound of a fraction (Clopper-Pearson).
+/// One-sided upper bound (Clopper-Pearson).
 pub fn upper_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     if successes >= trials {
         return 1.0;
@@ -38,34 +35,34 @@ pub fn upper_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     inverse_incomplete_beta(confidence, 1.0 - confidence, successes as f64 + 1.0, (trials - successes) as f64)[0]
 }
 
-/// Two-sided equal-tailed confidence interval of a fraction (Clopper-Pearson).
+/// Equal-tailed confidence interval (Clopper-Pearson).
 pub fn interval(successes: u64, trials: u64, confidence: f64) -> [f64; 2] {
     let one_sided = 0.5 + 0.5 * confidence;
     [lower_bound(successes, trials, one_sided), upper_bound(successes, trials, one_sided)]
 }
 
-/// Decision on the requirement that at least a given fraction of runs succeeds.
+/// Decision on a requirement of a smallest success rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
     /// The lower bound reaches the target.
     Pass,
     /// The upper bound misses it.
     Fail,
-    /// Neither; a number of runs that decides with probability [`POWER`] if the true fraction is the observed one, if
-    /// any does.
+    /// Neither, with a number of runs, if any, that decides with probability [`POWER`] if the true rate is the observed
+    /// one.
     Undecided(Option<u64>),
 }
 
-/// Probability of a decision by a campaign of the size given in [`Decision::Undecided`], looked at once. Adding runs
-/// until a decision errs more often: see [`super::looks`].
+/// Probability with which the number of runs in [`Decision::Undecided`] decides in a single look. Adding runs until a
+/// decision errs more often: see [`super::looks`].
 pub const POWER: f64 = 0.9;
-/// Limit of runs beyond which a requirement counts as undecidable.
+/// Runs beyond which a requirement counts as undecidable.
 pub const MAX_RUNS: u64 = 10_000_000_000;
 
-/// Decides whether the fraction of success is at least `target` in (0, 1), at `confidence`.
+/// Decides whether the success rate is at least `target` in (0, 1), at `confidence`.
 ///
-/// Bounds are not computed, so that no rounding of an inverse decides: the lower bound reaches the target exactly if
-/// P(X >= successes) at the target is at most 1 - confidence, and likewise the upper one.
+/// No rounding of an inverse decides: the lower bound reaches the target exactly if P(X >= successes) at the target is
+/// at most 1 - confidence, and likewise the upper one.
 pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Decision {
     match decided(successes, trials, target, confidence) {
         Some(true) => Decision::Pass,
@@ -74,7 +71,7 @@ pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Deci
     }
 }
 
-/// True if the requirement is met, false if missed, `None` if undecided.
+/// True if met, false if missed.
 fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<bool> {
     let risk = 1.0 - confidence;
     if trials == 0 {
@@ -88,10 +85,9 @@ fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<
     }
 }
 
-/// A number of runs, at least `trials`, that decides with probability [`POWER`] if the fraction is the observed one,
-/// while the number below does not; `None` beyond [`MAX_RUNS`].
-///
-/// The probability is exact, and not monotonic (successes are whole): a number a few runs smaller may do too.
+/// A number of runs, at least `trials`, that decides with probability [`POWER`] at the observed rate, while one run
+/// fewer does not; `None` beyond [`MAX_RUNS`]. The exact probability is not monotonic, since successes are whole: a
+/// slightly smaller number may decide as well.
 fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<u64> {
     if trials == 0 {
         return None;
@@ -104,7 +100,7 @@ fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> O
             lower_rank(runs, target, risk).map_or(0.0, |rank| at_most(rank - 1, runs, fraction))
         }
     };
-    // first guess by the normal distribution
+    // first guess in the normal approximation
     let deviation = |fraction: f64| libm::sqrt(fraction * (1.0 - fraction));
     let width = normal::quantile(confidence) * deviation(target) + normal::quantile(POWER) * deviation(fraction);
     let near = width / (fraction - target);
@@ -117,28 +113,27 @@ fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> O
     (found < MAX_RUNS).then_some(found)
 }
 
-/// The largest r with P(X <= r - 1) <= `risk`, X successes in `trials` of probability `p`; `None` if there is no r >=
-/// 1.
+/// Largest r >= 1 with P(X <= r - 1) <= `risk` for X successes in `trials` of probability `p`.
 pub fn lower_rank(trials: u64, p: f64, risk: f64) -> Option<u64> {
     let misses = |rank: u64| at_most(rank - 1, trials, p) > risk;
     let found = first([1, trials + 1], [near_rank(trials, p, risk), 1], misses);
     (found > 1).then(|| found - 1)
 }
 
-/// The smallest s with P(X >= s) <= `risk`.
+/// Smallest s <= `trials` with P(X >= s) <= `risk`.
 pub fn upper_rank(trials: u64, p: f64, risk: f64) -> Option<u64> {
     let is_seldom = |rank: u64| at_least(rank, trials, p) <= risk;
     let found = first([1, trials + 1], [near_rank(trials, p, 1.0 - risk), 1], is_seldom);
     (found <= trials).then_some(found)
 }
 
-/// Approximate `q`-quantile of the number of successes in `trials` of probability `p`.
+/// Normal approximation of the `q`-quantile of the number of successes.
 fn near_rank(trials: u64, p: f64, q: f64) -> u64 {
     let n = trials as f64;
     (n * p + normal::quantile(q) * libm::sqrt(n * p * (1.0 - p))) as u64
 }
 
-/// The first number in [low, high] that `holds`, with all above it and `high`: outward from `at` in doubling steps from
+/// First number in [low, high] from which on `holds` is true, or `high`: outward from `at` in steps doubling from
 /// `step`, then by bisection.
 fn first([mut low, mut high]: [u64; 2], [mut at, mut step]: [u64; 2], holds: impl Fn(u64) -> bool) -> u64 {
     let mut is_within = [false; 2];
@@ -181,7 +176,7 @@ mod tests {
         }
     }
 
-    /// Law: at a bound, the observed count or more (or less) has the probability 1 - confidence.
+    /// Law: at a bound, outcomes at least as extreme have the probability 1 - confidence.
     #[test]
     fn bounds_invert_the_tails() {
         for (successes, trials) in [(1, 10), (9, 10), (10, 10), (0, 10), (590, 600), (999_000, 1_000_000)] {
@@ -189,7 +184,7 @@ mod tests {
                 let lower = lower_bound(successes, trials, confidence);
                 let upper = upper_bound(successes, trials, confidence);
                 let risk = 1.0 - confidence;
-                // measured 3.8e-12 and 3.1e-12: for a million trials rounding of a bound moves the tail by that much
+                // measured 3.8e-12 and 3.1e-12: rounding of a bound for a million trials
                 if successes > 0 {
                     assert!((at_least(successes, trials, lower) / risk - 1.0).abs() < 3e-11, "{successes}/{trials}");
                 }
@@ -199,7 +194,7 @@ mod tests {
                 assert!(lower <= successes as f64 / trials as f64 && successes as f64 / trials as f64 <= upper);
             }
         }
-        // no success in n: the rule of three, exactly 1 - (1 - confidence)^(1/n)
+        // rule of three: 1 - (1 - confidence)^(1/n) without a success
         let upper = upper_bound(0, 59, 0.95);
         assert!((upper - (1.0 - libm::pow(0.05, 1.0 / 59.0))).abs() < 1e-15, "{upper}");
     }
@@ -208,10 +203,14 @@ mod tests {
     /// 91).
     #[test]
     fn fifty_nine_successes_decide_95_95() {
-        assert_eq!(decide(59, 59, 0.95, 0.95), Decision::Pass);
-        assert_eq!(decide(58, 58, 0.95, 0.95), Decision::Undecided(Some(59)));
-        assert_eq!(decide(10, 59, 0.95, 0.95), Decision::Fail);
-        assert_eq!(decide(0, 0, 0.95, 0.95), Decision::Undecided(None));
-        assert_eq!(decide(95, 100, 0.95, 0.95), Decision::Undecided(None), "exactly at the target nothing decides");
+        for (successes, trials, decision) in [
+            (59, 59, Decision::Pass),
+            (58, 58, Decision::Undecided(Some(59))),
+            (10, 59, Decision::Fail),
+            (0, 0, Decision::Undecided(None)),
+            (95, 100, Decision::Undecided(None)),
+        ] {
+            assert_eq!(decide(successes, trials, 0.95, 0.95), decision);
+        }
     }
 }

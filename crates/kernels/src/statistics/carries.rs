@@ -1,5 +1,4 @@
-//! [`Carries`]: unlimited counts from counters of 32 bits. A campaign has millions of counters, few of which exceed
-//! 2^32.
+//! [`Carries`]: extends 32-bit counters, few of which exceed 2^32, without limit.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +23,7 @@ impl Carries {
         *self.0.entry(key).or_default() += carried;
     }
 
-    /// True without carries: counters with lower bits of zero are then zero.
+    /// True without carries.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

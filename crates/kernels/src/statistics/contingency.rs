@@ -1,10 +1,9 @@
-//! Tables of two groups of runs and a yes or no.
+//! Tables of two groups of runs and an event.
 //!
 //! - Exact test: R. A. Fisher, *The logic of inductive inference*, J. Roy. Stat. Soc. 98 (1935) 39; two-sided by the
-//!   probabilities of the tables, as in R's `fisher.test`.
-//! - Interval of the risk ratio: P. A. R. Koopman, *Confidence intervals for the ratio of two binomial proportions*,
-//!   Biometrics 40 (1984) 513: the ratios not rejected by the score test. It exists for counts of zero, unlike that of
-//!   the logarithm (D. Katz et al., *Biometrics* 34 (1978) 469).
+//!   probabilities of the tables, as R's `fisher.test`.
+//! - Interval of the risk ratio, also for counts of zero: P. A. R. Koopman, *Confidence intervals for the ratio of two
+//!   binomial proportions*, Biometrics 40 (1984) 513, the ratios that the score test does not reject.
 
 use super::jackknife::Estimate;
 use crate::math::normal;
@@ -18,12 +17,11 @@ pub struct Occurrence {
     pub runs: u64,
 }
 
-/// Relative difference of probabilities that counts as none, for rounding of sums of logarithms (as in R).
+/// Relative difference of probabilities that counts as rounding, as in R.
 const SAME: f64 = 1e-7;
 
-/// Two-sided probability of a table as unlikely as this one, or more, if the event does not depend on the group.
-///
-/// Exact sum over all tables with the same margins, in a time that grows with the number of events.
+/// Two-sided p-value if the event does not depend on the group: the exact sum over all tables with these margins that
+/// are at most as likely, in a time that grows with the number of events.
 pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     let events = one.events + other.events;
     let (first, last) = (events.saturating_sub(other.runs), events.min(one.runs));
@@ -48,12 +46,12 @@ pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     (unlikely / terms.iter().sum::<f64>()).min(1.0)
 }
 
-/// Ratio of the event's frequencies, first over second group, with Koopman's interval; infinite if it never occurs in
-/// the second. `None` if it occurs in neither, or a group is empty.
+/// Ratio of the event's frequencies, first over second group, with Koopman's interval; infinite if the second has no
+/// event. `None` if neither has, or a group is empty.
 pub fn risk_ratio(one: Occurrence, other: Occurrence, confidence: f64) -> Option<Estimate> {
     /// Ratios of counts of 64 bits are within e^±60.
     const REACH: f64 = 60.0;
-    /// Halvings of that range: to the last digit.
+    /// Halvings of that range, to the last digit.
     const HALVINGS: usize = 64;
     if one.events + other.events == 0 || one.runs == 0 || other.runs == 0 {
         return None;
@@ -99,8 +97,8 @@ mod tests {
         (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
     }
 
-    /// Law: the p-value is the sum over all tables with these margins of the probabilities that are no greater, by
-    /// binomial coefficients. A two-sided p-value that doubles one tail differs.
+    /// Law: the p-value is the sum of the probabilities, by binomial coefficients, of all tables with these margins
+    /// that are at most as likely.
     #[test]
     fn fisher_is_the_sum_over_tables() {
         for (a, m, b, n) in [(3, 4, 1, 4), (14, 14, 2, 20), (0, 5, 7, 9), (2, 30, 9, 25), (1, 1, 0, 40), (6, 12, 6, 12)]
@@ -119,7 +117,7 @@ mod tests {
         assert!(fisher(of(0, 10), of(0, 20)) == 1.0);
     }
 
-    /// Published: 36 of 40 against 16 of 80 have the interval 2.94 to 7.15 (Koopman 1984). Others from statsmodels
+    /// Published: 36 of 40 against 16 of 80 have the interval 2.94 to 7.15 (Koopman 1984). Digits from statsmodels
     /// 0.14, `confint_proportions_2indep(compare="ratio", method="score", correction=False)`.
     #[test]
     fn the_interval_is_koopmans() {
@@ -135,8 +133,7 @@ mod tests {
         }
     }
 
-    /// Law: exchanged groups have the inverse ratio and ends; an event that never occurs in a group bounds the ratio on
-    /// one side.
+    /// Law: exchanged groups have inverse ratios and ends; a group without the event bounds the ratio on one side.
     #[test]
     fn exchanged_groups_have_the_inverse_ratio() {
         for (one, other) in

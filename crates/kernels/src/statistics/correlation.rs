@@ -1,15 +1,15 @@
-//! Correlation of two columns, plain or of ranks, with a confidence interval for independent rows.
+//! Correlation of two columns, or of their ranks, with a confidence interval for independent rows.
 //!
-//! Pearson's coefficient; Spearman's is Pearson's of mid-ranks. The interval is that of R. A. Fisher's atanh r
-//! (*Metron* 1 (1921) 3) with the width of the [`super::jackknife`]: the variance 1/(n - 3) holds for normal numbers
-//! only (for y = x z, x and z normal, it covers 0.75 instead of 0.95).
+//! The interval is that of R. A. Fisher's atanh r (*Metron* 1 (1921) 3) with the width of the [`super::jackknife`]: the
+//! usual variance 1/(n - 3) holds for normal numbers only (for y = x z, x and z normal, it covers 0.75 instead of
+//! 0.95).
 
 use super::jackknife;
 pub use super::jackknife::Estimate;
 
 /// Rows of `values` in ascending order ([`f64::total_cmp`]); stable.
 pub fn ascending_order(values: &[f64]) -> Vec<usize> {
-    // integers in the order of the values: sorting moves values with their rows and looks nothing up
+    // integers that order as the values: sorting pairs with their rows needs no indirection
     let key = |value: f64| {
         let bits = value.to_bits().cast_signed();
         bits ^ ((bits >> 63) as u64 >> 1).cast_signed()
@@ -24,7 +24,7 @@ pub fn mid_ranks(values: &[f64]) -> Vec<f64> {
     mid_ranks_in_order(values, &ascending_order(values))
 }
 
-/// As [`mid_ranks`], for the [`ascending_order`] of `values`.
+/// [`mid_ranks`] with the known [`ascending_order`] of `values`.
 pub fn mid_ranks_in_order(values: &[f64], order: &[usize]) -> Vec<f64> {
     let mut ranks = vec![0.0; values.len()];
     let mut start = 0;
@@ -45,7 +45,7 @@ pub fn standardised(values: &[f64]) -> Vec<f64> {
     if values.is_empty() || scale == 0.0 {
         return vec![0.0; values.len()];
     }
-    // a power of two: exact
+    // a power of two, hence exact
     let inverse_scale = libm::ldexp(1.0, (-libm::ilogb(scale)).min(MAX_EXPONENT));
     let mut off: Vec<f64> = values.iter().map(|value| value * inverse_scale).collect();
     let mean = sum(&off) / n;
@@ -53,7 +53,7 @@ pub fn standardised(values: &[f64]) -> Vec<f64> {
     let rest = sum(&off) / n;
     off.iter_mut().for_each(|value| *value -= rest);
     let length = libm::sqrt(product(&off, &off));
-    // equal values leave the rounding of their mean
+    // equal values leave the rounding of their mean only
     let rounding = 8.0 * f64::EPSILON * libm::sqrt(n);
     let inverse_length = 1.0 / length;
     off.iter_mut().for_each(|value| *value = if length > rounding { *value * inverse_length } else { 0.0 });
@@ -62,12 +62,12 @@ pub fn standardised(values: &[f64]) -> Vec<f64> {
 
 const MAX_EXPONENT: i32 = f64::MAX_EXP - 1;
 
-/// Pearson's coefficient of columns of equal length; 0 if one does not vary.
+/// Pearson's coefficient; 0 if a column does not vary.
 pub fn pearson(x: &[f64], y: &[f64]) -> f64 {
     product(&standardised(x), &standardised(y)).clamp(-1.0, 1.0)
 }
 
-/// Spearman's coefficient of columns of equal length; 0 if one does not vary.
+/// Spearman's coefficient, Pearson's of the mid-ranks; 0 if a column does not vary.
 pub fn spearman(x: &[f64], y: &[f64]) -> f64 {
     pearson(&mid_ranks(x), &mid_ranks(y))
 }
@@ -84,9 +84,8 @@ pub fn matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     matrix
 }
 
-/// Pearson's coefficient of two [`standardised`] columns, with its interval, given `fixed` other columns.
-///
-/// For Spearman's coefficient pass columns of ranks; the interval is then up to a tenth too wide or too narrow.
+/// Pearson's coefficient of two [`standardised`] columns, given `fixed` other columns, with its interval. For
+/// Spearman's coefficient pass ranks; the interval is then up to a tenth too wide or too narrow.
 pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estimate {
     let rows = x.len();
     let value = product(x, y).clamp(-1.0, 1.0);
@@ -106,11 +105,11 @@ pub fn correlation(x: &[f64], y: &[f64], fixed: usize, confidence: f64) -> Estim
     let [lower, upper] = jackknife::ends(libm::atanh(value), rows, influences, confidence).map(libm::tanh);
     Estimate { value, lower, upper }
 }
-/// n - 1 times the change of a standardised coefficient if a row with the values `x` and `y` is left out; `change` is
-/// the change at fixed scales of both columns.
+/// n - 1 times the change of a standardised coefficient if a row with the values `x` and `y` is left out, given the
+/// `change` at fixed scales of both columns.
 pub(super) fn influence(coefficient: f64, change: f64, [x, y]: [f64; 2], rows: usize) -> f64 {
     let n = rows as f64;
-    // the sum of squares without the row and its part in the mean
+    // sum of squares without the row and its part in the mean
     let rest = |value: f64| (1.0 - value * value * n / (n - 1.0)).max(0.0);
     (n - 1.0) * (coefficient - (coefficient - change) * libm::sqrt(rest(x) / rest(y)))
 }
@@ -129,7 +128,7 @@ fn sum(x: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Independent partial sums, so that none waits for the previous one.
+/// Independent partial sums, which hide the latency of a sum.
 const SUMS: usize = 8;
 
 #[cfg(test)]
@@ -139,7 +138,7 @@ mod tests {
     #[test]
     fn known_coefficients() {
         let x = [1.0, 2.0, 3.0, 4.0, 5.0];
-        // measured 2.2e-16 and 0; far from zero 6.7e-9, where a number has seven digits after the point
+        // measured 2.2e-16 and 0; far from zero 6.7e-9: seven digits after the point
         assert!((pearson(&x, &[2.0, 1.0, 4.0, 3.0, 5.0]) - 0.8).abs() < 1e-15);
         assert!((spearman(&x, &[1.0, 8.0, 27.0, 64.0, 125.0]) - 1.0).abs() < 1e-15);
         assert_eq!(pearson(&x, &[0.1; 5]), 0.0, "a column that does not vary");
@@ -148,7 +147,7 @@ mod tests {
         expected.sort_by(|a, b| mixed[*a].total_cmp(&mixed[*b]));
         assert_eq!(ascending_order(&mixed), expected);
         assert_eq!(mid_ranks(&[7.0, 7.0, 9.0, 1.0]), [1.5, 1.5, 3.0, 0.0]);
-        // far from zero: the mean costs no digits of the deviations beyond those of the numbers
+        // far from zero only the digits of the numbers are lost
         let far: Vec<f64> = [2.0, 1.0, 4.0, 3.0, 5.0].iter().map(|value| value + 1e9).collect();
         assert!((pearson(&x, &far) - 0.8).abs() < 5e-8);
     }
@@ -169,8 +168,8 @@ mod tests {
         }
     }
 
-    /// Law: an interval contains its coefficient, turns with the sign of a column, and has no width for proportional
-    /// columns; it needs four rows, and one more per fixed column.
+    /// Law: an interval contains its coefficient, changes sides with the sign of a column, and has no width for
+    /// proportional columns; it needs four rows, and another per fixed column.
     #[test]
     fn intervals_hold_their_coefficient() {
         let x = standardised(&(0..50).map(|k| libm::sin(f64::from(k * k))).collect::<Vec<_>>());

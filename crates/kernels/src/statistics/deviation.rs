@@ -1,19 +1,20 @@
-//! Buckets of deviations from a nominal value: their [`code`], their [`ends`], and order statistics ([`ranks`]).
+//! Histogram of deviations from a nominal value: codes of buckets ([`code`], [`ends`]) and order statistics
+//! ([`ranks`]).
 //!
-//! Buckets are the leading bits of the deviation: sign, exponent and [`MANTISSA_BITS`] bits of the mantissa, as in
-//! [`super::sketch`] but in 16 bits, so that hundreds of millions of deviations can be counted. A bucket is at most
-//! 2^-5 of its value wide; a quantile is the middle of its bucket, within [`RELATIVE_ERROR`] of the deviation.
-//! Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512 (1.3e154) on are in the last bucket.
+//! A bucket holds the deviations that share sign, exponent and the leading [`MANTISSA_BITS`] bits of the mantissa, as
+//! in [`super::sketch`], but fits into 16 bits, so that hundreds of millions can be counted. Its middle is within
+//! [`RELATIVE_ERROR`] of any deviation in it. Magnitudes below 2^-512 (7e-155) count as zero; the last bucket holds all
+//! from 2^512 (1.3e154) on.
 
 use super::sketch::Ranks;
 
 /// Leading mantissa bits of a bucket.
 pub const MANTISSA_BITS: u32 = 5;
 
-/// Bound of the relative error of a deviation: half a bucket.
+/// Largest relative error of a deviation: half a bucket.
 pub const RELATIVE_ERROR: f64 = 1.0 / 64.0;
 
-/// A bucket: twice the number of its magnitude, ascending from 1, plus one for negative deviations.
+/// A bucket: twice the index of its magnitude, from 1, plus one for negative deviations.
 pub type Code = u16;
 
 /// The bucket of zero.
@@ -30,7 +31,7 @@ const LOWEST: i32 = (1023 - 512) << MANTISSA_BITS;
 
 const LAST: i32 = Code::MAX as i32 / 2;
 
-/// The bucket of a deviation, without branches: a loop over many is vectorised.
+/// The bucket of a deviation; branch-free, so that loops vectorise.
 #[inline(always)]
 pub fn code(deviation: f64) -> Code {
     let upper = (deviation.to_bits() >> 32) as u32;
@@ -41,7 +42,7 @@ pub fn code(deviation: f64) -> Code {
     (if deviation.is_nan() { u32::from(NOT_A_NUMBER) } else { code }) as Code
 }
 
-/// Ends of a bucket, ascending; no deviation in it is outside.
+/// Ends of a bucket, ascending; all its deviations lie between them.
 pub fn ends(code: Code) -> [f64; 2] {
     let magnitude = i32::from(code >> 1);
     let end = |leading: i32| f64::from_bits((leading as u64) << (32 + SHIFT));
@@ -57,11 +58,11 @@ fn is_negative(code: Code) -> bool {
     code & 1 == 1
 }
 
-/// Order statistics of counted deviations, from codes in ascending order.
+/// Order statistics of counted deviations; `buckets` have ascending codes.
 pub fn ranks(buckets: &[(Code, u64)]) -> Ranks {
     let negative = buckets.iter().rev().filter(|(code, _)| is_negative(*code));
     let ascending = negative.chain(buckets.iter().filter(|(code, _)| !is_negative(*code)));
-    // the last bucket has no end, and needs a middle
+    // the last bucket is cut at the largest number, so that it has a middle
     Ranks::of(ascending.map(|(code, count)| (ends(*code).map(|end| end.clamp(f64::MIN, f64::MAX)), *count)))
 }
 
@@ -69,6 +70,7 @@ pub fn ranks(buckets: &[(Code, u64)]) -> Ranks {
 mod tests {
     use super::*;
     use crate::statistics::quantile::quantile;
+    use crate::statistics::sketch::tests::spread;
 
     fn counted(values: &[f64]) -> Ranks {
         let mut codes: Vec<Code> = values.iter().map(|value| code(*value)).filter(|c| *c != NOT_A_NUMBER).collect();
@@ -80,14 +82,8 @@ mod tests {
         ranks(&[(code, 1)]).quantile(0.5).expect("a value")
     }
 
-    /// Pseudo-random numbers over 80 octaves and both signs.
-    fn spread(k: u64) -> f64 {
-        let bits = k.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        let magnitude = libm::exp2((bits >> 40) as f64 / f64::from(1 << 24) * 80.0 - 60.0);
-        if bits & 1 == 0 { magnitude } else { -magnitude }
-    }
-
-    /// Law: the middle of a bucket is within the stated error of its deviations, with their sign, from 2^-512 to 2^511.
+    /// Law: the middle of a bucket has the sign and, within the stated error, the value of its deviations, from 2^-512
+    /// to 2^511.
     #[test]
     fn a_bucket_is_as_narrow_as_stated() {
         let mut widest = 0.0f64;

@@ -1,9 +1,9 @@
 //! Decisions on requirements: met, missed, or undecided with the number of runs that would decide.
 //!
-//! Fractions and quantiles are one exact binomial test ([`super::binomial::decide`]): the `p`-quantile is at most a
-//! limit if at least the fraction p of runs is. Means have bounds that allow for skewness ([`super::mean`]), estimates
-//! of replicates their own ([`super::replicates`]). Either error, a wrong pass or a wrong failure, has at most the
-//! probability 1 - confidence. For several requirements see [`failing_at`] and [`failing_together`].
+//! Fractions and quantiles share one exact binomial test ([`super::binomial::decide`]): the `p`-quantile is at most a
+//! limit if at least the fraction p of runs is. Means have bounds that allow for skewness ([`super::mean`]); designs in
+//! replicates have their own ([`super::replicates`]). A wrong pass or a wrong failure has at most the probability 1 -
+//! confidence. For several requirements see [`failing_at`] and [`failing_together`].
 
 use super::binomial::{Decision, MAX_RUNS, POWER, decide, lower_bound, upper_bound};
 use super::looks::adjusted;
@@ -21,7 +21,7 @@ pub enum GateLimit {
 }
 
 impl GateLimit {
-    /// True if `value` is within the limit; false for NaN.
+    /// True if `value` is within the limit; NaN never is.
     pub fn is_met(self, value: f64) -> bool {
         match self {
             GateLimit::AtMost(limit) => value <= limit,
@@ -29,7 +29,7 @@ impl GateLimit {
         }
     }
 
-    /// Fraction of runs within the limit that is required if the `p`-quantile must be.
+    /// Required fraction of runs within the limit for a limit of the `p`-quantile.
     pub fn fraction(self, p: f64) -> f64 {
         match self {
             GateLimit::AtMost(_) => p,
@@ -50,14 +50,14 @@ impl GateLimit {
 pub struct Gate {
     /// The decision.
     pub decision: Decision,
-    /// The estimate: a fraction, or a mean.
+    /// A fraction or a mean.
     pub estimate: f64,
-    /// One-sided bounds of the estimate, each at the confidence.
+    /// One-sided bounds, each at the confidence.
     pub bounds: [f64; 2],
 }
 
-/// The gate `at` a confidence, except that it fails only at the higher confidence `fails_at`. `is_met` compares an
-/// estimate with the limit.
+/// The gate `at` a confidence, but failing only at the higher confidence `fails_at`; `is_met` compares an estimate with
+/// the limit.
 pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool, at: impl Fn(f64) -> Gate) -> Gate {
     let gate = at(confidence);
     if gate.decision == Decision::Pass || is_met(gate.estimate) {
@@ -66,11 +66,11 @@ pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool
     Gate { decision: at(fails_at).decision, ..gate }
 }
 
-/// Decisions on several requirements such that, with the probability of their (lowest) confidence, no requirement that
-/// is met fails: `at(m)` has the decisions with failures at the confidence 1 - (1 - c)/m only.
+/// Decisions on several requirements, of which a met one fails with at most the risk 1 - c of the (lowest) confidence:
+/// `at(m)` fails at the confidence 1 - (1 - c)/m only.
 ///
-/// S. Holm, *A simple sequentially rejective multiple test procedure*, Scand. J. Statist. 6 (1979) 65: m is the number
-/// of requirements that have not failed yet. A pass of all needs no correction: it is wrong only if one that is missed
+/// S. Holm, *A simple sequentially rejective multiple test procedure*, Scand. J. Statist. 6 (1979) 65: m counts the
+/// requirements that have not failed yet. A pass of all needs no correction, since it is wrong only if a missed one
 /// passes (R. L. Berger, *Technometrics* 24 (1982) 295).
 pub fn failing_together<T>(count: usize, at: impl Fn(usize) -> Vec<T>, has_failed: impl Fn(&T) -> bool) -> Vec<T> {
     let mut open = count;
@@ -84,7 +84,7 @@ pub fn failing_together<T>(count: usize, at: impl Fn(usize) -> Vec<T>, has_faile
     }
 }
 
-/// Gate on a fraction of success of at least `target`, from independent trials.
+/// Gate on a success rate of at least `target`, from independent trials.
 pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) -> Gate {
     Gate {
         decision: decide(successes, trials, target, confidence),
@@ -96,14 +96,13 @@ pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) 
     }
 }
 
-/// [`fraction_gate`] with bounds `successes[0] <= successes[1]` of the number of successes: the decision common to
-/// both.
+/// [`fraction_gate`] for a number of successes known to lie within bounds: the decision common to both.
 pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confidence: f64) -> Gate {
     let [least, most] = successes.map(|successes| fraction_gate(successes, trials, target, confidence));
     let decision = match (least.decision, most.decision) {
         (Decision::Pass, _) => Decision::Pass,
         (_, Decision::Fail) => Decision::Fail,
-        // more runs do not separate numbers in between
+        // the numbers in between stay unseparated with more runs
         (Decision::Undecided(runs), Decision::Undecided(other)) => {
             Decision::Undecided(runs.zip(other).map(|(a, b)| a.max(b)))
         }
@@ -112,13 +111,12 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
     Gate { decision, estimate: 0.5 * (least.estimate + most.estimate), bounds: [least.bounds[0], most.bounds[1]] }
 }
 
-/// Gate on a fraction of success of at least `target` at each of several points of the same runs: bounds of successes,
-/// and number of runs, per point.
+/// Gate on a success rate of at least `target` at each of several points of the same runs, each with bounds of the
+/// successes and a number of runs.
 ///
 /// It passes if every point does, without correction: a missed point passes with at most 1 - confidence (R. L. Berger,
-/// *Technometrics* 24 (1982) 295). It fails if a point does at the confidence 1 - (1 - c)/points (Bonferroni), c being
-/// the second of `confidences`. Estimate, bounds and returned index are those of the first point with the smallest
-/// estimate.
+/// *Technometrics* 24 (1982) 295). It fails if a point does at the confidence 1 - (1 - `fails_at`)/points (Bonferroni).
+/// Estimate, bounds and index are those of the first point with the smallest estimate.
 pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_at]: [f64; 2]) -> (Gate, Option<usize>) {
     let confidences = [confidence, adjusted(fails_at, points.len())];
     let gate = |(counts, runs): &([u64; 2], u64)| {
@@ -143,7 +141,7 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_a
     (Gate { decision, ..*worst }, Some(index))
 }
 
-/// Gate on the mean of independent runs. Runs without spread decide nothing: a rare event would not show.
+/// Gate on the mean of independent runs. Runs without spread decide nothing: they may hide a rare event.
 pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     let (count, estimate) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
     let bounds = mean_bounds(moments, confidence);
@@ -157,7 +155,7 @@ pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 
-/// Gate on the mean of runs with values in `range`, for any distribution, also without spread.
+/// Gate on the mean of runs with values in `range`, for any distribution, even without spread.
 pub fn bounded_mean_gate(moments: &Moments, range: [f64; 2], limit: GateLimit, confidence: f64) -> Gate {
     let estimate = moments.mean().unwrap_or(f64::NAN);
     let deviation = moments.standard_deviation().unwrap_or(f64::NAN);
@@ -171,14 +169,13 @@ pub fn bounded_mean_gate(moments: &Moments, range: [f64; 2], limit: GateLimit, c
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 
-/// Gate on a number that does not depend on the run and has no error.
+/// Gate on a number that is the same in every run and has no error.
 pub fn constant_gate(value: f64, limit: GateLimit) -> Gate {
     let decision = if limit.is_met(value) { Decision::Pass } else { Decision::Fail };
     Gate { decision, estimate: value, bounds: [value; 2] }
 }
 
-/// Gate on a fraction of success of at least `target`, from the fractions of independent replicates of `runs` runs in
-/// all.
+/// Gate on a success rate of at least `target`, from the rates of independent replicates with `runs` runs in all.
 pub fn replicate_fraction_gate(fractions: &[f64], runs: u64, target: f64, confidence: f64) -> Gate {
     let bounds = replicates::fraction_bounds(fractions, runs, confidence);
     replicate_gate(fractions, bounds, runs, GateLimit::AtLeast(target), confidence)
@@ -190,7 +187,7 @@ pub fn replicate_mean_gate(means: &[f64], whole: &Moments, limit: GateLimit, con
     replicate_gate(means, bounds, whole.count(), limit, confidence)
 }
 
-/// More runs are more runs per replicate, whose variance falls at least in proportion.
+/// More runs mean larger replicates, whose variance falls at least in proportion.
 fn replicate_gate(estimates: &[f64], bounds: [f64; 2], runs: u64, limit: GateLimit, confidence: f64) -> Gate {
     let estimate = Moments::of(estimates.iter().copied()).mean().unwrap_or(f64::NAN);
     let distance = (estimate - limit.value()).abs();
@@ -217,7 +214,7 @@ fn decision([lower, upper]: [f64; 2], limit: GateLimit, needed: impl FnOnce() ->
     }
 }
 
-/// The smallest number above `from` that `decides`, monotonic; `None` beyond [`MAX_RUNS`].
+/// Smallest number above `from` for which the monotonic `decides` holds; `None` beyond [`MAX_RUNS`].
 fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
     let (mut low, mut high) = (from, from);
     while !decides(high) {
@@ -235,7 +232,7 @@ fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Law: bounds of the number of successes decide only if all numbers between them do.
+    /// Law: bounds of the number of successes decide only if all numbers in between do.
     #[test]
     fn what_is_between_is_undecided() {
         let of = |least, most| fraction_gate_within([least, most], 1000, 0.9, 0.95).decision;
@@ -254,7 +251,7 @@ mod tests {
         assert_eq!((of(&[950, 960, 999]).decision, of(&[950, 960, 840]).decision), (Decision::Pass, Decision::Fail));
         let found = of(&[950, 905, 999]);
         assert!(matches!(found.decision, Decision::Undecided(Some(_))) && found.estimate == 0.905, "{found:?}");
-        // 883 of 1000 misses 0.9 at 95% (P = 0.0433), and not at 99.9%, as fifty points need
+        // 883 of 1000 misses 0.9 at 95% (P = 0.0433), but not at 99.9%, as fifty points require
         assert_eq!(of(&[883]).decision, Decision::Fail);
         let mut many = vec![999; 49];
         many.push(883);
@@ -262,42 +259,44 @@ mod tests {
         assert_eq!(of(&[]).decision, Decision::Undecided(None));
     }
 
-    /// Law: a mean decides if both bounds are on one side of the limit, states how many runs would decide, and decides
-    /// nothing at the limit, without spread, or from too few runs.
+    /// Law: a mean decides if both bounds lie on one side of the limit; otherwise it predicts how many runs decide.
+    /// Nothing decides at the limit, without spread, or with too few runs.
     #[test]
     fn known_gates_on_a_mean() {
         let values = [1.0, 2.0, 3.0, 4.0].repeat(5);
         let moments = Moments::of(values.iter().copied());
         let of = |limit| mean_gate(&moments, limit, 0.95);
         let [lower, upper] = of(GateLimit::AtMost(4.1)).bounds;
-        // Student's half width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565, and some more for hidden skewness
+        // Student's half-width t(0.95, 19) s/sqrt(20) = 1.729 * 0.2565, widened for hidden skewness
         assert!(upper - 2.5 > 0.4435 && upper - 2.5 < 1.25 * 0.4435 && (upper + lower - 5.0).abs() < 1e-14, "{upper}");
-        assert_eq!(
-            (of(GateLimit::AtMost(4.1)).decision, of(GateLimit::AtMost(0.9)).decision),
-            (Decision::Pass, Decision::Fail)
-        );
-        assert_eq!(
-            (of(GateLimit::AtLeast(0.9)).decision, of(GateLimit::AtLeast(4.1)).decision),
-            (Decision::Pass, Decision::Fail)
-        );
+        for (limit, decision) in [
+            (GateLimit::AtMost(4.1), Decision::Pass),
+            (GateLimit::AtMost(0.9), Decision::Fail),
+            (GateLimit::AtLeast(0.9), Decision::Pass),
+            (GateLimit::AtLeast(4.1), Decision::Fail),
+            (GateLimit::AtMost(2.5), Decision::Undecided(None)),
+        ] {
+            assert_eq!(of(limit).decision, decision, "{limit:?}");
+        }
         let Decision::Undecided(Some(needed)) = of(GateLimit::AtMost(2.6)).decision else { panic!("undecided") };
-        // so many repetitions have a bound nearer than the limit by 1.2816 standard errors, the scatter in nine of ten
+        // with so many runs the bound is nearer than the limit by 1.2816 standard errors, the scatter in nine of ten
         let repeated = Moments::of(values.iter().copied().cycle().take(needed as usize));
         let upper = mean_gate(&repeated, GateLimit::AtMost(2.6), 0.95).bounds[1];
         let distance = upper - 2.5 + 1.2816 * repeated.mean_error().expect("many");
         // s of 1133 is 2.5% smaller than that of 20 with the same spread
         assert!((distance / 0.1 - 1.0).abs() < 0.05, "{needed}: {distance}");
-        assert_eq!(of(GateLimit::AtMost(2.5)).decision, Decision::Undecided(None), "at the limit nothing decides");
-        for few in [&[1.0][..], &[0.0; 100]] {
-            let found = mean_gate(&Moments::of(few.iter().copied()), GateLimit::AtMost(9.0), 0.95);
-            assert_eq!(found.decision, Decision::Undecided(None));
+        for (found, decision) in [
+            (mean_gate(&Moments::of([1.0]), GateLimit::AtMost(9.0), 0.95), Decision::Undecided(None)),
+            (mean_gate(&Moments::of([0.0; 100]), GateLimit::AtMost(9.0), 0.95), Decision::Undecided(None)),
+            (constant_gate(0.0, GateLimit::AtMost(9.0)), Decision::Pass),
+            (constant_gate(f64::NAN, GateLimit::AtMost(9.0)), Decision::Fail),
+        ] {
+            assert_eq!(found.decision, decision, "{found:?}");
         }
-        assert_eq!(constant_gate(0.0, GateLimit::AtMost(9.0)).decision, Decision::Pass);
-        assert_eq!(constant_gate(f64::NAN, GateLimit::AtMost(9.0)).decision, Decision::Fail);
     }
 
-    /// Law: a requirement missed at the confidence of one but not of several is undecided; each failure helps the
-    /// others (Holm): p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167, 0.025 and not at 0.05/2.
+    /// Law: a requirement missed on its own but not among several is undecided; each failure helps the others (Holm):
+    /// p = 0.001, 0.014, 0.03 and 0.04 fail at 0.0125, 0.0167, 0.025 and not at 0.05/2.
     #[test]
     fn several_requirements_fail_together() {
         // 883 of 1000 miss 0.9 with P = 0.0433, 870 with P = 0.0013 (scipy.stats.binom.cdf)

@@ -1,10 +1,10 @@
-//! Intervals of estimates other than means, from the influence of each of the independent rows: the jackknife (J. W.
-//! Tukey, *Ann. Math. Stat.* 29 (1958) 614; B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
+//! The jackknife: intervals of estimates other than means from the influence of each independent row (J. W. Tukey,
+//! *Ann. Math. Stat.* 29 (1958) 614; B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
 //!
-//! The influence of a row is n - 1 times the change of the estimate without it. An estimate varies as the mean of the
-//! influences, for any distribution, so that its bounds are those of a mean of skewed numbers ([`super::mean`]). Of
-//! many rows, evenly spaced ones are used, for the width of all. Resampling was rejected: hundreds of estimates, and no
-//! better coverage for heavy tails. The tests `coverage_of_sensitivities` measure the coverage.
+//! The influence of a row is n - 1 times the change of the estimate without it. The estimate varies as the mean of the
+//! influences, for any distribution, and has the bounds of such a mean ([`super::mean`]). Of many rows evenly spaced
+//! ones are used. Rejected: resampling, which takes hundreds of estimates and covers heavy tails no better. The tests
+//! `coverage_of_sensitivities` measure the coverage.
 
 use super::mean::mean_bounds;
 use super::moments::Moments;
@@ -20,16 +20,16 @@ pub struct Estimate {
     pub upper: f64,
 }
 
-/// Limit of rows with influence: the error of a width is about 1%, a few % for heavy tails.
+/// Most rows whose influence is computed; widths are then accurate to about 1%, a few % for heavy tails.
 const MOST_ROWS: usize = 10_000;
 
-/// The rows whose influence is needed, of `rows`: all, or evenly spaced ones.
+/// Rows whose influence is needed: all, or evenly spaced ones.
 pub fn spaced_rows(rows: usize) -> impl Iterator<Item = usize> {
     (0..rows).step_by(rows.div_ceil(MOST_ROWS).max(1))
 }
 
-/// Ends of the interval of `estimate` from `rows` rows by the influences of the [`spaced_rows`]; infinite if these
-/// bound nothing, of zero width if all are equal.
+/// Ends of the interval of `estimate` from the influences of the [`spaced_rows`] of `rows`; infinite if nothing bounds
+/// it, of zero width if all influences are equal.
 pub fn ends(estimate: f64, rows: usize, influences: impl Iterator<Item = f64>, confidence: f64) -> [f64; 2] {
     let influences: Vec<f64> = influences.collect();
     let moments = Moments::of_block(&influences);
@@ -56,7 +56,7 @@ pub fn ratio(numerator: &[f64], denominator: &[f64], confidence: f64) -> Option<
     Some(Estimate { value, lower, upper })
 }
 
-/// `share`, a part of a variance, with infinite ends replaced by 0 and 1 (or by the estimate beyond them).
+/// `share` of a variance, with infinite ends replaced by 0 and 1, or by an estimate beyond them.
 pub fn of_whole(share: Estimate) -> Estimate {
     let Estimate { value, lower, upper } = share;
     Estimate {
@@ -66,8 +66,8 @@ pub fn of_whole(share: Estimate) -> Estimate {
     }
 }
 
-/// The explained share 1 - `left` of a variance with its interval, that of the logarithm of what is left, never above
-/// 1: `parts` are the shares of the [`spaced_rows`] in the residual and in the whole.
+/// The explained share 1 - `left` of a variance, at most 1, with the interval of the logarithm of `left`. `parts` are
+/// the shares of the [`spaced_rows`] in the residual and in the whole variance.
 pub fn explained_share(left: f64, rows: usize, parts: impl Iterator<Item = [f64; 2]>, confidence: f64) -> Estimate {
     if left <= 0.0 {
         return Estimate { value: 1.0, lower: 1.0, upper: 1.0 };
@@ -81,7 +81,7 @@ pub fn explained_share(left: f64, rows: usize, parts: impl Iterator<Item = [f64;
 mod tests {
     use super::*;
 
-    /// Law: the influences of a mean are the deviations, and the interval is that of the mean.
+    /// Law: a ratio to one has the interval of a mean.
     #[test]
     fn a_ratio_to_one_is_a_mean() {
         let values: Vec<f64> = (0..200).map(|k| libm::exp(libm::sin(f64::from(k)))).collect();
@@ -97,7 +97,7 @@ mod tests {
         assert_eq!(ratio(&doubled, &values, 0.95), Some(Estimate { value: 2.0, lower: 2.0, upper: 2.0 }));
     }
 
-    /// Law: beyond 10,000 rows the width is that of all rows: it falls with the root of their number, to 5%.
+    /// Law: beyond 10,000 rows the width falls with the root of their number, to 5%.
     #[test]
     fn spaced_rows_have_the_width_of_all() {
         let width = |rows: usize| {
@@ -112,7 +112,7 @@ mod tests {
         }
     }
 
-    /// Law: an explained share is at most 1, and exactly 1 if nothing is left.
+    /// Law: an explained share is at most 1, and 1 without a residual.
     #[test]
     fn shares_are_at_most_one() {
         let parts = (0..100).map(|k| if k < 50 { [0.02, 0.002] } else { [0.0, 0.018] });

@@ -1,8 +1,8 @@
-//! Stopping once a quantile is known well enough: looks at growing numbers of runs.
+//! Stopping once a quantile is known well enough, with looks at growing numbers of runs.
 //!
-//! Stopping at the first narrow interval covers less often than a single look. The interval of each of L looks has the
-//! confidence 1 - (1 - c)/L, so that all together cover with c (C. E. Bonferroni 1936). The numbers of runs double,
-//! which keeps L small.
+//! Stopping at the first narrow interval covers less often than a single look. With L looks each interval has the
+//! confidence 1 - (1 - c)/L, so that all cover with c (C. E. Bonferroni 1936); the numbers of runs double to keep L
+//! small.
 
 use super::quantile::{interval_ranks, quantile};
 
@@ -11,9 +11,9 @@ use super::quantile::{interval_ranks, quantile};
 pub struct Goal {
     /// Level of the quantile, in (0, 1).
     pub quantile: f64,
-    /// Sufficient half width of its interval.
+    /// Half-width of the interval at which to stop.
     pub half_width: f64,
-    /// Confidence of the interval, at whichever look the campaign stops.
+    /// Confidence of the interval at the look that stops.
     pub confidence: f64,
 }
 
@@ -26,7 +26,7 @@ pub struct Look {
     pub estimate: Option<f64>,
     /// Its interval; `None` with too few runs.
     pub interval: [Option<f64>; 2],
-    /// Confidence of the interval, corrected for the number of looks.
+    /// Confidence of the interval, corrected for the looks.
     pub confidence: f64,
 }
 
@@ -43,8 +43,7 @@ pub fn adjusted(confidence: f64, looks: usize) -> f64 {
     1.0 - (1.0 - confidence) / looks.max(1) as f64
 }
 
-/// The result of one of `looks` looks at the values so far; NaN is left out. The caller stops at the last look in any
-/// case.
+/// Result of one of `looks` looks at the values so far, except NaN. The caller stops at the last look in any case.
 pub fn decision(values: &[f64], goal: Goal, looks: usize) -> Look {
     let mut ascending: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
     ascending.sort_unstable_by(f64::total_cmp);
@@ -72,18 +71,18 @@ mod tests {
         assert!((adjusted(0.95, 5) - 0.99).abs() < 5e-16);
     }
 
-    /// Law: a look stops exactly if both ends exist and are near enough; NaN does not count.
+    /// Law: a look stops if and only if both ends exist and are close enough; NaN does not count.
     #[test]
     fn a_look_stops_at_a_narrow_interval() {
         let values: Vec<f64> = (0..1000).map(|k| f64::from((k * 617) % 1000)).chain([f64::NAN; 5]).collect();
         let goal = Goal { quantile: 0.5, half_width: 40.0, confidence: 0.95 };
         let found = decision(&values, goal, 1);
-        // ranks 469 and 532 of 1000 numbers, whose values are the ranks from zero
+        // ranks 469 and 532 of 1000 numbers equal to their ranks from zero
         assert_eq!((found.interval, found.estimate), ([Some(468.0), Some(531.0)], Some(499.5)));
         assert!(found.stops && !decision(&values, Goal { half_width: 31.0, ..goal }, 1).stops);
         let corrected = decision(&values, goal, 20);
         assert!(corrected.interval[0] < found.interval[0] && !corrected.stops, "{corrected:?}");
         let few = decision(&values[..50], Goal { quantile: 0.99, ..goal }, 1);
-        assert_eq!((few.interval[1], few.stops), (None, false), "50 runs do not bound p99");
+        assert_eq!((few.interval[1], few.stops), (None, false));
     }
 }

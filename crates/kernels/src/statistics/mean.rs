@@ -1,44 +1,42 @@
-//! Bounds of a mean and of a standard deviation from the moments of independent numbers, in one fold.
+//! Bounds of a mean and of a standard deviation from the moments of independent numbers.
 //!
-//! For skewed numbers Student's bound on the side of the long tail misses several times as often as stated. Here each
-//! bound is the wider of Student's and the one without skewness (P. Hall, *On the removal of skewness by
+//! For skewed numbers Student's bound on the side of the long tail misses several times as often as stated. Each bound
+//! is therefore the wider of Student's and one corrected for skewness (P. Hall, *On the removal of skewness by
 //! transformation*, J. R. Stat. Soc. B 54 (1992) 221, exponential transformation): with r, the skewness over sqrt(n),
-//! f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is more nearly t distributed than T = (mean - mu)/(s/sqrt(n)), and -T at the
-//! bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). If that logarithm does not exist, the runs are too few for their
-//! skewness, and there is no bound.
+//! f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is closer to a t distribution than T = (mean - mu)/(s/sqrt(n)), and -T at the
+//! bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). If that logarithm does not exist, there are too few runs for their
+//! skewness, and no bound.
 //!
-//! These bounds hold unless an event seen fewer than some ten times contributes much to the mean.
-//! [`bounded_mean_bounds`] need no such assumption if the numbers are bounded. The tests `coverage_of_means` measure
-//! the coverage. For dependent numbers see [`super::replicates`].
+//! These bounds hold unless an event seen fewer than some ten times contributes much to the mean. For bounded numbers
+//! [`bounded_mean_bounds`] need no such assumption. The tests `coverage_of_means` measure the coverage. For dependent
+//! numbers see [`super::replicates`].
 
 use core::cell::Cell;
 
 use super::moments::Moments;
 use super::student::two_sided_quantile;
 
-/// Factor of the sample skewness, mostly smaller than that of a long-tailed population. Measured: with 1 the upper
-/// bound of lognormal(1) misses 6 to 8% for 5% at 20 to 300 runs, with 3/2 and [`SKEWNESS_ERRORS`] 4.0 to 5.2%.
+/// Factor on the sample skewness, which mostly underestimates long tails. With 1 the upper bound of lognormal(1) misses
+/// 6 to 8% instead of 5% at 20 to 300 runs, with 3/2 and [`SKEWNESS_ERRORS`] 4.0 to 5.2%.
 const SKEWNESS_FACTOR: f64 = 1.5;
 
-/// Added standard errors sqrt(6/n) of the skewness of normal numbers: few runs do not show a skewness.
+/// Standard errors sqrt(6/n) added to the skewness, which few runs do not show.
 const SKEWNESS_ERRORS: f64 = 2.0;
 
-/// Skewness of squared deviations over their standard deviation: 2 for normal numbers, 3.75 for exponential ones. It
-/// would take the sixth moment, which few runs do not show.
+/// Skewness of squared deviations (normal 2, exponential 3.75), which would take the sixth moment.
 const SKEWNESS_OF_SQUARES: f64 = 4.0;
 
-/// Limit of one run's share of the sum of squares (or fourth powers) of all deviations, beyond which the tail is too
-/// heavy for the standard error of the mean (or of the standard deviation).
+/// Largest share of one run in the sum of squared (or fourth-power) deviations for which the standard error of the mean
+/// (or of the standard deviation) is meaningful.
 pub const MOST_SHARE: f64 = 1.0 / 3.0;
 
-/// Spread by rounding alone, over the mean: four units in the last place.
+/// Relative spread due to rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// t with P(T <= t) = `confidence`, 0 below 1/2.
 pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     thread_local! {
-        /// Arguments and result of the last call: the columns of a campaign share a count, and the root dominates the
-        /// cost of an interval.
+        /// Arguments and result of the last call: the columns of a campaign share a count, and the root is expensive.
         static LAST: Cell<[f64; 3]> = const { Cell::new([0.0; 3]) };
     }
     if confidence <= 0.5 {
@@ -53,13 +51,13 @@ pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     t
 }
 
-/// One-sided bounds of the mean, each at `confidence`; infinite for fewer than three numbers, no spread (a rare event
-/// would not show), or too few numbers for their skewness.
+/// One-sided bounds of the mean, each at `confidence`; infinite for fewer than three numbers, without spread (which may
+/// hide a rare event), or with too few numbers for their skewness.
 pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some((mean, error)) = moments.mean().zip(spread_error(moments)) else {
         return [f64::NEG_INFINITY, f64::INFINITY];
     };
-    // one t for both sides: its root dominates the cost
+    // the root behind t is expensive
     let (count, t) = (moments.count(), one_sided(confidence, moments.count() as f64 - 1.0));
     let [below, above] = [-1.0, 1.0].map(|side| reach(count, side * skewness(moments), t));
     [mean - below * error, mean + above * error]
@@ -74,13 +72,13 @@ pub fn bounded_mean_bounds(moments: &Moments, [low, high]: [f64; 2], confidence:
     [(mean - half).max(low), (mean + half).min(high)]
 }
 
-/// Half width of [`bounded_mean_bounds`] for `count` numbers in a range of length `range`.
+/// Half-width of [`bounded_mean_bounds`] for `count` numbers in a range of length `range`.
 pub fn bernstein_reach(count: u64, range: f64, deviation: f64, confidence: f64) -> f64 {
     let (n, risk) = (count as f64, libm::log(2.0 / (1.0 - confidence)));
     deviation * libm::sqrt(2.0 * risk / n) + 7.0 * range * risk / (3.0 * (n - 1.0))
 }
 
-/// Distance of the bound of the mean on the side of `limit` for `count` runs of the same spread and skewness.
+/// Distance of the mean's bound towards `limit` for `count` runs of the same spread and skewness.
 pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f64) -> f64 {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return f64::INFINITY };
     let side = if mean < limit { 1.0 } else { -1.0 };
@@ -91,9 +89,9 @@ pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f
     reach(count, side * skewness(moments), t) * deviation / libm::sqrt(count as f64)
 }
 
-/// One-sided bounds of the standard deviation, each at `confidence`, from those of the mean squared deviation, whose
-/// spread follows from the fourth moment. The upper one is infinite for too few runs (some 70 normal ones), or if one
-/// contributes more than [`MOST_SHARE`] of the fourth powers.
+/// One-sided bounds of the standard deviation, each at `confidence`, from those of the mean squared deviation. The
+/// upper one is infinite for too few runs (some 70 normal ones), or if one run has more than [`MOST_SHARE`] of the
+/// fourth powers.
 pub fn deviation_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some(((deviation, kurtosis), _)) =
         moments.standard_deviation().zip(moments.kurtosis()).zip(spread_error(moments))
@@ -115,21 +113,20 @@ fn spread_error(moments: &Moments) -> Option<f64> {
     is_spread.then(|| deviation / libm::sqrt(moments.count() as f64))
 }
 
-/// The sample skewness G_1, unbiased for normal numbers; 0 if undefined.
+/// Sample skewness G_1, unbiased for normal numbers; 0 if undefined.
 fn skewness(moments: &Moments) -> f64 {
     let n = moments.count() as f64;
     moments.skewness().map_or(0.0, |skewness| skewness * libm::sqrt(n * (n - 1.0)) / (n - 2.0).max(1.0))
 }
 
-/// Distance, in standard errors, of the bound of a mean of `count` numbers on the side of their `skewness`; `t` is
-/// Student's.
+/// Distance, in standard errors, of the bound of a mean on the side to which `skewness` refers; `t` is Student's.
 fn reach(count: u64, skewness: f64, t: f64) -> f64 {
     let n = count as f64;
     let skewness = SKEWNESS_FACTOR * skewness + SKEWNESS_ERRORS * libm::sqrt(6.0 / n);
     unskewed(t, skewness / libm::sqrt(n))
 }
 
-/// The larger of `t` and -T at the bound for the skewness `r` over sqrt(n); infinite if undefined.
+/// The larger of `t` and -T at the bound; `r` is the skewness over sqrt(n). Infinite if undefined.
 fn unskewed(t: f64, r: f64) -> f64 {
     if r.is_nan() || r <= 0.0 {
         return t;
@@ -155,10 +152,9 @@ mod tests {
         assert!((unskewed(2.0, 1e-6) - 2.0 - 1.5e-6).abs() < 1e-11);
     }
 
-    /// Law: a standard deviation has an upper bound unless one number contributes more than a third of the fourth
-    /// powers, whatever its share of the squares. Known: next to 10,000 numbers 1 and -1, d contributes d^4/(10,000 +
-    /// d^4) of the fourth powers (a third at d^4 = 5,000), less than a hundredth of the squares, and less than a
-    /// thousandth of the mean.
+    /// Law: a standard deviation has an upper bound unless one number has more than a third of the fourth powers.
+    /// Known: next to 10,000 numbers 1 and -1, the number d has d^4/(10,000 + d^4) of the fourth powers, a third at d^4
+    /// = 5,000, but less than a hundredth of the squares.
     #[test]
     fn one_number_may_make_a_third_of_the_fourth_powers() {
         let of = |fourth: f64| {
@@ -175,9 +171,8 @@ mod tests {
         }
     }
 
-    /// Known: 101 numbers, half 0 and half 1 but for one 1/2, of variance 1/4, have the bounds 1/2 -+ half,
-    /// half = 1/2 sqrt(4/101) + 14/300, at 1 - 2/e^2; bounds are within the range, which few numbers have instead;
-    /// without spread the range alone decides.
+    /// Known: 50 numbers 0, 50 numbers 1 and one 1/2, of variance 1/4, have the half-width 1/2 sqrt(4/101) + 14/300 at
+    /// 1 - 2/e^2; few numbers have the range as bounds; numbers without spread have its term alone.
     #[test]
     fn the_bounds_of_bounded_numbers_are_bernsteins() {
         let values = [0.0, 1.0].repeat(50).into_iter().chain([0.5]);
@@ -192,7 +187,7 @@ mod tests {
         assert!((upper - 0.25 - half).abs() < 1e-15 && (0.25 - lower - half).abs() < 1e-15, "{lower} {upper}");
     }
 
-    /// Law: numbers without spread, or with too little of a long tail, bound nothing.
+    /// Law: nothing bounds few or equal numbers, or the long tail of too few.
     #[test]
     fn few_and_equal_numbers_bound_nothing() {
         let everything = [f64::NEG_INFINITY, f64::INFINITY];

@@ -1,4 +1,4 @@
-//! Layer 2: statistics of many runs: pure functions of numbers.
+//! Layer 2: statistics of many runs, as pure functions of numbers.
 
 pub mod binomial;
 pub mod carries;

@@ -1,9 +1,9 @@
-//! [`Moments`]: count, extremes, mean, standard deviation and skewness of a stream of numbers, mergeable.
+//! [`Moments`]: count, extremes, mean and central moments up to order four of a stream of numbers, mergeable.
 //!
-//! Central moments of a block are about its mean, in two passes with a correction for the rounding of that mean (T. F.
-//! Chan, G. H. Golub & R. J. LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by the formulas of P. Pébay,
-//! *Formulas for Robust, One-Pass Parallel Computation of Covariances and Arbitrary-Order Statistical Moments*,
-//! SAND2008-6212 (2008), for orders two to four; in their order they give the same bits for any number of threads.
+//! A block is reduced in two passes, with a correction for the rounding of its mean (T. F. Chan, G. H. Golub & R. J.
+//! LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by P. Pébay, *Formulas for Robust, One-Pass Parallel
+//! Computation of Covariances and Arbitrary-Order Statistical Moments*, SAND2008-6212 (2008); merged in order they give
+//! the same bits for any number of threads.
 
 use fearless_simd::Simd;
 
@@ -15,11 +15,11 @@ use crate::math::isa::Work;
 pub struct Moments {
     count: u64,
     mean: f64,
-    /// Sum of squared deviations from the mean.
+    /// Sum of squared deviations.
     m2: f64,
-    /// Sum of cubed deviations from the mean.
+    /// Sum of cubed deviations.
     m3: f64,
-    /// Sum of the fourth powers of deviations.
+    /// Sum of fourth powers of deviations.
     m4: f64,
     min: f64,
     max: f64,
@@ -39,7 +39,7 @@ impl Moments {
         moments
     }
 
-    /// Moments of a block: as [`Moments::of`] to rounding, several times as fast and with fewer rounding errors.
+    /// Moments of a block: [`Moments::of`] to rounding, but several times as fast and more accurate.
     pub fn of_block(values: &[f64]) -> Self {
         Isa::best().run(Block(values))
     }
@@ -77,22 +77,22 @@ impl Moments {
         self.max = self.max.max(other.max);
     }
 
-    /// Number of numbers.
+    /// Number of added numbers.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// The mean, if there are numbers.
+    /// Mean, if any.
     pub fn mean(&self) -> Option<f64> {
         (self.count > 0).then_some(self.mean)
     }
 
-    /// The smallest number.
+    /// Minimum, if any.
     pub fn min(&self) -> Option<f64> {
         (self.count > 0).then_some(self.min)
     }
 
-    /// The largest number.
+    /// Maximum, if any.
     pub fn max(&self) -> Option<f64> {
         (self.count > 0).then_some(self.max)
     }
@@ -102,20 +102,20 @@ impl Moments {
         (self.count > 1).then(|| libm::sqrt(self.m2 / (self.count - 1) as f64))
     }
 
-    /// Skewness g_1 = m_3/m_2^(3/2) (with n, as SciPy's `skew`); `None` if all numbers are equal.
+    /// Skewness g_1 = m_3/m_2^(3/2) (divisor n, as SciPy's `skew`); `None` if all numbers are equal.
     pub fn skewness(&self) -> Option<f64> {
         let n = self.count as f64;
         let skewness = libm::sqrt(n) * self.m3 / (self.m2 * libm::sqrt(self.m2));
         (self.count > 1 && self.m2 > 0.0).then_some(skewness)
     }
 
-    /// Kurtosis m_4/m_2^2 (with n; 3 for normal numbers); `None` if all numbers are equal.
+    /// Kurtosis m_4/m_2^2 (divisor n; 3 for normal numbers); `None` if all numbers are equal.
     pub fn kurtosis(&self) -> Option<f64> {
         (self.count > 1 && self.m2 > 0.0).then(|| self.count as f64 * self.m4 / (self.m2 * self.m2))
     }
 
-    /// Share of the number farthest from the mean in the sum of squares (`power` 2) or fourth powers (4) of all
-    /// deviations; 0 if all numbers are equal.
+    /// Share of the number farthest from the mean in the sum of squared (`power` 2) or fourth-power (4) deviations; 0
+    /// if all numbers are equal.
     pub fn largest_share(&self, power: u8) -> f64 {
         let farthest = (self.max - self.mean).max(self.mean - self.min);
         let square = farthest * farthest;
@@ -128,8 +128,8 @@ impl Moments {
         Some(self.standard_deviation()? / libm::sqrt(self.count as f64))
     }
 
-    /// Standard error of the standard deviation of independent numbers, sqrt((m_4 - m_2^2)/n)/(2 s) for large n (H.
-    /// Cramér, *Mathematical Methods of Statistics*, 1946, section 28.4); `None` if all are equal.
+    /// Asymptotic standard error of the standard deviation of independent numbers, sqrt((m_4 - m_2^2)/n)/(2 s) (H.
+    /// Cramér, *Mathematical Methods of Statistics*, 1946, section 28.4); `None` if all numbers are equal.
     pub fn standard_deviation_error(&self) -> Option<f64> {
         let n = self.count as f64;
         let deviation = self.standard_deviation().filter(|deviation| *deviation > 0.0)?;
@@ -138,7 +138,7 @@ impl Moments {
     }
 }
 
-/// Moments of a block, with equal bits on all instruction sets.
+/// Moments of a block, with the same bits on all instruction sets.
 struct Block<'v>(&'v [f64]);
 
 impl Work for Block<'_> {
@@ -158,7 +158,7 @@ impl Work for Block<'_> {
             return Moments::default();
         }
         if min == max && !sum.is_nan() {
-            // the mean of equal numbers is that number, without the rounding of their sum
+            // exact, unlike their rounded sum over n
             return Moments { count: values.len() as u64, mean: min, m2: 0.0, m3: 0.0, m4: 0.0, min, max };
         }
         let near = sum / n;
@@ -172,7 +172,7 @@ impl Work for Block<'_> {
             },
             |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]],
         );
-        // the rounding of the mean
+        // rounding of the mean
         let e = s1 / n;
         Moments {
             count: values.len() as u64,
@@ -186,11 +186,11 @@ impl Work for Block<'_> {
     }
 }
 
-/// Parallel accumulators, so that no sum waits for the previous one.
+/// Number of independent accumulators, which hide the latency of a sum.
 const LANES: usize = 8;
 
-/// Folds `values` in [`LANES`] accumulators, number k in accumulator k mod [`LANES`], and these in one order: the same
-/// bits everywhere.
+/// Folds number k of `values` into accumulator k mod [`LANES`], then the accumulators in order: the same bits on any
+/// instruction set.
 #[inline(always)]
 fn in_lanes<const N: usize>(
     values: &[f64],
@@ -224,29 +224,23 @@ mod tests {
 
     #[test]
     fn known_moments() {
-        // 1, 2, 4, 8: mean 15/4, m2 = 115/4, m3 = 2 * 45 + 3/8
+        // 1, 2, 4, 8: mean 15/4, sum of squared deviations 115/4
         let moments = Moments::of([1.0, 2.0, 4.0, 8.0]);
+        let sum = |power: f64| [1.0, 2.0, 4.0, 8.0].iter().map(|x| libm::pow(x - 3.75, power)).sum::<f64>();
         close(moments.mean(), 3.75);
         close(moments.standard_deviation(), libm::sqrt(28.75 / 3.0));
-        let m3: f64 = [1.0, 2.0, 4.0, 8.0].iter().map(|x| (x - 3.75) * (x - 3.75) * (x - 3.75)).sum();
-        close(moments.skewness(), 2.0 * m3 / libm::pow(28.75, 1.5));
-        assert_eq!((moments.count(), moments.min(), moments.max()), (4, Some(1.0), Some(8.0)));
-        let m4: f64 = [1.0, 2.0, 4.0, 8.0].iter().map(|x| (x - 3.75) * (x - 3.75) * (x - 3.75) * (x - 3.75)).sum();
-        close(moments.kurtosis(), 4.0 * m4 / (28.75 * 28.75));
+        close(moments.skewness(), 2.0 * sum(3.0) / libm::pow(28.75, 1.5));
+        close(moments.kurtosis(), 4.0 * sum(4.0) / (28.75 * 28.75));
         close(Some(moments.largest_share(2)), 4.25 * 4.25 / 28.75);
-        close(Some(moments.largest_share(4)), libm::pow(4.25, 4.0) / m4);
+        close(Some(moments.largest_share(4)), libm::pow(4.25, 4.0) / sum(4.0));
+        assert_eq!((moments.count(), moments.min(), moments.max()), (4, Some(1.0), Some(8.0)));
+        for (few, mean) in [(&[][..], None), (&[7.0], Some(7.0))] {
+            let few = Moments::of(few.iter().copied());
+            assert_eq!((few.mean(), few.min(), few.standard_deviation(), few.skewness()), (mean, mean, None, None));
+        }
     }
 
-    #[test]
-    fn too_few_numbers_have_no_moments() {
-        let none = Moments::default();
-        assert_eq!((none.mean(), none.standard_deviation(), none.skewness(), none.min()), (None, None, None, None));
-        let one = Moments::of([7.0]);
-        assert_eq!((one.mean(), one.standard_deviation(), one.skewness()), (Some(7.0), None, None));
-        assert_eq!(Moments::of([7.0, 7.0]).skewness(), None);
-    }
-
-    /// Law: a block has the moments of its numbers, for any length; equal numbers have no spread.
+    /// Law: a block of any length has the moments of its numbers; equal numbers have no spread.
     #[test]
     fn a_block_is_its_numbers() {
         for length in [0, 1, 7, 8, 9, 100, 1001] {
@@ -267,8 +261,7 @@ mod tests {
         assert!(Moments::of_block(&[1.0, f64::NAN]).mean().is_some_and(f64::is_nan));
     }
 
-    /// Known: n numbers +1 and n numbers -1 have m_4 = m_2 = 1 and no error of this order. For 0 (n - 1 times) and 1
-    /// the error is sqrt((m_4 - m_2^2)/n)/(2 s).
+    /// Known: +1 and -1, equally often, have m_4 = m_2 = 1 and no error of this order.
     #[test]
     fn known_error_of_a_standard_deviation() {
         let two = Moments::of((0..100).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }));
@@ -280,7 +273,7 @@ mod tests {
         close(rare.standard_deviation_error(), libm::sqrt((m4 - m2 * m2) / 4.0) / (2.0 * 0.5));
         close(rare.mean_error(), 0.25);
     }
-    /// Law: merging is adding for the third and fourth moment too, with parts of different size, mean and spread.
+    /// Law: merged parts of different size, mean and spread have the moments of the whole, up to the fourth.
     #[test]
     fn merged_parts_have_the_moments_of_the_whole() {
         let values: Vec<f64> = (0..60).map(|k| libm::exp(0.05 * f64::from(k)) + f64::from(k % 7)).collect();

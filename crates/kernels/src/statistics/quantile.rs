@@ -1,22 +1,19 @@
-//! Quantiles of a sample, and distribution-free confidence intervals for them, for independent runs.
+//! Sample quantiles, and distribution-free confidence intervals for quantiles from independent runs.
 //!
-//! - Sample quantiles are type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50
-//!   (1996) 361: linear interpolation between order statistics, the default of R, NumPy, polars and DuckDB
-//!   (`quantile_cont`).
-//! - The interval for the p-quantile is [x_(r), x_(s)], with ranks from the binomial distribution of the number of
-//!   values below it (S. S. Wilks, *Order statistics*, Bull. Am. Math. Soc. 54 (1948) 6; H. A. David & H. N. Nagaraja,
-//!   *Order Statistics*, 2003, section 7.1). For a discrete distribution it covers at least as often.
+//! Quantiles are of type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50 (1996)
+//! 361, the default of R, NumPy, polars and DuckDB (`quantile_cont`). Intervals are [x_(r), x_(s)], with ranks from the
+//! binomial distribution of the number of values below the quantile (S. S. Wilks, *Order statistics*, Bull. Am. Math.
+//! Soc. 54 (1948) 6); they cover discrete distributions at least as often.
 
 use super::binomial::{at_least, at_most, lower_rank, upper_rank};
 
-/// The `p`-quantile, 0 <= p <= 1, of values in ascending order (type 7), if any.
+/// The `p`-quantile, 0 <= p <= 1, of ascending values, if any.
 pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
     quantile_of(ascending.len(), p, |place| ascending[place])
 }
 
-/// The `p`-quantile of `count` values by their order statistics `at` places from zero.
-///
-/// With (n-1) p = k - 1 + t: x_(k) + t (x_(k+1) - x_(k)), from the nearer end.
+/// The `p`-quantile of `count` values, whose order statistics, from zero, are `at`: with (n-1) p = k - 1 + t, x_(k) + t
+/// (x_(k+1) - x_(k)), computed from the nearer end.
 fn quantile_of(count: usize, p: f64, at: impl Fn(usize) -> f64) -> Option<f64> {
     let last = count.checked_sub(1)?;
     let place = last as f64 * p;
@@ -30,18 +27,18 @@ fn quantile_of(count: usize, p: f64, at: impl Fn(usize) -> f64) -> Option<f64> {
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
 }
 
-/// Values and their order statistics ([`f64::total_cmp`]). Those at announced places are found together, for a few
-/// places in a third of the time of a sort; any other is found in a copy.
+/// Values with their order statistics ([`f64::total_cmp`]). The announced ones are found together, a few in a third of
+/// the time of a sort; others are found in a copy.
 #[derive(Clone, Debug)]
 pub struct OrderStatistics {
-    /// The values at `places` are in their places, with smaller values before and larger ones after.
+    /// Partitioned at each of `places`.
     values: Vec<f64>,
     /// Ascending.
     places: Vec<usize>,
 }
 
 impl OrderStatistics {
-    /// Order statistics of `values` at `places` (from zero, any order, out of range ignored).
+    /// Announces order statistics at `places`, from zero, in any order; those out of range are ignored.
     pub fn new(mut values: Vec<f64>, places: impl IntoIterator<Item = usize>) -> Self {
         let mut places: Vec<usize> = places.into_iter().filter(|place| *place < values.len()).collect();
         places.sort_unstable();
@@ -50,12 +47,12 @@ impl OrderStatistics {
         OrderStatistics { values, places }
     }
 
-    /// The values, in any order.
+    /// The values, in arbitrary order.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The order statistic at `place`, from zero, if there are so many values.
+    /// The order statistic at `place`, from zero, if there are that many values.
     pub fn at(&self, place: usize) -> Option<f64> {
         if place >= self.values.len() || self.places.binary_search(&place).is_ok() {
             return self.values.get(place).copied();
@@ -65,13 +62,13 @@ impl OrderStatistics {
         Some(copy[place])
     }
 
-    /// The `p`-quantile, as [`quantile`].
+    /// The `p`-quantile, see [`quantile`].
     pub fn quantile(&self, p: f64) -> Option<f64> {
         quantile_of(self.values.len(), p, |place| self.at(place).unwrap_or(f64::NAN))
     }
 }
 
-/// Puts the order statistics at the ascending `places` of a list, whose part from `first` on is `values`, in place.
+/// Puts the order statistics at ascending `places` into place; `values` is the part from `first` on.
 fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
     let (before, from) = places.split_at(places.len() / 2);
     let Some((place, after)) = from.split_first() else { return };
@@ -80,10 +77,10 @@ fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
     place_ascending(larger, place + 1, after);
 }
 
-/// `p` in percent in the digits of `p`: "99.9" for 0.999.
+/// `p` in percent, with the digits of `p`: "99.9" for 0.999.
 pub fn percent(p: f64) -> String {
     let text = format!("{p:.20}");
-    // the fewest digits that read back as p; then shift the point by two places
+    // the fewest digits that read back as p, with the point shifted by two places
     let digits = (1..=20).map(|digits| format!("{p:.digits$}")).find(|text| text.parse() == Ok(p)).unwrap_or(text);
     let (whole, fraction) = digits.split_once('.').unwrap_or((&digits, ""));
     let fraction = format!("{fraction:0<2}");
@@ -94,7 +91,7 @@ pub fn percent(p: f64) -> String {
     if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
 }
 
-/// Ranks (from 1) of the bounds of a quantile; `None` if the sample is too small for that end.
+/// Ranks, from 1, of the ends of an interval; `None` if the sample is too small for that end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ranks {
     /// Rank r of the lower end.
@@ -103,16 +100,14 @@ pub struct Ranks {
     pub upper: Option<u64>,
 }
 
-/// Ranks of the two-sided equal-tailed interval for the `p`-quantile, 0 < p < 1, of `count` independent values.
-///
-/// Each end misses with at most (1 - `confidence`)/2: P(x_(r) > quantile) = P(X <= r - 1), P(x_(s) < quantile) = P(X >=
-/// s), X being the number of values below the quantile.
+/// Ranks of the equal-tailed interval for the `p`-quantile, 0 < p < 1, of `count` independent values. With X values
+/// below the quantile, the ends miss with P(X <= r - 1) and P(X >= s), each at most (1 - `confidence`)/2.
 pub fn interval_ranks(count: u64, p: f64, confidence: f64) -> Ranks {
     let risk = 0.5 * (1.0 - confidence);
     Ranks { lower: lower_rank(count, p, risk), upper: upper_rank(count, p, risk) }
 }
 
-/// Probability that [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution, P(r <= X <= s - 1); a missing
+/// Probability P(r <= X <= s - 1) that [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution; a missing
 /// end is infinite.
 pub fn coverage(count: u64, p: f64, ranks: Ranks) -> f64 {
     let below = ranks.lower.map_or(0.0, |rank| at_most(rank - 1, count, p));
@@ -120,8 +115,8 @@ pub fn coverage(count: u64, p: f64, ranks: Ranks) -> f64 {
     1.0 - below - above
 }
 
-/// Smallest number of runs whose maximum (p >= 1/2) or minimum bounds the `p`-quantile one-sidedly (Wilks 1941): 59 for
-/// p = 0.95 at 95%.
+/// Smallest number of runs whose maximum (p >= 1/2) or minimum is a one-sided bound of the `p`-quantile (Wilks 1941):
+/// 59 for p = 0.95 at 95%.
 pub fn runs_for_bound(p: f64, confidence: f64) -> u64 {
     // p^n <= 1 - confidence
     smallest(libm::log(1.0 - confidence) / libm::log(p.max(1.0 - p)), |n| {
@@ -129,12 +124,12 @@ pub fn runs_for_bound(p: f64, confidence: f64) -> u64 {
     })
 }
 
-/// Smallest number of runs with a two-sided equal-tailed interval for the `p`-quantile: 72 for p = 0.95 at 95%.
+/// Smallest number of runs with an equal-tailed interval for the `p`-quantile: 72 for p = 0.95 at 95%.
 pub fn runs_for_interval(p: f64, confidence: f64) -> u64 {
     runs_for_bound(p, 0.5 + 0.5 * confidence)
 }
 
-/// The smallest whole number near `estimate` that is `enough`, so that rounding of a logarithm does not decide.
+/// Smallest whole number near `estimate` that is `enough`, regardless of the rounding of a logarithm.
 fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
     let mut n = (estimate.floor() as u64).saturating_sub(1).max(1);
     while !enough(n) {
@@ -147,7 +142,8 @@ fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
 mod tests {
     use super::*;
 
-    /// Law: values at places are those of a sort, to the bit, for any places in any order; the values stay the same.
+    /// Law: order statistics at any places, announced or not, are those of a sort, to the bit; the values stay the
+    /// same.
     #[test]
     fn order_statistics_are_those_of_a_sort() {
         let numbers = [0.0, -0.0, 1.5, f64::INFINITY, -3.0, 1e-310, 2.0];
@@ -191,18 +187,8 @@ mod tests {
 
     #[test]
     fn percents_have_the_digits_of_the_fraction() {
-        for (p, text) in [
-            (0.999, "99.9"),
-            (0.5, "50"),
-            (0.07, "7"),
-            (0.001, "0.1"),
-            (0.9987, "99.87"),
-            (0.05, "5"),
-            (1e-6, "0.0001"),
-            (0.1, "10"),
-            (0.3, "30"),
-            (0.123_456_7, "12.34567"),
-        ] {
+        let cases = [(0.999, "99.9"), (0.5, "50"), (0.07, "7"), (0.001, "0.1"), (0.9987, "99.87"), (1e-6, "0.0001")];
+        for (p, text) in cases.into_iter().chain([(0.1, "10"), (0.123_456_7, "12.34567")]) {
             assert_eq!(percent(p), text);
         }
     }
@@ -210,23 +196,19 @@ mod tests {
     /// Published ranks and numbers of runs.
     #[test]
     fn published_numbers() {
-        assert_eq!(runs_for_bound(0.95, 0.95), 59);
-        assert_eq!(runs_for_bound(0.05, 0.95), 59);
-        assert_eq!(runs_for_interval(0.95, 0.95), 72);
-        assert_eq!(runs_for_bound(0.9987, 0.9), 1771);
-        assert_eq!(upper_rank(59, 0.95, 0.05), Some(59));
-        assert_eq!(upper_rank(58, 0.95, 0.05), None);
+        let runs = [(0.95, 0.95), (0.05, 0.95), (0.9987, 0.9)].map(|(p, confidence)| runs_for_bound(p, confidence));
+        assert_eq!((runs, runs_for_interval(0.95, 0.95)), ([59, 59, 1771], 72));
         // 93 runs: the second largest bounds p95 at 95% (second-order Wilks formula)
-        assert_eq!(upper_rank(93, 0.95, 0.05), Some(92));
-        assert_eq!(interval_ranks(72, 0.95, 0.95).upper, Some(72));
-        assert_eq!(interval_ranks(71, 0.95, 0.95).upper, None);
+        let ranks = [58, 59, 93].map(|runs| upper_rank(runs, 0.95, 0.05));
+        assert_eq!(ranks, [None, Some(59), Some(92)]);
+        assert_eq!([71, 72].map(|runs| interval_ranks(runs, 0.95, 0.95).upper), [None, Some(72)]);
         // the median of ten: x_(2) to x_(9), 97.9% (David & Nagaraja, table of section 7.1)
         let ranks = interval_ranks(10, 0.5, 0.95);
         assert_eq!(ranks, Ranks { lower: Some(2), upper: Some(9) });
         assert!((coverage(10, 0.5, ranks) - (1.0 - 2.0 * 11.0 / 1024.0)).abs() < 2.0 * f64::EPSILON);
     }
 
-    /// Law: the ranks are the tightest that keep the risk of each end.
+    /// Law: no ranks are tighter at the risk of each end.
     #[test]
     fn ranks_are_as_tight_as_the_risk_allows() {
         for count in [5, 59, 100, 1000, 123_457] {

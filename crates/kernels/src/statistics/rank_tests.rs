@@ -1,12 +1,12 @@
 //! Distribution-free rank tests of the influence of an input on an observable.
 //!
-//! - H. B. Mann & D. R. Whitney, *Ann. Math. Stat.* 18 (1947) 50: an event and the size of a value.
-//! - W. H. Kruskal & W. A. Wallis, *J. Am. Stat. Assoc.* 47 (1952) 583: differences of groups.
+//! - H. B. Mann & D. R. Whitney, *Ann. Math. Stat.* 18 (1947) 50: an event and a value.
+//! - W. H. Kruskal & W. A. Wallis, *J. Am. Stat. Assoc.* 47 (1952) 583: groups.
 //! - C. Spearman, *Am. J. Psychol.* 15 (1904) 72: monotonic dependence of two columns.
 //!
-//! All are two-sided and for independent rows, with the tails of the limiting distributions and the variance of the
-//! actual ranks, ties included. For few events the true tails are shorter: the tests err less often than stated, and
-//! fewer than four events show nothing at 1e-3.
+//! All are two-sided and for independent rows, with the limiting distributions and the variance of the actual ranks,
+//! ties included. For few events the true tails are shorter, so that the tests err less often than stated; fewer than
+//! four events show nothing at 1e-3.
 
 use super::correlation::{mid_ranks, pearson};
 use crate::math::incomplete_gamma::incomplete_gamma;
@@ -14,9 +14,9 @@ use crate::math::incomplete_gamma::incomplete_gamma;
 /// Association of an event and a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RankShift {
-    /// Probability that a run with the event has the larger value than one without, plus half that of a tie.
+    /// Probability that a run with the event has a larger value than one without; ties count half.
     pub chance: f64,
-    /// Probability of a chance at least as far from one half if the event does not depend on the column.
+    /// Probability of a chance at least as far from one half if the event is independent of the column.
     pub p_value: f64,
 }
 
@@ -31,8 +31,8 @@ fn moments(ranks: &[f64]) -> [f64; 2] {
     [mean, ranks.iter().map(|rank| (rank - mean) * (rank - mean)).sum()]
 }
 
-/// Mann and Whitney's test for the [`mid_ranks`] of a column and an event in the `marked` rows. `None` if it occurs in
-/// all or none, or the column does not vary.
+/// Mann and Whitney's test for the [`mid_ranks`] of a column and an event in the `marked` rows; `None` if all or none
+/// are marked, or the column does not vary.
 pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     let (n, m) = (ranks.len() as f64, marked.iter().filter(|is_marked| **is_marked).count() as f64);
     let [mean, squares] = moments(ranks);
@@ -40,7 +40,7 @@ pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
         return None;
     }
     let sum: f64 = ranks.iter().zip(marked).filter(|(_, is_marked)| **is_marked).map(|(rank, _)| rank).sum();
-    // of m ranks drawn without replacement
+    // of m ranks without replacement
     let variance = squares / n * m * (n - m) / (n - 1.0);
     Some(RankShift {
         chance: (sum - 0.5 * m * (m - 1.0)) / (m * (n - m)),
@@ -48,8 +48,8 @@ pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     })
 }
 
-/// Kruskal and Wallis' test: p-value of the difference of groups. `ranks` are [`mid_ranks`] of the observable, `group`
-/// the group of each row, from 0 to `groups` - 1, none empty. `None` for fewer than two groups, or equal ranks.
+/// P-value of Kruskal and Wallis' test. `ranks` are [`mid_ranks`] of the observable, `group` is the group of each row,
+/// from 0 to `groups` - 1, none empty. `None` for fewer than two groups, or equal ranks.
 pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f64> {
     let [mean, squares] = moments(ranks);
     if groups < 2 || squares == 0.0 {
@@ -65,15 +65,14 @@ pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f
     Some(incomplete_gamma(0.5 * (groups - 1) as f64, 0.5 * h).upper)
 }
 
-/// Spearman's coefficient of two columns with these [`mid_ranks`], and its two-sided p-value under independence.
+/// Spearman's coefficient of columns with these [`mid_ranks`], and its two-sided p-value under independence.
 pub fn spearman_test(x_ranks: &[f64], y_ranks: &[f64]) -> [f64; 2] {
     let r = pearson(x_ranks, y_ranks);
     [r, two_sided(r * libm::sqrt(x_ranks.len() as f64 - 1.0))]
 }
 
-/// True if the observable `y` both rises and falls with the input `x`: each is shown by the rank correlation within one
-/// of the halves and quarters of the rows in ascending `order` of `x`. `alpha` bounds the probability of a false result
-/// for a monotonic influence.
+/// True if `y` both rises and falls with `x`, by rank correlations within the halves and quarters of the rows, in
+/// ascending `order` of `x`. `alpha` bounds the probability of a false result for a monotonic influence.
 pub fn turns(order: &[usize], x: &[f64], y: &[f64], alpha: f64) -> bool {
     const PARTS: [usize; 2] = [2, 4];
     let level = alpha / PARTS.iter().sum::<usize>() as f64;
@@ -113,8 +112,8 @@ pub(super) mod tests {
         }
     }
 
-    /// Law: the chance is counted over all pairs, ties as halves; the variance of the rank sum is that over all choices
-    /// of marked rows.
+    /// Law: the chance counts pairs, ties as halves; the variance of the rank sum is that over all choices of marked
+    /// rows.
     #[test]
     fn mann_whitney_is_a_count_of_pairs() {
         let values = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0, 5.0, 3.0];
@@ -125,13 +124,7 @@ pub(super) mod tests {
         for i in (0..10).filter(|i| marked[*i]) {
             for j in (0..10).filter(|j| !marked[*j]) {
                 pairs += 1.0;
-                wins += if values[i] > values[j] {
-                    1.0
-                } else if values[i] == values[j] {
-                    0.5
-                } else {
-                    0.0
-                };
+                wins += 0.5 * (1.0 + f64::from(i8::from(values[i] > values[j]) - i8::from(values[i] < values[j])));
             }
         }
         assert!((found.chance - wins / pairs).abs() < 1e-15, "{found:?}");
@@ -148,9 +141,8 @@ pub(super) mod tests {
         assert_eq!(mann_whitney(&[1.0; 10], &marked), None);
     }
 
-    /// Law: for two groups Kruskal and Wallis' test is Mann and Whitney's. Published: three groups of weights of
-    /// bottles (Kruskal & Wallis 1952, section 1.3; production of machines): H = 5.656, chi-square of two degrees
-    /// exp(-H/2) = 0.0591.
+    /// Law: for two groups Kruskal and Wallis' test is Mann and Whitney's. Published: weights of bottles from three
+    /// machines (Kruskal & Wallis 1952, section 1.3), H = 5.656, with the tail exp(-H/2) = 0.0591 of chi-square.
     #[test]
     fn kruskal_wallis_is_known() {
         let bottles = [340.0, 345.0, 330.0, 342.0, 338.0, 339.0, 333.0, 344.0, 347.0, 343.0, 349.0, 355.0];
@@ -167,7 +159,7 @@ pub(super) mod tests {
         assert_eq!(kruskal_wallis(&ranks, &[0; 12], 1), None);
     }
 
-    /// Law: a V turns if its point is within the middle three quarters of the range; a line, a step and noise do not.
+    /// Law: a V turns if its tip is within the middle three quarters of the range; a line, a step and noise do not.
     #[test]
     fn a_v_turns() {
         let mut random = Uniform(5);

@@ -1,24 +1,23 @@
 //! Linear regression of a standardised column on standardised inputs, and partial correlations.
 //!
-//! With the correlation matrix R of the inputs and their correlations r with the observable, the standardised
-//! regression coefficients are R^-1 r, and R^2 = r^T R^-1 r (N. R. Draper & H. Smith, *Applied Regression Analysis*,
-//! 1998, section 5.5); partial correlations follow from the same inverse (M. G. Kendall & A. Stuart, *The Advanced
-//! Theory of Statistics* 2, section 27.5). With ranks it is the rank regression of R. L. Iman & W. J. Conover,
-//! *Technometrics* 21 (1979) 499.
+//! With the correlation matrix R of the inputs and their correlations r with the observable, the coefficients are R^-1
+//! r, and R^2 = r^T R^-1 r (N. R. Draper & H. Smith, *Applied Regression Analysis*, 1998, section 5.5); partial
+//! correlations follow from the same inverse (M. G. Kendall & A. Stuart, *The Advanced Theory of Statistics* 2, section
+//! 27.5). With ranks this is the rank regression of R. L. Iman & W. J. Conover, *Technometrics* 21 (1979) 499.
 //!
-//! Intervals are those of the [`super::jackknife`], by regressions without a row (R. D. Cook & S. Weisberg, *Residuals
-//! and Influence in Regression*, 1982, (2.2.1)), for any distribution. Coefficients include the estimated scales of
-//! input and observable, so that an exact sum has an interval.
+//! Intervals come from the [`super::jackknife`] with leave-one-out regressions (R. D. Cook & S. Weisberg, *Residuals
+//! and Influence in Regression*, 1982, (2.2.1)), for any distribution. Since the scales of input and observable are
+//! estimated, coefficients of an exact sum have intervals, too.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::correlation::{Estimate, correlation, influence, product};
 use super::jackknife;
 
-/// True for those of the [`standardised`](super::correlation::standardised) `inputs` that are no linear combination of
-/// earlier ones.
+/// True for each [`standardised`](super::correlation::standardised) input that is no linear combination of earlier
+/// ones.
 pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
-    // Gram and Schmidt, twice because of rounding
+    // Gram-Schmidt, twice because of rounding
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut independent = Vec::with_capacity(inputs.len());
     for input in inputs {
@@ -28,7 +27,7 @@ pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
             rest.iter_mut().zip(unit).for_each(|(rest, unit)| *rest -= part * unit);
         }
         let square = product(&rest, &rest);
-        // with a margin, so that the regression on the kept inputs has its pivots
+        // the margin leaves the pivots of the regression on the kept inputs
         let is_new = square > 10.0 * SMALLEST_PIVOT;
         if is_new {
             let length = libm::sqrt(square);
@@ -40,7 +39,7 @@ pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
     independent
 }
 
-/// Pivot below which an input is a linear combination of earlier ones. Correlations have about 1e-15.
+/// Smallest pivot of independent inputs; correlations are accurate to about 1e-15.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
 /// Inputs prepared for the regression of any number of columns.
@@ -48,15 +47,14 @@ const SMALLEST_PIVOT: f64 = 1e-10;
 pub struct Regressors {
     inputs: Vec<Vec<f64>>,
     inverse: DMatrix<f64>,
-    /// The part of each input that the others do not have, over its sum of squares: sum_k C_jk x_k.
+    /// Part of each input that the others do not have, over its sum of squares: sum_k C_jk x_k.
     alone: Vec<Vec<f64>>,
-    /// Weight of each row's own value in its regression value, 0 to 1.
+    /// Weight, 0 to 1, of each row's own value in its fitted value.
     leverages: Vec<f64>,
 }
 
 impl Regressors {
-    /// Prepares [`standardised`](super::correlation::standardised) `inputs`; `None` if they are linearly dependent (or
-    /// constant).
+    /// Prepares [`standardised`](super::correlation::standardised) inputs; `None` if they are linearly dependent.
     pub fn new(inputs: Vec<Vec<f64>>) -> Option<Self> {
         let inverse = inverse(&super::correlation::matrix(&inputs))?;
         let rows = inputs.first()?.len();
@@ -81,8 +79,8 @@ impl Regressors {
         self.inputs.len()
     }
 
-    /// The regression of `y`, [`standardised`](super::correlation::standardised); `None` unless there are more rows
-    /// than inputs and one.
+    /// Regression of a [`standardised`](super::correlation::standardised) `y`; `None` unless there are at least two
+    /// more rows than inputs.
     pub fn regression<'a>(&'a self, y: &'a [f64]) -> Option<Regression<'a>> {
         if y.len() < self.count() + 2 {
             return None;
@@ -118,7 +116,7 @@ impl Regression<'_> {
         Estimate { value, lower, upper }
     }
 
-    /// Correlation of `input` with the observable given the other inputs: that of the residuals of both.
+    /// Correlation of the residuals of `input` and observable on the other inputs.
     pub fn partial(&self, input: usize, confidence: f64) -> Estimate {
         let alone = &self.of.alone[input];
         let factor = self.beta[input] / self.of.inverse[(input, input)];
@@ -130,7 +128,8 @@ impl Regression<'_> {
         correlation(&unit(alone), &unit(&rest), self.of.count() - 1, confidence)
     }
 
-    /// Share of the variance explained by the linear terms: R^2, corrected for the number of inputs (M. Ezekiel 1930).
+    /// R^2, the share of the variance that the linear terms explain, corrected for the number of inputs (M. Ezekiel
+    /// 1930).
     pub fn r_squared(&self, confidence: f64) -> Estimate {
         let (rows, square) = (self.y.len(), product(&self.rest, &self.rest));
         let freedom = (rows - self.of.count() - 1) as f64;
@@ -162,7 +161,7 @@ mod tests {
         Regressors::new(inputs.to_vec())
     }
 
-    /// Numbers without a pattern: multiples of an irrational number, modulo one.
+    /// Multiples of an irrational number, modulo one.
     fn irregular(multiplier: f64, n: usize) -> Vec<f64> {
         (1..=n).map(|k| (k as f64 * multiplier).fract()).collect()
     }
@@ -185,17 +184,16 @@ mod tests {
             let mean = x.iter().sum::<f64>() / x.len() as f64;
             libm::sqrt(x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>())
         };
-        // measured 7.8e-16, 2.2e-16 and less: rounding of sums of 500 numbers
+        // measured 7.8e-16, 2.2e-16 and less
         assert!((coefficients[0].value - 3.0 * spread(&a) / spread(&y)).abs() < 7e-15);
         assert!((coefficients[1].value + 2.0 * spread(&b) / spread(&y)).abs() < 2e-15);
         assert!(coefficients[2].value.abs() < 2e-16);
-        // no residual, but the spread of the inputs is estimated: coefficients have a width, except that of no
-        // influence
+        // no residual, but the spread of the inputs is estimated; an input without influence has no width
         assert!(coefficients[0].upper - coefficients[0].lower > 1e-3, "{coefficients:?}");
         assert!(coefficients[2].upper - coefficients[2].lower < 1e-13, "{coefficients:?}");
     }
 
-    /// Law: the partial correlation is that of the residuals of both columns after regression on the others.
+    /// Law: the partial correlation is that of the residuals of both columns.
     #[test]
     fn partial_correlations_are_those_of_residuals() {
         let [a, b, c] = inputs();
@@ -212,7 +210,7 @@ mod tests {
         assert!((found.value - expected).abs() < 2e-15, "{} {expected}", found.value);
     }
 
-    /// Law: an input that combines earlier ones, or is constant, is not independent; the rest have a regression.
+    /// Law: constant inputs and combinations of earlier ones are dependent; the rest have a regression.
     #[test]
     fn dependent_inputs_are_found() {
         let [a, b, c] = inputs();

@@ -1,29 +1,27 @@
-//! Intervals from replicates: R independent scrambles of one design, each with its own estimate. Samples of a Latin
-//! hypercube or a scrambled sequence are dependent, replicates are not (A. B. Owen, *Scrambled net variance for
-//! integrals of smooth functions*, Ann. Stat. 25 (1997) 1541; M. Stein, *Technometrics* 29 (1987) 143).
+//! Intervals from replicates: independent scrambles of a design whose samples depend on each other (Latin hypercubes,
+//! scrambled sequences), each with its own estimate (A. B. Owen, *Scrambled net variance for integrals of smooth
+//! functions*, Ann. Stat. 25 (1997) 1541; M. Stein, *Technometrics* 29 (1987) 143).
 //!
-//! - A mean has the bounds of the mean of R numbers ([`super::mean`]), or else those of independent runs, whose
-//!   variance such designs do not exceed.
-//! - A fraction has Student's bounds of R numbers, with a floor of their variance ([`COUNT_VARIANCE`]).
-//! - A quantile's interval is every x for which the interval of P(X <= x) contains p.
+//! A mean has the bounds of the mean of the replicates' means ([`super::mean`]), or else those of independent runs,
+//! whose variance such designs do not exceed. A fraction has Student's bounds with a floor of the variance
+//! ([`COUNT_VARIANCE`]). A quantile's interval holds every x for which the interval of P(X <= x) contains p.
 
 use super::mean::{self, one_sided};
 use super::moments::Moments;
 
-/// Least variance of a replicate's number of runs within a limit. Counts that vary less are mostly equal and show too
-/// little variance: without it the interval of p05 of 16 scrambles covers 0.83 instead of 0.95.
+/// Least variance of a replicate's number of runs within a limit. Mostly equal counts would show too little: without
+/// this floor the interval of p05 of 16 scrambles covers 0.83 instead of 0.95.
 pub const COUNT_VARIANCE: f64 = 0.5;
 
-/// One-sided bounds of a mean, each at `confidence`, from the `means` of replicates and the moments of all their runs;
-/// infinite if neither bounds it.
+/// One-sided bounds of a mean, each at `confidence`, from the `means` of replicates and the moments of all runs.
 pub fn mean_bounds(means: &[f64], whole: &Moments, confidence: f64) -> [f64; 2] {
     let of_means = mean::mean_bounds(&Moments::of(means.iter().copied()), confidence);
     let independent = mean::mean_bounds(whole, confidence);
     [0, 1].map(|end| if of_means[end].is_finite() { of_means[end] } else { independent[end] })
 }
 
-/// One-sided bounds of a fraction, each at `confidence`, from the fractions of replicates of `runs` runs in all; 0 and
-/// 1 for fewer than two.
+/// One-sided bounds of a fraction, each at `confidence`, from the fractions of replicates with `runs` runs in all; 0
+/// and 1 for fewer than two.
 pub fn fraction_bounds(fractions: &[f64], runs: u64, confidence: f64) -> [f64; 2] {
     let moments = Moments::of(fractions.iter().copied());
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return [0.0, 1.0] };
@@ -34,23 +32,21 @@ pub fn fraction_bounds(fractions: &[f64], runs: u64, confidence: f64) -> [f64; 2
     [(mean - half).max(0.0), (mean + half).min(1.0)]
 }
 
-/// A step in the distribution function of a replicate: `count` more of its numbers are at most `value`.
+/// Step of the distribution function of a replicate at one of its values, or buckets of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// The numbers, or the upper end of their bucket.
+    /// The value, or the upper end of its bucket.
     pub value: f64,
-    /// The lower end of their bucket, or the numbers.
+    /// The value, or the lower end of its bucket.
     pub lower: f64,
-    /// The replicate, from zero.
+    /// Replicate, from zero.
     pub replicate: usize,
-    /// Number of numbers.
+    /// Number of values in the step.
     pub count: u64,
 }
 
-/// Interval of the `p`-quantile, 0 < p < 1, from steps in ascending order of `value` and the `sizes` of the replicates;
-/// `None` for an end beyond the numbers.
-///
-/// Ends are rounded outward within [`Step::lower`] and [`Step::value`].
+/// Interval of the `p`-quantile, 0 < p < 1, from steps in ascending order of `value` and the `sizes` of the replicates.
+/// Ends are rounded outward to those of buckets; `None` for an end beyond all values.
 pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64) -> [Option<f64>; 2] {
     let replicates = sizes.len() as f64;
     if sizes.len() < 2 || sizes.contains(&0) {
@@ -62,9 +58,9 @@ pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64)
     let floor = COUNT_VARIANCE * (replicates - 1.0) / (each * each);
     let mut fractions = vec![0.0_f64; sizes.len()];
     let mut counts = vec![0_u64; sizes.len()];
-    // sums over replicates of deviations from p and of their squares: the mean is inside if sum^2 <= factor * spread
+    // the mean of the fractions is inside if (mean - p)^2 <= factor * spread
     let (mut first, mut last) = (None, None);
-    // the fraction zero, below all numbers, is inside
+    // true if the fraction zero, below all values, is inside
     let is_unbounded = p * p <= factor * floor;
     let mut at = 0;
     while at < steps.len() {
@@ -86,7 +82,7 @@ pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64)
             last = Some((start, at));
         }
     }
-    // the distribution functions are constant up to the next number
+    // distribution functions are constant up to the next value
     let upper = match last {
         None => steps.first().map(|step| step.value),
         Some((_, next)) => steps.get(next).map(|step| step.value),
@@ -98,8 +94,8 @@ pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64)
 mod tests {
     use super::*;
 
-    /// Known: fractions 0.1 ... 0.4 of many runs have s = sqrt(5/3)/10 and t(0.95, 3) = 2.3533634348018264; of 40 runs,
-    /// 10 per replicate, equal fractions have the floor of the variance. Fractions are between 0 and 1.
+    /// Known: fractions 0.1 ... 0.4 of many runs have s = sqrt(5/3)/10 and t(0.95, 3) = 2.3533634348018264; equal
+    /// fractions of 10 runs each have the floor of the variance.
     #[test]
     fn known_bounds_of_fractions() {
         let half = |deviation: f64| 2.353_363_434_801_826_4 * deviation / 2.0;
@@ -112,7 +108,7 @@ mod tests {
         assert_eq!(fraction_bounds(&[0.5], 10, 0.95), [0.0, 1.0]);
     }
 
-    /// Law: means bound as numbers of their own, or else as independent runs.
+    /// Law: means have bounds of their own, or else those of independent runs.
     #[test]
     fn means_fall_back_on_independent_runs() {
         let whole = Moments::of((0..400).map(|k| f64::from(k % 20)));
@@ -124,7 +120,7 @@ mod tests {
         assert_eq!(mean_bounds(&[9.5; 16], &whole, 0.95), mean::mean_bounds(&whole, 0.95));
     }
 
-    /// Law: the interval is the set of x for which Student's interval of the fractions at most x contains p.
+    /// Law: the interval holds the x for which Student's interval of the fractions at most x contains p.
     #[test]
     fn a_quantile_interval_inverts_that_of_fractions() {
         let replicates: Vec<Vec<f64>> = (0..8)
@@ -150,12 +146,12 @@ mod tests {
                     |values: &Vec<f64>| values.iter().filter(|value| **value <= x).count() as f64 / values.len() as f64;
                 fraction_bounds(&replicates.iter().map(fraction).collect::<Vec<_>>(), 400, 0.975)
             };
-            // inside at the ends, outside just beyond them
+            // inside at the ends, outside beyond them
             assert!(interval(lower)[1] >= p && interval(lower - 1e-9)[1] < p, "{p}: {lower}");
             assert!(interval(upper - 1e-9)[0] <= p && interval(upper)[0] > p, "{p}: {upper}");
             assert!(lower < p + 0.03 && upper > p - 0.03 && upper - lower < 0.2, "{p}: {lower} {upper}");
         }
-        assert_eq!(quantile_interval(&steps, &[50], 0.5, 0.95), [None; 2], "one replicate says nothing");
+        assert_eq!(quantile_interval(&steps, &[50], 0.5, 0.95), [None; 2], "one replicate");
         let [lower, upper] = quantile_interval(&steps, &[50; 8], 0.002, 0.95);
         assert!(lower.is_none() && upper.is_some(), "400 numbers do not bound their 0.2% quantile from below");
     }

@@ -1,25 +1,25 @@
-//! Variance-based sensitivity: share of an observable's variance explained by an input, alone and with its
-//! interactions.
+//! Variance-based sensitivity: the share of an observable's variance that an input explains, alone (first-order index)
+//! and with its interactions (total index).
 //!
-//! - From a Saltelli design: first-order index by A. Saltelli et al., *Comput. Phys. Commun.* 181 (2010) 259, equation
-//!   (b) of table 2, of centred values; total index by M. J. W. Jansen, *ibid.* 117 (1999) 35.
-//! - From plain samples: 1 minus the residual variance after lines through cells of neighbouring inputs (the
-//!   correlation ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as E.
-//!   Plischke, E. Borgonovo & C. L. Smith, *Eur. J. Oper. Res.* 226 (2013) 536). Ranks (F. Gamboa et al., *Bernoulli*
-//!   28 (2022) 2345) were rejected: for x^3 + y and 100 runs their bias is 0.13, and the interval covers 0.15.
+//! - Saltelli designs: first-order index by A. Saltelli et al., *Comput. Phys. Commun.* 181 (2010) 259, table 2 (b), of
+//!   centred values; total index by M. J. W. Jansen, *ibid.* 117 (1999) 35.
+//! - Plain samples: 1 minus the residual variance of lines fitted in cells of neighbouring inputs (the correlation
+//!   ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as in E. Plischke, E.
+//!   Borgonovo & C. L. Smith, *Eur. J. Oper. Res.* 226 (2013) 536). Rejected: ranks (F. Gamboa et al., *Bernoulli* 28
+//!   (2022) 2345), whose bias for x^3 + y and 100 runs is 0.13, with a coverage of 0.15.
 //!
-//! Intervals are those of the [`jackknife`](super::jackknife), for independent blocks or rows; for sequences see
-//! [`Samples`]. For plain samples they also allow for hidden features: `UNSEEN` more rows like the largest, curves
-//! steeper than the lines (`ALMOST_ALL`, `Rest::noise`), and tails (`MOST_KURTOSIS`). An interval from 0 to 1 means an
-//! unknown share. Shares of correlated inputs overlap.
+//! Intervals come from the [`jackknife`](super::jackknife) for independent blocks or rows; for sequences see
+//! [`Samples`]. For plain samples they also allow for features that the rows do not show: `UNSEEN` more extreme rows,
+//! curves steeper than the lines (`ALMOST_ALL`, `Rest::noise`) and tails (`MOST_KURTOSIS`). An interval from 0 to 1
+//! means that the share is unknown. Shares of correlated inputs overlap.
 
 use super::correlation::Estimate;
 use super::jackknife::{ends, of_whole, ratio, spaced_rows};
 use super::mean::one_sided;
 use super::moments::Moments;
 
-/// Share of the variance of `y` explained by a line in `x`, or by a parabola if its bend is significant: orders inputs,
-/// but estimates no first-order index. Both columns have zero mean; zero if one does not vary.
+/// Share of the variance of `y` explained by a line in `x`, or by a parabola if its bend is significant; zero if one of
+/// these zero-mean columns does not vary. It ranks inputs, but is no first-order index.
 pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -31,17 +31,17 @@ pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
     let slope = x.iter().map(|x| x * x * x).sum::<f64>() / square;
     let bent: Vec<f64> = x.iter().map(|x| x * x - square / n - slope * x).collect();
     let line = share(x);
-    // for two values the parabola is the line
+    // with two values of x the parabola is the line
     let has_bend = product(&bent, &bent) * n > 1e-9 * square * square;
     let parabola = line + if has_bend { share(&bent) } else { 0.0 };
     let is_bent = (parabola - line) * (n - 3.0) > CERTAIN_BEND * (1.0 - parabola);
     if is_bent { parabola } else { line }
 }
 
-/// F (about the square of a normal number) above which a bend is significant.
+/// F statistic above which a bend is significant.
 const CERTAIN_BEND: f64 = 12.0;
 
-/// Values of one block of a Saltelli design for one input.
+/// One block of a Saltelli design, for one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     /// At point A.
@@ -52,8 +52,7 @@ pub struct Block {
     pub mixed: f64,
 }
 
-/// First-order and total index of an input from the blocks of a Saltelli design; `None` if the observable does not
-/// vary.
+/// First-order and total index of an input from a Saltelli design; `None` if the observable does not vary.
 pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 2]> {
     let n = blocks.len() as f64;
     let mean = blocks.iter().map(|block| block.a + block.b).sum::<f64>() / (2.0 * n);
@@ -66,20 +65,19 @@ pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 
     Some([of_whole(ratio(&first, &variance, confidence)?), of_whole(ratio(&total, &variance, confidence)?)])
 }
 
-/// Distribution of samples in the space of the inputs.
+/// Joint distribution of the samples in the space of the inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Samples {
-    /// Independent, or even in each input alone (a Latin hypercube).
+    /// Independent, or stratified in each input separately (Latin hypercube).
     Independent,
-    /// Even in several inputs together (sequences of Sobol and Halton). Within a cell the other inputs are even too, so
-    /// that its line has less noise than for independent rows, or none. The index lies between the ones with and
-    /// without correction for that noise: the estimate is their middle, the interval from the lower end of the first to
-    /// the upper end of the second.
+    /// Even in several inputs together (Sobol and Halton sequences). The other inputs are then even within a cell, too,
+    /// and its line has less noise than with independent rows, or none. The index lies between those with and without
+    /// correction for that noise: the estimate is their middle, the interval spans both.
     Even,
 }
 
-/// First-order index of an input `x` for an observable `y` from cells of ascending `x`, equal values in one cell;
-/// `order` lists the rows by ascending `x`. `None` if one does not vary, or for fewer than [`MIN_ROWS`] rows.
+/// First-order index of the input `x` for the observable `y`; `order` lists the rows by ascending `x`. `None` if one of
+/// them does not vary, or for fewer than [`MIN_ROWS`] rows.
 pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples, confidence: f64) -> Option<Estimate> {
     let (rows, n) = (x.len(), x.len() as f64);
     if rows < MIN_ROWS || x[order[0]] == x[order[rows - 1]] {
@@ -91,7 +89,7 @@ pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples
     if total <= 0.0 || !total.is_finite() {
         return None;
     }
-    // squared residuals, and the noise of each cell, with and without the freedom taken by a line
+    // squared residuals, and the noise of each cell
     let (mut left, mut noise, mut freedom) = (Vec::with_capacity(rows), Vec::new(), Vec::with_capacity(rows));
     let mut rests = Vec::with_capacity(rows);
     for cell in cells(order, x) {
@@ -105,7 +103,7 @@ pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples
     let corrected: Vec<f64> = left.iter().zip(freedom).map(|(left, correction)| left * correction).collect();
     let [least, most] = [&corrected, if samples == Samples::Even { &left } else { &corrected }];
     let scale = (n - 1.0) / n;
-    // the residual share, and the factor of an end of its interval: the lower one if `is_low`
+    // residual share, and the factor of the lower or upper end of its interval
     let of = |left: &[f64], is_low: bool| {
         let sum = left.iter().sum::<f64>();
         let influences = spaced_rows(rows).map(|row| n * (left[row] / sum - whole[row] / total));
@@ -129,7 +127,7 @@ pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples
     let upper = if is_almost_all || has_tails(x, [1.0, more]) || has_tails(y, [1.0, more]) {
         1.0
     } else {
-        // cells of different noise show how well it is known
+        // the scatter of noise between cells is its uncertainty
         let (count, cells) = (noise.len() as f64, Moments::of_block(&noise));
         let t = one_sided(1.0 - RISKS[1] * (1.0 - confidence), count - 1.0);
         let sum =
@@ -139,24 +137,23 @@ pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples
     Some(Estimate { value, lower: lower.max(0.0).min(value), upper: upper.min(1.0).max(value) })
 }
 
-/// Parts of the risk 1 - confidence for a lower end above the share and an upper end below it. Reported estimates are
-/// mostly those of drivers, the larger ones, whose lower ends miss more often. Measured over a list of structures
-/// (`drivers_of_structures`): at most 5% in all.
+/// Parts of the risk 1 - confidence taken by the lower and the upper end. Reported inputs are mostly strong ones, whose
+/// lower ends miss more often. Measured (`drivers_of_structures`): at most 5% in all.
 const RISKS: [f64; 2] = [0.1, 0.6];
-/// Allowance for more rows as far from the mean as the farthest: of 4.7 expected rows at most one is seen in 5% of all
-/// cases. The lower end takes them as unexplained by the input, the upper one as explained.
+/// Unseen rows as far from the mean as the farthest: of 4.7 expected rows at most one occurs in 5% of all cases. The
+/// lower end takes them as unexplained by the input, the upper one as explained.
 const UNSEEN: f64 = 3.0;
-/// Residual share below which curves and jumps may explain all of it: the residual may be zero.
+/// Residual share below which the residual may be due to curves and jumps alone.
 const ALMOST_ALL: f64 = 0.06;
-/// Kurtosis (3 for normal numbers, 6 for two exponential tails) above which hidden rows may decide. Tails of input or
-/// observable may raise the share to 1; tails of the unexplained part may lower it to 0, unless the observable has two
-/// values. More rows than [`MIN_ROWS`] show more of these tails: that limit rises with the fourth root of their number.
+/// Kurtosis (normal 3, Laplace 6) above which unseen rows may decide. Tails of the input or observable may raise the
+/// share to 1; tails of the residual may lower it to 0, unless the observable has two values. With more than
+/// [`MIN_ROWS`] rows the limit rises with the fourth root of their number, as more of the tails is seen.
 const MOST_KURTOSIS: f64 = 4.5;
 
-/// Skewness with the same effect: a one-sided tail without far rows is still skewed. This limit rises too.
+/// Skewness above which unseen rows may decide, for one-sided tails without far rows. It rises in the same way.
 const MOST_SKEWNESS: f64 = 0.6;
 
-/// True if hidden rows may decide the variance of a column, by its kurtosis or skewness beyond these multiples of the
+/// True if unseen rows may decide the variance of `column`: its kurtosis or skewness exceeds these multiples of the
 /// limits.
 pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
     let moments = Moments::of_block(column);
@@ -169,12 +166,13 @@ pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
     moments.kurtosis().is_none_or(|found| found > kurtosis * MOST_KURTOSIS) || is_skewed()
 }
 
-/// Minimum number of rows: fewer show no line in a few cells.
+/// Fewest rows that show lines in several cells.
 pub const MIN_ROWS: usize = 64;
-/// Rows of the cells at both ends, where the input has its tails and the observable is steep.
+/// Rows of the two outermost cells, where the input has its tails and the observable is steep.
 const FEWEST: usize = 5;
-/// End of the cell that begins at `start`: cells grow by half from both ends to the root of the number of rows. Smaller
-/// ones have more noise, larger ones more error of the line: at 1,000 rows cells of 20 to 45 are equally good.
+/// End of the cell that begins at `start`; equal values share a cell. Cells grow by half from both ends up to the root
+/// of the number of rows. Smaller cells have more noise, larger ones more curvature: of 1,000 rows, cells of 20 to 45
+/// are equally good.
 fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
     let (rows, rest) = (order.len(), order.len() - start);
     let largest = libm::sqrt(rows as f64) as usize;
@@ -195,7 +193,7 @@ pub(super) fn cells<'a>(order: &'a [usize], x: &'a [f64]) -> impl Iterator<Item 
     })
 }
 
-/// Residuals of `y` after lines through the cells of `x`, by row; `order` lists the rows by ascending `x`.
+/// Residuals of `y`, by row, of lines fitted in the cells of `x`; `order` lists the rows by ascending `x`.
 pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
     let mut left = vec![0.0; y.len()];
     for cell in cells(order, x) {
@@ -204,10 +202,10 @@ pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
     left
 }
 
-/// Residuals of a cell after its line.
+/// Residuals of the line of a cell.
 struct Rest {
     values: Vec<f64>,
-    /// Number of rows over the degrees of freedom left by the line.
+    /// Number of rows over the remaining degrees of freedom.
     correction: f64,
     /// True if the input varies in the cell.
     varies: bool,
@@ -230,8 +228,8 @@ impl Rest {
         Rest { values, correction: n / (n - if varies { 2.0 } else { 1.0 }), varies }
     }
 
-    /// Sum of squares that is noise, at least: half the squared differences of neighbours, which a smooth curve leaves
-    /// small, or all squares times `factor`, if less.
+    /// Lower bound of the noise, a sum of squares: half the squared differences of neighbours, which are small on a
+    /// smooth curve, or all squares times `factor` if less.
     fn noise(&self, factor: f64) -> f64 {
         let all = factor * self.values.iter().map(|value| value * value).sum::<f64>();
         if !self.varies {
@@ -254,13 +252,13 @@ mod tests {
         first_order_index(&ascending_order(x), x, y, Samples::Independent, confidence)
     }
 
-    /// Ishigami's function (T. Ishigami & T. Homma 1990) of three numbers uniform in (-pi, pi), a = 7, b = 0.1.
+    /// Ishigami's function (T. Ishigami & T. Homma 1990) with a = 7, b = 0.1, of three numbers uniform in (-pi, pi).
     fn ishigami(x: [f64; 3]) -> f64 {
         let sine = libm::sin(x[1]);
         libm::sin(x[0]) * (1.0 + 0.1 * libm::pow(x[2], 4.0)) + 7.0 * sine * sine
     }
 
-    /// Its exact first-order and total indices.
+    /// Exact first-order and total indices.
     fn exact() -> [[f64; 2]; 3] {
         let (a, b) = (7.0, 0.1);
         let first = 0.5 * libm::pow(1.0 + b * libm::pow(PI, 4.0) / 5.0, 2.0);
@@ -270,15 +268,11 @@ mod tests {
         [[first, first + shared], [second, second], [0.0, shared]].map(|of| of.map(|part| part / variance))
     }
 
-    fn point(random: &mut Uniform) -> [f64; 3] {
-        [(); 3].map(|()| PI * (2.0 * random.next() - 1.0))
-    }
-
     /// Plain samples, to four standard errors of about 0.01.
     #[test]
     fn first_order_indices_of_ishigami_from_samples() {
         let mut random = Uniform(2);
-        let points: Vec<[f64; 3]> = (0..4096).map(|_| point(&mut random)).collect();
+        let points: Vec<[f64; 3]> = (0..4096).map(|_| [(); 3].map(|()| PI * (2.0 * random.next() - 1.0))).collect();
         let y: Vec<f64> = points.iter().map(|x| ishigami(*x)).collect();
         for (input, [expected, _]) in exact().into_iter().enumerate() {
             let x: Vec<f64> = points.iter().map(|point| point[input]).collect();
@@ -288,8 +282,8 @@ mod tests {
         }
     }
 
-    /// Law: an input of few values has the index of the means of its levels, 1 if nothing else acts; a cell has equal
-    /// values only, so that the order of rows does not matter.
+    /// Law: an input of few values has the index of an analysis of variance, 1 if nothing else acts, in any order of
+    /// rows.
     #[test]
     fn levels_are_cells() {
         let mut random = Uniform(4);
@@ -303,7 +297,7 @@ mod tests {
             let turned = |values: &[f64]| values.iter().rev().copied().collect::<Vec<_>>();
             let (found, other) = (index(&x, &noisy), index(&turned(&x), &turned(&noisy)));
             assert!((found.value - other.value).abs() < 1e-12 && found.value < 1.0, "{levels}: {found:?} {other:?}");
-            // analysis of variance: the mean square within levels over that of all
+            // mean square within levels over the total one
             let mean = |of: &dyn Fn(usize) -> bool| {
                 let kept: Vec<f64> = (0..700).filter(|row| of(*row)).map(|row| noisy[row]).collect();
                 kept.iter().sum::<f64>() / kept.len() as f64
@@ -312,7 +306,7 @@ mod tests {
             let within: f64 = (0..700).map(|row| libm::pow(noisy[row] - means[x[row] as usize], 2.0)).sum();
             let all = mean(&|_| true);
             let whole: f64 = noisy.iter().map(|y| libm::pow(y - all, 2.0)).sum();
-            // a level's correction differs from the mean one by its number of rows
+            // levels differ in their numbers of rows, and so in their corrections
             let expected = 1.0 - within / (700.0 - levels) / (whole / 699.0);
             assert!((found.value - expected).abs() < 1e-3, "{levels}: {found:?} {expected}");
         }
@@ -321,13 +315,13 @@ mod tests {
     #[test]
     fn what_does_not_vary_has_no_index() {
         assert_eq!(saltelli_indices(&[Block { a: 1.0, b: 1.0, mixed: 1.0 }; 8], 0.95), None);
-        assert_eq!(index(&[1.0; 100], &[2.0; 100], 0.95), None);
         let rising: Vec<f64> = (0..100).map(f64::from).collect();
         let index = |x: &[f64], y: &[f64]| index(x, y, 0.95);
+        assert_eq!(index(&[1.0; 100], &[2.0; 100]), None);
         assert_eq!(index(&[1.0; 100], &rising), None, "an input that does not vary");
         assert_eq!(index(&rising, &[2.0; 100]), None, "an observable that does not vary");
         assert_eq!(index(&rising[..63], &rising[..63]), None);
-        // a line leaves nothing, a curve something: neither bounds the index below 1
+        // neither an exact line nor a curve bounds the index below 1
         let curve: Vec<f64> = rising.iter().map(|x| libm::sin(0.05 * x)).collect();
         for y in [&rising, &curve] {
             let found = index(&rising, y).expect("it varies");

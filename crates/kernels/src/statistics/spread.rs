@@ -1,15 +1,15 @@
-//! [`Spread`]: order statistics of any number of values: exact for few, by a sketch for many.
+//! [`Spread`]: order statistics of a growing number of values, exact for few, by a sketch for many.
 
 use super::quantile::quantile;
 use super::sketch::Sketch;
 
-/// Maximum number of values with exact quantiles.
+/// Most values with exact quantiles.
 pub const EXACT: usize = 10_000;
 
 /// Values with quantiles, independent of their order.
 #[derive(Clone, Debug, Default)]
 pub struct Spread {
-    /// The first values: all, if at most [`EXACT`]; one more marks that there are more.
+    /// Up to one more than [`EXACT`], which marks that there are more.
     values: Vec<f64>,
     sketch: Sketch,
 }
@@ -33,8 +33,8 @@ impl Spread {
         self.sketch.max()
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1, if any: exact for at most [`EXACT`] values, otherwise within 0.05% of
-    /// its magnitude ([`super::sketch::RELATIVE_ERROR`]).
+    /// The `p`-quantile of type 7, 0 <= p <= 1, if any: exact for at most [`EXACT`] values, else within
+    /// [`super::sketch::RELATIVE_ERROR`].
     pub fn quantile(&self, p: f64) -> Option<f64> {
         if self.values.len() > EXACT {
             return self.sketch.quantile(p);
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
     use crate::statistics::sketch::RELATIVE_ERROR;
 
-    /// Law: quantiles of few values are of type 7 in any order; those of many are within the error of a sketch.
+    /// Law: quantiles of few values are exact in any order, those of many as accurate as a sketch.
     #[test]
     fn quantiles_of_few_values_are_exact() {
         let mut few = Spread::default();

@@ -16,8 +16,7 @@ pub fn two_sided_tail(t: f64, degrees: f64) -> f64 {
     incomplete_beta(x, y, 0.5 * degrees, 0.5).lower
 }
 
-/// Half width of the interval of a mean at `confidence`: t s / sqrt(n) for the `standard_deviation` of `count` values;
-/// infinite for fewer than two.
+/// Half-width t s/sqrt(n) of the interval of a mean of `count` values; infinite for fewer than two.
 pub fn half_width(standard_deviation: f64, count: u64, confidence: f64) -> f64 {
     if count < 2 {
         return f64::INFINITY;
@@ -31,7 +30,7 @@ mod tests {
 
     #[test]
     fn known_quantiles() {
-        // one degree: tan(pi confidence/2); two degrees: closed form; the rest from scipy.stats.t.ppf; measured 1.1e-15
+        // one degree: tan(pi confidence/2); two: closed form; others from scipy.stats.t.ppf; measured 1.1e-15
         let first = libm::tan(core::f64::consts::FRAC_PI_2 * 0.95);
         assert!((two_sided_quantile(0.95, 1.0) / first - 1.0).abs() < 4e-15);
         let p: f64 = 0.975;
@@ -43,12 +42,12 @@ mod tests {
         assert_eq!(half_width(1.0, 1, 0.95), f64::INFINITY);
     }
 
-    /// Law: the tail inverts the quantile.
+    /// Law: the tail inverts the quantile, whose known values have 16 digits.
     #[test]
     fn tails_invert_quantiles() {
         for (confidence, degrees, t) in KNOWN {
             let tail = two_sided_tail(t, degrees);
-            // measured 2.4e-15; the known quantiles have 16 digits
+            // measured 2.4e-15
             assert!((tail / (1.0 - confidence) - 1.0).abs() < 2e-14, "{degrees}: {tail}");
         }
         assert_eq!(two_sided_tail(0.0, 5.0), 1.0);

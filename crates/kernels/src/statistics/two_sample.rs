@@ -1,26 +1,24 @@
-//! Tests of differences between two campaigns, two-sided and for independent runs or pairs.
+//! Two-sided tests of differences between two campaigns, for independent runs or pairs.
 //!
-//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, for unequal variances.
+//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, for unequal variances; Student's t of paired differences.
 //! - Distributions: Kolmogorov and Smirnov's largest difference of the empirical distribution functions, with the
 //!   limiting tail corrected by M. A. Stephens, *J. Roy. Stat. Soc. B* 32 (1970) 115.
-//! - Distributions of pairs: Q. McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits.
-//! - Pairs: Student's t of the differences; F. Wilcoxon's signed ranks (*Biometrics* 1 (1945) 80) in the normal
-//!   approximation, corrected for ties, without zeros; for their spread, ranks signed by the sums of the pairs, as in
-//!   E. J. G. Pitman, *Biometrika* 31 (1939) 9.
-//!
-//! For several tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, for any dependence.
+//! - Pairs: Q. McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits; F. Wilcoxon's signed ranks
+//!   (*Biometrics* 1 (1945) 80), normal approximation, corrected for ties, without zeros; for their spread, ranks
+//!   signed by the sums of the pairs, as in E. J. G. Pitman, *Biometrika* 31 (1939) 9.
+//! - Several tests: S. Holm, *Scand. J. Stat.* 6 (1979) 65, for any dependence.
 
 use super::binomial::at_most;
 use super::correlation::{Estimate, mid_ranks};
 use super::moments::Moments;
 use super::student::{two_sided_quantile, two_sided_tail};
 
-/// A test of one difference.
+/// Result of a test of two means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// The difference, second minus first, with its interval.
+    /// Second mean minus first, with its interval.
     pub shift: Estimate,
-    /// Probability of a difference at least as large without a true one.
+    /// Probability of a difference at least as large if the means are equal.
     pub p_value: f64,
 }
 
@@ -65,7 +63,7 @@ pub fn kolmogorov_smirnov(first: &[f64], second: &[f64]) -> Option<(f64, f64)> {
     let (n, m) = (first.len() as f64, second.len() as f64);
     let (mut i, mut j, mut largest) = (0, 0, 0.0_f64);
     while i < first.len() && j < second.len() {
-        // all numbers equal to the smaller of the next two, on both sides
+        // skip all numbers equal to the smaller of the next two, in both samples
         let next = if first[i] <= second[j] { first[i] } else { second[j] };
         while i < first.len() && first[i] <= next {
             i += 1;
@@ -81,7 +79,7 @@ pub fn kolmogorov_smirnov(first: &[f64], second: &[f64]) -> Option<(f64, f64)> {
 
 /// P(K > x) = 2 sum (-1)^(k-1) exp(-2 k^2 x^2) (A. N. Kolmogorov 1933).
 fn kolmogorov_tail(x: f64) -> f64 {
-    // below, the tail is 1 to the last digit but two, and the series converges slowly
+    // below this the tail is 1 to the last two digits, and the series converges slowly
     if x < 0.2 {
         return 1.0;
     }
@@ -103,11 +101,11 @@ pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
     Some(signed_sum(differences.iter().zip(&ranks).map(|(difference, rank)| difference.signum() * (rank + 1.0))))
 }
 
-/// P-value of the test of equal spread in both places of `pairs`, without NaN; `None` if none differs.
+/// P-value of the test of equal spread in both places of `pairs`, without NaN; `None` if no pair differs.
 ///
-/// If the numbers of a pair are exchangeable, the sign of their difference is a fair coin given its magnitude and their
-/// sum. If the second numbers spread more, differences are positive in pairs with a large sum and negative in those
-/// with a small one. Each difference counts with the rank of its magnitude times the centred rank of its pair's sum.
+/// If the numbers of a pair are exchangeable, the sign of their difference is a fair coin, given its magnitude and
+/// their sum. If the second numbers spread more, differences are positive for large sums and negative for small ones.
+/// Each sign is weighted by the rank of the magnitude times the centred rank of the sum.
 pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     let differing: Vec<[f64; 2]> = pairs.iter().copied().filter(|[first, second]| first != second).collect();
     if differing.is_empty() {
@@ -115,7 +113,7 @@ pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     }
     let ranks = |of: &dyn Fn(&[f64; 2]) -> f64| mid_ranks(&differing.iter().map(of).collect::<Vec<f64>>());
     let sizes = ranks(&|[first, second]| (second - first).abs());
-    // infinite numbers of opposite signs have a sum in the middle
+    // infinities of opposite signs have a sum in the middle
     let sums = ranks(&|[first, second]| if (first + second).is_nan() { 0.0 } else { first + second });
     let middle = 0.5 * (differing.len() - 1) as f64;
     let terms = differing.iter().zip(sizes.iter().zip(&sums));
@@ -125,7 +123,7 @@ pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     })))
 }
 
-/// Two-sided p-value of a sum of `terms` with fair random signs: normal, with the sum of their squares.
+/// Two-sided p-value, in the normal approximation, of a sum of `terms` with fair random signs.
 fn signed_sum(terms: impl Iterator<Item = f64>) -> f64 {
     let [sum, squares] = terms.fold([0.0; 2], |[sum, squares], term| [sum + term, squares + term * term]);
     if squares == 0.0 { 1.0 } else { libm::erfc(sum.abs() / libm::sqrt(2.0 * squares)) }
@@ -136,10 +134,10 @@ const LIMITS: usize = 15;
 
 /// P-value of the test of equal distributions in both places of `pairs`, without NaN; `None` without pairs.
 ///
-/// With equal distributions as many pairs go up through any limit as down, but for chance: of the pairs that cross it,
-/// the number that goes up is binomial with one half, for any dependence within pairs. Unlike signed ranks it needs no
-/// symmetric differences: a phase that advances a little and is wrapped to one period keeps its distribution. The
-/// smallest p-value over the limits counts, times their number (Bonferroni).
+/// If both distributions are equal, a pair that crosses a limit goes up or down with probability one half, for any
+/// dependence within pairs. Unlike signed ranks, this test needs no symmetric differences: a phase that advances a
+/// little and is wrapped to one period keeps its distribution. The result is the smallest p-value over the limits times
+/// their number (Bonferroni).
 pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     let mut all: Vec<f64> = pairs.iter().flatten().copied().collect();
     all.sort_unstable_by(f64::total_cmp);
@@ -157,14 +155,13 @@ pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     Some((limits.len() as f64 * smallest).min(1.0))
 }
 
-/// McNemar's exact test: p-value of the numbers of pairs of which the first alone, and the second alone, has a
-/// property.
+/// McNemar's exact test: p-value of the numbers of pairs of which only the first, and only the second, has a property.
 pub fn mcnemar(alone: [u64; 2]) -> f64 {
     (2.0 * at_most(alone[0].min(alone[1]), alone[0] + alone[1], 0.5)).min(1.0)
 }
 
-/// P-values adjusted for their number (Holm 1979): the probability of any adjusted value of alpha or less among true
-/// hypotheses is at most alpha.
+/// P-values adjusted for their number (Holm 1979): true hypotheses yield any adjusted value of alpha or less with at
+/// most the probability alpha.
 pub fn holm(p_values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|a, b| p_values[*a].total_cmp(&p_values[*b]));
@@ -189,7 +186,7 @@ mod tests {
         assert_eq!((holm(&[0.9, 0.6, 0.0]), holm(&[])), (vec![1.0, 1.0, 0.0], vec![]));
     }
 
-    /// Twenty and thirty numbers without a pattern.
+    /// Twenty and thirty irregular numbers.
     fn samples() -> [Vec<f64>; 2] {
         let irregular = |k: i32, root: f64| libm::fmod(f64::from(k) * root, 1.0);
         [
@@ -204,8 +201,8 @@ mod tests {
         values
     }
 
-    /// Expected values: scipy.stats 1.x, of `x = [k sqrt(2) % 1 for k in 1..20]`, `y = [0.2 + 1.3 (k sqrt(3) % 1) for k
-    /// in 1..30]`: `ttest_ind(y, x, equal_var=False)`, `ttest_rel(y[:20], x)`, `wilcoxon(y[:20] - x, mode="approx")`,
+    /// Expected values: scipy.stats 1.x, `x = [k sqrt(2) % 1 for k in 1..20]`, `y = [0.2 + 1.3 (k sqrt(3) % 1) for k in
+    /// 1..30]`: `ttest_ind(y, x, equal_var=False)`, `ttest_rel(y[:20], x)`, `wilcoxon(y[:20] - x, mode="approx")`,
     /// `ks_2samp(x, y)`.
     #[test]
     fn tests_are_those_of_scipy() {
@@ -221,7 +218,7 @@ mod tests {
         assert!(near(found.p_value, PAIRED), "{found:?}");
         assert!(near(signed_ranks(&differences).expect("differences"), WILCOXON));
         let (statistic, p) = kolmogorov_smirnov(&ascending(&x), &ascending(&y)).expect("both");
-        // the p-value of scipy is exact; Stephens states an error of some percent for such small samples
+        // scipy's p-value is exact; Stephens gives an error of some percent for such small samples
         assert!((statistic - KOLMOGOROV[0]).abs() < 1e-15 && (p / KOLMOGOROV[1] - 1.0).abs() < 0.15, "{statistic} {p}");
     }
 
@@ -240,9 +237,9 @@ mod tests {
         assert_eq!((kolmogorov_tail(0.0), kolmogorov_tail(9.0)), (1.0, 2.0 * libm::exp(-162.0)));
     }
 
-    /// Known: of a hundred pairs (k, k + 10) ten go up through each limit and none down: p is 15 times 2/2^10 = 15/512;
-    /// pairs (k, k + 10 modulo 100) go down as often as up, with nearly equal signed ranks. Equal numbers do not
-    /// differ; without pairs there is no test.
+    /// Known: of a hundred pairs (k, k + 10) ten cross each limit upward and none downward: p is 15 times 2/2^10 =
+    /// 15/512; pairs (k, k + 10 modulo 100) cross both ways equally, although nine in ten differences are positive.
+    /// Equal numbers do not differ; without pairs there is no test.
     #[test]
     fn pairs_go_through_limits_up_and_down() {
         let pairs = |wrap: f64| -> Vec<[f64; 2]> {
@@ -258,9 +255,8 @@ mod tests {
         assert!(marginals(&jumps).is_some_and(|p| (0.001..0.02).contains(&p)), "{:?}", marginals(&jumps));
     }
 
-    /// Known: for n pairs whose second numbers are twice the first, without ties, all terms are positive: z is their
-    /// sum over the root of the sum of squares. Law: the order of the places does not matter, a common step is no
-    /// spread, equal pairs have no test.
+    /// Known: for untied pairs (x, 2 x) all terms are positive: z is their sum over the root of the sum of squares.
+    /// Law: places may be exchanged, a common step is no spread, equal pairs have no test.
     #[test]
     fn spreads_of_pairs_are_seen() {
         let pairs: Vec<[f64; 2]> = (-20..=20).map(|k| f64::from(k) + 0.1).map(|x| [x, 2.0 * x]).collect();
