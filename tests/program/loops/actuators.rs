@@ -1,4 +1,4 @@
-//! What wheels and thrusters make of the commands of a control loop.
+//! Torques of wheels and thrusts of thrusters under the commands of a control loop.
 
 use nalgebra::{Matrix3, Vector3};
 use spindrift::scene::{Arc, Scene, WheelModel};
@@ -8,20 +8,18 @@ use crate::loops::flown_loop::{FlownLoop, SAME_TIME, State, changed};
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 
-/// Rounding of the torques and thrusts of an arc, and of the state at its start: some ten operations, and rates of tens
-/// of rad/s over arcs of some ms.
+/// Rounding of the torques and thrusts of an arc: about ten operations on rates of tens of rad/s over arcs of ms.
 const AGREED: f64 = 1e-12;
 
-/// What acts on a wheel over an arc, recomputed.
+/// The torques of a wheel over an arc, recomputed.
 #[derive(Clone, Copy, Debug)]
 pub struct Driven {
     /// On the wheel, N m.
     pub torque: f64,
-    /// What was commanded, with its scale and bias, beyond what the motor gives, N m.
+    /// Commanded torque, with its scale and bias, beyond that of the motor, N m.
     pub excess: f64,
     pub is_torque_limited: bool,
     pub is_speed_limited: bool,
-    /// Whether friction is what stops the wheel.
     pub is_stopped: bool,
 }
 
@@ -35,12 +33,12 @@ pub fn driven(scene: &Scene, wheel: usize, commanded: f64, rate: f64, length: f6
     let inertia = 1.0 / (1.0 / of_wheel.axial + axis.dot(&(inverse * axis)));
     let asked = if commanded == 0.0 { 0.0 } else { model.torque_scale * commanded + model.torque_bias };
     let within = asked.abs().min(model.torque_limit) * asked.signum();
-    // to the limit of the speed at the end of the arc, against the friction at its start
+    // up to the speed limit at the end of the arc, against the friction at its start
     let along = rate * within.signum();
     let against = if along > 0.0 { model.coulomb_friction + model.viscous_friction * along } else { 0.0 };
     let room = (inertia * (model.speed_limit - along) / length + against).max(0.0);
     let motor = within.abs().min(room) * within.signum();
-    // viscous friction where the wheel keeps its direction, and no more than stops it
+    // viscous friction at most stops the wheel
     let mut after = rate + motor * length / inertia;
     let mut friction = 0.0;
     if after * rate > 0.0 {
@@ -116,8 +114,8 @@ pub fn limited_slew() -> String {
     ) + "\n[[disperse]]\nparameter = \"wheels.w2.torque_bias_n_m\"\ndistribution = \"offset\"\noffset = 2e-4\n"
 }
 
-/// Law: a motor gives the command that is `delay_s` old, with its scale and bias, within the limits of its torque and
-/// of its wheel's speed, and friction acts.
+/// Law: a motor gives the command of `delay_s` before, with scale and bias, within the limits of torque and speed, less
+/// friction.
 #[test]
 fn motors_give_what_their_wheels_make_of_the_commands() {
     for delay in ["0.0", "0.05", "0.25", "0.6"] {
@@ -125,8 +123,8 @@ fn motors_give_what_their_wheels_make_of_the_commands() {
         let met = assert_driven(&FlownLoop::new(&text, 3));
         assert!(met.iter().all(|count| *count > 20), "each effect is met, delay {delay}: {met:?}");
     }
-    let met =
-        assert_driven(&FlownLoop::new(&changed(DETUMBLE, &[("duration_s = \"10 min\"", "duration_s = 90.2")]), 5));
+    let detumble = changed(DETUMBLE, &[("duration_s = \"10 min\"", "duration_s = 90.2")]);
+    let met = assert_driven(&FlownLoop::new(&detumble, 5));
     assert!(met[3] > 100, "{met:?}");
 }
 
@@ -136,7 +134,6 @@ fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
     let mut pulses = 0;
     for thruster in spec.thrusters.iter().copied() {
         let commands = flown.told(&format!("commanded_thrust_{}_n", spec.thruster_names[thruster]));
-        // flight software knows the thrust of the file
         let believed = flown.plan.nominal.thrusters[thruster].max_thrust_n.unwrap_or(f64::INFINITY);
         let drawn = flown.run.scene.actuators.thrusters[thruster];
         for (arc, _) in &flown.arcs {
@@ -155,11 +152,8 @@ fn assert_fired(flown: &FlownLoop, is_on_off: bool) -> usize {
                 assert!((found - expected).abs() < AGREED * 20.0, "p{thruster} at {time}: {found} for {expected}");
             }
         }
-        let ends = flown
-            .arcs
-            .windows(2)
-            .filter(|pair| pair[0].0.applied.thrust[thruster] > pair[1].0.applied.thrust[thruster]);
-        pulses += ends.count();
+        let thrusts = flown.arcs.windows(2).map(|pair| [0, 1].map(|arc| pair[arc].0.applied.thrust[thruster]));
+        pulses += thrusts.filter(|[before, after]| before > after).count();
     }
     pulses
 }

@@ -1,4 +1,4 @@
-//! Loops of campaign files whose law or allocation decides the outcome.
+//! Loops whose law or allocation decides the outcome.
 
 use crate::loops::closed_loops::{plan, run};
 use crate::support::campaigns::SMALL_BODY;
@@ -42,8 +42,7 @@ fn canted_thrusters_stop_a_body() {
         assert!(pushed > 0.01, "a net force came with it: {pushed}");
         let scratch = ScratchFolder::new("canted");
         scratch.file("c.toml", &text);
-        let output = scratch.command("check c.toml").env("COLUMNS", "1000").output().expect("the program starts");
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        let said = scratch.prints_wide("check c.toml", 0);
         let has =
             |axis: &str| said.contains(&format!("thrusters: torque in both directions about {axis}; 1 N m takes "));
         let is_free = said.contains("neither wheels nor thrusters of the loop have torque in both directions about");

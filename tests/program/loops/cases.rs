@@ -1,4 +1,4 @@
-//! Runs of control loops with every kind of sensor, estimator, actuator and end: what `columns` recomputes.
+//! Runs of control loops with every kind of sensor, estimator, actuator and end, for `columns`.
 
 use crate::loops::actuators::limited_slew;
 use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
@@ -8,8 +8,7 @@ const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 const POINT_AT_DEBRIS: &str = include_str!("../../../campaigns/point_at_debris.toml");
 
-/// A run, how its mission ends, and the same run without that end: what flight software estimates at the last tick is
-/// recorded there.
+/// A run, the reason of its end, and the run that goes on, in which the estimates of the last tick are recorded.
 pub struct Case {
     pub flown: FlownLoop,
     going_on: FlownLoop,
@@ -20,11 +19,11 @@ impl Case {
     fn new(text: &str, sample: u64, failure: &'static str, beyond: &[(&str, &str)]) -> Self {
         let flown = FlownLoop::new(text, sample);
         let going_on = FlownLoop::new(&changed(text, beyond), sample);
-        // no command follows from the tick at which a mission ends
+        // no command follows the tick at which a mission ends
         let before = flown.run.telemetry.rows.len() - usize::from(flown.end.is_some());
         for (row, other) in flown.run.telemetry.rows[..before].iter().zip(&going_on.run.telemetry.rows) {
             let same = row.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()));
-            assert!(same, "until the end the run is the same");
+            assert!(same, "the runs differ before the end");
         }
         let last = flown.ticks.len();
         assert!(going_on.told("phase").len() >= last, "it goes on: {failure}");
@@ -62,7 +61,7 @@ fn launch(changes: &[(&str, &str)]) -> String {
     changed(&changed(NET_LAUNCH, &plumes), changes)
 }
 
-/// Goes on where a net was launched.
+/// Goes on after the launch.
 const NO_LAUNCH: (&str, &str) = (
     "next = \"launch\"\n",
     "next = \"after\"\n\n[[guidance]]\nphase = \"after\"\nlaw = \"rate_damping\"\ngain_n_m_s = 1.0\n",

@@ -1,5 +1,4 @@
-//! Every column of a control loop, recomputed from the true states at its ticks and arcs, and from what flight software
-//! estimated.
+//! Every column of a control loop, recomputed from true states, arcs and estimates.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,25 +13,14 @@ use crate::loops::actuators::driven_wheels;
 use crate::loops::cases::{Case, cases};
 use crate::loops::flown_loop::{FlownLoop, State, angle_between, rotation_vector};
 
-/// Rounding of what is summed over a run, relative to a number of size one: some thousands of arcs with 1.1e-16 each
-/// are 1e-12.
+/// Rounding of sums over a run, relative to one: thousands of arcs with 1.1e-16 each are 1e-12.
 const AGREED: f64 = 1e-11;
 
 /// Standard gravity, m/s^2 (ISO 80000-3).
 const STANDARD_GRAVITY: f64 = 9.80665;
 
-/// The reasons of docs/control.md, in the order of their codes.
-const FAILURES: [&str; 9] = [
-    "none",
-    "timeout",
-    "wheel_saturated",
-    "lost_target",
-    "keep_out",
-    "no_axis",
-    "diverged",
-    "module_trap",
-    "module_fuel",
-];
+/// The reasons of docs/control.md in the order of their codes; the last two, of modules, have tests of their own.
+const FAILURES: [&str; 7] = ["none", "timeout", "wheel_saturated", "lost_target", "keep_out", "no_axis", "diverged"];
 
 fn axis(flown: &FlownLoop, state: &State) -> [f64; 3] {
     let velocity = state.debris().v_gdo_e;
@@ -67,7 +55,7 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
         }
         Target::Orbital(_) => {
             let Some(&[w, x, y, z]) = flown.guidance(place, "attitude") else { panic!("an attitude") };
-            // from F_o to the target: the columns of C_eo are the axes of the orbital frame
+            // the columns of C_eo are the axes of the orbital frame
             let o3 = scaled(-1.0 / norm(state.r_co_e), state.r_co_e);
             let normal = cross(state.r_co_e, state.v_co_e);
             let o2 = scaled(-1.0 / norm(normal), normal);
@@ -148,8 +136,8 @@ fn pointing(case: &Case, found: &mut Columns) {
     found.insert("pointing_error_final_rad".into(), errors.last().map_or(f64::NAN, |(_, error)| norm(*error)));
 }
 
-/// Since when the mission has settled, and the relative performance error over the window that begins then or when the
-/// file says.
+/// The settling time of the mission, and the relative performance error over the window that begins then or at a time of
+/// the file.
 fn stability(flown: &FlownLoop, errors: &[(f64, Option<[f64; 3]>)], found: &mut Columns) {
     let band = flown.control("settling_band_rad");
     let last_outside = errors.iter().rposition(|(_, error)| error.is_none_or(|error| norm(error) > band));
@@ -229,7 +217,6 @@ fn thrust(case: &Case, found: &mut Columns) {
             force = sum(force, scaled(thrust, thruster.direction));
             if thrust > 0.0 && state.debris.is_some() {
                 let line = to_debris(state);
-                // a plume leaves against the push of its thruster
                 let plume = scaled(-1.0, state.to_e(thruster.direction));
                 hits |= norm(line) < flown.control("plume_range_m")
                     && angle_between(plume, line) < flown.control("plume_half_angle_rad");
@@ -300,7 +287,7 @@ fn estimation(case: &Case, found: &mut Columns) {
         .chain(of_debris.into_iter().filter(|_| has_debris));
     for (column, recorded) in named {
         if recorded == "debris" && !case.flown.spec().has_camera() {
-            // without a camera the attitude of the debris is predicted alone, which is not recorded
+            // without a camera the attitude of the debris is predicted but not recorded
             found.insert(format!("{column}_innovation_mean"), f64::NAN);
             continue;
         }
@@ -320,7 +307,7 @@ fn recomputed(case: &Case) -> Columns {
     found
 }
 
-/// Law: every column of a loop that the program lists is what the true states, the arcs flown and the estimates say.
+/// Law: every column of a loop in the program's list is recomputed from true states, arcs flown and estimates.
 #[test]
 fn every_column_is_what_the_run_says() {
     let mut unseen = BTreeSet::new();

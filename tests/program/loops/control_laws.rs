@@ -25,7 +25,7 @@ use spindrift::workflow::{
 mod example;
 
 use crate::small_campaign::campaign_without_debris;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, contents};
 
 fn campaign<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
     example::campaign(session).samples(600).audit(0.02).store(root)
@@ -36,21 +36,12 @@ fn threads(session: Session<'_>, threads: usize) -> Session<'_> {
 }
 
 fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
-    let (mut found, mut folders) = (BTreeMap::new(), vec![root.to_owned()]);
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                found.insert(path.strip_prefix(root).unwrap().display().to_string(), fs::read(&path).unwrap());
-            }
-        }
-    }
+    let found = contents(root);
     assert!(found.len() > 5, "{:?}", found.keys());
     found
 }
 
-/// Stops a campaign, and what is under way, after so many runs.
+/// Stops a campaign after a number of runs.
 struct StopAfter {
     runs: u64,
     done: AtomicU64,
@@ -122,7 +113,6 @@ fn is_a_function_of_its_plan(
 
     let verified = verify(&session, &of("one"), Verification { fraction: 1.0, repair: false }).unwrap().unwrap();
     assert_eq!(verified.checked.problems, 0);
-    // a damaged part is computed again under the law
     let part = fs::read_dir(of("one").join("runs")).unwrap().next().unwrap().unwrap().path();
     fs::write(&part, b"no rows").unwrap();
     let repaired = verify(&session, &of("one"), Verification { fraction: 0.0, repair: true }).unwrap().unwrap();
@@ -149,7 +139,7 @@ fn rows_under_a_law_are_its_runs() {
     let audited: Vec<f64> =
         results.column("audit_state_error").unwrap().into_iter().filter(|error| !error.is_nan()).collect();
     assert!(audited.len() > 3 && audited.iter().all(|error| *error < 1e-11), "{audited:?}");
-    // what is audited is the run of the row: it estimates the same error
+    // the audited run is that of the row
     let [own, of_audit] =
         ["state_error_estimate", "audit_state_error_estimate"].map(|name| results.column(name).unwrap());
     for (own, of_audit) in own.iter().zip(&of_audit).filter(|(_, of_audit)| !of_audit.is_nan()) {
@@ -159,7 +149,6 @@ fn rows_under_a_law_are_its_runs() {
         .map(|name| results.column(name).unwrap());
     assert!(work.iter().skip(1).all(|work| work.abs() > 1e-6), "motors work in each run that is dispersed");
     assert!(energy.iter().chain(&momentum).all(|error| error.abs() < 1e-12));
-    // parameters of the law are drawn, and matter: the law holds
     let stiffness = results.column("control_stiffness_n_m").unwrap();
     assert!(stiffness[0] == 0.6 && stiffness[1] != stiffness[2]);
     let last = ["x", "y", "z"].map(|axis| results.column(&format!("omega_se_s_{axis}_final_rad_s")).unwrap());
@@ -185,7 +174,6 @@ fn the_law_is_part_of_the_plan() {
     let other = ControlLaw::new("idle", Actuated::NONE, law.parameters(), idle);
     let refused = reason(session.under(&other));
     assert!(refused.contains("wheel_hold") && refused.contains("idle"), "{refused}");
-    // the program itself brings no law
     let said = scratch.prints("report r", 4);
     assert!(said.contains("control"), "{said}");
     let text = fs::read_to_string(root.join("plan.toml")).unwrap();

@@ -7,15 +7,14 @@ use spindrift::control::estimators::rigid_body_filter::{BodyObservation, BodySte
 use spindrift::control::estimators::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use spindrift::control::measurement::PointMotion;
 
-/// Rounding of a steady state, relative to its diagonal: that of two inversions of matrices whose condition is up to
-/// 1e3.
+/// Rounding of a steady state, relative to its diagonal: two inversions of matrices of condition up to 1e3.
 const AGREED: f64 = 1e-12;
 
-/// Updates after which nothing changes any more.
+/// Updates until the steady state.
 const UPDATES: usize = 4000;
 
-/// The covariance after an update in the steady state of position and velocity, whose velocity walks by `walk` sqrt(T),
-/// where both are measured every T seconds with the informations `seen`.
+/// The covariance after an update in the steady state of position and velocity, whose velocity walks by `walk` sqrt(T)
+/// and which are measured every T seconds with the informations `seen`.
 fn steady(walk: f64, t: f64, seen: Matrix2<f64>) -> Matrix2<f64> {
     let transition = Matrix2::new(1.0, t, 0.0, 1.0);
     let noise = walk * walk * Matrix2::new(t * t * t / 3.0, t * t / 2.0, t * t / 2.0, t);
@@ -40,8 +39,8 @@ fn assert_same(found: [[f64; 2]; 2], expected: Matrix2<f64>) {
     }
 }
 
-/// Law: the covariance of position and velocity converges to the solution of the Riccati equation, whichever of process
-/// and measurement is the larger.
+/// Law: the covariance of position and velocity converges to the solution of the Riccati equation for any ratio of process
+/// and measurement noise.
 #[test]
 fn translation_converges_to_the_riccati_solution() {
     for (walk, t, sigmas) in [(2e-3, 0.5, [0.3, 0.05]), (0.1, 2.0, [0.5, 5.0]), (1e-4, 1.0, [10.0, 0.001])] {
@@ -56,8 +55,7 @@ fn translation_converges_to_the_riccati_solution() {
     }
 }
 
-/// Law: so does that of attitude and rate of a body at rest, about each axis, where its attitude is measured and where
-/// its rate is measured too.
+/// Law: so does that of attitude and rate of a body at rest about each axis, with and without a measured rate.
 #[test]
 fn a_body_at_rest_converges_to_the_riccati_solution() {
     let diagonal = |x: f64| [[x, 0.0, 0.0], [0.0, x, 0.0], [0.0, 0.0, x]];
@@ -108,7 +106,6 @@ fn a_spinning_body_carries_its_covariance() {
         (apart(h) - apart(-h)) / (2.0 * h)
     });
     let transition = Matrix3::from_columns(&columns);
-    // a covariance of the rate alone
     let sigma = 1e-3;
     let mut filter = RigidBodyFilter::new(inertia, q, omega, [0.0, sigma], 0.0);
     for _ in 0..10 {
@@ -116,8 +113,7 @@ fn a_spinning_body_carries_its_covariance() {
     }
     let expected = sigma * sigma * transition * transition.transpose();
     let found = Matrix3::from_fn(|i, j| filter.covariance[i + 3][j + 3]);
-    // a transition of second order: the third order of a step of 0.044 rad is 0.044^3/6 = 1.4e-5, and twice that is
-    // allowed
+    // a transition of second order: the third order of a step of 0.044 rad is 0.044^3/6 = 1.4e-5
     let off = (found - expected).abs().max() / expected.abs().max();
     assert!(off < 3e-5, "{off:e}: {found} for {expected}");
     assert!((transition - Matrix3::identity()).abs().max() > 0.05, "the body turns over: {transition}");

@@ -9,12 +9,11 @@ use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::Arc;
 
-use crate::loops::closed_loops::{plan, run};
+use crate::loops::closed_loops::{plan, run, without};
 
-/// Times that are closer than this, s, are one: rounding of k T, and far below any period and any pulse.
+/// Times closer than this, s, are one: rounding of k T.
 pub const SAME_TIME: f64 = 1e-9;
 
-/// The true state at a time.
 #[derive(Clone, Debug)]
 pub struct State {
     pub time: f64,
@@ -26,7 +25,6 @@ pub struct State {
     pub debris: Option<Debris>,
 }
 
-/// The true state of the debris.
 #[derive(Clone, Copy, Debug)]
 pub struct Debris {
     pub r_gdo_e: [f64; 3],
@@ -57,9 +55,9 @@ impl State {
 pub struct FlownLoop {
     pub plan: Plan,
     pub run: SingleRun,
-    /// The true states at the control ticks, up to the one at which the run ended.
+    /// The true states at the control ticks, up to the end of the run.
     pub ticks: Vec<State>,
-    /// The arcs, each with the true state at its start; the one that marks the end of the run is not among them.
+    /// The arcs without the one that marks the end of the run, each with the true state at its start.
     pub arcs: Vec<(Arc, State)>,
     /// When the mission launched or failed.
     pub end: Option<f64>,
@@ -67,7 +65,7 @@ pub struct FlownLoop {
 
 impl FlownLoop {
     pub fn new(text: &str, sample: u64) -> Self {
-        let plan = plan(&unjudged(text));
+        let plan = plan(&without(text, &["[[require]]"]));
         let first = run(&plan, sample);
         let period = plan.law.as_ref().and_then(|law| law.spec()).expect("a loop").period;
         let duration = plan.grid.duration();
@@ -80,7 +78,6 @@ impl FlownLoop {
         times.push(duration);
         times.sort_by(f64::total_cmp);
         times.dedup_by(|later, earlier| *later - *earlier < SAME_TIME);
-        // a time that rounding took beyond the end
         *times.last_mut().expect("the duration") = duration;
         let run = SingleRun::new(&plan, SampleId(sample), Grid::at(times), Isa::best()).expect("a physical scene");
         assert!(run.arcs == first.arcs, "the arcs do not depend on what is observed");
@@ -142,16 +139,6 @@ fn state_at(run: &SingleRun, time: f64) -> State {
     }
 }
 
-fn unjudged(text: &str) -> String {
-    let (mut kept, mut is_kept) = (String::new(), true);
-    for line in text.lines() {
-        is_kept = if line.starts_with('[') { line.trim() != "[[require]]" } else { is_kept };
-        kept += if is_kept { line } else { "" };
-        kept.push('\n');
-    }
-    kept
-}
-
 pub fn changed(text: &str, changes: &[(&str, &str)]) -> String {
     changes.iter().fold(text.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
@@ -169,7 +156,7 @@ pub fn without_filters(text: &str, estimator: &str) -> String {
 pub fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let [a, b] = [a, b].map(|v| v.map(|x| x / size(v)));
-    // W. Kahan: right at any angle
+    // W. Kahan: accurate at any angle
     let [apart, together] = [-1.0, 1.0].map(|sign| size(std::array::from_fn(|i| a[i] + sign * b[i])));
     2.0 * apart.atan2(together)
 }

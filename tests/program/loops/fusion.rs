@@ -1,15 +1,14 @@
-//! Several attitude sensors in one loop: each lowers the error of the filter as the sum of informations says, and the
-//! filter's innovations are those of a filter that is told the truth about each.
+//! Several attitude sensors in one loop lower the error of the filter by the sum of their informations.
 
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::Plan;
 use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::dynamics::orbit::KeplerOrbit;
 use spindrift::math::vector::{dot, norm, scaled};
 use spindrift::scene::Scene;
 
+use crate::loops::closed_loops::plan;
 use crate::support::plans::rows;
 
-/// A body at rest for 100 ticks, with a gyro without errors and the sensors that follow.
 const AT_REST: &str = r#"
 [campaign]
 name = "at_rest"
@@ -56,19 +55,29 @@ const SUN: &str = "[[sensors]]\nname = \"sun\"\nkind = \"sun_sensor\"\nnoise_rad
 const SECOND: &str = "[[sensors]]\nname = \"fine\"\nkind = \"star_tracker\"\nperiod_s = 2\nnoise_rad = [4e-4, 4e-4, \
     4e-3]\nboresight = [0, 1, 0]\n";
 
-/// Information of `count` numbers of deviation `sigma`.
 fn information(count: f64, sigma: f64) -> f64 {
     count / (sigma * sigma)
 }
 
-/// Law: after 100 ticks the square of the attitude's error is on average the sum over the axes of 1/(information), of
-/// the start, of each tracker about its axes, and of the Sun sensor across the direction of the Sun.
+/// Compares 800 runs with theory: the mean square of the attitude error has this `mean` and the sum of squared variances
+/// `squares`, and innovations, of 200 numbers and more in a run, have a mean square of one.
+fn assert_theory(plan: &Plan, mean: f64, squares: f64, what: &str) {
+    let (n, table) = (800.0, rows(plan));
+    let column = |name: &str| table.column(name)[1..].to_vec();
+    let found = column("attitude_estimate_error_final_rad").iter().map(|error| error * error).sum::<f64>() / n;
+    let deviation = (2.0 * squares / n).sqrt();
+    assert!((found - mean).abs() < 4.5 * deviation, "{what}: {found:e} for {mean:e} +- {deviation:e}");
+    let innovations = column("attitude_innovation_mean").iter().sum::<f64>() / n;
+    assert!((innovations - 1.0).abs() < 4.5 * (2.0 / (2.0 * 100.0 * n)).sqrt(), "{what}: {innovations}");
+}
+
+/// Law: after 100 ticks the mean square of the attitude error is the sum over the axes of 1/(information) of the start,
+/// of each tracker about its axes, and of the Sun sensor across the direction of the Sun, s1.
 #[test]
 fn each_sensor_lowers_the_error_as_theory_says() {
     let coarse = [1e-3, 2e-3, 2e-2].map(|sigma| information(100.0, sigma) + information(1.0, 0.1));
-    // the Sun is along s1: it is seen about s2 and s3
     let sun = [0.0, information(100.0, 3e-3), information(100.0, 3e-3)];
-    // about its boresight, s2, the second tracker is ten times as coarse
+    // the second tracker is ten times as coarse about its boresight, s2
     let second = [4e-4, 4e-3, 4e-4].map(|sigma| information(50.0, sigma));
     let none = [0.0; 3];
     let mut expected = Vec::new();
@@ -78,18 +87,9 @@ fn each_sensor_lowers_the_error_as_theory_says() {
         (SECOND.into(), [none, second]),
         (format!("{SUN}{SECOND}"), [sun, second]),
     ] {
-        let plan = Plan::from_text("c.toml", &format!("{AT_REST}{sensors}"), Overrides::default()).expect("a plan");
-        let table = rows(&plan);
-        let column = |name| &table.column(name)[1..];
-        let n = 800.0;
         let variances: [f64; 3] = std::array::from_fn(|axis| 1.0 / (coarse[axis] + added[0][axis] + added[1][axis]));
-        let (mean, deviation) =
-            (variances.iter().sum::<f64>(), (2.0 * variances.iter().map(|v| v * v).sum::<f64>() / n).sqrt());
-        let found = column("attitude_estimate_error_final_rad").iter().map(|error| error * error).sum::<f64>() / n;
-        assert!((found - mean).abs() < 4.5 * deviation, "{sensors}: {found:e} for {mean:e} +- {deviation:e}");
-        let innovations = column("attitude_innovation_mean").iter().sum::<f64>() / n;
-        // at least 100 innovations of two or three numbers in each run
-        assert!((innovations - 1.0).abs() < 4.5 * (2.0 / (2.0 * 100.0 * n)).sqrt(), "{sensors}: {innovations}");
+        let mean = variances.iter().sum::<f64>();
+        assert_theory(&plan(&format!("{AT_REST}{sensors}")), mean, variances.iter().map(|v| v * v).sum(), &sensors);
         expected.push(mean);
     }
     assert!(expected[0] > 8.0 * expected[1] && expected[0] > 18.0 * expected[2], "{expected:?}");
@@ -99,9 +99,7 @@ fn each_sensor_lowers_the_error_as_theory_says() {
 fn the_mean_of_innovations_is_of_all_measurements() {
     let doubled = "[[disperse]]\nparameter = \"sensors.coarse.noise_rad\"\ndistribution = \"offset\"\noffset = [1e-3, \
         2e-3, 2e-2]\n";
-    let text = format!("{AT_REST}{SECOND}{doubled}");
-    let plan = Plan::from_text("c.toml", &text, Overrides::default()).expect("a plan");
-    let table = rows(&plan);
+    let table = rows(&plan(&format!("{AT_REST}{SECOND}{doubled}")));
     let all = &table.column("attitude_innovation_mean")[1..];
     let mean = all.iter().sum::<f64>() / all.len() as f64;
     assert!((mean - 3.0).abs() < 0.1, "{mean}");
@@ -113,8 +111,7 @@ fn on_orbit(sensors: &str) -> String {
     format!("{AT_REST}{orbit}{sensors}")
 }
 
-/// Law: on an orbit a horizon sensor and a magnetometer lower the error as the information of the directions says that
-/// they measure, which turn.
+/// Law: on an orbit a horizon sensor and a magnetometer lower the error by the information of their turning directions.
 #[test]
 fn directions_of_an_orbit_lower_the_error_as_theory_says() {
     const SIGMAS: [f64; 2] = [3e-3, 1e-7];
@@ -132,7 +129,7 @@ fn directions_of_an_orbit_lower_the_error_as_theory_says() {
         (field.clone(), [0.0, 1.0]),
         (format!("{horizon}{field}"), [1.0; 2]),
     ] {
-        let plan = Plan::from_text("c.toml", &on_orbit(&sensors), Overrides::default()).expect("a plan");
+        let plan = plan(&on_orbit(&sensors));
         let nominal = Scene::resolve(&plan.nominal).expect("physical");
         let orbit = KeplerOrbit::new(nominal.orbit.as_ref().expect("an orbit"));
         let magnetic = MagneticField::of(&nominal).expect("a field");
@@ -153,16 +150,8 @@ fn directions_of_an_orbit_lower_the_error_as_theory_says() {
             }
         }
         let covariance = nalgebra::Matrix3::from_fn(|i, j| all[i][j]).try_inverse().expect("all axes are measured");
-        let (mean, squares) = (covariance.trace(), (covariance * covariance).trace());
-        let n = 800.0;
-        let table = rows(&plan);
-        let column = |name| &table.column(name)[1..];
-        let found = column("attitude_estimate_error_final_rad").iter().map(|error| error * error).sum::<f64>() / n;
-        let deviation = (2.0 * squares / n).sqrt();
-        println!("{has:?}: {found:e} for {mean:e} +- {deviation:e}");
-        assert!((found - mean).abs() < 4.5 * deviation, "{has:?}: {found:e} for {mean:e} +- {deviation:e}");
-        let innovations = column("attitude_innovation_mean").iter().sum::<f64>() / n;
-        assert!((innovations - 1.0).abs() < 4.5 * (2.0 / (2.0 * 100.0 * n)).sqrt(), "{has:?}: {innovations}");
+        let mean = covariance.trace();
+        assert_theory(&plan, mean, (covariance * covariance).trace(), &sensors);
         means.push(mean);
     }
     assert!(means[0] > 8.0 * means[1] && means[0] > 8.0 * means[2] && means[1] > 1.1 * means[3], "{means:?}");

@@ -1,4 +1,4 @@
-//! What flight software does not know: the numbers of the scene that a run has drawn.
+//! Flight software does not know the numbers that a run has drawn.
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
@@ -9,8 +9,8 @@ use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
-/// `net_launch.toml` without its phases and draws, whose loop turns to an attitude and stops the motion along s3, which
-/// is that of `along_s3`, m/s.
+/// `net_launch.toml` without phases and draws, with one phase that turns to an attitude and stops the motion `along_s3`,
+/// m/s.
 fn braking(estimator: &str, along_s3: f64) -> String {
     let start = NET_LAUNCH.find("[[guidance]]").expect("phases");
     let text = match estimator {
@@ -50,11 +50,10 @@ fn first_commands(text: &str) -> (Vec<f64>, bool) {
     (names.iter().map(|name| flown.told(name)[0]).collect(), is_drawn)
 }
 
-/// Law: where the state is known, the first command does not depend on any number that the spacecraft, its wheels, its
-/// thrusters or the debris have drawn, over the list of what can be dispersed.
+/// Law: where the state is known, the first command depends on no drawn number of spacecraft, wheels, thrusters or debris.
 #[test]
 fn commands_do_not_depend_on_what_is_drawn() {
-    // at rest, so that the velocity of the centre of mass is that of p, wherever it is
+    // at rest, so that the velocity of the centre of mass is that of p
     let text = changed(
         &braking("perfect", -0.002),
         &[(
@@ -63,17 +62,14 @@ fn commands_do_not_depend_on_what_is_drawn() {
         )],
     );
     let turning = changed(&braking("perfect", -0.002), &[("thrust = \"stop\"\n", "")]);
-    // of the state at the start, which is that of a point of the drawn body, in commands of 20 N and N m
+    // rounding of the initial state of a drawn body, in commands of 20 N and N m
     const ROUNDING: f64 = 1e-12;
     let mut drawn = 0;
     for text in [text, turning] {
         let (expected, _) = first_commands(&text);
-        assert!(
-            expected.iter().all(|command| command.is_finite())
-                && expected.iter().filter(|command| **command != 0.0).count() > 2,
-            "{expected:?}"
-        );
-        // a thruster at its limit would hide what the force depends on
+        let acting = expected.iter().filter(|command| **command != 0.0).count();
+        assert!(acting > 2 && expected.iter().all(|command| command.is_finite()), "{expected:?}");
+        // a thruster at its limit would hide the force
         assert!(expected[2..].iter().zip([20.0, 10.0, 10.0]).all(|(thrust, most)| *thrust < most), "{expected:?}");
         let plan = plan(&text);
         let parameters = Parameter::all(&plan.nominal).filter(|parameter| parameter.exists(&plan.nominal));
@@ -87,7 +83,7 @@ fn commands_do_not_depend_on_what_is_drawn() {
                 continue;
             }
             let dispersed = text.clone() + &offset(&name, 1e-3);
-            // a number that makes no physical scene alone is no draw
+            // a draw that makes no physical scene is left out
             if Plan::from_text("loop.toml", &dispersed, Overrides::default()).is_err() {
                 continue;
             }
@@ -112,11 +108,11 @@ fn mean_of_interval(commands: &[f64], delay: f64, period: f64) -> Vec<f64> {
 
 #[test]
 fn filters_predict_with_commands_and_nominal_numbers() {
-    // an ulp of 40 m, or of 40 rad/s, is 7e-15: some tens of them
+    // an ulp of 40 m or rad/s is 7e-15
     const ROUNDING: f64 = 2e-13;
     for delay in [0.0, 0.1, 0.5, 0.7] {
         let mut text = changed(&braking("mekf", -0.2), &[("delay_s = 0.1", &format!("delay_s = {delay:?}")[..])]);
-        // after the first measurements nothing but the gyro is heard
+        // after the first measurements only the gyro measures
         for (from, to) in [
             ("latency_s = 0.5\nnoise_rad", "period_s = 2000.0\nlatency_s = 0.5\nnoise_rad"),
             ("period_s = 2.0\nlatency_s = 1.0", "period_s = 2000.0\nlatency_s = 1.0"),
@@ -137,17 +133,13 @@ fn filters_predict_with_commands_and_nominal_numbers() {
         let nominal = Scene::resolve(&flown.plan.nominal).expect("physical");
         assert!(flown.run.scene.mass.total > 1.1 * nominal.mass.total);
         let period = flown.spec().period;
-        let thrusts = [("p1", 0), ("p2", 1), ("p3", 2)]
-            .map(|(name, _)| mean_of_interval(&flown.told(&format!("commanded_thrust_{name}_n")), delay, period));
-        // flight software knows the limits of the motors
+        let thrusts = ["p1", "p2", "p3"]
+            .map(|name| mean_of_interval(&flown.told(&format!("commanded_thrust_{name}_n")), delay, period));
         let torques = [("w1", 0), ("w2", 1)].map(|(name, place)| {
             let limit = nominal.actuators.wheels[place].torque_limit;
             let commands = flown.told(&format!("commanded_torque_{name}_n_m"));
-            mean_of_interval(
-                &commands.iter().map(|torque| torque.clamp(-limit, limit)).collect::<Vec<_>>(),
-                delay,
-                period,
-            )
+            let within: Vec<f64> = commands.iter().map(|torque| torque.clamp(-limit, limit)).collect();
+            mean_of_interval(&within, delay, period)
         });
         let speeds = ["w1", "w2"].map(|name| flown.told(&format!("estimated_rate_{name}_rad_s")));
         let (attitudes, rates) =
@@ -156,10 +148,8 @@ fn filters_predict_with_commands_and_nominal_numbers() {
         let velocities = flown.told_vector::<3>("estimated_relative_velocity_e_#_m_s");
         let mut pushed: f64 = 0.0;
         for tick in 4..attitudes.len() - 1 {
-            let force = nominal
-                .thrusters
-                .iter()
-                .zip(&thrusts)
+            let thrusters = nominal.thrusters.iter().zip(&thrusts);
+            let force = thrusters
                 .fold([0.0; 3], |total, (thruster, thrust)| sum(total, scaled(thrust[tick], thruster.direction)));
             let push = scaled(1.0 / nominal.mass.total, force);
             let [before, after] = [tick, tick + 1].map(|tick| product(dcm_from_quaternion(attitudes[tick]), push));
@@ -168,7 +158,6 @@ fn filters_predict_with_commands_and_nominal_numbers() {
             let velocity = sum(velocities[tick], scaled(period, acceleration));
             let off = norm(difference(velocities[tick + 1], velocity));
             assert!(off < ROUNDING, "delay {delay}, tick {tick}: the velocity is off by {off:e} m/s");
-            // the debris comes nearer by what the spacecraft moves
             let moved = sum(scaled(period, velocities[tick]), scaled(0.5 * period * period, acceleration));
             let off = norm(difference(lines[tick + 1], difference(lines[tick], moved)));
             assert!(off < ROUNDING, "delay {delay}, tick {tick}: the position is off by {off:e} m");

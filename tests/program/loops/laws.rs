@@ -1,4 +1,4 @@
-//! Every law of attitude, in a loop, by its formula in docs/control-formulas.md and in its docstring.
+//! The formulas of the attitude laws, in a loop.
 
 use std::fmt::Write as _;
 
@@ -9,16 +9,15 @@ use spindrift::math::vector::{
 
 use crate::loops::flown_loop::{FlownLoop, angle_between, rotation_vector};
 
-/// Rounding, relative to the sum of the magnitudes of the terms of a law: some tens of operations with 1.1e-16 each.
+/// Rounding relative to the sum of the magnitudes of the terms of a law: tens of operations with 1.1e-16 each.
 const AGREED: f64 = 1e-14;
 
 const PERIOD: f64 = 0.5;
 
-/// J with wheels locked, and the axial inertia of each wheel, kg m^2.
 const INERTIA: [[f64; 3]; 3] = [[30.0, 1.5, -2.0], [1.5, 36.0, 0.7], [-2.0, 0.7, 24.0]];
 const AXIAL: [f64; 3] = [0.4, 0.3, 0.5];
 
-/// The keys of the laws with numbers of ours; a key that is not here has its default.
+/// Keys of the laws that differ from their defaults.
 const NUMBERS: [(&str, f64); 7] = [
     ("gain_n_m_s", 5.0),
     ("bandwidth_rad_s", 0.3),
@@ -60,13 +59,11 @@ fn file(law: &str, keys: &str, target: &str) -> String {
     text
 }
 
-/// What a law sees at a tick.
 struct Seen {
     /// Attitude relative to the target, of the shorter rotation.
     q_ts: [f64; 4],
     omega: [f64; 3],
     omega_te_s: [f64; 3],
-    /// H with the wheels, and K = J*, in F_s.
     momentum: [f64; 3],
     rotating: [[f64; 3]; 3],
 }
@@ -76,7 +73,6 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
     let relative = difference(seen.omega, seen.omega_te_s);
     let rotating = |v| product(seen.rotating, v);
     let gyroscopic = cross(seen.omega, seen.momentum);
-    // a target that turns is followed
     let carried = scaled(-1.0, rotating(cross(seen.omega, seen.omega_te_s)));
     match name {
         "rate_damping" => vec![scaled(-number("gain_n_m_s"), seen.omega)],
@@ -102,8 +98,8 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
     }
 }
 
-/// Law: every law in the program's list commands the torque of its formula, from the estimates of the tick, for targets
-/// at rest and for one that turns.
+/// Law: every law in the program's list commands the torque of its formula in docs/control-formulas.md from the estimates
+/// of the tick, for targets at rest and one that turns.
 #[test]
 fn every_law_is_its_formula() {
     let rotating: [[f64; 3]; 3] =
@@ -117,14 +113,10 @@ fn every_law_is_its_formula() {
         for target in ["target = \"attitude\"\nattitude = [0.6, 0, -0.8, 0]\n", "target = \"line_to_debris\"\n"] {
             for sample in 1..=6 {
                 let flown = FlownLoop::new(&file(kind.name, &keys, target), sample);
-                let (attitudes, rates) = (
-                    flown.told_vector::<4>("estimated_q_es_#"),
-                    flown.told_vector::<3>("estimated_omega_se_s_#_rad_s"),
-                );
-                let (lines, velocities) = (
-                    flown.told_vector::<3>("estimated_to_debris_e_#_m"),
-                    flown.told_vector::<3>("estimated_relative_velocity_e_#_m_s"),
-                );
+                let attitudes = flown.told_vector::<4>("estimated_q_es_#");
+                let rates = flown.told_vector::<3>("estimated_omega_se_s_#_rad_s");
+                let lines = flown.told_vector::<3>("estimated_to_debris_e_#_m");
+                let velocities = flown.told_vector::<3>("estimated_relative_velocity_e_#_m_s");
                 let of_wheels =
                     |name: &str| [0, 1, 2].map(|wheel| flown.told(&name.replace('#', &format!("w{wheel}"))));
                 let (speeds, commands) = (of_wheels("estimated_rate_#_rad_s"), of_wheels("commanded_torque_#_n_m"));
@@ -143,7 +135,6 @@ fn every_law_is_its_formula() {
                         let angle = angle_between([0.0, 0.0, 1.0], in_body);
                         let across = cross(in_body, [0.0, 0.0, 1.0]);
                         let half = scaled((0.5 * angle).sin() / norm(across), across);
-                        // the line changes against the velocity
                         let turn = scaled(1.0 / dot(line, line), cross(line, scaled(-1.0, velocity)));
                         ([(0.5 * angle).cos(), half[0], half[1], half[2]], transposed_product(c_es, turn))
                     } else {
@@ -157,14 +148,10 @@ fn every_law_is_its_formula() {
                     let terms = terms(kind.name, &seen, &mut integral, is_first);
                     let expected = terms.iter().fold([0.0; 3], |total, term| sum(total, *term));
                     let size: f64 = terms.iter().map(|term| norm(*term)).sum();
-                    // the body takes the opposite of what a motor gives its wheel
+                    // the body takes the opposite torque of a motor
                     let found = [0, 1, 2].map(|wheel| -commands[wheel][tick]);
                     let off = norm(difference(found, expected)) / size;
-                    assert!(
-                        off < AGREED,
-                        "{} {target}, sample {sample}, tick {tick}: {found:?} for {expected:?}",
-                        kind.name
-                    );
+                    assert!(off < AGREED, "{} {target}, {sample}, {tick}: {found:?} for {expected:?}", kind.name);
                     clamped += usize::from(integral.iter().any(|one| one.abs() == number("integral_limit_n_m_s")));
                 }
                 assert_eq!(*phases.last().expect("ticks"), 1.0, "both phases are flown");

@@ -1,4 +1,4 @@
-//! Maneuvers of control loops: impulses that are on their way, and transfers that follow one another.
+//! Maneuvers of control loops: impulses on their way, and transfers that follow one another.
 
 use spindrift::math::vector::{difference, dot, norm};
 
@@ -6,8 +6,7 @@ use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
-/// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters, whose commands act after `delay` seconds,
-/// for `duration` seconds.
+/// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters whose commands act after `delay` seconds.
 fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> FlownLoop {
     let head = &NET_LAUNCH[..NET_LAUNCH.find("[[guidance]]").expect("phases")];
     let text = changed(
@@ -68,7 +67,6 @@ fn each_transfer_arrives_after_its_own_time() {
     };
     let [(_, one), (_, two), (arrived, end)] = [1.0, 2.0, 4.0].map(begin);
     assert!(two - one > 5.0 && two - one < 60.0, "the second burn is on the way: {one} {two}");
-    // the last tick with more than 0.75 s to go is the one before
     assert!((end - two - TIMES[1]).abs() < 1.0, "{two} to {end}");
     let state = &flown.ticks[arrived];
     let to_debris = difference(state.debris().r_gdo_e, state.r_co_e);

@@ -1,4 +1,4 @@
-//! How missions ended: on the screen, in the summary and on the page, against the rows.
+//! The ends of missions on screen, summary and page, against the rows.
 
 use crate::commands::screen_numbers::says;
 use crate::support::scratch_folder::{ScratchFolder, column, ended};
@@ -9,7 +9,6 @@ const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 #[test]
 fn ends_are_those_of_the_rows() {
     let scratch = ScratchFolder::new("missions");
-    // some runs are at rest by then
     scratch.file("c.toml", &DETUMBLE.replace("timeout_s = 500.0", "timeout_s = 40.0"));
     let mut command = scratch.command("campaign c.toml --samples 40 --out r --verbose --no-report");
     let output = command.env("COLUMNS", "200").output().expect("the program starts");

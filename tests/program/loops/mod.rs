@@ -1,4 +1,4 @@
-//! Control loops: sensors, filters, guidance, laws, actuators and columns, recomputed from true states.
+//! Control loops recomputed from true states.
 
 pub mod actuators;
 pub mod authority;

@@ -1,4 +1,4 @@
-//! Motors of a loop that fail, and that a schedule drives too.
+//! Motors of a loop with failures and a schedule.
 
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
@@ -11,22 +11,19 @@ use crate::loops::closed_loops::{plan, value};
 const PERIOD: f64 = 0.5;
 const GAIN: f64 = 0.1;
 const LIMIT: f64 = 0.002;
-/// Moment of inertia of the body with its wheel about s3, and that of the wheel, kg m^2.
+/// Axial inertia of the body with its wheel, and of the wheel, kg m^2.
 const INERTIA: [f64; 2] = [6.0, 1e-3];
 const DURATION: f64 = 10.0;
-/// Rounding of rates of 0.1 rad/s over twenty arcs: an ulp is 1.4e-17.
+/// Rounding of rates of 0.1 rad/s over twenty arcs.
 const ROUNDING: f64 = 1e-15;
 
-/// What is tried of the motor, the schedule and the failure.
 #[derive(Clone, Copy, Debug)]
 struct Case {
     rate: f64,
     scale: f64,
     bias: f64,
     coulomb: f64,
-    /// Start, end and torque of the schedule.
     scheduled: Option<[f64; 3]>,
-    /// Time and factor of the failure.
     failed: Option<[f64; 2]>,
 }
 

@@ -1,5 +1,4 @@
-//! Noise within control loops: the share of the variance that it makes, as `report --noise` says it, and what
-//! innovations say of filters.
+//! The share of the variance due to noise within control loops, from `report --noise`.
 
 use crate::page::numbers::{Found, found};
 use crate::support::campaigns::{SMALL_BODY, small_wheel};
@@ -59,8 +58,8 @@ fn variance(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64
 }
 
-/// Law: what the scene alone decides has no noise, what a sensor alone decides is all noise, and a sum has the share
-/// that the variances of its parts say.
+/// Law: an outcome of the scene alone has no noise, one of a sensor alone is all noise, and a sum has the share of the
+/// variances of its parts.
 #[test]
 fn noise_is_told_from_scenes() {
     let run = found("noise", &noisy());
@@ -68,7 +67,6 @@ fn noise_is_told_from_scenes() {
     let [of_noise, of_scene] = [0, 1].map(|k| variance(&parts.iter().map(|(_, row)| row[k]).collect::<Vec<f64>>()));
     assert!(run.visible().contains("report . --noise 256"), "the page says how");
     let text = run.scratch.prints_wide("report r --noise 400", 0);
-    // the page says how it was made, and is made again
     run.scratch.prints("verify r --fraction 0", 0);
     assert!(text.contains("of scene: noise within the loop changes it in none of 400 scenes"), "{text}");
     let [share, low, high] = said(&text, "attitude estimate error at the end");

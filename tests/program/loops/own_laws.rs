@@ -1,5 +1,4 @@
-//! A law of attitude of a program's own in the phases of a control loop, beside the built-in sensors, filter, guidance
-//! and allocation.
+//! A program's own attitude law in the phases of a control loop.
 
 use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
 use spindrift::control::vector::{cross, difference, product, scaled, sum};
@@ -9,12 +8,12 @@ use spindrift::workflow::{Campaign, Quiet, Results, Session, WorkflowError};
 
 use crate::support::scratch_folder::ScratchFolder;
 
-/// B. Wie's quaternion feedback, written anew: u = -K (2 w^2 e + 2 zeta w omega_st) + omega x H - K (omega x omega_te).
+/// B. Wie's quaternion feedback: u = -K (2 w^2 e + 2 zeta w omega_st) + omega x H - K (omega x omega_te).
 #[derive(Clone, Debug)]
 struct Feedback {
     bandwidth: f64,
     damping: f64,
-    /// What is added to the torque about s3 for each tick since the beginning of the phase, N m.
+    /// Torque about s3 that each tick of the phase adds, N m.
     creep: f64,
     ticks: f64,
 }
@@ -41,7 +40,6 @@ static PARAMETERS: [LawParameter; 3] = [
     LawParameter::number("creep_n_m", "N m", "Torque that a tick adds about s3", Limit::Finite).or(&[0.0]),
 ];
 
-/// The law of this program.
 static OWN: LawKind = LawKind {
     name: "own_feedback",
     parameters: &PARAMETERS,
@@ -70,8 +68,7 @@ fn with_own_law() -> String {
     found
 }
 
-/// Law: a law of a program that computes what a built-in one computes gives the same rows, bit for bit, with the
-/// sensors, the filter, the phases and the wheels of the file.
+/// Law: a program's law that computes a built-in one gives the same rows, bit for bit.
 #[test]
 fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     let scratch = ScratchFolder::new("own-laws");
@@ -92,7 +89,7 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     for (expected, found) in built_in.iter().zip(&found) {
         assert!(expected == found, "{}", expected.0);
     }
-    // the counter-test: a torque that grows from tick to tick of the phase is another law
+    // counter-test: a torque that grows from tick to tick is another law
     let creeping = text.replacen("own_damping", "creep_n_m = 1e-6\nown_damping", 1);
     assert_ne!(run(&creeping, own, "creeping"), found);
 

@@ -1,4 +1,4 @@
-//! When phases of guidance end and when missions fail: recomputed from what was estimated and measured at the ticks.
+//! Ends of phases and failures of missions, recomputed from estimates and measurements.
 
 use spindrift::math::vector::norm;
 
@@ -34,7 +34,7 @@ fn a_hold_starts_with_its_phase() {
     );
     let flown = FlownLoop::new(&text, 0);
     let met: Vec<bool> = flown.ticks.iter().map(|state| norm(state.omega_se_s) < 0.004).collect();
-    // a phase is asked for its condition from the tick after its begin on, the first from the start
+    // a condition is evaluated from the tick after the beginning of its phase, that of the first from the start
     let (mut begin, mut asked) = (0, 0);
     let mut expected = vec![(0.0, 0)];
     for (place, hold) in holds.iter().enumerate() {
@@ -48,11 +48,11 @@ fn a_hold_starts_with_its_phase() {
     assert!(!met[0] && expected[1].0 > 6.0, "{expected:?}");
 }
 
-/// Law: a mission whose debris is not seen fails at the first tick at which the last measurement was *taken* longer ago
-/// than the limit.
+/// Law: a mission that does not see its debris fails at the first tick whose last measurement was *taken* longer ago than
+/// the limit.
 #[test]
 fn the_age_of_the_camera_contains_its_latency() {
-    // seen at the start, and never after: the range is passed
+    // seen at the start alone
     for latency in ["0.5", "2.0"] {
         let text = changed(
             NET_LAUNCH,
@@ -73,8 +73,8 @@ fn the_age_of_the_camera_contains_its_latency() {
     }
 }
 
-/// Law: a wheel at its limit fails the mission at the first tick at which it has been there without a gap for longer
-/// than `saturation_timeout_s`, counted from the start of the arc in which the limit began to cut its motor.
+/// Law: a wheel at its limit fails the mission at the first tick after `saturation_timeout_s` without a gap, counted from
+/// the start of the arc in which the limit first cuts its motor.
 #[test]
 fn a_wheel_fails_after_its_timeout() {
     for timeout in [1.0, 5.0, 10.0] {

@@ -1,5 +1,4 @@
-//! Every sensor in a loop: what it delivers at a tick is what it measured of the true state `latency_s` before, with
-//! its fixed errors.
+//! Every sensor in a loop delivers its measurement of the true state `latency_s` before, with its fixed errors.
 
 use spindrift::control::sensors::KINDS;
 use spindrift::dynamics::magnetic_field::MagneticField;
@@ -12,8 +11,7 @@ use crate::loops::flown_loop::{FlownLoop, State, changed, rotation_vector, witho
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 
-/// Rounding, of positions of tens of metres and rates of wheels of tens of rad/s: an ulp of 40 is 7e-15, and states
-/// between steps have some of them.
+/// Rounding of tens of metres and rad/s (an ulp of 40 is 7e-15) of states between steps.
 const AGREED: f64 = 1e-12;
 
 const PERIOD: f64 = 0.5;
@@ -22,8 +20,7 @@ const GYRO_SCALE: [f64; 3] = [1.02, 0.97, 1.01];
 const MISALIGNMENT: [f64; 3] = [0.02, -0.01, 0.03];
 const TRACKER_BIAS: [f64; 3] = [4e-3, -3e-3, 2e-3];
 const TACHOMETER_SCALE: f64 = 1.05;
-/// Deviations about each axis of the tracker, of radar and camera, of the tachometers, and of the angle of the gyro
-/// after a second.
+/// Deviations: tracker by axis, radar and camera, tachometers, and the angle of the gyro after a second.
 const TRACKER_NOISE: [f64; 3] = [1e-4, 2e-4, 3e-4];
 const RADAR_NOISE: [f64; 2] = [0.3, 0.005];
 const CAMERA_NOISE: [f64; 2] = [0.02, 0.003];
@@ -40,7 +37,7 @@ const SUN_E: [f64; 3] = [-0.48, 0.6, 0.64];
 const BORESIGHT: [f64; 3] = [0.0, 1.0, 0.0];
 const SUN_BIAS: f64 = 2e-3;
 const SUN_NOISE: f64 = 1e-3;
-/// Rate and range beyond which tracker and camera give nothing: both are passed in the run.
+/// Limits of tracker and camera, both passed in the run.
 const TRACKER_RATE: f64 = 0.015;
 const CAMERA_RANGE: f64 = 38.0;
 
@@ -96,8 +93,7 @@ fn file() -> String {
     text + "[[disperse]]\nparameter = \"initial.velocity_m_s\"\ndistribution = \"offset\"\noffset = 0.0\n"
 }
 
-/// Period, latency and noise of those of an orbit; fixed errors of the magnetometer; boresight and field of view of the
-/// horizon sensor, whose errors are those of the Sun sensor.
+/// Sensors on an orbit; the horizon sensor has the errors of the Sun sensor.
 const FIELD: [f64; 2] = [1.5, 0.5];
 const FIELD_NOISE: [f64; 3] = [3e-8, 5e-8, 4e-8];
 const FIELD_BIAS: [f64; 3] = [1e-7, -2e-7, 3e-7];
@@ -230,7 +226,6 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
             both.map(|(place, pair)| over(RADAR_NOISE[place / 3 % 2])(pair)).collect()
         }
         "relative_camera" => {
-            // about the axes of the spacecraft
             let turn = rotation_vector(hamilton(q(found), conjugate(q(expected))));
             let rates = found[4..].iter().zip(&expected[4..]).map(over(CAMERA_NOISE[1]));
             turn.iter().map(|error| error / CAMERA_NOISE[0]).chain(rates).collect()
@@ -240,8 +235,7 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Law: every kind of sensor delivers, at the ticks at which it is due and at no other, what it measured `latency_s`
-/// before.
+/// Law: every kind of sensor delivers, at the ticks at which it is due and no other, its measurement `latency_s` before.
 #[test]
 fn every_sensor_measures_the_true_state() {
     let (nominal, noisy) = (FlownLoop::new(&file(), 0), FlownLoop::new(&file(), 1));
@@ -267,29 +261,20 @@ fn every_sensor_measures_the_true_state() {
                     assert!(off < AGREED, "{}, tick {tick}: {found:?} for {expected:?}", kind.name);
                 }
             }
-            assert!(
-                delivered > 50 && (lost > 0 || kind.name == "tachometers"),
-                "{}: {delivered} and {lost}",
-                kind.name
-            );
+            let has_both = delivered > 50 && (lost > 0 || kind.name == "tachometers");
+            assert!(has_both, "{}: {delivered} and {lost}", kind.name);
             if has_noise {
                 let n = all.len() as f64;
-                let (mean, square) =
-                    (all.iter().sum::<f64>() / n, all.iter().map(|error| error * error).sum::<f64>() / n);
-                assert!(
-                    mean.abs() < 5.0 / n.sqrt() && (square - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
-                    "{}: {mean} and {square} of {n}",
-                    kind.name
-                );
+                let (mean, square) = (all.iter().sum::<f64>() / n, all.iter().map(|x| x * x).sum::<f64>() / n);
+                let is_right = mean.abs() < 5.0 / n.sqrt() && (square - 1.0).abs() < 5.0 * (2.0 / n).sqrt();
+                assert!(is_right, "{}: {mean} and {square} of {n}", kind.name);
             }
         }
     }
-    // what the radar sees of p is not what it would see of c
     assert!(norm(nominal.run.scene.mass.center) > 0.1);
 }
 
-/// Law: raw estimates are the last measurements: attitude and rate as they were measured, the debris relative to the
-/// centre of mass that the attitude of the tick puts in front of p.
+/// Law: raw estimates are the last measurements, those of the debris relative to the centre of mass.
 #[test]
 fn raw_estimates_are_the_last_measurements() {
     let text = without_filters(&file().replace(&sun_sensor(), ""), "raw");
@@ -345,15 +330,14 @@ fn raw_estimates_are_the_last_measurements() {
     assert!(relative.is_some() && of_debris.is_some());
 }
 
-/// Law: over a revolution of an orbit with an epoch, a Sun sensor that looks along s3 of a body that points s3 at the
-/// Sun measures angles near zero at all ticks in the light, and nothing at those in the Earth's shadow.
+/// Law: a Sun sensor along s3 of a body that points s3 at the Sun measures angles near zero in the light and nothing in
+/// the Earth's shadow.
 #[test]
 fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     let text = file_on_orbit();
     let (start, end) = (text.find("[initial]").expect("a state"), text.find("[orbit]").expect("an orbit"));
     let tail = text.find("[control]").expect("a loop");
     let sun_e = spindrift::dynamics::environment::sun::sun(9823.5).direction;
-    // s3 turned to the Sun
     let (half, across) = (0.5 * sun_e[2].acos(), scaled(1.0 / sun_e[0].hypot(sun_e[1]), [-sun_e[1], sun_e[0], 0.0]));
     let attitude = [half.cos(), half.sin() * across[0], half.sin() * across[1], 0.0];
     let text = format!(
@@ -372,8 +356,7 @@ fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     for (tick, state) in flown.ticks.iter().enumerate() {
         let along = dot(state.r_co_e, sun_e);
         let beside = norm(cross(state.r_co_e, sun_e));
-        // the penumbra is 30 km wide there, and the Sun moves by 1e-3 rad in the run: 7 km; across it the craft moves
-        // by less than 80 km in a period
+        // the penumbra is 30 km wide and the Sun moves by 7 km; the craft moves across by less than 80 km a period
         if along < 0.0 && (beside - radius).abs() < 40e3 {
             edges += 1;
             continue;
@@ -385,7 +368,7 @@ fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
         assert_eq!(a[tick].is_nan(), !is_seen, "{} s: {along} {beside}", state.time);
         if is_seen {
             for (found, side) in [(a[tick], sun_s[0]), (b[tick], sun_s[1])] {
-                // the turn of the Sun since the start
+                // the Sun has turned since the start
                 assert!((found + 1e-3 - side.atan2(sun_s[2])).abs() < 2e-3, "{} s: {found}", state.time);
             }
         }

@@ -1,40 +1,25 @@
-//! What a control loop records over time, and how steady it is.
+//! Recorded quantities of a control loop over time.
 
 use crate::loops::closed_loops::{NET_LAUNCH, SLEW_CLOSED, plan};
+use crate::loops::flown_loop::rotation_vector;
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
+use spindrift::math::vector::{conjugate, hamilton, norm};
 use spindrift::observables::Series;
 use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 
-/// Ticks of `slew_closed.toml`, and how many a run of 180 s has before its end, where there is one more.
+/// Ticks of `slew_closed.toml` before its end, where there is one more.
 const PERIOD: f64 = 0.25;
 const TICKS: usize = 720;
 /// The tick at which the second phase begins.
 const SLEW: usize = 120;
-/// Rounding of angles between attitudes that are computed in two ways.
+/// Rounding of angles between attitudes.
 const ROUNDING: f64 = 1e-13;
 
-fn hamilton([a, b, c, d]: [f64; 4], [w, x, y, z]: [f64; 4]) -> [f64; 4] {
-    [
-        a * w - b * x - c * y - d * z,
-        a * x + b * w + c * z - d * y,
-        a * y - b * z + c * w + d * x,
-        a * z + b * y - c * x + d * w,
-    ]
+fn rotation(a: [f64; 4], b: [f64; 4]) -> [f64; 3] {
+    rotation_vector(hamilton(conjugate(a), b))
 }
-
-fn rotation([w, x, y, z]: [f64; 4], b: [f64; 4]) -> [f64; 3] {
-    let [s, v @ ..] = hamilton([w, -x, -y, -z], b);
-    let (s, v) = if s < 0.0 { (-s, v.map(|x| -x)) } else { (s, v) };
-    let sine = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if sine == 0.0 { [0.0; 3] } else { v.map(|x| x * 2.0 * sine.atan2(s) / sine) }
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 fn at_ticks(text: &str, sample: u64) -> SingleRun {
     let grid = Grid::uniform(TICKS as f64 * PERIOD, TICKS + 1);
     SingleRun::new(&plan(text), SampleId(sample), grid, Isa::best()).expect("a physical scene")
@@ -50,16 +35,15 @@ fn errors(run: &SingleRun) -> Vec<[f64; 3]> {
     (0..=TICKS).map(|tick| rotation(target(tick), run.table.at(StateField::Attitude, tick))).collect()
 }
 
-/// Law: at a tick the pointing error is the angle from the target of the phase to the true attitude, the errors of the
-/// estimate are those of the recorded estimate, and the torque of a wheel is that of the arc that was flown.
+/// Law: at a tick the pointing error is the angle from the target to the true attitude, estimation errors are those of the
+/// recorded estimate, and torques those of the arc flown.
 #[test]
 fn quantities_over_time_are_those_of_the_run() {
     for sample in [0, 3, 17] {
         let run = at_ticks(SLEW_CLOSED, sample);
         let pointing = errors(&run);
-        assert!(pointing[SLEW..].iter().any(|error| length(*error) > 1.0), "a slew");
+        assert!(pointing[SLEW..].iter().any(|error| norm(*error) > 1.0), "a slew");
         let telemetry = &run.telemetry;
-        // and the tick at the end
         assert_eq!(telemetry.times.len(), TICKS + 1);
         let place = |name: &str| telemetry.quantities.iter().position(|quantity| quantity.name() == name).expect(name);
         let (q, omega) = (place("estimated_q_es_w"), place("estimated_omega_se_s_x_rad_s"));
@@ -68,9 +52,9 @@ fn quantities_over_time_are_those_of_the_run() {
             let estimated: [f64; 4] = std::array::from_fn(|i| row[q + i]);
             let rate: [f64; 3] = run.table.at(StateField::Rate, tick);
             for (of, expected) in [
-                (Series::PointingError, length(*error)),
-                (Series::AttitudeEstimateError, length(rotation(estimated, run.table.at(StateField::Attitude, tick)))),
-                (Series::RateEstimateError, length(std::array::from_fn(|i| row[omega + i] - rate[i]))),
+                (Series::PointingError, norm(*error)),
+                (Series::AttitudeEstimateError, norm(rotation(estimated, run.table.at(StateField::Attitude, tick)))),
+                (Series::RateEstimateError, norm(std::array::from_fn(|i| row[omega + i] - rate[i]))),
             ] {
                 let found = series(&run, of)[tick];
                 assert!((found - expected).abs() < ROUNDING, "{of:?} at tick {tick}: {found} {expected}");
@@ -82,7 +66,7 @@ fn quantities_over_time_are_those_of_the_run() {
             }
         }
         assert!(series(&run, Series::MotorTorque).iter().any(|torque| torque.abs() > 1e-3));
-        // the last point has the tick at the end, and not the one before
+        // the last point has the tick at the end
         assert_ne!(series(&run, Series::PointingError)[TICKS], series(&run, Series::PointingError)[TICKS - 1]);
     }
     // between ticks an error is that of the tick before
@@ -94,8 +78,7 @@ fn quantities_over_time_are_those_of_the_run() {
     }
 }
 
-/// Law: at a tick, distance and speed relative to the debris are those of the centres of mass, and the impulse is that
-/// of the arcs before it.
+/// Law: at a tick, debris distance and speed are those of the centres of mass, and the impulse that of the arcs before.
 #[test]
 fn the_way_to_the_debris_is_that_of_the_run() {
     const PERIOD: f64 = 0.5;
@@ -105,7 +88,7 @@ fn the_way_to_the_debris_is_that_of_the_run() {
         let run = SingleRun::new(&plan(NET_LAUNCH), SampleId(sample), grid, Isa::best()).expect("a physical scene");
         let apart = |tick: usize, debris: StateField, own: StateField| {
             let [a, b]: [[f64; 3]; 2] = [debris, own].map(|field| run.table.at(field, tick));
-            length(std::array::from_fn(|i| a[i] - b[i]))
+            norm(std::array::from_fn(|i| a[i] - b[i]))
         };
         for tick in 0..=TICKS {
             for (of, expected) in [
@@ -113,10 +96,7 @@ fn the_way_to_the_debris_is_that_of_the_run() {
                 (Series::DebrisSpeed, apart(tick, StateField::DebrisVelocity, StateField::ComVelocity)),
             ] {
                 let found = series(&run, of)[tick];
-                assert!(
-                    (found - expected).abs() < 1e-12 * expected.max(1.0),
-                    "{of:?} at tick {tick}: {found} {expected}"
-                );
+                assert!((found - expected).abs() < 1e-12 * expected.max(1.0), "{of:?}, {tick}: {found} {expected}");
             }
             let before = run.arcs.iter().take_while(|arc| arc.start < tick as f64 * PERIOD - 1e-9);
             let fired = before.map(|arc| arc.applied.thrust.iter().sum::<f64>() * (arc.applied.until - arc.start));

@@ -1,5 +1,4 @@
-//! Torque rods in a loop: the dipoles are those of the laws within the limits, the run is the motion under m x B with
-//! the field as it changes within a tick, and ideal loops do what theory says of them.
+//! Torque rods in a loop: dipoles of the laws within their limits, and the motion under m x B.
 
 use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::math::vector::{cross, difference, dot, norm, scaled, sum};
@@ -10,18 +9,16 @@ use super::flown_loop::{FlownLoop, State};
 const MOMENTS: [f64; 3] = [0.12, 0.14, 0.09];
 const WHEEL: f64 = 1e-4;
 
-/// A small satellite with three rods, one of them at half of its dipole, on a polar orbit.
+/// A small satellite with three rods, one at half of its dipole, on a polar orbit.
 struct Craft {
     duration: f64,
     period: f64,
     /// Limit of each rod, A m^2.
     limit: f64,
-    /// Errors of the magnetometer.
     errors: &'static str,
-    /// Rates of the wheels, rad/s; none where they are zero.
+    /// Rates of the wheels, rad/s; all zero means no wheels.
     wheels: [f64; 3],
     initial: &'static str,
-    /// Keys of the phase.
     phase: String,
 }
 
@@ -80,7 +77,6 @@ fn field_e(flown: &FlownLoop, state: &State) -> [f64; 3] {
     MagneticField::of(&flown.run.scene).expect("a field").at(state.time, state.r_co_e)
 }
 
-/// The dipole in the arc that begins with `state`, F_s, A m^2.
 fn dipole(flown: &FlownLoop, state: &State) -> [f64; 3] {
     let arc = flown.arcs.iter().find(|(arc, _)| (arc.start - state.time).abs() < 1e-6);
     arc.expect("an arc").0.applied.dipole
@@ -91,8 +87,8 @@ fn momenta(state: &State) -> [[f64; 3]; 2] {
     [state.to_e(std::array::from_fn(|i| MOMENTS[i] * state.omega_se_s[i])), state.to_e(wheels)]
 }
 
-/// Law: B-dot commands -k times the change over the period of what the magnetometer tells, all by the same factor less
-/// at a limit, of which a drawn rod gives its share.
+/// Law: B-dot commands -k times the rate of change of the measured field, scaled down as a whole at a limit; a drawn rod
+/// gives its share.
 #[test]
 fn b_dot_is_its_formula() {
     const LIMIT: f64 = 0.3;
@@ -121,22 +117,19 @@ fn b_dot_is_its_formula() {
         assert!(limited > 20 && free > 20, "{limited} {free}");
         let rate = |tick: usize| norm(flown.ticks[tick].omega_se_s);
         assert!(rate(flown.ticks.len() - 1) < 0.6 * rate(0), "{} of {}", rate(flown.ticks.len() - 1), rate(0));
-        // the columns of the run
         let column = |name: &str| value(&flown.run, name);
         assert!((column("rod_dipole_max_a_m2") / largest - 1.0).abs() < 1e-12);
-        // at a tick it is the dipole of the arc that ends there; the end of the run is a point too
-        let torques = flown
-            .ticks
-            .windows(2)
-            .map(|pair| norm(cross(pair[1].to_e(dipole(&flown, &pair[0])), field_e(&flown, &pair[1]))));
+        // a tick has the dipole of the arc that ends there; the end of the run is a point too
+        let torque = |pair: &[State]| norm(cross(pair[1].to_e(dipole(&flown, &pair[0])), field_e(&flown, &pair[1])));
+        let torques = flown.ticks.windows(2).map(torque);
         let excess = column("magnetic_torque_max_n_m") / torques.fold(0.0, f64::max) - 1.0;
         assert!(excess > -1e-12 && excess < 0.1, "{excess:e}");
         assert!((column("rod_saturated_time_s") - PERIOD * f64::from(limited)).abs() < 1e-6);
     }
 }
 
-/// Law (P. J. Camillo & F. L. Markley, 1980): while wheels keep the attitude, rods that unload them change the total
-/// momentum H in F_e as H' = -(H - B (B . H)/|B|^2)/T, here integrated by itself with the field at the true places.
+/// Law (P. J. Camillo & F. L. Markley, 1980): while wheels keep the attitude, unloading rods change the total momentum H in
+/// F_e by H' = -(H - B (B . H)/|B|^2)/T.
 #[test]
 fn wheels_are_unloaded_as_theory_says() {
     const TIME: f64 = 400.0;
@@ -160,7 +153,7 @@ fn wheels_are_unloaded_as_theory_says() {
     let start = norm(h);
     let rate = |state: &State, h: [f64; 3]| {
         let b = field_e(&flown, state);
-        // half of the second rod is missing, which the loop does not know
+        // half of the second rod is missing
         let m = state.to_s(scaled(1.0 / (TIME * dot(b, b)), cross(h, b)));
         cross(state.to_e([m[0], 0.5 * m[1], m[2]]), b)
     };
@@ -173,9 +166,8 @@ fn wheels_are_unloaded_as_theory_says() {
         let [_, x, y, z] = pair[1].q_es;
         turned = turned.max(2.0 * norm([x, y, z]));
     }
-    println!("{start:e} to {:e}, off by {worst:e}; turned {turned:e} rad", norm(h));
     assert!(norm(h) < 0.6 * start && worst < 0.005 * start, "{start:e} to {:e}: {worst:e}", norm(h));
-    // wheels take up what rods give: the attitude is kept but for the dipole that is missing
+    // wheels keep the attitude but for the missing dipole
     assert!(turned < 0.01, "{turned}");
     let idle = craft("\"b_dot\"\nb_dot_gain_a_m2_s_t = 1e-9").flown(0);
     let change = norm(difference(of(&idle, idle.ticks.len() - 1), of(&idle, 0)));

@@ -7,13 +7,11 @@ use serde_json::Value;
 use crate::page::numbers::{Found, degrees, failing, found, motion, read_number};
 use crate::small_campaign::RADIANS;
 
-/// What is between two texts.
 pub(crate) fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
     let (_, rest) = text.split_once(from).unwrap_or_else(|| panic!("no {from} in {text}"));
     rest.split_once(to).unwrap_or_else(|| panic!("no {to} in {rest}")).0
 }
 
-/// A number of the page in the unit of its column; NaN where there is none.
 pub(crate) fn si(text: &str) -> f64 {
     let percent = || Some((text.strip_suffix('%')?, "%"));
     let (number, unit) = text.split_once(['\u{a0}', ' ']).or_else(percent).unwrap_or((text, ""));
@@ -25,20 +23,18 @@ pub(crate) fn si(text: &str) -> f64 {
     if ["?", "-"].contains(&text) { f64::NAN } else { read_number(number) / scale }
 }
 
-/// The text is the number, in the digits that are shown: three at least.
+/// The text is the number to three digits.
 pub(crate) fn same(text: &str, expected: &Value, what: &str) {
     let (found, expected) = (si(text), expected.as_f64().unwrap_or(f64::NAN));
     let is_same = found.is_nan() && expected.is_nan() || (found - expected).abs() <= 6e-3 * expected.abs();
     assert!(is_same, "{what}: {text} for {expected}");
 }
 
-/// The text of markup.
 fn plain(markup: &str) -> String {
     let parts = markup.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text));
     parts.collect::<String>().replace("&lt;", "<").replace("&gt;", ">")
 }
 
-/// The answers of a page: their classes, and their parts.
 fn answers(page: &str) -> Vec<(&str, &str)> {
     let list = page.split("<details class=\"answer ").skip(1);
     list.map(|row| row.split_once("</details>").expect("an end").0.split_once('"').expect("a class")).collect()
@@ -77,13 +73,12 @@ fn answer_shows(row: &str, name: &str, value: &Value, interval: &Value, limit: O
     if scale.contains("class=\"whisker\"") {
         assert!(place("whisker", "x1") <= dot && dot <= place("whisker", "x2"), "{scale}");
     }
-    // the side that is asked for is shaded
     let [x, width] = ["x", "width"].map(|key| place("within", key));
     assert!(if is_most { x == 0.0 && (width - line).abs() < 0.11 } else { (x - line).abs() < 0.11 }, "{scale}");
 }
 
-/// Law: each requirement is one row, with the verdict, the limit, the number, its interval and the counts of the
-/// summary; those that fail come first, and those that pass last.
+/// Law: each requirement is one row with the verdict, limit, number, interval and counts of the summary; failures come
+/// first.
 #[test]
 fn answers_are_the_summary() {
     let lower = "[[require]]\nobservable = \"nutation_angle_max_rad\"\nquantile = 0.05\nat_least = \"1 deg\"\n";
@@ -93,7 +88,6 @@ fn answers_are_the_summary() {
         let (summary, page) = (found.scratch.summary("r"), found.visible());
         let list = summary["requirements"]["list"].as_array().expect("requirements");
         let confidence = summary["requirements"]["confidence_of_intervals"].as_f64().expect("one of all");
-        // the confidence of what is in brackets is said once
         let said = format!("in brackets: two-sided {}% intervals", 100.0 * confidence);
         assert_eq!(page.matches(&said).count(), 1, "{said}");
         let rows = answers(&page);
@@ -143,7 +137,7 @@ fn answers_are_the_summary() {
     }
 }
 
-/// Outcomes of which one is negative in some runs, in another unit than that of their columns.
+/// Outcomes, one of them negative in some runs, shown in another unit than that of their columns.
 const SHOWN: [(&str, &str, bool); 4] = [
     ("angular rate at the end", "angular_rate_final_rad_s", false),
     ("maximum nutation angle", "nutation_angle_max_rad", false),
@@ -151,7 +145,6 @@ const SHOWN: [(&str, &str, bool); 4] = [
     ("maximum energy error", "energy_error_max", false),
 ];
 
-/// A campaign of these without requirements.
 fn found_outcomes(name: &str) -> Found {
     let columns: Vec<String> = SHOWN.iter().map(|(_, column, _)| format!("{column:?}")).collect();
     let text = motion().replace(RADIANS, "").split("[audit]").next().expect("a campaign").to_owned()
@@ -159,8 +152,8 @@ fn found_outcomes(name: &str) -> Found {
     found(name, &text)
 }
 
-/// Law: without requirements each outcome that the file names is a row with the median and the interval of the summary,
-/// and there is an example of a requirement that the program accepts.
+/// Law: without requirements each outcome of the file is a row with the summary's median, and the page has an example of
+/// a requirement that the program accepts.
 #[test]
 fn outcomes_are_the_summary() {
     let found = found_outcomes("answers-found");
@@ -179,12 +172,10 @@ fn outcomes_are_the_summary() {
     let (_, example) = example.split_once("[[require]]").expect("an example");
     let text = motion().split("[[require]]").next().expect("a campaign").to_owned() + "[[require]]" + example + "\n";
     found.scratch.file("example.toml", &text);
-    // what is refused ends with another code
     found.scratch.prints("check example.toml", 0);
 }
 
-/// Law: a small picture has a bar for each class of the large histogram with runs, in front of them those that miss the
-/// limit, and the limit.
+/// Law: a small picture has the non-empty classes of the large histogram, the runs that miss the limit, and the limit.
 #[test]
 fn small_pictures_are_the_figures() {
     let found = found("answers-pictures", &motion().replace("2100 deg/s", "1500 deg/s"));
@@ -202,8 +193,8 @@ fn small_pictures_are_the_figures() {
     assert!(missed > 0 && picture.contains("class=\"limit\"") && plain(picture).contains("1500 deg/s"), "{picture}");
 }
 
-/// Law: a listed run has the rank that is said, among the dispersed runs that are ok, with the value of its row; its
-/// inputs are those of its row, those that are farthest from nominal first; its command is that of its sample.
+/// Law: a listed run has its rank among the dispersed runs that are ok, the value and the inputs of its row, those
+/// farthest from nominal first, and the command of its sample.
 #[test]
 fn listed_runs_have_their_ranks() {
     let of_requirements = [
@@ -272,20 +263,17 @@ fn listed_runs_have_their_ranks() {
                 let (values, nominal) = (&columns[place], columns[place][0]);
                 let (value, rest) = input[name.len() + 1..].split_once(" (").expect("a value");
                 let rest = rest.strip_suffix("\u{a0}\u{3c3})").expect("sigmas");
-                // a nominal value of zero goes without saying
                 let (known, sigmas) = rest.rsplit_once(", ").unwrap_or(("nominal 0", rest));
                 same(value, &values[sample].into(), name);
                 same(known.strip_prefix("nominal ").expect("the nominal value"), &nominal.into(), name);
                 let squares: f64 = values.iter().map(|value| (value - nominal).powi(2)).sum();
                 let distance = (values[sample] - nominal).abs() / squares.sqrt();
-                // one decimal is shown, and the nominal row may be among those that the spread is of
                 let spread = (squares / (values.len() - 1) as f64).sqrt();
                 assert!(((values[sample] - nominal).abs() / spread - read_number(sigmas)).abs() < 0.1, "{input}");
                 assert!(distance <= last, "{row}");
                 last = distance;
             }
         }
-        // where all have cards: a run that is the first of two outcomes is listed once
         let distinct =
             || outcomes.iter().map(|(_, column, is_low)| ordered(column, *is_low)[0].0).collect::<BTreeSet<_>>();
         let shown = if shown == outcomes.len() { distinct().len() } else { shown };

@@ -1,5 +1,4 @@
-//! `report.html`: small, self-contained, safe against the text of the file, complete without runs that
-//! are ok. What a reader sees in it is tested in a browser (`.ci/browser`).
+//! `report.html`: small, self-contained, safe against the text of the file, and complete without runs that are ok.
 
 use serde_json::Value;
 
@@ -7,20 +6,18 @@ use crate::page::numbers::Found;
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
-/// A page is smaller than this, also of a million runs: `../docs/results.md`.
+/// Largest page in bytes, whatever the number of runs: `../docs/results.md`.
 const LARGEST: usize = 2_000_000;
 
 fn page(scratch: &ScratchFolder, result: &str) -> String {
     scratch.text(&format!("{result}/report.html"))
 }
 
-/// The static part of a page: what a reader sees without scripts.
 fn visible(page: &str) -> &str {
     page.split_once("<script").expect("a page has scripts").0
 }
 
-/// Law: `--no-report` leaves the page out, and `--figures` writes the figures of the page: without a way to draw SVG as
-/// a page, which says how to have that.
+/// Law: `--no-report` leaves the page out, and `--figures` writes its figures as a page of their own.
 #[test]
 fn figures_are_files_too() {
     let scratch = folder("page-figures");
@@ -29,14 +26,8 @@ fn figures_are_files_too() {
     let said = scratch.prints("report plain --figures figures", 0);
     assert!(said.contains("figures.html") && said.contains("spindrift-figures"), "{said}");
     let data = |page: &str| Found::data_of(&scratch.text(page))["figures"].clone();
-    let names = |figures: &Value| -> Vec<String> {
-        figures
-            .as_array()
-            .expect("figures")
-            .iter()
-            .map(|one| one["name"].as_str().unwrap_or_default().to_owned())
-            .collect()
-    };
+    let name = |one: &Value| one["name"].as_str().unwrap_or_default().to_owned();
+    let names = |figures: &Value| figures.as_array().expect("figures").iter().map(name).collect::<Vec<_>>();
     let written = names(&data("figures/figures.html"));
     assert_eq!(written, names(&data("plain/report.html")));
     for expected in ["drift_energy", "energy_transfer", "tail_energy_error_max", "correlation_achieved"] {
@@ -46,7 +37,7 @@ fn figures_are_files_too() {
     assert!(said.contains("has no result of spindrift"), "{said}");
 }
 
-/// Law: nothing in the page is loaded from the network: no element refers to an address, and its policy forbids it.
+/// Law: no element of the page refers to an address, and its policy forbids it.
 #[test]
 fn the_page_needs_no_network() {
     let scratch = folder("page-offline");
@@ -74,18 +65,14 @@ fn text_of_the_file_is_escaped() {
         visible(&attacked)
             .contains("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&lt;!-- &amp; &quot;quoted&quot;")
     );
-    // a unit is in cards, in the list of worst runs and in the table of statistics
     assert!(!attacked.contains("<i>u") && visible(&attacked).matches("&lt;i&gt;u").count() >= 3);
-    // in the plan, among the meanings of columns and in the table of statistics
     assert!(!attacked.contains("<energy_error_max") && visible(&attacked).matches("&lt;energy_error_max").count() >= 3);
-    // the counter-test: the same page without it has as many scripts
     scratch.prints("campaign small.toml --samples 20 --out plain", 0);
     let scripts = |page: &str| (page.matches("<script").count(), page.matches("</script>").count());
     assert_eq!(scripts(&attacked), scripts(&page(&scratch, "plain")));
 }
 
-/// Law: runs that failed are counted with reason and replay command; a campaign without a run that is ok, and one of
-/// the nominal run alone, have a page too, in which no number is NaN.
+/// Law: failed runs are counted with reason and replay command, and no number of a page without good runs is NaN.
 #[test]
 fn pages_of_failures() {
     let scratch = folder("page-failures");
@@ -110,8 +97,8 @@ fn pages_of_failures() {
     }
 }
 
-/// Law: what the file of `new` asks of the integration it gets: nothing on its screen or page is above what the
-/// tolerance promises, whatever the draws. A method whose steps add up to more than ten times its tolerance is named.
+/// Law: the integration of the file of `new` holds its tolerance whatever the draws; a method whose steps add up to more
+/// than ten times its tolerance is named.
 #[test]
 fn the_campaign_of_new_holds_its_tolerance() {
     let scratch = ScratchFolder::new("page-new");
@@ -129,9 +116,8 @@ fn the_campaign_of_new_holds_its_tolerance() {
     assert!(page(&scratch, "d").contains(above));
 }
 
-/// Law: the page answers first: verdict in the title of the tab and beside the name, then the answers, what decides
-/// them, the run to look at, the motion over time, and the distributions; what is seldom needed is folded away at the
-/// end.
+/// Law: the page has the verdict in title and head, then the answers, causes, runs, motion over time and distributions;
+/// the rest is folded.
 #[test]
 fn the_page_answers_first() {
     let scratch = ScratchFolder::new("page-order");
@@ -151,25 +137,11 @@ fn the_page_answers_first() {
             head.starts_with("small") && head.contains(&format!(">{word}</span>")) && head.contains(counts),
             "{head}"
         );
-        let parts = [
-            "<title>",
-            "<nav",
-            "<h1>",
-            "id=\"verdicts\"",
-            "id=\"status\"",
-            "id=\"influence\"",
-            "id=\"replay\"",
-            "id=\"worst\"",
-            "id=\"time\"",
-            "id=\"outcome\"",
-            "id=\"numerics\"",
-            "id=\"inputs\"",
-            "id=\"statistics\"",
-            "id=\"provenance\"",
-        ];
-        let places: Vec<usize> =
-            parts.iter().map(|part| visible.find(part).unwrap_or_else(|| panic!("{part}"))).collect();
-        assert!(places.is_sorted(), "{parts:?} at {places:?}");
+        let ids = "verdicts status influence replay worst time outcome numerics inputs statistics provenance";
+        let ids = ids.split(' ').map(|id| format!("id=\"{id}\""));
+        let parts = ["<title>", "<nav", "<h1>"].map(str::to_owned).into_iter().chain(ids);
+        let places: Vec<usize> = parts.map(|part| visible.find(&part).unwrap_or_else(|| panic!("{part}"))).collect();
+        assert!(places.is_sorted(), "{places:?}");
         for folded in ["inputs", "statistics"] {
             let section = visible.split_once(&format!("<section id=\"{folded}\">")).expect(folded).1;
             let section = section.split_once("</section>").expect("an end").0;

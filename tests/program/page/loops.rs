@@ -1,5 +1,4 @@
-//! The figures over time of the page of a control loop: which there are, their limits, bands and runs in flight,
-//! against file, rows and telemetry.
+//! The figures over time on the page of a control loop, against file, rows and telemetry.
 
 use arrow_array::cast::AsArray as _;
 use serde_json::Value;
@@ -25,13 +24,11 @@ const SPIN_SWEEP: &str = include_str!("../../../campaigns/spin_sweep.toml");
 fn page(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("loop-page-{name}"));
     scratch.file("slew_closed.toml", SLEW_CLOSED);
-    // as the rows have them, where the file writes no other unit
     scratch.file("c.toml", &(text.to_owned() + RADIANS));
     scratch.command(&format!("campaign c.toml --samples {SAMPLES} --out r")).output().expect("the program starts");
     Found::read(scratch, String::new())
 }
 
-/// The figures of the section, in their order.
 fn over_time(found: &Found) -> Vec<&Value> {
     let figures = found.data["figures"].as_array().expect("figures");
     figures.iter().filter(|figure| figure["section"] == "time").collect()
@@ -50,7 +47,6 @@ fn limits(figure: &Value) -> Vec<(String, f64)> {
     marks(figure, "limit").map(limit).collect()
 }
 
-/// The figures that a scene calls for, by what its file says.
 fn called(text: &str) -> Vec<&'static str> {
     let has = |what: &str| text.contains(what);
     let (debris, filter) = (has("[debris]"), has("estimator = \"mekf\""));
@@ -76,15 +72,14 @@ fn called(text: &str) -> Vec<&'static str> {
     .collect()
 }
 
-/// Law: the page of a loop has the figures that its scene calls for, what bears on a requirement first, and none of an
-/// energy, unless a requirement is about one; that of a spinning body has energies, and nothing of a loop.
+/// Law: the page of a loop has the figures of its scene, those with limits first, and energies only if a requirement is
+/// about one; the page of a spinning body has energies and nothing of a loop.
 #[test]
 fn a_loop_has_the_figures_of_a_loop() {
     for (file, text) in [("net_launch", NET_LAUNCH), ("slew_closed", SLEW_CLOSED), ("detumble", DETUMBLE)] {
         let found = page(file, text);
         let drawn = over_time(&found);
         let mut names: Vec<&str> = drawn.iter().map(|figure| name(figure)).collect();
-        // those that have the limit of a requirement come first
         let bears = |figure: &&Value| limits(figure).iter().any(|(label, _)| label.starts_with("at "));
         let bearing: Vec<bool> = drawn.iter().map(bears).collect();
         assert!(bearing.windows(2).all(|pair| pair[0] >= pair[1]), "{file}: {names:?}, {bearing:?}");
@@ -105,8 +100,7 @@ fn a_loop_has_the_figures_of_a_loop() {
     assert!(of_loops.iter().all(|name| !names.contains(name)), "{names:?}");
 }
 
-/// Law: the limits that are drawn are those of the file: of requirements in their units, of wheels on both sides of the
-/// torque, of thrusters, the keep-out sphere and the station.
+/// Law: limits are drawn in the units of the file: requirements, wheels on both sides, thrusters, keep-out and station.
 #[test]
 fn limits_are_those_of_the_file() {
     let found = page("limits", NET_LAUNCH);
@@ -126,13 +120,11 @@ fn limits_are_those_of_the_file() {
     let found = page("limits-of-slew", SLEW_CLOSED);
     let figure = found.figure("pointing_error_rad");
     near(&limits(figure), &[("at most 0.1 deg at the end", 0.1)]);
-    // between degrees and hundredths of one: by decades
     assert!(figure["y"]["log"] == true && figure["y"]["unit"] == "deg", "{}", figure["y"]);
     assert_eq!(found.figure("wheel_speed")["y"]["range"][0], 0.0);
 }
 
-/// Law: every figure over time, but for the strip of phases and the drift of errors, marks the events of the file: each
-/// at the median of its times in the rows, with the number of runs that have one.
+/// Law: every figure over time but phases and drifts marks each event at the median of its times, with its count.
 #[test]
 fn events_are_marked_at_their_medians() {
     let found = page("events", WHEEL_FAILURE);
@@ -162,13 +154,12 @@ fn events_are_marked_at_their_medians() {
     }
 }
 
-/// Law: as many runs are in flight as have not ended by the rows; bands end where fewer than twenty are left, and the
-/// axis where one in a hundred is, or with the nominal run. Impulse and propellant end with those of the nominal row.
+/// Law: the runs in flight are those whose rows have not ended; bands end with fewer than twenty, the axis with one in a
+/// hundred or with the nominal run.
 #[test]
 fn bands_end_with_their_runs() {
     let found = page("flight", NET_LAUNCH);
     let ends: Vec<f64> = found.column("end_time_s");
-    // NaN: a run that has not ended
     let left = |time: f64| ends.iter().filter(|end| end.is_nan() || **end >= time - 1e-6).count();
     let columns = found.all(&["end_time_s", "impulse_total_n_s", "propellant_kg"]);
     let nominal: Vec<f64> = columns.into_iter().map(|column| column[0]).collect();
@@ -195,7 +186,6 @@ fn bands_end_with_their_runs() {
             let x = found.array(&mark["x"]);
             assert!(x.iter().all(|time| left(*time) >= 20), "{} of {}", mark["label"], name(figure));
         }
-        // pieces of a band have no number that is none
         for mark in marks(figure, "line") {
             assert!(found.array(&mark["y"]).iter().all(|value| value.is_finite()), "{}", name(figure));
         }
@@ -209,8 +199,7 @@ fn bands_end_with_their_runs() {
     }
 }
 
-/// Law: the bound beside an estimation error is three times what the filter's covariance says at that time: at the
-/// start what the file says, and later what the loop recorded of the nominal run.
+/// Law: the bound of an estimation error is three standard deviations of the filter's covariance at that time.
 #[test]
 fn bounds_are_of_the_filter() {
     let found = page("bounds", NET_LAUNCH);
@@ -218,7 +207,6 @@ fn bounds_are_of_the_filter() {
     let start = 3.0 * 3.0_f64.sqrt();
     for (figure, column, expected) in [
         ("attitude_estimate_error_rad", "attitude_expected_error_rad", start * 2.0_f64.to_radians()),
-        // spacecraft and debris, 1 m each and 0.02 m/s each
         ("relative_position_estimate_error_m", "relative_position_expected_error_m", start * 2.0_f64.sqrt()),
         ("relative_velocity_estimate_error_m_s", "relative_velocity_expected_error_m_s", start * 2.0_f64.sqrt() * 0.02),
     ] {
@@ -236,7 +224,7 @@ fn bounds_are_of_the_filter() {
     }
 }
 
-/// Law: `simulate --plot` draws the figures of the page, and `simulate` prints what the requirements are about first.
+/// Law: `simulate --plot` draws the figures of the page, and `simulate` prints the quantities of requirements first.
 #[test]
 fn simulate_shows_what_the_scene_calls_for() {
     let scratch = ScratchFolder::new("loop-plot");
@@ -265,8 +253,7 @@ fn simulate_shows_what_the_scene_calls_for() {
     assert!(!header.contains(&"q_es_w"), "{said}");
 }
 
-/// Law: a filter whose errors are larger than its covariance says is named by the median of the rows, on screen, page
-/// and in the summary; one whose sensors err as it believes is not.
+/// Law: an overconfident filter is named with its factor on screen, page and in the summary, and no other.
 #[test]
 fn filters_that_do_not_know_their_errors_are_named() {
     for (name, bias, is_named) in [("biased", "20 arcsec", true), ("right", "0.01 arcsec", false)] {
@@ -293,7 +280,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
     }
 }
 
-/// Law: a run whose mission failed, in whatever way, misses what the campaign wants, though it be within every limit.
+/// Law: a run whose mission failed misses what the campaign requires, even within every limit.
 #[test]
 fn failed_missions_are_missed() {
     let (mission, _) = NET_LAUNCH.split_once("[[require]]").expect("requirements");
@@ -309,7 +296,7 @@ fn failed_missions_are_missed() {
     assert_eq!(fates, expected);
 }
 
-/// Law: what is called the band of 5 to 95% of a wheel is that of the file of bands, as is its median.
+/// Law: bands and medians of wheels are those of the file of bands.
 #[test]
 fn bands_of_wheels_are_those_of_the_file() {
     let found = page("wheel-bands", SLEW_CLOSED);
@@ -344,8 +331,7 @@ fn bands_of_wheels_are_those_of_the_file() {
     assert!(seen > 1000, "{seen}");
 }
 
-/// Law: where the required quantile is a run without a value, screen and page show the share of the runs that are
-/// within, with its interval, and no quantile of the few that have a value.
+/// Law: where the required quantile is a run without a value, screen and page show the share within the limit instead.
 #[test]
 fn a_quantile_without_a_number_is_a_share() {
     let scratch = ScratchFolder::new("loop-page-without-a-number");
@@ -358,7 +344,6 @@ fn a_quantile_without_a_number_is_a_share() {
     assert!(one["value"].is_null(), "{one}");
     let runs = ["runs", "violations"].map(|key| one[key].as_f64().expect(key));
     let share = 100.0 * (runs[0] - runs[1]) / runs[0];
-    // numbers of those that have a value say of how many runs they are
     let row = found.said.lines().find(|line| line.contains("time until phase rest (in ")).expect("a row");
     assert!(row.contains(&format!(" of {} runs)", runs[0])), "{row}");
     let page = found.visible();

@@ -1,5 +1,4 @@
-//! Marks of the page that a reader compares with each other: intervals around curves, the motion of the replay,
-//! correlations, directions, shares.
+//! Intervals around curves, the motion of the replay, correlations and their directions on the page.
 
 use crate::page::numbers::{Found, found, motion};
 
@@ -19,35 +18,11 @@ fn spearman(x: &[f64], y: &[f64]) -> f64 {
     1.0 - 6.0 * squares / (n * (n * n - 1.0))
 }
 
-/// The dispersed rows of a column.
 fn dispersed(found: &Found, name: &str) -> Vec<f64> {
     found.all(&[name])[0][1..].to_vec()
 }
 
-/// Law: a fraction lies in its interval, which is the narrower the more runs there are.
-#[test]
-fn fractions_lie_in_their_intervals() {
-    let found = found("fractions", &motion());
-    for figure in ["cumulative_angular_rate_final_rad_s", "tail_energy_error_max"] {
-        let band = found.mark(figure, "95% interval");
-        let line = if figure.starts_with("tail") { "fraction of runs above" } else { "fraction of runs" };
-        let y = found.array(&found.mark(figure, line)["y"]);
-        let [low, high] = ["low", "high"].map(|key| found.array(&band[key]));
-        for k in 0..y.len() {
-            assert!(
-                low[k] <= y[k] && y[k] <= high[k] && low[k] < high[k],
-                "{figure}: {} in {} to {}",
-                y[k],
-                low[k],
-                high[k]
-            );
-            assert!(high[k] - low[k] < 0.13, "two standard deviations of 299 runs are 0.06");
-        }
-    }
-}
-
-/// Law: what is replayed is the run: rates, attitude and the angle of each wheel, at the end as in the row; the
-/// momentum is that of the row throughout, since no torque acts.
+/// Law: the replay has the rates, attitude and wheel angles of the row at the end, and its momentum throughout.
 #[test]
 fn the_replay_moves_as_the_run() {
     let found = found("moves", &motion());
@@ -73,7 +48,6 @@ fn the_replay_moves_as_the_run() {
         for (wheel, rate) in wheels.iter().enumerate() {
             let [before, after] = [points - 2, points - 1].map(|point| angles[2 * point + wheel]);
             let step = times[points - 1] - times[points - 2];
-            // angles may be reduced to a turn
             let turned = core::f64::consts::TAU;
             let expected = (rate[row] * step).rem_euclid(turned);
             let moved = (after - before).rem_euclid(turned);
@@ -92,12 +66,8 @@ fn the_replay_moves_as_the_run() {
 fn correlations_have_their_signs() {
     let found = found("signs", &motion());
     let figure = found.figure("correlation_achieved");
-    let names: Vec<String> = figure["y"]["names"]
-        .as_array()
-        .expect("names")
-        .iter()
-        .map(|name| name.as_str().expect("a name").to_owned())
-        .collect();
+    let names = figure["y"]["names"].as_array().expect("names").iter();
+    let names: Vec<String> = names.map(|name| name.as_str().expect("a name").to_owned()).collect();
     let column = |name: &String| dispersed(&found, &found.column_called(name));
     let columns: Vec<Vec<f64>> = names.iter().map(column).collect();
     assert_eq!(columns.len(), 3);
@@ -144,7 +114,7 @@ fn every_named_driver_has_its_direction() {
     assert!(seen[0] > 0 && seen[1] > 0, "both directions: {said}");
 }
 
-/// Law: the dominant frequency is where the amplitude is largest, within a bin, and that of the nominal row.
+/// Law: the dominant frequency is at the largest amplitude, within a bin, and that of the nominal row.
 #[test]
 fn the_dominant_frequency_is_that_of_the_peak() {
     let found = found(
@@ -165,7 +135,7 @@ fn the_dominant_frequency_is_that_of_the_peak() {
     assert!((said.parse::<f64>().expect("a number") / at - 1.0).abs() < 1e-3, "{said} for {at}");
 }
 
-/// Law: the energy of a body over time reaches the largest value of its row, and no more than its points between see.
+/// Law: the energy of a body over time reaches the largest value of its row, within its points.
 #[test]
 fn energies_are_of_their_bodies() {
     let found = found("energies", &crate::small_campaign::campaign().replace("samples = 600", "samples = 60"));

@@ -1,5 +1,4 @@
-//! What quantities are called on the page: in words, each with a name of its own, in units that people say; technical
-//! names are in tooltips and commands.
+//! Names of quantities on the page: unique words in customary units; technical names are in tooltips and commands.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -34,14 +33,12 @@ fn texts(page: &str) -> Vec<String> {
     text.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text.trim().to_owned()).collect()
 }
 
-/// Words with an underscore that are no symbols.
 fn technical(text: &str) -> Vec<String> {
     let words = text.split(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '_' || letter == '.'));
     let is_name = |word: &&str| word.contains('_') && !SYMBOLS.iter().any(|symbol| word.starts_with(symbol));
     words.filter(is_name).map(str::to_owned).collect()
 }
 
-/// Names on a figure: title, axes, legend.
 fn names_of(figure: &Value) -> Vec<String> {
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let mut names = vec![text(&figure["title"]), text(&figure["x"]["quantity"]), text(&figure["y"]["quantity"])];
@@ -52,9 +49,8 @@ fn names_of(figure: &Value) -> Vec<String> {
     names
 }
 
-/// Law: of every shipped campaign no name on the page has an underscore, in figures, lists, tables, cards and
-/// sentences; no two quantities have one name, and no two figures one title; angles and rates are in degrees where the
-/// file does not say otherwise.
+/// Law: no name on the page of a shipped campaign has an underscore, no two quantities or figures share a name, and
+/// angles are in degrees unless the file says otherwise.
 #[test]
 fn shown_names_are_words_and_unique() {
     let scratch = ScratchFolder::new("page-names");
@@ -107,7 +103,6 @@ fn shown_names_are_words_and_unique() {
                 wrong.extend(technical(number["name"].as_str().unwrap_or_default()));
             }
         }
-        // rows of the table of statistics
         let visible = page.split_once("<script").expect("scripts").0;
         let (_, statistics) = visible.split_once("id=\"statistics\"").expect("statistics");
         let mut rows: BTreeMap<&str, &str> = BTreeMap::new();
@@ -119,7 +114,6 @@ fn shown_names_are_words_and_unique() {
                 wrong.push(format!("{other} and {column} are both called {shown}"));
             }
         }
-        // the explanations of columns may name keys of the file
         let sentences = visible.split("<section id=\"provenance\"").next().expect("a page");
         wrong.extend(texts(sentences).iter().flat_map(|text| technical(text)));
         wrong.retain(|word| !is_phase(&word.rsplit(' ').next().unwrap_or_default().to_owned()));

@@ -1,5 +1,4 @@
-//! What the page shows of an orbit: arrows of the replay, ground track, and quantities over time, against the states of
-//! the runs and closed forms.
+//! The orbit on the page: arrows of the replay, ground track and quantities over time, against states and closed forms.
 
 use std::f64::consts::{PI, TAU};
 use std::fs;
@@ -26,7 +25,6 @@ fn shipped(name: &str) -> String {
     fs::read_to_string(format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"))).expect("a campaign")
 }
 
-/// Two revolutions of an ellipse in thin air, sunlight and the field of a dipole.
 fn text() -> String {
     let text = shipped("drag_tumble").replace("samples = 1000 ", "samples = 400 ");
     text.replace("duration_s = 5600.0", &format!("duration_s = {DURATION:?}")).replace(
@@ -73,7 +71,6 @@ fn field(time: f64, position: [f64; 3]) -> [f64; 3] {
     unit(std::array::from_fn(|i| 3.0 * dot(m, u) * u[i] - m[i]))
 }
 
-/// The difference of two angles, deg, by the shorter way.
 fn apart(a: f64, b: f64) -> f64 {
     (a - b + 180.0).rem_euclid(360.0) - 180.0
 }
@@ -82,9 +79,8 @@ fn runs(found: &Found) -> &Vec<Value> {
     found.data["replay"]["runs"].as_array().expect("runs")
 }
 
-/// Law: the arrows of the replay are nadir -r/|r| and velocity v/|v| of the states that `simulate` writes, the Sun by
-/// the series of the documents, and the field of a tilted dipole, in every run; they are no farther apart than 5 deg of
-/// the orbit.
+/// Law: the arrows are nadir, velocity, Sun and the field of a tilted dipole at the states of `simulate`, no farther
+/// apart than 5 deg of the orbit.
 #[test]
 fn arrows_point_where_the_run_has_them() {
     let found = &*ORBIT;
@@ -125,7 +121,6 @@ fn arrows_point_where_the_run_has_them() {
     }
 }
 
-/// Sample `sample` again at `times`, with the series of the group `orbit`.
 fn observed(sample: u64, times: &[f64]) -> SingleRun {
     let plan = Plan::from_text("c", &text(), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     let grid = Grid::at(times.to_vec());
@@ -136,8 +131,7 @@ fn series(run: &SingleRun, wanted: Series) -> &[f64] {
     &run.series.iter().find(|(series, _)| *series == wanted).unwrap_or_else(|| panic!("no {wanted:?}")).1
 }
 
-/// Law: the hidden share of the Sun in the replay is the column at each time, what is said beside it is of that share,
-/// and all of it occurs.
+/// Law: the hidden share of the Sun in the replay is its column at each time.
 #[test]
 fn shadow_is_that_of_the_column() {
     let found = &*ORBIT;
@@ -159,7 +153,6 @@ fn shadow_is_that_of_the_column() {
     assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
 }
 
-/// The dots of the ground track: label, longitudes and latitudes.
 fn track(found: &Found) -> Vec<(String, Vec<f64>, Vec<f64>)> {
     let figure = found.figure("ground_track");
     assert_eq!([&figure["x"]["range"], &figure["x"]["step"]], [&serde_json::json!([-180.0, 180.0]), &30.0.into()]);
@@ -170,8 +163,7 @@ fn track(found: &Found) -> Vec<(String, Vec<f64>, Vec<f64>)> {
     figure["marks"].as_array().expect("marks").iter().map(part).filter(|(label, ..)| label != "start").collect()
 }
 
-/// Law: the track starts at the node, which is the right ascension less sidereal time; the latitude reaches the
-/// inclination and never passes it; every state of the run is on it.
+/// Law: the track starts at the node, reaches the inclination in latitude, and every state of the run is on it.
 #[test]
 fn the_track_is_where_the_orbit_passes() {
     let found = &*ORBIT;
@@ -194,8 +186,7 @@ fn the_track_is_where_the_orbit_passes() {
     }
 }
 
-/// Law: the part in shadow is that of a circle about the Sun's shadow: acos(sqrt(1 - R^2/r^2)/cos beta)/pi of a
-/// revolution, with the angle beta of the Sun to the plane of the orbit.
+/// Law: the share in shadow on a circle is acos(sqrt(1 - R^2/r^2)/cos beta)/pi, with the Sun at beta to the plane.
 #[test]
 fn the_track_in_shadow_has_its_share() {
     let circle = text().replace("eccentricity = 0.01", "eccentricity = 0.0");
@@ -213,8 +204,7 @@ fn the_track_in_shadow_has_its_share() {
     assert!((shown - expected).abs() < 0.012, "{shown} for {expected}");
 }
 
-/// Law: what the page draws of the orbit over time is, in the nominal run, the column of that name at each time, and
-/// follows from the states: the angle of s3 from nadir, the distance; its bands end as the rows do.
+/// Law: a quantity of the orbit over time is, in the nominal run, its column and follows from the states.
 #[test]
 fn quantities_of_the_orbit_are_their_columns() {
     let found = &*ORBIT;
@@ -249,7 +239,7 @@ fn quantities_of_the_orbit_are_their_columns() {
     }
 }
 
-/// Law: without a date there is no Sun, no shadow and no ground track, and without an orbit nothing of it at all.
+/// Law: without a date there is no Sun, shadow or ground track, and without an orbit nothing of it.
 #[test]
 fn a_page_shows_what_the_scene_has() {
     let keys = |run: &Value| -> Vec<String> {
@@ -268,7 +258,6 @@ fn a_page_shows_what_the_scene_has() {
         }
         assert_eq!(said(found, "orbit_distance_m"), is_on_orbit);
     }
-    // counter-test: a date brings all of them
     for word in ["ground_track", "\"words\"", "\"step\"", "Sunlight", "orbit_distance_m"] {
         assert!(said(&ORBIT, word), "{word}");
     }

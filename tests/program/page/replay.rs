@@ -1,5 +1,4 @@
-//! The replay of the page: what it shows of a run at a time is what `simulate` writes of that sample at that time, and
-//! what its row has.
+//! The replay of the page against `simulate` and the rows.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -11,7 +10,6 @@ use spindrift::run::StateField;
 use spindrift::sampling::SampleId;
 use spindrift::workflow::{Quiet, Results, Session};
 
-/// Missions of which one fails.
 static MISSIONS: LazyLock<Found> = LazyLock::new(|| {
     let text =
         fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/campaigns/net_launch.toml")).expect("a campaign");
@@ -25,8 +23,7 @@ fn near(found: f64, expected: f64, scale: f64, what: &str) {
     assert!((found - expected).abs() <= 1e-6 * scale.max(expected.abs()), "{what}: {found} for {expected}");
 }
 
-/// Law: the numbers beside the replay are those of `simulate` for that sample at that time: rates and wheel speeds, and
-/// what follows from its positions; the propellant at the end is that of the row, and never falls.
+/// Law: the live numbers are those of `simulate` for that sample and time; propellant never falls and ends as in the row.
 #[test]
 fn live_numbers_are_those_of_simulate() {
     let found = &*MISSIONS;
@@ -64,7 +61,6 @@ fn live_numbers_are_those_of_simulate() {
             for (wheel, name) in ["w1", "w2"].into_iter().enumerate() {
                 near(shown("Wheel speed", wheel, place), of(&format!("rate_{name}_rad_s")), 1.0, "wheel");
             }
-            // c = p + C_es times its place in F_s, columns by the quaternion
             let [w, x, y, z] = ["w", "x", "y", "z"].map(|part| of(&format!("q_es_{part}")));
             let dcm = [
                 [w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
@@ -83,15 +79,13 @@ fn live_numbers_are_those_of_simulate() {
         }
         let used: Vec<f64> = (0..times.len()).map(|place| shown("Propellant used", 0, place)).collect();
         assert!(used.windows(2).all(|pair| pair[0] <= pair[1]) && used[0] == 0.0, "{used:?}");
-        // the last point is up to an interval before the end
         let (sample, last) = (sample as usize, used[used.len() - 1]);
         assert!(last <= propellants[sample] * (1.0 + 1e-6) && last > 0.97 * propellants[sample], "{last}");
         assert!(times[times.len() - 1] <= if ends[sample].is_finite() { ends[sample] } else { 2400.0 });
     }
 }
 
-/// Law: a pointing error that is shown is the one of the run at that time: the true angle to the target, against the
-/// estimate that `simulate` records within the error of the estimate.
+/// Law: a shown pointing error is that of the run, within the error of the estimate that `simulate` records.
 #[test]
 fn pointing_errors_are_those_of_the_run() {
     let found = &*MISSIONS;
@@ -117,8 +111,7 @@ fn pointing_errors_are_those_of_the_run() {
     }
 }
 
-/// Law: phases are marked at the times of the rows, and the end of a mission at its end; a run has failed where its row
-/// says so.
+/// Law: phases and ends are marked at the times of the rows, and a run has failed where its row says so.
 #[test]
 fn phase_marks_are_at_the_times_of_the_rows() {
     let found = &*MISSIONS;
@@ -133,10 +126,8 @@ fn phase_marks_are_at_the_times_of_the_rows() {
             expected.push((found.all(&[&format!("phase_{name}_begin_s")])[0][row], name.to_owned()));
         }
         let [launched, end, failure] = ["launched", "end_time_s", "failure"].map(|name| found.all(&[name])[0][row]);
-        let marks: Vec<(f64, String)> = run["marks"]
-            .as_array()
-            .expect("marks")
-            .iter()
+        let marks = run["marks"].as_array().expect("marks").iter();
+        let marks: Vec<(f64, String)> = marks
             .map(|mark| (mark["time"].as_f64().expect("a time"), mark["name"].as_str().expect("a name").to_owned()))
             .collect();
         assert!(marks.windows(2).all(|pair| pair[0].0 <= pair[1].0), "{marks:?}");
@@ -154,8 +145,7 @@ fn phase_marks_are_at_the_times_of_the_rows() {
     assert!(failed > 0 && failed < runs.len() && ended > 5, "{failed} of {} failed", runs.len());
 }
 
-/// Law: what leads to the launch is drawn where it is: the axis is the direction of the debris's velocity, with the
-/// distances of the file.
+/// Law: the goal of an approach lies along the debris's velocity at the distance of the file.
 #[test]
 fn the_goal_of_an_approach_is_that_of_the_file() {
     let found = &*MISSIONS;
@@ -173,8 +163,7 @@ fn the_goal_of_an_approach_is_that_of_the_file() {
     }
 }
 
-/// Law: the path that is drawn is the recorded one: the debris is where it is relative to the centre of mass of the
-/// spacecraft, at every time.
+/// Law: the drawn path of the debris is the recorded one, relative to the centre of mass.
 #[test]
 fn the_drawn_path_is_the_recorded_one() {
     let found = found("debris", &campaign());

@@ -1,5 +1,4 @@
-//! What the page and the screen say of single runs, of the nominal one, of inputs and of both axes of a figure, against
-//! the rows.
+//! Single runs, the nominal run, inputs and axes on page and screen, against the rows.
 
 use serde_json::Value;
 
@@ -12,7 +11,6 @@ fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-300), "{what}: {found} for {expected}");
 }
 
-/// Smallest and largest of the ends of `values`.
 fn ends(values: &[f64]) -> [f64; 2] {
     [f64::min, f64::max].map(|end| values.iter().copied().reduce(end).expect("values"))
 }
@@ -21,8 +19,7 @@ fn last(values: &[f64]) -> f64 {
     *values.last().expect("values")
 }
 
-/// Law: the numbers beside a replayed run are those of its row, in the unit that is shown, with those that the file
-/// derives.
+/// Law: the numbers beside a replayed run are those of its row, in the unit shown, derived ones included.
 #[test]
 fn numbers_beside_the_replay_are_of_the_row() {
     let found = found("replay", &motion());
@@ -34,7 +31,6 @@ fn numbers_beside_the_replay_are_of_the_row() {
         let list = found.data["replay"]["scene"][list].as_array().expect("shapes").iter();
         list.map(|shape| shape[key].clone()).collect()
     };
-    // radius and length of the fuselage, of the wheels, and the sides of the debris, as the file has them
     assert_eq!(sizes("parts", "size"), [serde_json::json!([1.0, 3.0])]);
     assert_eq!(
         [sizes("wheels", "radius"), sizes("wheels", "length")],
@@ -62,26 +58,7 @@ fn numbers_beside_the_replay_are_of_the_row() {
     }
 }
 
-/// Law: what is across is across and what is upwards is upwards: an outcome against its input; each point is a run.
-#[test]
-fn axes_are_not_exchanged() {
-    let found = found("axes", &motion());
-    let [input, outcome] = ["initial_angular_velocity_z_rad_s", "angular_rate_final_rad_s"];
-    let figure = format!("scatter_{outcome}_{input}");
-    let points = found.mark(&figure, "computed");
-    let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&points[key]));
-    assert_eq!(samples.len(), 299);
-    let columns = found.all(&[input, outcome]);
-    for k in 0..samples.len() {
-        let row = samples[k] as usize;
-        near(x[k], columns[0][row], 1e-6, "input");
-        near(y[k], degrees(columns[1][row]), 1e-6, "outcome");
-    }
-    assert_eq!([&found.figure(&figure)["x"]["unit"], &found.figure(&figure)["y"]["unit"]], ["rad/s", "deg/s"]);
-}
-
-/// Law: the nominal run is sample 0, at the end of its curves and in the histograms; an input has the unit in which it
-/// was written.
+/// Law: the nominal run is sample 0 in curves and histograms, and an input has the unit in which it was written.
 #[test]
 fn nominal_is_nominal() {
     let text = motion().replace("std = [0.5, 0.5, 1.5]", "std = [\"30 deg/s\", \"30 deg/s\", \"90 deg/s\"]");
@@ -112,12 +89,11 @@ fn nominal_is_nominal() {
     let middles: Vec<f64> = edges.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
     let mean = inputs.iter().sum::<f64>() / 299.0;
     assert!((center(&middles, &heights) - mean).abs() < edges[1] - edges[0]);
-    // the curve of the distribution has its centre at the nominal value, which is the mean of a normal distribution
+    // the mean of a normal distribution is its nominal value
     let expected = found.mark("input_initial_angular_velocity_z_rad_s", "expected counts");
     let [x, y] = ["x", "y"].map(|key| found.array(&expected[key]));
     near(y.iter().sum(), 299.0, 0.02, "expected samples");
     near(center(&x, &y), degrees(columns[2][0]), 0.01, "centre");
-    // the printed table of the draws has the same unit
     let said = found.scratch.prints_wide("check c.toml --verbose", 0);
     let row = said.lines().find(|line| line.starts_with("  initial.angular_velocity_rad_s.z ")).expect("a row");
     let words: Vec<&str> = row.split_whitespace().collect();
@@ -127,7 +103,7 @@ fn nominal_is_nominal() {
     assert!(row.ends_with("normal, std 90 deg/s"), "{row}");
 }
 
-/// Law: hovering over a quantile of the table shows its own interval, lower end first.
+/// Law: a quantile of the table has its own interval, lower end first.
 #[test]
 fn intervals_are_in_order() {
     let visible = found("intervals", &motion()).visible();
@@ -139,12 +115,11 @@ fn intervals_are_in_order() {
         let words = cell.split_once(" [").unwrap().1.split(']').next().unwrap();
         let (low, high) = words.split_once(", ").unwrap();
         let [low, high] = [low, high].map(|end| if end == "?" { f64::NAN } else { read_number(end) });
-        // a missing end is NaN and above or below nothing; others are rounded outward
         assert!(!(low > value || high < value), "{value} in {low} to {high}");
     }
 }
 
-/// Law: the strongest input stands first, with the share that the screen says; the bars descend.
+/// Law: the strongest input comes first with the share of the screen; the bars descend.
 #[test]
 fn bars_of_influence_descend() {
     let found = found("influence", &motion());
@@ -155,7 +130,6 @@ fn bars_of_influence_descend() {
         let first = found.figure(&figure)["y"]["names"][0].as_str().expect("a name");
         let line = found.said.lines().find(|line| line.trim_start().starts_with(words) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
-        // what the numbers are, in the same words in both places
         let (_, said) = line.split_once(&format!("{first} explains ")).expect(line);
         let share: f64 = said.split('%').next().expect("a share").parse().expect("a number");
         assert!((0.01 * share - shares[0]).abs() < 0.006, "{share}: {shares:?}");
@@ -164,8 +138,7 @@ fn bars_of_influence_descend() {
     }
 }
 
-/// Law: of a campaign in which runs failed in two ways each reason is counted, and the list of worst runs has the first
-/// of each with its reason, and then runs that are ok; a failed run is not among the points that are ok.
+/// Law: each way of failing is counted, its first run listed with reason and command, and no failed run is among the ok.
 #[test]
 fn two_statuses_are_told_apart() {
     let scratch = ScratchFolder::new("page-statuses");
@@ -191,7 +164,6 @@ fn two_statuses_are_told_apart() {
             };
             assert!(visible.split("<p class=\"reason\">").any(|said| is_of_it(&said)), "{count} {status}, {first}");
         }
-        // each replay command is that of its own row
         assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
     }
     let is_ok = |row: &&&str| row.contains("<td class=\"text\">") && !row.contains("class=\"ended\"");

@@ -1,4 +1,4 @@
-//! Every series of every figure of an outcome, an error, an input and a quantity over time against rows and summary.
+//! Every series of every figure of outcomes, errors, inputs and quantities over time, against rows and summary.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,6 @@ use crate::commands::screen_numbers::says;
 use crate::page::answers::same;
 use crate::page::numbers::{Found, degrees, failing, found, motion, quantile};
 
-/// The unit of an axis over that of the column.
 fn scale(axis: &Value) -> f64 {
     if axis["unit"].as_str().expect("a unit").starts_with("deg") { degrees(1.0) } else { 1.0 }
 }
@@ -24,17 +23,14 @@ fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
 /// Relative error of a value within its bucket.
 const BUCKET: f64 = 2e-3;
 
-/// How many values are at most `limit`, as a share.
 fn share(values: &[f64], limit: f64) -> f64 {
     values.iter().filter(|value| **value <= limit).count() as f64 / values.len() as f64
 }
 
-/// The probability that the label of a series names.
 fn probability(label: &str) -> Option<f64> {
     if label == "median" { Some(0.5) } else { Some(label.strip_suffix("% quantile")?.parse::<f64>().ok()? / 100.0) }
 }
 
-/// The bars are of the values: all of them, each within its edges.
 fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
     let [edges, heights] = ["edges", "heights"].map(|key| found.array(&mark[key]));
     assert_eq!(heights.iter().sum::<f64>(), values.len() as f64, "{what}");
@@ -46,8 +42,7 @@ fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
     }
 }
 
-/// The limits of the requirements on single runs that are about `column`, each with the sign of the side on which it is
-/// missed.
+/// Limits of the requirements on single runs of `column`, with the sign of the side on which they are missed.
 fn limits_on(found: &Found, column: &str) -> Vec<(f64, f64)> {
     let summary = found.scratch.summary("r");
     let list = summary["requirements"]["list"].as_array().expect("requirements").clone();
@@ -59,7 +54,6 @@ fn limits_on(found: &Found, column: &str) -> Vec<(f64, f64)> {
     of_column.map(limit).collect()
 }
 
-/// A series of a figure of one column: the distribution, its curve, its tail, its convergence.
 fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f64), values: &[f64], nominal: f64) {
     let label = text(mark, "label");
     let what = format!("{label} of {kind}{column}");
@@ -76,8 +70,6 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
             let all = found.array(&found.mark(&format!("{kind}{column}"), "runs")["heights"]);
             let missed = of("heights");
             assert!(missed.iter().zip(&all).all(|(missed, all)| missed <= all), "{what}: {missed:?} of {all:?}");
-            // success is never drawn in the colour of failure: these are the runs beyond the limits on this column, and
-            // no others
             let limits = limits_on(found, column);
             let beyond =
                 values.iter().filter(|value| limits.iter().any(|(limit, sign)| sign * (*value / factor - limit) > 0.0));
@@ -116,7 +108,12 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
             assert_eq!((of("y"), of("samples")), (vec![1.0 / count], vec![largest.0 as f64]), "{what}");
         }
         ("cumulative_" | "tail_", "band", "95% interval") => {
-            assert!(of("low").iter().zip(of("high")).all(|(low, high)| *low < high), "{what}");
+            let line = if kind == "tail_" { "fraction of runs above" } else { "fraction of runs" };
+            let shares = found.array(&found.mark(&format!("{kind}{column}"), line)["y"]);
+            for ((low, high), share) in of("low").iter().zip(of("high")).zip(shares) {
+                assert!(*low <= share && share <= high && *low < high, "{what}: {share} in {low} to {high}");
+                assert!(high - low < 2.25 / count.sqrt(), "{what}: four standard deviations of a half are 2/sqrt(n)");
+            }
         }
         ("convergence_", "band", "95% interval") => {
             let [low, high] = ["low", "high"].map(|key| *of(key).last().expect("values"));
@@ -155,7 +152,7 @@ const LAST: [(&str, &str); 4] = [
     ("speed_w2_rad_s", "rate_w2_final_rad_s"),
 ];
 
-/// Bands and medians of quantities over time: each contains the narrower one at every time, and ends as the rows do.
+/// Law: each band over time contains the narrower one, and ends as the rows do.
 pub(crate) fn bands_are(found: &Found, figure: &Value) {
     let name = text(figure, "name");
     let marks = figure["marks"].as_array().expect("marks");
@@ -184,8 +181,7 @@ pub(crate) fn bands_are(found: &Found, figure: &Value) {
     }
 }
 
-/// Shares of the runs in which an event occurs, in classes of an input: each is that of the runs with the next greater
-/// values of the input, and its interval contains it.
+/// Law: the share of an event in a class of an input is that of the runs of the class, within its interval.
 fn shares_are(found: &Found, figure: &Value) {
     let mark = &figure["marks"][0];
     let [x, low, high] = ["x", "low", "high"].map(|key| found.array(&mark[key]));
@@ -218,7 +214,7 @@ fn shares_are(found: &Found, figure: &Value) {
     }
 }
 
-/// Points of an outcome against an input: each is the run of its sample, and one that failed is at the lower edge.
+/// Law: each point of an outcome against an input is the run of its sample, and a failed one is at the lower edge.
 fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
     let name = text(figure, "name").strip_prefix("scatter_").expect("a scatter plot");
     let is_of = |outcome: &&&str| name.strip_prefix(**outcome).is_some_and(|rest| rest.starts_with('_'));
@@ -248,7 +244,7 @@ fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
     assert_eq!(all.len(), columns[0].len() - 1, "every dispersed run once");
 }
 
-/// Law: where a page has not all runs, the points of its scatter plots are still those of the samples that they name.
+/// Law: where a page has not all runs, the points of its scatter plots are those of the samples that they name.
 #[test]
 fn thinned_points_are_of_their_samples() {
     const SAMPLES: usize = 17_000;
@@ -273,15 +269,13 @@ fn thinned_points_are_of_their_samples() {
     assert!(points >= 2_000, "{points}");
 }
 
-/// Outcome and input of a scatter plot of an input of the small campaign.
 fn text_of_scatter(figure: &Value) -> Option<(String, String)> {
     let name = text(figure, "name").strip_prefix("scatter_")?;
     let at = name.find("_initial_")?;
     Some((name[..at].to_owned(), name[at + 1..].to_owned()))
 }
 
-/// Law: any two columns that a reader may choose are those of the rows, in the unit that is shown, and those of runs
-/// that failed are marked.
+/// Law: any two columns to choose are those of the rows in the unit shown, and failed runs are marked.
 #[test]
 fn chosen_columns_are_of_the_rows() {
     let found = found("series-chosen", &failing());
@@ -299,7 +293,6 @@ fn chosen_columns_are_of_the_rows() {
         let (values, rows) = (found.array(&column["values"]), found.all(&[name]).swap_remove(0));
         for (sample, value) in samples.iter().zip(values) {
             let known = (rows[*sample as usize] * scale(column)) as f32;
-            // of inputs and outcomes at a time that a run has not reached there is none
             assert!(
                 value == f64::from(known)
                     || value.is_nan() && known.is_nan()
@@ -360,7 +353,6 @@ fn every_series_is_of_its_label() {
                 *seen.entry("input_").or_default() += 1;
             }
         }
-        // the transfer beside the nominal run is the band of the body, and each body's part of it that body's change
         for (label, key) in [("body, 5% of runs", "low"), ("body, 95% of runs", "high")] {
             let band = found.array(&found.mark("exchange_body_j", "5 to 95%")[key]);
             assert_eq!(found.array(&found.mark("energy_transfer", label)["y"]), band, "{label}");

@@ -1,5 +1,4 @@
-//! The commands of docs/cluster.md that a cluster runs with an index, as they stand there but for the path of the
-//! program and of the result.
+//! The commands of docs/cluster.md that a cluster runs with an index, with other paths of program and result.
 
 use std::fs;
 use std::process::{Child, Command, Stdio};
@@ -12,7 +11,7 @@ use crate::support::scratch_folder::{ScratchFolder, contents};
 const DOCUMENT: &str = include_str!("../../../docs/cluster.md");
 const SHARDS: usize = 8;
 
-/// What stands between `before` and `after` in the document; it is there once.
+/// The text between `before`, which occurs once, and `after` in the document.
 fn between(before: &str, after: &str) -> String {
     let mut found = DOCUMENT.split(before).skip(1);
     let (first, more) = (found.next().unwrap_or_else(|| panic!("no {before}")), found.next());
@@ -20,7 +19,7 @@ fn between(before: &str, after: &str) -> String {
     first.split_once(after).unwrap_or_else(|| panic!("no {after} after {before}")).0.to_owned()
 }
 
-/// Law: the shell commands of Kubernetes and of AWS Batch, with each index, make the result of one process to the byte.
+/// Law: the shell commands of Kubernetes and AWS Batch, over all indices, make the result of one process to the byte.
 #[test]
 fn indexed_jobs_make_the_bytes_of_one_process() {
     let recipes = [
@@ -56,8 +55,7 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
     }
 }
 
-/// The script of the array in the document, for `small.toml` with so many samples; `scontrol`, which it calls, writes
-/// its arguments to a file.
+/// The document's script of the array for `small.toml`, with `scontrol` writing its arguments to a file.
 fn slurm_script(scratch: &ScratchFolder, samples: u64) -> String {
     let mut script =
         format!("scontrol() {{ echo \"$@\" >>scontrol.log; }}\n{}", between("```text\n#!/bin/bash\n", "```"));
@@ -73,7 +71,6 @@ fn slurm_script(scratch: &ScratchFolder, samples: u64) -> String {
     script
 }
 
-/// Starts the script as task `task` of two, after so many restarts.
 fn slurm_task(scratch: &ScratchFolder, task: u32, restarts: u32) -> Child {
     let numbers = [("SLURM_ARRAY_TASK_ID", task), ("SLURM_ARRAY_TASK_COUNT", 2), ("SLURM_CPUS_PER_TASK", 1)];
     let mut shell = Command::new("bash");
@@ -82,8 +79,7 @@ fn slurm_task(scratch: &ScratchFolder, task: u32, restarts: u32) -> Child {
     shell.env("SLURM_JOB_ID", "101").env("SLURM_RESTART_COUNT", restarts.to_string()).spawn().expect("bash")
 }
 
-/// Law: the tasks of the array make the rows of one process, and a task that ends by itself is not put back into the
-/// queue.
+/// Law: the tasks of the array make the rows of one process, and a task that ends by itself is not requeued.
 #[test]
 fn the_slurm_array_makes_the_bytes_of_one_process() {
     let scratch = folder("slurm-recipe");
@@ -98,8 +94,8 @@ fn the_slurm_array_makes_the_bytes_of_one_process() {
     assert!(!scratch.path("scontrol.log").exists());
 }
 
-/// Law: a task that is signalled before its time limit, or killed, puts itself back into the queue, at most ten times;
-/// after another signal it does not.
+/// Law: a task signalled before its time limit, or killed, requeues itself at most ten times; after another signal it
+/// does not.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slurm_task_that_was_stopped_is_put_back() {

@@ -1,4 +1,4 @@
-//! [`Failing`]: a folder in which the k-th operation fails; and the making of a small dataset in it.
+//! [`Failing`]: a folder in which the k-th operation fails, and a small dataset made in it.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
@@ -15,7 +15,7 @@ use spindrift::workflow::{Campaign, Outputs, Quiet, Session, WorkflowError as Fa
 use crate::small_campaign::campaign_without_debris;
 pub use crate::support::scratch_folder::contents;
 
-/// The number of parts of a dataset; each is whole, with its bands.
+/// The number of parts of a dataset, each checked to be whole with its bands.
 pub fn whole_parts(root: &Path) -> usize {
     let entries = fs::read_dir(root.join("runs")).into_iter().flatten().map(|entry| entry.unwrap().path());
     let files = entries.filter(|path| path.extension().is_some_and(|extension| extension == "parquet"));
@@ -31,24 +31,20 @@ pub fn whole_parts(root: &Path) -> usize {
     files.map(check).count()
 }
 
-/// What is done to a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// It is put, removed or renamed.
     Write,
     Read,
     List,
     Lock,
 }
 
-/// How an operation fails.
+/// How an operation fails: as an error of this kind, with half of a put file under a temporary name; after it was done,
+/// its answer lost; or with an error number of the operating system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// An error of this kind; a file that was to be put leaves half of itself under a temporary name.
     Kind(io::ErrorKind),
-    /// The same error after the operation was done: its answer is lost.
     Late(io::ErrorKind),
-    /// The error of the operating system with this number.
     System(i32),
 }
 
@@ -61,28 +57,22 @@ impl Fault {
     }
 }
 
-/// Which operation fails, and what was done so far.
 #[derive(Debug)]
 pub struct Plot {
-    /// Which operations are counted, and may fail.
     is_counted: fn(Operation) -> bool,
-    /// The operation that fails, from zero.
     fails: u64,
-    /// Whether all later ones fail too.
     persists: bool,
     fault: Fault,
-    /// The dataset whose parts are checked before every operation.
     watched: Option<PathBuf>,
     done: Mutex<Vec<(Operation, PathBuf)>>,
 }
 
 impl Plot {
-    /// Operation `fails` of those that are counted fails, and all later ones where the fault `persists`.
+    /// Counted operation `fails`, from zero, fails, and so do all later ones if the fault `persists`.
     pub fn new(is_counted: fn(Operation) -> bool, fails: u64, persists: bool, fault: Fault) -> Arc<Self> {
         Arc::new(Plot { is_counted, fails, persists, fault, watched: None, done: Mutex::default() })
     }
 
-    /// No operation fails.
     pub fn harmless(is_counted: fn(Operation) -> bool) -> Arc<Self> {
         Plot::new(is_counted, u64::MAX, false, Fault::System(5))
     }
@@ -94,7 +84,6 @@ impl Plot {
         Arc::new(Plot { is_counted, fails: u64::MAX, persists: false, fault, watched, done: Mutex::default() })
     }
 
-    /// The operations that were counted so far, each with its path.
     pub fn done(&self) -> Vec<(Operation, PathBuf)> {
         self.done.lock().unwrap().clone()
     }
@@ -118,7 +107,6 @@ impl Plot {
     }
 }
 
-/// A folder of a disk in which operations fail.
 #[derive(Debug)]
 struct Failing {
     plot: Arc<Plot>,
@@ -126,7 +114,7 @@ struct Failing {
 }
 
 impl Failing {
-    /// Does what changes files, unless it fails; then `half` of it may be left.
+    /// Makes the change, unless it fails; then `half` of it may be left.
     fn change(
         &self,
         name: &str,
@@ -185,7 +173,7 @@ impl Store for Failing {
     }
 }
 
-/// Does `work` with one thread in folders that fail as `plot` says.
+/// Does `work` with one thread in folders that fail by `plot`.
 pub fn on(plot: &Arc<Plot>, work: impl FnOnce(&Session<'_>) -> Result<(), Failure>) -> Result<(), Failure> {
     let folders = |root: &Path| -> Arc<dyn Store> { Arc::new(Failing { plot: plot.clone(), disk: folder(root) }) };
     let watch = Quiet::default();
@@ -193,10 +181,8 @@ pub fn on(plot: &Arc<Plot>, work: impl FnOnce(&Session<'_>) -> Result<(), Failur
     work(&Session { folders: &folders, ..session })
 }
 
-/// How a dataset is made.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Making {
-    /// In parts of 256.
     pub samples: u64,
     pub seed: u64,
     pub has_page: bool,
@@ -208,8 +194,7 @@ impl Making {
         Making { samples, seed: 7, ..Making::default() }
     }
 
-    /// Makes the dataset in `root`, or what is missing of it. It has few columns, since the work is done a thousand
-    /// times.
+    /// Makes the dataset in `root`, or completes it, with few columns since it is made a thousand times.
     pub fn make(self, plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
         let observed = "points = 11\ngroups = [\"energy_conservation\"]\n";
         let text = campaign_without_debris().replace("points = 11\n", observed);
@@ -224,13 +209,11 @@ impl Making {
     }
 }
 
-/// Makes the dataset without a fault; its files.
 pub fn made(making: Making, root: &Path) -> BTreeMap<String, Vec<u8>> {
     making.make(&Plot::harmless(|_| false), root).unwrap_or_else(|error| panic!("{error:?}"));
     contents(root)
 }
 
-/// The reason of a failure.
 pub fn reason(failure: &Failure) -> &str {
     let (Failure::Files(reason) | Failure::Input(reason)) = failure;
     reason

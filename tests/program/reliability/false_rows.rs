@@ -1,4 +1,4 @@
-//! Files with right seals and checksums that are of other rows, and results that have lost what their rows are.
+//! Files of other rows with right seals and checksums, and results that have lost the identity of their rows.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,7 +24,6 @@ pub fn alter(scratch: &ScratchFolder, files: &[(&str, &[u8])]) {
     fs::write(root.join("manifest.json"), manifest.bytes()).unwrap();
 }
 
-/// A result of `samples` samples under seed 7, and one under seed 8.
 fn two_seeds(name: &str, samples: u64) -> ScratchFolder {
     let scratch = folder(name);
     for (result, seed) in [("r", 7), ("other", 8)] {
@@ -33,8 +32,7 @@ fn two_seeds(name: &str, samples: u64) -> ScratchFolder {
     scratch
 }
 
-/// Law: a part of another seed, whole in itself, is found by every command that reads rows, by what its file says of
-/// itself, and is made again.
+/// Law: every command that reads rows finds a whole part of another seed by the metadata of its file.
 #[test]
 fn a_part_of_another_seed_is_found() {
     let scratch = two_seeds("false-rows", 300);
@@ -58,8 +56,7 @@ fn a_part_of_another_seed_is_found() {
     assert!(contents(&scratch.path("r")) == whole);
 }
 
-/// Law: `verify` computes a part again where the fraction is above zero, however small: it finds bands of another seed
-/// under right checksums, and a repair makes the same bytes again.
+/// Law: `verify` with any fraction above zero computes a part again and finds bands of another seed under right checksums.
 #[test]
 fn any_fraction_computes_a_part() {
     let scratch = two_seeds("false-bands", 20);
@@ -73,7 +70,6 @@ fn any_fraction_computes_a_part() {
     alter(&scratch, &[(&rows, &altered), (&bands, &other[&bands])]);
     for fraction in ["0", "1e-9", "0.4", "1"] {
         let said = scratch.prints(&format!("verify r --fraction {fraction}"), 4);
-        // without runs it is found by what follows from all of them
         let found = if fraction == "0" { "bands.parquet: is not what" } else { "its rows are not those of the plan" };
         assert!(said.contains(found), "{fraction}: {said}");
     }
@@ -81,8 +77,8 @@ fn any_fraction_computes_a_part() {
     assert!(contents(&scratch.path("r")) == whole);
 }
 
-/// Law: where any bit of `dataset.json` has changed, or it is gone, the rows are still known by their own metadata,
-/// with a manifest and without: another plan is refused, and the same one heals it.
+/// Law: without a sound `dataset.json` the rows are known by their own metadata: another plan is refused, and the same
+/// one heals it.
 #[test]
 fn a_damaged_head_adopts_no_other_plan() {
     let scratch = two_seeds("false-head", 300);
@@ -111,8 +107,7 @@ fn a_damaged_head_adopts_no_other_plan() {
     }
 }
 
-/// Law: parts of different plans are never merged: `finish` names the part that is of another one, and the campaign's
-/// command makes it again.
+/// Law: parts of different plans are never merged: `finish` names the odd one, and the campaign's command makes it again.
 #[test]
 fn shards_of_two_plans_are_not_merged() {
     let scratch = folder("false-shards");

@@ -1,5 +1,4 @@
-//! Files that are handed to the program, and files that it writes: nothing is waited for, nothing endless is read, and
-//! nothing is overwritten that it was not told to.
+//! Hostile input and output files: no endless reads or waits, and no input or foreign file is overwritten.
 
 use std::fs;
 use std::process::Command;
@@ -17,7 +16,7 @@ fn table_campaign(scratch: &ScratchFolder) {
     scratch.file("table.csv", "wheels.w1.radius_m\n0.25\n0.26\n0.24\n");
 }
 
-/// Law: a file that is none, or not a text of a campaign, is refused with exit code 2 by what it is, and with a remedy.
+/// Law: a file that is no campaign is refused with code 2, its kind and a remedy.
 #[cfg(unix)]
 #[test]
 fn what_is_no_campaign_file_is_refused_by_what_it_is() {
@@ -41,7 +40,7 @@ fn what_is_no_campaign_file_is_refused_by_what_it_is() {
     }
 }
 
-/// Law: the same of files of numbers.
+/// Law: so is a file that has no numbers.
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
@@ -65,8 +64,8 @@ fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
     }
 }
 
-/// Law: a result is complete in itself: without the file of numbers that its plan names, and in another folder, it is
-/// finished, verified and reported, and the bytes are those of the result that one process made.
+/// Law: a result is complete in itself: moved and without the file of numbers of its plan it is finished, verified and
+/// reported, with the bytes of one process.
 #[test]
 fn a_result_has_its_data() {
     let scratch = folder("data");
@@ -130,7 +129,7 @@ fn inputs_are_never_outputs() {
     assert!(scratch.path("other.csv").exists());
 }
 
-/// Law: a result has its own files only: reports and figures are not written into it.
+/// Law: reports and figures are not written into a result.
 #[test]
 fn a_result_takes_no_other_files() {
     let scratch = folder("within");
@@ -146,7 +145,7 @@ fn a_result_takes_no_other_files() {
     assert!(said.contains("must be outside of the result in `r`"), "{said}");
 }
 
-/// Law: links that somebody put where a campaign writes are not followed, and another program's folder is refused.
+/// Law: planted links are not followed, and another program's folder is refused.
 #[cfg(unix)]
 #[test]
 fn planted_links_are_not_followed() {
@@ -168,7 +167,6 @@ fn planted_links_are_not_followed() {
     symlink("../precious", scratch.path("r/runs")).unwrap();
     let said = scratch.prints("campaign small.toml --samples 3 --out r --overwrite", 4);
     assert!(said.contains("`r` contains `runs`, which is not part of a result"), "{said}");
-    // where nothing is yet, and where the rows are those of another result
     fs::create_dir_all(scratch.path("new/runs")).unwrap();
     for name in ["dataset.json.tmp", "plan.toml.tmp", "runs/part-000000.parquet.tmp"] {
         symlink(scratch.path("precious/file"), scratch.path("new").join(name)).unwrap();
@@ -184,7 +182,12 @@ fn planted_links_are_not_followed() {
     assert_eq!(fs::read_dir(scratch.path("precious")).unwrap().count(), 1);
 }
 
-/// Law: no character of a file that a terminal obeys reaches it.
+/// A character that a terminal obeys.
+fn is_obeyed(letter: char) -> bool {
+    letter != '\n' && (letter.is_control() || letter == '\u{202e}')
+}
+
+/// Law: no such character of a file reaches the terminal.
 #[test]
 fn escapes_are_shown_as_text() {
     let scratch = folder("escapes");
@@ -194,10 +197,8 @@ fn escapes_are_shown_as_text() {
     let mut said = scratch.prints("check bad.toml", 2);
     scratch.file("bad.toml", &campaign().replace("points = 11", "\"\\u001b[2J\" = \"\\u001b[2J\""));
     said += &scratch.prints("check bad.toml", 2);
-    let is_obeyed = |letter: char| letter != '\n' && (letter.is_control() || letter == '\u{202e}');
     assert!(!said.contains(is_obeyed), "{said:?}");
     assert!(said.contains("\\u{1b}[2J"), "{said}");
-    // a description, and the name of a file
     let description = "a\u{202e}b";
     scratch.file(
         "\u{1b}[1m.toml",
@@ -207,7 +208,7 @@ fn escapes_are_shown_as_text() {
     assert!(!said.contains(is_obeyed) && said.contains("A\\u{202e}b") && said.contains("`\\u{1b}[2m.toml`"), "{said}");
 }
 
-/// Law: more tables that name a file of numbers than a limit are refused, with the limit.
+/// Law: too many tables with files of numbers are refused with the limit.
 #[test]
 fn too_many_files_of_numbers_are_refused() {
     let scratch = folder("many-files");
@@ -231,8 +232,7 @@ fn too_many_files_of_numbers_are_refused() {
     }
 }
 
-/// Law: a thread that the system does not start is done without, or said with exit code 4: nothing is wrong with the
-/// input, and nothing panics.
+/// Law: a thread that the system does not start is done without, or an error with code 4.
 #[cfg(target_os = "linux")]
 #[test]
 fn threads_that_do_not_start_are_no_input_error() {
@@ -254,8 +254,7 @@ fn threads_that_do_not_start_are_no_input_error() {
     }
 }
 
-/// Law: no character of an argument that a terminal obeys reaches it, whichever part of the parser refuses the
-/// argument.
+/// Law: no character of an argument that a terminal obeys reaches it, whichever part of the parser refuses it.
 #[test]
 fn escapes_in_arguments_are_shown_as_text() {
     let scratch = folder("argument-escapes");
@@ -275,19 +274,16 @@ fn escapes_in_arguments_are_shown_as_text() {
         let arguments: Vec<String> =
             arguments.iter().map(|text| text.replace("--X", &format!("--{hostile}"))).collect();
         let said = scratch.outputs(Command::new(env!("CARGO_BIN_EXE_spindrift")).args(&arguments), 2);
-        let is_obeyed = |letter: char| letter != '\n' && (letter.is_control() || letter == '\u{202e}');
         assert!(!said.contains(is_obeyed), "{arguments:?}: {said:?}");
         assert!(said.contains("\\u{1b}[2J\\u{9b}1m\\u{202e}x"), "{arguments:?}: {said}");
     }
-    // help and version are results
     assert!(
         scratch.prints("--help", 0).contains("Exit codes:") && scratch.prints("--version", 0).starts_with("spindrift ")
     );
     scratch.prints("", 2);
 }
 
-/// Law: a file that may not grow further is an error of input and output with its name, code 4; without the limit the
-/// same command ends with the same bytes.
+/// Law: a file that may not grow is an error with code 4; without the limit the same command gives the same bytes.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_limit_of_file_sizes_is_an_error() {
@@ -313,8 +309,7 @@ fn a_limit_of_file_sizes_is_an_error() {
     limited("check small.toml", 0);
 }
 
-/// Law: a file of the campaign that cannot be read now ends the command with code 4, whichever it is; one that is
-/// missing is a mistake, code 2, and so is any mistake beside it.
+/// Law: a file of the campaign that cannot be read ends the command with code 4; a missing one, or any mistake, with 2.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_cannot_be_read_now_is_no_mistake() {

@@ -1,4 +1,4 @@
-//! Whatever happens to processes, disks and files: always the same bytes, or an error that says why.
+//! Whatever happens to processes, disks and files, the bytes are the same or an error names the reason.
 
 pub mod altered_results;
 pub mod cluster_recipes;

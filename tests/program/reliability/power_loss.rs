@@ -1,10 +1,8 @@
-//! Loss of power: at any call that changes or flushes a file, everything that was not flushed by then is gone: content
-//! that was written, names that were given, changed or removed. The same command then ends with the same bytes as if
-//! nothing had happened.
+//! Loss of power: at any call that changes or flushes a file, all unflushed content and names are gone; the same command
+//! then ends with the same bytes.
 //!
-//! A small library (`power_loss.c`, compiled here and loaded before libc) keeps what is flushed, and ends the process
-//! before the chosen call; the test puts back what was kept. Kills without a loss of power are in `interrupted`, errors
-//! of files in `faults`.
+//! A library (`power_loss.c`, compiled here and loaded before libc) keeps what is flushed and ends the process before
+//! the chosen call; the test restores what was kept.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,7 +13,7 @@ use crate::reliability::failing_store::contents;
 use crate::small_campaign::folder;
 use crate::support::scratch_folder::ScratchFolder;
 
-/// Every so many calls the power fails in the short version.
+/// Calls between failures of power in the short version.
 const STEP: usize = 7;
 
 /// The library; `None` where there is no compiler for it.
@@ -55,7 +53,6 @@ fn put_back(durable: &Path, inode: &str, to: &Path) {
             fs::create_dir(&path).unwrap();
             put_back(durable, &inode, &path);
         } else {
-            // a name without a flushed content is an empty file
             fs::write(&path, fs::read(durable.join(format!("file-{inode}"))).unwrap_or_default()).unwrap();
         }
     }
@@ -80,7 +77,6 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// A case: what is there before, and the command on the result `disk/r`.
 struct Case {
     name: &'static str,
     before: &'static str,
@@ -94,11 +90,9 @@ const CASES: [Case; 4] = [
     Case { name: "repair", before: "damaged", command: "verify --repair" },
 ];
 
-/// Lets the power fail at every `step`-th call of the cases, from the first on.
 fn power_fails(step: usize) {
     let scratch = folder(&format!("power-{step}"));
     let Some(library) = library(&scratch) else { return };
-    // what is there before
     for name in ["nothing", "small", "other", "damaged"] {
         fs::create_dir_all(scratch.path(name)).unwrap();
     }
@@ -133,7 +127,7 @@ fn power_fails(step: usize) {
             files.iter().filter(|(name, _)| name.starts_with("runs/")).map(|(_, bytes)| bytes.clone()).collect()
         };
         assert!(rows(&goal) == rows(&whole), "{}", case.name);
-        // the counter-test of this test: all of it was flushed
+        // counter-test: everything was flushed at the end
         let root = inode(&disk);
         let _ = fs::remove_dir_all(&disk);
         fs::create_dir(&disk).unwrap();
@@ -146,7 +140,6 @@ fn power_fails(step: usize) {
             fs::create_dir(&disk).unwrap();
             put_back(&durable, &root, &disk);
             let what = format!("{}: power lost at call {fails} of {calls}", case.name);
-            // an older result is whole until the new one is
             if case.name == "overwrite" {
                 let there = contents(&disk.join("r"));
                 let older = contents(&scratch.path("other/r"));
@@ -167,7 +160,6 @@ fn a_loss_of_power_loses_nothing() {
     power_fails(STEP);
 }
 
-/// The same law at every call.
 #[ignore = "a minute or two: cargo test --release --test program -- --ignored a_loss_of_power_at_every_call"]
 #[test]
 fn a_loss_of_power_at_every_call() {

@@ -1,6 +1,5 @@
-//! A fault at the k-th read of a dataset, for every k, in every command that reads one: a file that cannot be read now
-//! is an error that names it and the cause. It is never taken for a file that is damaged: nothing is dropped, removed
-//! or written again for it.
+//! A fault at the k-th read of a dataset, for every k and command: an unreadable file is an error with its name and
+//! cause, and never taken for a damaged one.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,17 +16,15 @@ use crate::support::scratch_folder::ScratchFolder;
 
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// Samples of two parts, and of three.
 const SAMPLES: [u64; 2] = [260, 520];
 
-/// The numbers of Linux of the errors that reading has: EIO, EACCES, ENOENT.
+/// Linux's EIO, EACCES, ENOENT.
 const UNREADABLE: [i32; 3] = [5, 13, 2];
 
 fn is_read(operation: Operation) -> bool {
     operation != Operation::Write
 }
 
-/// The faults that an operation can have.
 fn faults(operation: Operation) -> Vec<Fault> {
     let errors = match operation {
         Operation::Write => &[][..],
@@ -37,12 +34,11 @@ fn faults(operation: Operation) -> Vec<Fault> {
     errors.iter().map(|number| Fault::System(*number)).collect()
 }
 
-/// What the message says of a fault. A folder that is not there, by what the disk says, is an empty one.
+/// Causes that the message may name: a folder that the disk does not have is an empty one.
 fn causes(fault: Fault) -> [String; 2] {
     [fault.error().to_string(), "has no result of spindrift".to_owned()]
 }
 
-/// A command on the dataset in a folder.
 type Command = fn(&Arc<Plot>, &Path) -> Result<(), Failure>;
 
 fn make_large(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
@@ -77,7 +73,6 @@ fn compare(plot: &Arc<Plot>, root: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Puts the files of a dataset into an empty folder.
 fn restore(root: &Path, files: &Files) {
     let _ = fs::remove_dir_all(root);
     for (name, bytes) in files {
@@ -87,7 +82,6 @@ fn restore(root: &Path, files: &Files) {
     }
 }
 
-/// A dataset before a command, and the command.
 struct Case<'a> {
     name: &'a str,
     command: Command,
@@ -96,7 +90,6 @@ struct Case<'a> {
     made_again: &'static str,
 }
 
-/// How many reads a command has, and how many of their faults it said.
 #[derive(Debug, Default)]
 struct Count {
     reads: usize,
@@ -105,7 +98,7 @@ struct Count {
 }
 
 impl Case<'_> {
-    /// Lets every read of the command fail: in every way, once and from then on, or in one of these ways in turn.
+    /// Lets every read fail: in every way, once and from then on, or in one of these ways in turn.
     fn check(&self, root: &Path, in_turn: bool) -> Count {
         let (name, start) = (self.name, self.start);
         restore(root, start);
@@ -129,7 +122,7 @@ impl Case<'_> {
                 let ended = (self.command)(&plot, root);
                 count.faults += 1;
                 count.errors += usize::from(ended.is_err());
-                // what is looked for and may be absent is told by the next read only
+                // a file that may be absent is reported by a later read
                 let failed = plot.done().split_off(fails);
                 let paths = failed.iter().take(if persists { failed.len() } else { 1 }).map(|(_, path)| path);
                 self.check_end(&what, root, paths.collect(), (ended, fault), &goal);
@@ -138,7 +131,7 @@ impl Case<'_> {
         count
     }
 
-    /// That the command ended as it should have, and left what it should have.
+    /// Checks how the command ended, and what it left.
     fn check_end(
         &self,
         what: &str,
@@ -161,7 +154,7 @@ impl Case<'_> {
             }
         }
         if now == *self.start {
-            // running again starts from the same files: that is how the goal was made
+            // running again starts from the same files
             return;
         }
         for (name, bytes) in
@@ -184,46 +177,31 @@ impl Case<'_> {
     }
 }
 
-/// Law: whichever read fails, in whichever way, once or from then on: the command says so with path and cause and code
-/// 4, or ends as if nothing had happened; no part that is sound is dropped, removed or made again; and the same command
-/// without the fault ends with the same bytes.
-#[test]
-fn reads_of_campaign_may_fail() {
-    reads_fail("campaign", true);
+/// Law: whichever read fails, once or from then on, the command names path and cause with code 4, or ends as if nothing
+/// had happened; no sound part is lost, and the same command without the fault gives the same bytes.
+macro_rules! reads_may_fail {
+    ($($test:ident: $command:literal),* $(,)?) => {$(
+        #[test]
+        fn $test() {
+            reads_fail($command, true);
+        }
+    )*};
 }
 
-/// The same of `finish`.
-#[test]
-fn reads_of_finish_may_fail() {
-    reads_fail("finish", true);
+reads_may_fail! {
+    reads_of_campaign_may_fail: "campaign",
+    reads_of_finish_may_fail: "finish",
+    reads_of_verify_may_fail: "verify",
+    reads_of_report_may_fail: "report",
+    reads_of_compare_may_fail: "compare",
 }
 
-/// The same of `verify`, with `--repair` and without.
-#[test]
-fn reads_of_verify_may_fail() {
-    reads_fail("verify", true);
-}
-
-/// The same of `report`.
-#[test]
-fn reads_of_report_may_fail() {
-    reads_fail("report", true);
-}
-
-/// The same of `compare`.
-#[test]
-fn reads_of_compare_may_fail() {
-    reads_fail("compare", true);
-}
-
-/// The same law with every fault at every read.
 #[ignore = "a minute: cargo test --release --test program -- --ignored every_read_may_fail"]
 #[test]
 fn every_read_may_fail() {
     reads_fail("", false);
 }
 
-/// Lets reads of the commands whose names begin with `of` fail.
 fn reads_fail(of: &str, in_turn: bool) {
     let scratch = ScratchFolder::new(&format!("read-faults-{of}-{in_turn}"));
     let root = scratch.path("r");

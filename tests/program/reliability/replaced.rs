@@ -1,4 +1,4 @@
-//! A result that takes the place of another one: what the folder is, what is beside it, and every interruption.
+//! Results that take the place of others: links, neighbours, and every interruption.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,18 +9,16 @@ use crate::reliability::interrupted::{assert_same, start};
 use crate::small_campaign::folder;
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
-/// What is beside the results, by name.
 fn entries(folder: &Path) -> BTreeSet<String> {
     fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
-/// Samples of two parts.
 const SAMPLES: u64 = 300;
 
-/// Folders beside a result `r` that no command made, with the names that replacements have or had.
+/// Folders beside a result `r` that no command made, with names of replacements.
 const NOT_OURS: [&str; 4] = [".r.old", ".r.new", ".r.0123456789abcdef.new", ".r.0123456789abcdef.old"];
 
-/// Makes folders of these names: whole results whose digits are of other rows.
+/// Makes these folders as copies of a result.
 fn plant(scratch: &ScratchFolder, result: &Path) {
     for name in NOT_OURS {
         let folder = scratch.path(name);
@@ -32,9 +30,8 @@ fn plant(scratch: &ScratchFolder, result: &Path) {
     }
 }
 
-/// Law: a fault at any operation of a replacement is an error that names a path; either the old result is whole in its
-/// place, or one of both is whole beside it; and the next command ends with the new result, with nothing beside it but
-/// what was not made for this, which is as it was.
+/// Law: a fault at any operation of a replacement names a path; the old or the new result is whole, in its place or
+/// beside it; the next command ends with the new result, and foreign neighbours stay as they were.
 #[test]
 fn every_operation_of_a_replacement_may_fail() {
     let scratch = ScratchFolder::new("replaced-faults");
@@ -77,8 +74,7 @@ fn every_operation_of_a_replacement_may_fail() {
     assert!(NOT_OURS.map(|name| contents(&scratch.path(name))) == planted, "what was beside is as it was");
 }
 
-/// Law: a link that is named as the folder of a result means the folder that it leads to, whether that is there already
-/// or not, and stays.
+/// Law: a link named as the folder of a result means its target, existing or not, and stays.
 #[cfg(unix)]
 #[test]
 fn a_link_is_the_folder_that_it_leads_to() {
@@ -102,8 +98,7 @@ fn a_link_is_the_folder_that_it_leads_to() {
     assert!(said.contains("a link that leads to itself"), "{said}");
 }
 
-/// Law: the current folder takes a result and continues it; it is not replaced, and that is said before a sample is
-/// run.
+/// Law: the current folder takes a result and continues it, but is not replaced, which is refused before any run.
 #[test]
 fn the_current_folder_is_not_replaced() {
     let scratch = folder("replaced-current");
@@ -123,7 +118,7 @@ fn the_current_folder_is_not_replaced() {
     scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 0);
 }
 
-/// Law: the same of a mount point.
+/// Law: nor is a mount point.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_mount_point_is_not_replaced() {
@@ -131,7 +126,7 @@ fn a_mount_point_is_not_replaced() {
     fs::create_dir_all(scratch.path("inner")).unwrap();
     let root = scratch.path("r");
     fs::create_dir(&root).unwrap();
-    // another folder of the same file system: its number says nothing
+    // a bind mount has the device number of its file system
     let mount = std::process::Command::new("mount").arg("--bind").arg(scratch.path("inner")).arg(&root).output();
     if !mount.is_ok_and(|output| output.status.success()) {
         println!("skipped: this process may not mount a folder");
@@ -150,8 +145,8 @@ fn a_mount_point_is_not_replaced() {
     ended.unwrap();
 }
 
-/// Law: a folder of a result that becomes a link during a run is not written through: the command ends with code 4 and
-/// names it, what the link leads to is as it was, and with the folder back the same command completes the result.
+/// Law: a folder of a result that becomes a link during a run is not written through: the command ends with code 4, and
+/// completes the result once the folder is back.
 #[cfg(target_os = "linux")]
 #[test]
 fn links_swapped_in_during_a_run_are_not_followed() {

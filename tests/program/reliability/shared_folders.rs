@@ -1,5 +1,4 @@
-//! Processes that begin in one folder at the same instant, on file systems with locks and without: what they make
-//! together is one result, or all but one are refused.
+//! Processes that begin in one folder at the same instant, with locks and without, make one result or are refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,20 +8,16 @@ use crate::reliability::interrupted::assert_same;
 use crate::small_campaign::{campaign, folder};
 use crate::support::scratch_folder::ScratchFolder;
 
-/// Rounds of the short version, which runs with all tests.
 const ROUNDS: u32 = 10;
-/// Rounds of the long version.
 const MANY_ROUNDS: u32 = 200;
-/// Shards that begin together.
 const SHARDS: u32 = 8;
 
-/// Numbers of errors of Linux: no such lock here, none left, not implemented; and one that says nothing about locks.
+/// Linux's EOPNOTSUPP, ENOLCK and ENOSYS, which mean that there are no locks.
 #[cfg(target_os = "linux")]
 const WITHOUT: [i32; 3] = [95, 37, 38];
 #[cfg(target_os = "linux")]
 const EIO: i32 = 5;
 
-/// A library in which `flock` fails; `None` where there is no compiler.
 #[cfg(target_os = "linux")]
 fn no_locks(scratch: &ScratchFolder) -> Option<PathBuf> {
     let (source, library) =
@@ -35,7 +30,7 @@ fn no_locks(scratch: &ScratchFolder) -> Option<PathBuf> {
     None
 }
 
-/// Whether a process has locks: the library in which they fail, and the number of the error.
+/// The library in which locks fail, and the error number.
 type Locks<'a> = Option<(&'a Path, i32)>;
 
 fn start(scratch: &ScratchFolder, arguments: &str, locks: Locks<'_>) -> Child {
@@ -47,7 +42,7 @@ fn start(scratch: &ScratchFolder, arguments: &str, locks: Locks<'_>) -> Child {
     program.spawn().unwrap()
 }
 
-/// Starts all commands, and waits for them; each exit code with what was said.
+/// Runs all commands at once: exit codes and messages.
 fn together(scratch: &ScratchFolder, commands: &[String], locks: Locks<'_>) -> Vec<(i32, String)> {
     let started: Vec<Child> = commands.iter().map(|command| start(scratch, command, locks)).collect();
     let ended = |child: Child| {
@@ -57,7 +52,6 @@ fn together(scratch: &ScratchFolder, commands: &[String], locks: Locks<'_>) -> V
     started.into_iter().map(ended).collect()
 }
 
-/// Lets shards begin on an empty folder, `rounds` times; all complete, and the result is that of one process.
 fn shards_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     let command = "campaign small.toml --samples 2100 --threads 1 --no-report";
     scratch.prints(&format!("{command} --out whole"), 0);
@@ -75,14 +69,12 @@ fn shards_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     fs::remove_dir_all(scratch.path("whole")).unwrap();
 }
 
-/// Law: shards that begin at the same instant on an empty folder all complete, and the result has the bytes of one
-/// process.
+/// Law: shards that begin at the same instant all complete, with the bytes of one process.
 #[test]
 fn shards_begin_together() {
     shards_begin(&folder("together"), ROUNDS, None);
 }
 
-/// The same on file systems without locks.
 #[cfg(target_os = "linux")]
 #[test]
 fn shards_begin_together_without_locks() {
@@ -93,7 +85,6 @@ fn shards_begin_together_without_locks() {
     }
 }
 
-/// The long version of both.
 #[cfg(target_os = "linux")]
 #[test]
 #[ignore = "minutes: cargo test --release --test program -- --ignored many_rounds_of_shards"]
@@ -105,9 +96,7 @@ fn many_rounds_of_shards() {
     }
 }
 
-/// Lets campaigns that are not the same begin on an empty folder, `rounds` times: those of one of them at most
-/// complete, the others are refused, and what is there is a result of that one. With locks and as whole campaigns, one
-/// completes.
+/// Lets different campaigns begin in an empty folder, `rounds` times: one completes, the others are refused.
 fn others_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     let other = campaign().replace("duration_s = 1.0", "duration_s = 1.5");
     scratch.file("other.toml", &other);
@@ -139,14 +128,12 @@ fn others_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     }
 }
 
-/// Law: of two plans, or two seeds, that begin at the same instant on an empty folder, one makes its result; the others
-/// are refused, and leave nothing in it.
+/// Law: of different plans that begin at the same instant one makes its result, and the others leave nothing in it.
 #[test]
 fn of_two_plans_one_wins() {
     others_begin(&folder("two-plans"), ROUNDS, None);
 }
 
-/// The same without locks.
 #[cfg(target_os = "linux")]
 #[test]
 fn of_two_plans_one_wins_without_locks() {
@@ -155,8 +142,7 @@ fn of_two_plans_one_wins_without_locks() {
     others_begin(&scratch, ROUNDS, Some((&library, WITHOUT[0])));
 }
 
-/// Law: an error of a lock that does not say that there are none ends every command that locks with the path, the cause
-/// and code 4, before anything is written.
+/// Law: a lock that fails for another reason ends the command with path, cause and code 4 before anything is written.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_lock_that_fails_is_an_error() {

@@ -1,11 +1,11 @@
-//! What cannot be done is refused before anything is written, with the numbers; what is much is done with `--yes` only.
+//! The impossible is refused with numbers before anything is written, and the long needs `--yes`.
 
 use std::fs;
 
 use crate::reliability::failing_store::contents;
 use crate::small_campaign::{campaign, campaign_without_debris, folder};
 
-/// Law: counts that no disk and no memory has are refused at once with rows, bytes and time, and nothing is written.
+/// Law: counts beyond any disk and memory are refused at once with rows, bytes and time.
 #[test]
 fn what_no_machine_can_do_is_refused() {
     let scratch = folder("sizes");
@@ -51,8 +51,7 @@ fn what_no_machine_can_do_is_refused() {
     assert!(entries.iter().all(|name| name.ends_with(".toml") || name == "campaigns"), "{entries:?}");
 }
 
-/// Law: an address of a store with a slip in it is refused with the right form, and makes no folder; a folder of that
-/// name is still to be had.
+/// Law: a slip in the address of a store is refused with the right form; a folder of that name is still possible.
 #[test]
 fn a_slip_in_an_address_makes_no_folder() {
     let scratch = folder("addresses");
@@ -65,11 +64,11 @@ fn a_slip_in_an_address_makes_no_folder() {
     assert!(scratch.path("s3:/x/dataset.json").exists());
 }
 
-/// Law: a long campaign starts with `--yes` only; a shard of it, and what is left of one that is nearly there, without.
+/// Law: a long campaign needs `--yes`; the small rest of one does not.
 #[test]
 fn what_is_long_is_asked_for() {
     let scratch = folder("long");
-    // some 20 ms a run at most, so that a probe does not measure it as nothing
+    // at most 20 ms a run, so that the probe can measure it
     let long =
         campaign().replace("duration_s = 1.0", "duration_s = 1000.0").replace("tolerance = 1e-10", "tolerance = 1e-14");
     scratch.file("long.toml", &long.replace("method = \"auto\"", "method = \"null_space\"").replace("1e-14", "1e-10"));
@@ -80,12 +79,11 @@ fn what_is_long_is_asked_for() {
     scratch.prints("campaign small.toml --out r --samples 700 --yes", 0);
 }
 
-/// Law: what needs `--yes` in an empty folder needs it too where it replaces a complete result, which stays as it is
-/// without; where it does not replace it, `--yes` is needed for what is left only.
+/// Law: replacing a complete result needs `--yes` as an empty folder does; continuing it needs `--yes` for the rest only.
 #[test]
 fn what_is_replaced_is_asked_for() {
     let scratch = folder("long-again");
-    // a run stops after the first steps, which show that the steps left do not suffice; the estimate takes them all
+    // a run stops after the first steps; the estimate takes them all
     let method = "method = \"null_space\"\nmax_steps = 1000000000";
     let long = campaign_without_debris()
         .replace("duration_s = 1.0", "duration_s = 1e9")
