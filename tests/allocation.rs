@@ -1,4 +1,4 @@
-//! Code that runs once per sample does not allocate after the first batch; a counting allocator checks this.
+//! Code that runs once per sample allocates nothing after the first batch, by a counting allocator.
 
 #![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
 #![allow(unsafe_code)] // a global allocator cannot be written without it
@@ -15,7 +15,7 @@ use spindrift::dynamics::actuation::Laws;
 use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
 use spindrift::math::Isa;
 use spindrift::observables::Group;
-use spindrift::ode::{Control, Integrator};
+use spindrift::ode::Integrator;
 use spindrift::propagation::{Method, PropagationSettings};
 use spindrift::run::Grid;
 use spindrift::sampling::SampleId;
@@ -23,10 +23,10 @@ use spindrift::scene::{Actuated, Scene};
 use spindrift::storage::part_sink::{CountRows, PartFiles};
 use support::feedback::law;
 use support::plans::shipped;
-use support::runs::{adaptive, everything, fixed};
+use support::runs::{METHODS, adaptive, everything};
 use support::scenes::mixed;
 
-/// The system's allocator, which counts per thread, so that other tests do not count.
+/// The system's allocator with a count per thread.
 struct Counting;
 
 thread_local! {
@@ -37,8 +37,7 @@ fn count() {
     COUNT.with(|count| count.set(count.get() + 1));
 }
 
-// SAFETY: everything is handed on to the system's allocator unchanged; the counter is a plain number that needs no
-// memory.
+// SAFETY: everything is handed on to the system's allocator unchanged; the counter needs no memory.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count();
@@ -94,29 +93,17 @@ fn the_counter_counts() {
 fn engines_with_scenes_of_every_kind() {
     for forced in [false, true] {
         let scenes = mixed(24, forced, 10.0);
-        for (method, control) in [
-            (Method::Auto, adaptive(1e-8)),
-            (Method::Taylor, adaptive(1e-8)),
-            (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-6)),
-            (Method::Gyrostat(Integrator::Dop853), adaptive(1e-6)),
-            (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.05)),
-            (Method::Gyrostat(Integrator::GaussLegendre), fixed(0.05)),
-            (Method::NullSpace, adaptive(1e-3)),
-        ] {
-            let count = if method == Method::NullSpace { 4 } else { 24 };
-            no_allocation(method, control, &scenes[..count], &scenes[..count], "every kind");
+        for (method, control) in METHODS {
+            let scenes = &scenes[..if method == Method::NullSpace { 4 } else { 24 }];
+            let grid = Grid::uniform(10.0, 101);
+            let settings = PropagationSettings::new(method, control, grid, everything(method), &scenes[0]);
+            let mut engine = settings.engine(Isa::best());
+            let mut finished = 0;
+            engine.propagate(scenes, &mut |_| finished += 1);
+            let counted = allocations(|| engine.propagate(scenes, &mut |_| finished += 1));
+            assert_eq!((finished, counted), (2 * scenes.len(), 0), "{} allocates", method.name());
         }
     }
-}
-
-fn no_allocation(method: Method, control: Control, first: &[Scene], second: &[Scene], what: &str) {
-    let grid = Grid::uniform(10.0, 101);
-    let mut engine = PropagationSettings::new(method, control, grid, everything(method), &first[0]).engine(Isa::best());
-    let mut finished = 0;
-    engine.propagate(first, &mut |_| finished += 1);
-    let counted = allocations(|| engine.propagate(second, &mut |_| finished += 1));
-    assert_eq!(finished, first.len() + second.len());
-    assert_eq!(counted, 0, "{} allocates in {what}", method.name());
 }
 
 #[test]
@@ -153,11 +140,8 @@ fn a_worker() {
         let mut worker = campaign.worker();
         let mut rows = Rows::new(campaign.shape(), 256);
         let mut part = |first, count| {
-            worker.run(
-                Part { id: PartId(0), first: SampleId(first), count },
-                &mut rows,
-                Supervision::progress(&|_| {}),
-            );
+            let part = Part { id: PartId(0), first: SampleId(first), count };
+            worker.run(part, &mut rows, Supervision::progress(&|_| {}));
         };
         part(0, 256);
         assert_eq!(allocations(|| part(256, 256)), 0, "{name}, {method}");
@@ -181,7 +165,7 @@ fn a_worker_with_bands() {
     assert!(later < columns, "{later} of {columns} columns");
 }
 
-/// What a part of `no_debris` adds to a campaign that runs: allocations, bytes of its file of rows and of its bands.
+/// The allocations and bytes that a part of `no_debris` adds to a running campaign.
 #[derive(Debug)]
 struct Added {
     allocations: u64,
@@ -189,7 +173,6 @@ struct Added {
     bands: usize,
 }
 
-/// Rows of the part that is looked at.
 const PART: usize = 1024;
 
 fn added(samples: u64, first: u64) -> Added {
@@ -219,7 +202,6 @@ fn added(samples: u64, first: u64) -> Added {
 #[test]
 fn a_row_of_many() {
     let (few, many) = (added(100_000, 50_000), added(1_000_000, 500_000));
-    println!("{few:?} {many:?}");
     // other samples compress to other bytes; measured: 0.1%
     assert!(many.rows as f64 <= 1.01 * few.rows as f64, "{many:?}, {few:?}");
     assert!(many.rows <= 900 * PART, "bytes of rows: {many:?}");

@@ -1,4 +1,4 @@
-//! Accuracy claims for states, compared with the reference solution in double-double.
+//! Accuracy claims for states, against the reference solution in double-double.
 
 use crate::support::claims::hold;
 use crate::support::exact::distance;
@@ -15,18 +15,14 @@ use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelMode};
 
 const SECTION: &str = "accuracy_claims";
-/// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
-/// Tolerance of the reference solution: eight digits beyond the claims, at half the cost of the smallest tolerance.
+/// Tolerance of the reference solution: eight digits beyond the claims.
 const TRUE: f64 = 1e-24;
-/// Revolutions of the body.
 const REVOLUTIONS: f64 = 1000.0;
-/// State error after them, rad and relative, of 99 scenes in a hundred.
+/// State error, rad and relative, of 99 scenes in a hundred.
 const STATE: f64 = 1e-11;
-/// The same of every scene: some pass near a separatrix in each of their periods, which amplifies roundings; the worst
-/// of a thousand was 1.2e-11 with `auto`, and 5e-10 between `taylor` and `auto`.
+/// State error of every scene: some pass near a separatrix, which amplifies roundings.
 const WORST_STATE: f64 = 1e-9;
-/// Relative error of energy after them.
 const ENERGY: f64 = 9e-15;
 
 fn gyrostats(count: u64, mode: WheelMode) -> Vec<(Scene, f64)> {
@@ -110,7 +106,6 @@ fn many_gyrostats_after_a_thousand_revolutions() {
     hold_gyrostats(1000, 100);
 }
 
-/// A difficult scene.
 struct Hard {
     name: &'static str,
     scene: Scene,
@@ -119,7 +114,7 @@ struct Hard {
 
 /// Bound where the scene amplifies nothing.
 const HARD: f64 = 1e-12;
-/// The factor on the effect on the final state of rounding the state once during the run.
+/// Factor on the effect of rounding the state once during the run.
 const ROUNDINGS: f64 = 20.0;
 
 fn hard() -> Vec<Hard> {
@@ -137,7 +132,7 @@ fn hard() -> Vec<Hard> {
     boxed.initial.debris_relative_angular_velocity_rad_s = [3.0, 20.0, -5.0];
     list.push(Hard { name: "tumbling box, 50 s", scene: scene(&boxed), horizon: 50.0 });
 
-    // products of inertia, an offset centre of mass, wheels that turn; the start is 1e-4 off the unstable axis of J
+    // the start is 1e-4 off the unstable axis of J
     let mut near = table1.clone();
     near.debris = None;
     near.body.inertia_kg_m2 = Some([[3000.0, 120.0, -80.0], [120.0, 2400.0, 60.0], [-80.0, 60.0, 1700.0]]);
@@ -153,8 +148,7 @@ fn hard() -> Vec<Hard> {
     list
 }
 
-/// The change of the final state when the exact state is rounded to `f64` at one of four times, and integrated in
-/// double-double from there.
+/// The change of the final state when the exact state is rounded at one of four times and integrated exactly from there.
 fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     let last = grid.points() - 1;
     let moved = |point: usize| {
@@ -209,7 +203,6 @@ fn hard_scenes_are_exact_to_their_conditioning() {
                     worst = worst.max(2.0 * off(attitude, 4, 1.0).min(off(attitude, 4, -1.0)));
                 }
             }
-            println!("{name}, {method:?}: {worst:e}, one rounding moves it by {rounding:e}");
             let regime = format!("`{}`, {name}: state, bound 1e-12 or twenty roundings", method.name());
             hold(SECTION, &regime, HARD.max(ROUNDINGS * rounding), worst);
         }

@@ -1,4 +1,4 @@
-//! Bodies and actuators as files describe them: what is read, what is refused, and what errors of actuators do.
+//! Bodies and actuators of files: refused draws, tensors, and errors of actuators.
 
 use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
 use crate::support::draws;
@@ -44,8 +44,7 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
     }
 }
 
-/// Law: a debris turns as the same body described in its principal frame, whichever products of inertia its tensor has,
-/// with equal moments on the diagonal too.
+/// Law: a debris turns as in its principal frame, whatever its products of inertia.
 #[test]
 fn a_debris_turns_as_in_its_principal_frame() {
     let grid = Grid::uniform(4.0, 9);
@@ -65,7 +64,7 @@ fn a_debris_turns_as_in_its_principal_frame() {
         let turned = axes.eigenvectors;
         let [a, b, c] = [0, 1, 2].map(|i| axes.eigenvalues[i]);
         let principal = [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]];
-        // a frame of the other hand changes the sign of a rate, which is a pseudovector
+        // a frame of the other hand changes the sign of a rate
         let hand = turned.determinant();
         let into = hand * turned.transpose() * nalgebra::Vector3::from(rate);
         for method in Method::ALL {
@@ -100,12 +99,11 @@ fn a_scaled_actuator_is_a_scaled_command() {
     off.thrusters.iter_mut().for_each(|thruster| thruster.thrust_scale = 0.0);
     off.wheels.iter_mut().for_each(|wheel| wheel.torque_scale = 0.0);
     let scene = |input| Scene::resolve(input).expect("a physical scene");
-    // the first scene says what is integrated: that nothing works in it must not matter to the others
+    // the first scene decides what is integrated, and nothing works in it
     let scenes = [scene(&off), scene(&errors), scene(&scaled)];
     let runs: Vec<Run> = propagate(Method::Taylor, adaptive(1e-16), &Grid::uniform(1.0, 9), &scenes);
     assert_eq!(runs[1].bits(), runs[2].bits(), "factors of two leave no rounding");
     let impulse = |run: &Run| norm(run.table.at::<3>(StateField::Impulse, 8));
     assert_eq!(impulse(&runs[0]), 0.0);
-    // that the thrusters of the others do work; measured: 6.7 N s
     assert!(impulse(&runs[1]) > 1.0);
 }

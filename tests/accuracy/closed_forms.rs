@@ -1,8 +1,5 @@
-//! Closed forms and published cases: motions with a published solution, against every method at its smallest tolerance.
-//!
-//! Free asymmetric bodies by Jacobi's elliptic functions (`tests/golden/free_bodies.json`, 25 digits, by
-//! `free_bodies.py` beside it); symmetric tops and axial rotors by uniform rotations, whose angles are computed here in
-//! double-double.
+//! Published motions against every method at its smallest tolerance: free asymmetric bodies by Jacobi's elliptic
+//! functions (`tests/golden/free_bodies.json`), symmetric tops and axial rotors by uniform rotations.
 
 use crate::support::claims::hold;
 use crate::support::golden::Golden;
@@ -17,10 +14,8 @@ use spindrift::run::{Grid, StateField, StateTable, Status};
 use spindrift::scene::{Scene, SceneInput, WheelInput, WheelMode};
 
 const SECTION: &str = "closed_forms";
-/// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
 
-/// A free body and its exact motion.
 struct Case {
     name: String,
     scene: Scene,
@@ -31,12 +26,11 @@ struct Case {
     q: Vec<[f64; 4]>,
 }
 
-/// A body with moments of inertia of its own and no wheels, at `omega`.
 fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     let [a, b, c] = moments;
     input.body.inertia_kg_m2 = Some([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]);
-    // about its own centre of mass also in Berdoz's form, whose states are those of the base point
+    // about its centre of mass also in Berdoz's form, whose states are those of the base point
     input.body.center_of_mass_m = Some([0.0; 3]);
     input.wheels.clear();
     input.debris = None;
@@ -44,7 +38,6 @@ fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
     input
 }
 
-/// A number, written as a string: all its digits count.
 fn number(value: &Value) -> f64 {
     value.as_str().expect("a string of digits").parse().expect("a decimal number")
 }
@@ -73,7 +66,7 @@ fn cases() -> Vec<Case> {
     file["cases"].as_array().expect("a list").iter().map(case).collect()
 }
 
-/// Larger of the relative error of omega and the angle (rad) between attitudes, at one point.
+/// The larger of the relative error of omega and the angle between attitudes, rad.
 fn error(table: &StateTable, point: usize, omega: [f64; 3], q: [f64; 4]) -> f64 {
     let found = table.at::<3>(StateField::Rate, point);
     let rate = norm(std::array::from_fn::<f64, 3, _>(|i| found[i] - omega[i])) / norm(omega);
@@ -91,18 +84,16 @@ fn states(method: Method, tolerance: f64, scene: &Scene, times: &[f64]) -> State
     run.table
 }
 
-/// State error of a free body after a hundred periods, rad and relative, in the eight classical regimes.
+/// State error after a hundred periods, rad and relative, in the eight classical regimes.
 const HUNDRED_PERIODS: f64 = 1e-12;
-/// The same where the start is 3e-4 off the separatrix: a rounding on the way, 1e-16, moves the distance of the
-/// energies, 1e-7 of the whole, by 1e-9 of itself, and the next passage by 1e-9 of its time constant; two hundred
-/// passages of that are a random walk.
+/// The same from 3e-4 off the separatrix: a rounding moves the relative distance of the energies by 1e-9, and so the
+/// next of two hundred passages by 1e-9 of its time constant.
 const SEPARATRIX: f64 = 1.5e-9;
-/// Growth of the state error of `auto` with the angle of the body, up to a million seconds: an error of rounding in the
-/// period.
+/// Growth of the state error of `auto` with the angle of the body, from rounding of the period.
 const PER_RADIAN: f64 = 5e-16;
 
-/// Law: free bodies move as in Jacobi's solution, by `auto` and by `taylor`, through a hundred periods; and by `auto`
-/// through a million seconds with an error that is proportional to the angle.
+/// Law: free bodies move as in Jacobi's solution through a hundred periods; by `auto` through a million seconds with an
+/// error in proportion to the angle.
 #[test]
 fn free_bodies_move_as_jacobi_says() {
     for case in cases() {
@@ -122,17 +113,13 @@ fn free_bodies_move_as_jacobi_says() {
                 error(&table, point, case.omega[point], case.q[point]) / (1.0 + angle)
             };
             let worst = (0..case.times.len()).map(off).fold(0.0, f64::max);
-            hold(
-                SECTION,
-                &format!("`auto`, to 1e6 s, {}: state error over (1 + angle in rad)", case.name),
-                PER_RADIAN,
-                worst,
-            );
+            let regime = format!("`auto`, to 1e6 s, {}: state error over (1 + angle in rad)", case.name);
+            hold(SECTION, &regime, PER_RADIAN, worst);
         }
     }
 }
 
-/// Counter-test: a moment that is off by 1e-12 is seen, at the level of the bound.
+/// Counter-test: a moment off by 1e-12 is seen at the level of the bound.
 #[test]
 fn a_wrong_moment_is_seen() {
     for mut case in cases().into_iter().filter(|case| !case.name.contains("separatrix")) {
@@ -140,7 +127,7 @@ fn a_wrong_moment_is_seen() {
         case.scene.mass.inertia_free[1][1] *= 1.0 + 1e-12;
         let table = states(Method::Auto, TOLERANCE, &case.scene, &case.times[..=last]);
         let worst = error(&table, last, case.omega[last], case.q[last]);
-        // 1e-12 of some hundreds or thousands of radians; measured: 4.5e-11 to 1.3e-9
+        // 1e-12 of hundreds or thousands of radians
         assert!(worst > 10.0 * HUNDRED_PERIODS, "{}: {worst:e}", case.name);
     }
 }
@@ -160,14 +147,11 @@ fn published_campaigns_are_the_published_cases() {
     }
 }
 
-/// Rates p, q, r of NASA's check case 2 after 30 s, deg/s: simulation 5 of the published trajectories
-/// (Atmos_02_sim_05.csv).
+/// Rates p, q, r of NASA's check case 2 after 30 s, deg/s (simulation 5, Atmos_02_sim_05.csv).
 const NESC_RATES: [f64; 3] = [12.618_423_77, -17.397_444_1, 31.119_603_01];
-/// The published simulations agree "to within 0.004 deg/s"; ours is within 3.3e-5 deg/s of this one, which moments of
-/// seven digits allow.
+/// The published simulations agree within 0.004 deg/s; moments of seven digits allow 3.3e-5 deg/s.
 const NESC_SPREAD: f64 = 1e-4;
 
-/// Law: the tumbling brick's rates are those that NASA published.
 #[test]
 fn the_tumbling_brick_tumbles_as_published() {
     let scene = Scene::resolve(&shipped("published_tumbling_brick", None).nominal).expect("a physical scene");
@@ -179,7 +163,7 @@ fn the_tumbling_brick_tumbles_as_published() {
 
 /// cos and sin of `rate` * `time` radians, the product and its reduction in double-double.
 fn turn(rate: DoubleDouble, time: f64) -> [f64; 2] {
-    // 2 pi to 106 bits: its f64 and what is left (D. H. Bailey, QD)
+    // 2 pi to 106 bits (D. H. Bailey, QD)
     let turn = DoubleDouble { high: core::f64::consts::TAU, low: 2.449_293_598_294_706_4e-16 };
     let angle = rate * DoubleDouble::exact(time);
     let whole = (angle.high / turn.high).round();
@@ -187,11 +171,11 @@ fn turn(rate: DoubleDouble, time: f64) -> [f64; 2] {
     [libm::cos(rest), libm::sin(rest)]
 }
 
-/// A body of revolution about s3, with a wheel on that axis or none: its motion is two uniform rotations.
+/// The error of a body of revolution about s3, with a wheel on that axis or none, against two uniform rotations.
 ///
-/// With transverse moment A, axial moment C and the wheel's axial momentum h beside it (free: of J*, and J (omega_3 +
-/// Omega); speed-held: of J, and J Omega): omega_3 is constant, the transverse rate turns in the body by lambda = ((C -
-/// A) omega_3 + h)/A, and the body by |L|/A about L in F_e and by -lambda about its own axis.
+/// With transverse moment A, axial moment C and the wheel's momentum h (free: of J*, and J (omega_3 + Omega);
+/// speed-held: of J, and J Omega): omega_3 is constant, the transverse rate turns in the body by lambda = ((C - A)
+/// omega_3 + h)/A, and the body by |L|/A about L in F_e and by -lambda about its own axis.
 fn axial_error(scene: &Scene, times: &[f64], table: &StateTable) -> f64 {
     let zero = DoubleDouble::exact(0.0);
     let exact = |x: f64| zero.splat(x);
@@ -221,7 +205,7 @@ fn axial_error(scene: &Scene, times: &[f64], table: &StateTable) -> f64 {
     worst
 }
 
-/// Law: symmetric tops, flat and long, and axial rotors move by two uniform rotations, through a million seconds.
+/// Law: symmetric tops and axial rotors move by two uniform rotations through a million seconds.
 #[test]
 fn symmetric_bodies_turn_uniformly() {
     let times: Vec<f64> = [0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6].to_vec();
@@ -242,16 +226,11 @@ fn symmetric_bodies_turn_uniformly() {
         assert!(inertia[0][0] == inertia[1][1] && inertia[0][1] == 0.0 && inertia[0][2] == 0.0 && inertia[1][2] == 0.0);
         let long = axial_error(&scene, &times, &states(Method::Auto, TOLERANCE, &scene, &times));
         let rates = norm(scene.initial.omega_se_s) + 1.0;
-        hold(
-            SECTION,
-            &format!("`auto`, to 1e6 s, {name}: state error over (1 + angle in rad)"),
-            PER_RADIAN,
-            long / (1e6 * rates),
-        );
+        let regime = format!("`auto`, to 1e6 s, {name}: state error over (1 + angle in rad)");
+        hold(SECTION, &regime, PER_RADIAN, long / (1e6 * rates));
         let short = axial_error(&scene, &times[..4], &states(Method::Taylor, TOLERANCE, &scene, &times[..4]));
         hold(SECTION, &format!("`taylor`, 100 s, {name}: state"), HUNDRED_PERIODS, short);
-        // counter-test: the wheel's axial inertia counted twice. (Here, and only here, free and held wheels move alike:
-        // the rate along the axis is constant. That they differ elsewhere, `accuracy_claims.rs` shows.)
+        // counter-test: the wheel's axial inertia counted twice
         if wheel.is_some() {
             let mut other = scene.clone();
             other.mass.inertia_free[2][2] += other.mass.wheels[0].axial;

@@ -1,15 +1,12 @@
-//! Drift as a distribution: the conservation errors of every shipped campaign under every method, held to bounds and to
-//! a baseline.
+//! The conservation errors of every shipped campaign under every method.
 //!
-//! - Bounds: the upper 99% confidence limit (order statistic) of the median, and the largest of n runs, which is the
-//!   upper 99.4% confidence limit of the 99th percentile for n = 512 (1 - 0.99^512).
-//! - Baseline: `tests/golden/drift_bounds.json` holds 33 quantiles of each distribution. H0: the runs of today come
-//!   from the same distribution. Two-sample Kolmogorov-Smirnov, n = m = 512, alpha = 1e-4 (critical distance 0.139),
-//!   seeds fixed, 84 comparisons; a distribution whose median lies at the 75th percentile of the baseline is seen with
-//!   a power above 0.999.
-//! - Scaling: the median error falls in proportion to the tolerance.
+//! - Bounds: the upper 99% confidence limit of the median (order statistic), and the largest of n = 512 runs, which is
+//!   the upper 99.4% confidence limit of the 99th percentile.
+//! - Baseline: 33 quantiles of each distribution in `tests/golden/drift_bounds.json`. H0: the same distribution.
+//!   Two-sample Kolmogorov-Smirnov, n = m = 512, alpha = 1e-4 (critical distance 0.139), 84 comparisons; power above
+//!   0.999 for a median at the 75th percentile.
 //!
-//! A change of a kernel that changes these distributions on purpose writes the baseline again:
+//! A kernel that changes these distributions on purpose writes the baseline again:
 //! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test accuracy drift_bounds`.
 
 use crate::support::claims::hold;
@@ -26,14 +23,11 @@ use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
 const SECTION: &str = "drift_bounds";
-/// Set, the baseline is written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_BASELINE";
-/// The shipped campaigns whose runs are compared.
 const CAMPAIGNS: [&str; 5] = ["burn", "no_debris", "report_1e-6", "report_1e-8", "spin_sweep"];
 /// Runs of a cell, and of one of the slow null-space kernel.
 const RUNS: u64 = 512;
 const REFERENCE_RUNS: u64 = 48;
-/// What is compared.
 const COLUMNS: [&str; 4] =
     ["energy_error_max", "energy_error_rate_per_s", "angular_momentum_error_max", "angular_momentum_error_rate_per_s"];
 /// Quantiles of a stored distribution: k/32.
@@ -41,8 +35,7 @@ const QUANTILES: usize = 33;
 /// Kolmogorov's constant for alpha = 1e-4: sqrt(-ln(alpha/2)/2).
 const KOLMOGOROV: f64 = 2.225;
 
-/// How a method is set, and the largest relative error of energy that is allowed over the cell's horizon: (median,
-/// largest). The bounds are 1.6 to 4 times the measured values, which `docs/accuracy.md` lists.
+/// A method, and its largest relative error of energy over the horizon: (median, largest), 1.6 to 4 times the measured.
 #[derive(Clone, Copy)]
 struct Setting {
     method: Method,
@@ -52,7 +45,6 @@ struct Setting {
     energy: [f64; 2],
 }
 
-/// Every method at a setting of everyday use, and both Taylor methods at their best.
 fn settings() -> [Setting; 7] {
     let adaptive = |method, tolerance, horizon, energy| Setting { method, tolerance, step: None, horizon, energy };
     let fixed = |method, step, energy| Setting { method, tolerance: 1e-14, step: Some(step), horizon: 2.0, energy };
@@ -67,7 +59,7 @@ fn settings() -> [Setting; 7] {
     ]
 }
 
-/// The campaign under a method; campaigns of one run stay so.
+/// The campaign under a method; campaigns of one run keep it.
 fn plan(campaign: &str, setting: &Setting) -> Plan {
     let samples = shipped(campaign, None).samples;
     let most = if setting.method == Method::NullSpace { REFERENCE_RUNS } else { RUNS };
@@ -79,7 +71,6 @@ fn plan(campaign: &str, setting: &Setting) -> Plan {
     plan
 }
 
-/// The sizes of a column's values, ascending.
 fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
     for (sample, size) in sizes.iter().enumerate() {
@@ -89,8 +80,7 @@ fn sorted(values: &[f64]) -> Vec<f64> {
     sizes
 }
 
-/// Upper 99% confidence limit of the median: the order statistic r with P(Binomial(n, 1/2) >= r) <= 0.01, by the normal
-/// limit.
+/// Upper 99% confidence limit of the median, by the normal limit of its order statistic.
 fn median_limit(sorted: &[f64]) -> f64 {
     let n = sorted.len() as f64;
     let rank = (0.5 * n + 2.326 * (0.25 * n).sqrt()).ceil() as usize;
@@ -102,12 +92,12 @@ fn quantiles(sorted: &[f64]) -> Vec<f64> {
     (0..QUANTILES).map(|k| sorted[(last * k as f64 / (QUANTILES - 1) as f64).round() as usize]).collect()
 }
 
-/// Kolmogorov-Smirnov distance between a sample and a baseline that is known by its quantiles.
+/// Kolmogorov-Smirnov distance from a baseline known by its quantiles.
 fn distance(sorted: &[f64], baseline: &[f64]) -> f64 {
     let n = sorted.len() as f64;
     let at = |k: usize| {
         let share = k as f64 / (QUANTILES - 1) as f64;
-        // among ties the baseline's share is a range, and so is the sample's
+        // among ties both shares are ranges
         let below = baseline.partition_point(|q| *q < baseline[k]) as f64 / (QUANTILES - 1) as f64;
         let up_to = (baseline.partition_point(|q| *q <= baseline[k]) as f64 - 1.0) / (QUANTILES - 1) as f64;
         let (low, high) = (
@@ -120,7 +110,6 @@ fn distance(sorted: &[f64], baseline: &[f64]) -> f64 {
     (0..QUANTILES).map(at).fold(0.0, f64::max)
 }
 
-/// The distance at which H0 is rejected for samples of `n` each.
 fn critical(n: usize) -> f64 {
     KOLMOGOROV * (2.0 / n as f64).sqrt()
 }
@@ -133,13 +122,12 @@ fn key(campaign: &str, method: Method, column: &str) -> String {
     format!("{campaign} {} {column}", method.name())
 }
 
-/// The stored quantiles of a cell.
 fn baseline(file: &Value, key: &str) -> Vec<f64> {
     let list = file[key].as_array().unwrap_or_else(|| panic!("drift_bounds.json has no {key}: {WRITE}=1 writes it"));
     list.iter().map(|value| value.as_str().expect("digits").parse().expect("a number")).collect()
 }
 
-/// Law: errors of shipped campaigns stay within their bounds, and their distributions stay what they were.
+/// Law: errors of shipped campaigns stay within their bounds and distributions.
 #[test]
 fn shipped_campaigns_drift_as_before() {
     let write = std::env::var_os(WRITE).is_some();
@@ -168,7 +156,7 @@ fn shipped_campaigns_drift_as_before() {
                     let digits = quantiles(&found).into_iter().map(|q| json!(format!("{q:.6e}"))).collect();
                     written.insert(key, Value::Array(digits));
                 } else if found.len() == 1 {
-                    // a campaign of one run has no distribution: its error may change with the roundings, not in size
+                    // one run has no distribution: its error keeps its size
                     let ratio = (found[0] + 1e-16) / (baseline(&file, &key)[0] + 1e-16);
                     if !(0.1..10.0).contains(&ratio) {
                         wrong.push(format!("{key}: {:e}, {ratio:.2} times the baseline", found[0]));
@@ -185,16 +173,12 @@ fn shipped_campaigns_drift_as_before() {
             Some(step) => format!("steps of {step} s"),
             None => format!("{:e}", setting.tolerance),
         };
-        let claim = |which: &str| {
-            format!(
-                "`{}` at {what}, shipped campaigns, {} s: energy error, {which}",
-                setting.method.name(),
-                setting.horizon
-            )
-        };
+        let (method, horizon) = (setting.method.name(), setting.horizon);
+        let claim =
+            |which: &str| format!("`{method}` at {what}, shipped campaigns, {horizon} s: energy error, {which}");
         hold(SECTION, &claim("upper 99% confidence limit of the median"), setting.energy[0], middle);
         hold(SECTION, &claim("largest (99th percentile at 99.4% confidence)"), setting.energy[1], largest);
-        // the slope of a straight drift to the largest error, and half as much again for one that is bent
+        // a straight drift to the largest error, and half as much again for a bent one
         hold(SECTION, &claim("largest secular rate times the time"), 1.5 * setting.energy[1], secular);
     }
     if write {
@@ -204,11 +188,9 @@ fn shipped_campaigns_drift_as_before() {
     assert!(wrong.is_empty(), "distributions have changed ({WRITE}=1 writes the baseline again): {wrong:#?}");
 }
 
-/// How far the log-log slope of the median error over the tolerance may be off one: a factor of 2.5 over four decades.
-/// Measured: 0.015.
+/// Distance of the log-log slope from one: a factor of 2.5 over four decades. Measured: 0.015.
 const PROPORTIONAL: f64 = 0.1;
 
-/// Law: the median error of energy falls in proportion to the tolerance.
 #[test]
 fn drift_scales_with_the_tolerance() {
     for method in [Method::Gyrostat(Integrator::DormandPrince), Method::Gyrostat(Integrator::Dop853), Method::NullSpace]
@@ -221,16 +203,14 @@ fn drift_scales_with_the_tolerance() {
             found[found.len() / 2]
         };
         let slope = libm::log10(median(1e-6) / median(1e-10)) / 4.0;
-        let regime = format!(
-            "`{}`, median energy error from 1e-6 to 1e-10: distance of its log-log slope from 1",
-            method.name()
-        );
+        let method = method.name();
+        let regime =
+            format!("`{method}`, median energy error from 1e-6 to 1e-10: distance of its log-log slope from 1");
         hold(SECTION, &regime, PROPORTIONAL, (slope - 1.0).abs());
     }
 }
 
-/// The energy errors of the first `count` runs of `plan` when the kernel integrates what `fault` makes of each scene,
-/// and the observer knows nothing of it.
+/// The energy errors of the first `count` runs with a `fault` that the observer does not know.
 fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] {
     let isa = Isa::best();
     let campaign = Ensemble::new(plan, isa);
@@ -256,8 +236,7 @@ fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] 
     errors.map(|errors| sorted(&errors))
 }
 
-/// Counter-tests: a coefficient that is off by 1e-12 and a dropped term are seen by bounds and baseline; no fault is
-/// not.
+/// Counter-test: a coefficient off by 1e-12, a dropped term and a wrong sign are seen, and a sound kernel is not.
 #[test]
 fn faults_are_seen() {
     if std::env::var_os(WRITE).is_some() {
@@ -274,19 +253,15 @@ fn faults_are_seen() {
         (off(0, COLUMNS[0]).max(off(1, COLUMNS[2])), bound)
     };
     let (sound, beyond) = seen(&|_| {});
-    println!("no fault: {sound:.3}");
     assert!(sound < critical(128) && !beyond);
     for axis in 0..3 {
         let (off, _) = seen(&|scene| scene.mass.inertia_free[axis][axis] *= 1.0 + 1e-12);
-        println!("moment {axis} off by 1e-12: {off:.3}");
         assert!(off > critical(128), "moment {axis}: {off}");
     }
-    // a term is omitted: J instead of J* = J - J_1 a1 a1^T - J_2 a2 a2^T
+    // a dropped term: J instead of J*
     let (off, beyond) = seen(&|scene| scene.mass.inertia_free = scene.mass.inertia);
-    // measured: 1, no faulty run is within the range of the baseline
     assert!(off > 0.99 && beyond, "{off}");
-    // a wrong sign: wheel 1 couples as if it turned about -s2
+    // a wrong sign: wheel 1 couples about -s2
     let (off, beyond) = seen(&|scene| scene.mass.wheels[0].axis = scene.mass.wheels[0].axis.map(|x| -x));
-    // measured: 1, no faulty run is within the range of the baseline
     assert!(off > 0.99 && beyond, "{off}");
 }

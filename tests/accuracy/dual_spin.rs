@@ -1,44 +1,39 @@
-//! Stability of a spin with a rotor about the spin axis: the shipped campaign `dual_spin` finds the classical boundary.
+//! The shipped campaign `dual_spin` finds the classical boundary of a stable spin with a rotor about the spin axis.
 //!
-//! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, let K = K3 + h/omega.
-//! Linearised about the spin, the transverse momenta h1 = A omega1 and h2 = B omega2 keep (K - A)/A h1^2 + (K - B)/B
-//! h2^2: an ellipse where K is above both transverse moments A and B or below both, else a hyperbola, along which they
-//! grow by lambda = omega sqrt((A - K)(K - B)/(A B)). Source: P. C. Hughes, *Spacecraft Attitude Dynamics*, 1986,
-//! section 6.2; P. W. Likins, *Attitude stability criteria for dual spin spacecraft*, J. Spacecraft Rockets 4, 1967.
+//! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, let K = K3 + h/omega. The
+//! transverse momenta h1 = A omega1 and h2 = B omega2 keep (K - A)/A h1^2 + (K - B)/B h2^2: an ellipse if K is above or
+//! below both A and B, else a hyperbola of growth omega sqrt((A - K)(K - B)/(A B)). Source: P. C. Hughes, *Spacecraft
+//! Attitude Dynamics*, 1986, section 6.2.
 
 use crate::support::plans::{rows, shipped};
 use spindrift::campaign::SceneDraws;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
-/// K of the campaign, kg m^2: K3 = 100, h = 0.5 kg m^2 x 10 rad/s = 5 N m s, omega = 0.5 rad/s.
+/// K of the campaign, kg m^2: K3 = 100, h = 5 N m s, omega = 0.5 rad/s.
 const BOUNDARY: f64 = 110.0;
 /// Momentum about the spin axis, N m s: K omega.
 const SPIN_MOMENTUM: f64 = 55.0;
 /// Spin rate and transverse rates at the start, rad/s.
 const SPIN: f64 = 0.5;
 const TRANSVERSE: f64 = 1e-3;
-/// Duration, s.
 const DURATION: f64 = 400.0;
-/// Between a spin that stayed and one that was left, rad: ten degrees.
+/// Angle between a spin that stayed and one that was left, rad.
 const LEFT: f64 = 0.1745;
 
-/// How far the largest angle of a stable spin may be from the reach of its ellipse, relative. Up to a degree the
-/// linearised motion is off by some 3e-4, and the largest of the points of a nutation is below the maximum between
-/// them; measured 9.1e-4.
+/// Relative distance of a stable spin's largest angle from the reach of its ellipse: the linearisation is off by 3e-4,
+/// and the maximum lies between points. Measured: 9.1e-4.
 const ELLIPSE: f64 = 2e-3;
-/// How far the boundary found may be from the classical one, kg m^2: runs next to it need longer than the duration to
-/// leave, so that some stay up to 1 kg m^2 on the wrong side. Measured 0.05.
+/// Distance of the boundary found from the classical one, kg m^2: runs next to it need longer to leave. Measured: 0.05.
 const FOUND: f64 = 0.5;
 
-/// What the campaign file says to expect: from this distance to the boundary on, kg m^2, a stable spin stays within the
-/// first angle and an unstable one exceeds the second, degrees. Measured: 0.395 and 65.8.
+/// From this distance to the boundary on, kg m^2, the campaign file promises that a stable spin stays within the first
+/// angle and an unstable one exceeds the second, degrees. Measured: 0.395 and 65.8.
 const CLEAR: f64 = 5.0;
 const STABLE_DEG: f64 = 0.4;
 const UNSTABLE_DEG: f64 = 65.0;
 
-/// A dispersed run: its transverse moments, kg m^2, and the largest angle of the spin axis from the angular momentum,
-/// rad.
+/// The transverse moments of a run, kg m^2, and its largest nutation angle, rad.
 struct Spin {
     moments: [f64; 2],
     nutation: f64,
@@ -72,15 +67,14 @@ fn the_campaign_finds_the_classical_boundary() {
         let (square, weights) = conic([*a, *b]);
         if weights[0] * weights[1] > 0.0 {
             let reach = (square / weights[0].abs().min(weights[1].abs()) * weights[0].signum()).sqrt() / SPIN_MOMENTUM;
-            // beyond a degree the linearised motion is not exact; below it, the largest of 401 points is compared with
-            // a maximum between them, and at least one nutation must be seen
+            // below a degree, where the linearised motion holds, with at least one nutation
             let rate = SPIN * (weights[0] * weights[1]).sqrt();
             if reach < 0.0175 && rate * DURATION > 2.0 * std::f64::consts::PI {
                 worst = worst.max((nutation / reach - 1.0).abs());
                 ellipses += 1;
             }
         } else {
-            // the part that grows is a share of the start that is not below a hundredth where it has grown by e^12
+            // the growing part of the start is not below a hundredth, and has grown by e^12
             let growth = SPIN * (-weights[0] * weights[1]).sqrt() * DURATION;
             if growth > 12.0 {
                 assert!(*nutation > LEFT, "A = {a}, B = {b}: left by {nutation} rad only");
@@ -88,11 +82,10 @@ fn the_campaign_finds_the_classical_boundary() {
             }
         }
     }
-    println!("{ellipses} ellipses within {worst:.1e} of their reach, {hyperbolas} hyperbolas left");
     assert!(ellipses > 1000 && hyperbolas > 1000, "{ellipses}, {hyperbolas}");
     assert!(worst < ELLIPSE, "{worst:e}");
 
-    // what the head of the campaign file says
+    // the promise of the campaign file
     let clear = spins.iter().filter(|spin| spin.moments.iter().all(|moment| (moment - BOUNDARY).abs() > CLEAR));
     let (stable, unstable): (Vec<&Spin>, Vec<&Spin>) =
         clear.partition(|spin| (spin.moments[0] - BOUNDARY) * (spin.moments[1] - BOUNDARY) > 0.0);
@@ -101,7 +94,7 @@ fn the_campaign_finds_the_classical_boundary() {
     assert!(degrees(&stable).iter().all(|angle| *angle < STABLE_DEG), "a stable spin was left");
     assert!(degrees(&unstable).iter().all(|angle| *angle > UNSTABLE_DEG), "an unstable spin stayed");
 
-    // the boundary as a user finds it: the K with the fewest runs on the wrong side
+    // the boundary of a user: the K with the fewest runs on the wrong side
     let wrong = |k: f64| {
         let is_wrong = |spin: &&Spin| {
             let is_stable = (spin.moments[0] - k) * (spin.moments[1] - k) > 0.0;
@@ -113,7 +106,6 @@ fn the_campaign_finds_the_classical_boundary() {
     let best = candidates.clone().map(wrong).min().expect("there are candidates");
     let found: Vec<f64> = candidates.filter(|k| wrong(*k) == best).collect();
     let middle = 0.5 * (found[0] + found[found.len() - 1]);
-    println!("K = {middle:.2} kg m^2, {best} of {} runs on the wrong side", spins.len());
     assert!((middle - BOUNDARY).abs() <= FOUND, "{middle}");
     assert!(wrong(BOUNDARY - 5.0) > 2 * best && wrong(BOUNDARY + 5.0) > 2 * best, "the minimum is sharp");
 }

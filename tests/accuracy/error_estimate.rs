@@ -1,14 +1,9 @@
-//! `state_error_estimate` against the true error of its run: double-double solutions of every scene, every method,
-//! loose and tight.
+//! `state_error_estimate` against the true error from double-double solutions, for every method, loose and tight.
 //!
-//! Law: of the runs of a family, a method and a setting the estimate covers the true error in at least 95%, and is at
-//! most 100 times too large in the median. A setting's coverage is a count k of n with seeds that are fixed; it is
-//! rejected where so small a k has a chance below [`ALPHA`] under a coverage of 95% (one-sided binomial test, H0:
-//! coverage >= 0.95). Over all settings of a method the count itself is at least 95%. A true coverage of 75% is
-//! rejected for 24 runs with a power of 73%, for the hundreds of runs of a method with certainty.
-//!
-//! Beyond a tenth an error is not linear any more and soon bounded: there it is covered by any estimate above a
-//! twentieth.
+//! Law: the estimate covers the error in at least 95% of the runs of a family, method and setting, and is at most 100
+//! times too large in the median. A coverage is rejected if its chance under 95% is below [`ALPHA`] (one-sided binomial
+//! test, fixed seeds); a coverage of 75% is rejected for 24 runs with a power of 73%. The count of all settings of a
+//! method is at least 95%. Beyond a tenth an error is bounded and covered by any estimate above a twentieth.
 
 use crate::support::draws;
 use crate::support::exact::solved;
@@ -31,14 +26,12 @@ use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, Status
 use spindrift::scene::Scene;
 use spindrift::statistics::binomial::at_most;
 
-/// Chance of rejecting one setting whose coverage is 95%: there are about two hundred settings.
+/// Chance of rejecting a setting with 95% coverage: there are about two hundred settings.
 const ALPHA: f64 = 1e-5;
-/// The claimed coverage.
 const COVERAGE: f64 = 0.95;
-/// How much too large the estimate may be in the median: twice to three times what was measured. Where errors add as
-/// if all had one direction (redundant states of `null_space`, steps near a separatrix, magnitudes on orbits) or arise
-/// evenly along an eccentric orbit, and where a method is better than its order (from rest; `gauss_legendre_6`), it is
-/// largest. `docs/results.md` says so.
+/// Largest excess of the estimate in the median: two to three times the measured. It is largest where errors add as if
+/// all had one direction, arise evenly along an eccentric orbit, or where a method is better than its order
+/// (`docs/results.md`).
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
         (Method::NullSpace, "mixed, forced") => 200.0,
@@ -61,28 +54,21 @@ fn too_large(method: Method, family: &str) -> f64 {
     }
 }
 
-/// Whether the estimate of a setting is shown, but not judged: `docs/results.md` has the reasons and the shares.
-///
-/// At tolerances below 1e-12 the rounding of drag and light counts, which the estimate does not know; a note of the
-/// program says so. With steps as short as a thousandth of a libration's radian `gauss_legendre_6` makes errors of a
-/// few 1e-15, all of them rounding, of which 82% are covered.
+/// Whether the estimate of a setting is shown but not judged (`docs/results.md`): below 1e-12 the unknown rounding of drag
+/// and light counts, and the shortest steps of `gauss_legendre_6` leave only rounding.
 fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
     (IN_AIR.contains(&family) && setting < 1e-12)
         || (method == Method::Gyrostat(Integrator::GaussLegendre) && family == LIBRATING && setting < 5e-3)
 }
 
-/// A smaller true error is a few roundings: no more can be known of it.
 const FLOOR: f64 = 1e-15;
-/// Largest true error that counts as small.
 const SMALL: f64 = 0.1;
 
-/// Scenes of one kind with their reference solutions.
 pub(super) struct Family {
     name: &'static str,
     grid: Grid,
     pub(super) scenes: Vec<Scene>,
     truths: Vec<ReferenceSolution>,
-    /// Whether it is about the debris, and not the spacecraft.
     is_debris: bool,
 }
 
@@ -190,11 +176,9 @@ fn librating(faster: f64, samples: u64) -> Family {
 
 /// Bodies that turn 20 to 200 times in an orbit.
 const TURNING_FAST: &str = "gravity gradient, fast";
-/// Families of one scene, dispersed.
 const LIBRATING: &str = "librating";
 const SPINNING: &str = "spinning on orbit";
 
-/// The result of one run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) status: Status,
@@ -283,7 +267,6 @@ pub(super) fn settings(method: Method) -> Vec<(f64, Control)> {
     tolerances.iter().map(|tolerance| (*tolerance, adaptive(*tolerance))).collect()
 }
 
-/// The runs of a family by a method with one tolerance, or step.
 pub(super) struct Measured {
     pub(super) method: Method,
     pub(super) family: &'static str,
@@ -322,7 +305,7 @@ pub(super) fn of_families(families: &[Family], methods: &[Method], count: u64) -
                 continue;
             }
             for (setting, control) in settings(method) {
-                // an orbit has a thousand times the time of a second's turn
+                // an orbit takes a thousand times as long
                 let is_slow = family.grid.duration() > 1000.0;
                 let control =
                     Control { step: control.step.map(|step| if is_slow { 1e3 * step } else { step }), ..control };
@@ -341,7 +324,6 @@ pub(super) fn of_families(families: &[Family], methods: &[Method], count: u64) -
     all
 }
 
-/// Families in which drag acts.
 const IN_AIR: [&str; 2] = ["air and light", "drag_tumble"];
 
 pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
@@ -363,7 +345,6 @@ pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
                 quantile(&excess, 0.95),
                 runs.iter().filter(|run| run.error > SMALL).count(),
             );
-            println!("{line}");
             if is_shown_only(*method, family, *setting) {
                 continue;
             }
@@ -374,7 +355,6 @@ pub(super) fn breaches(all: &[Measured], factor: f64) -> Vec<String> {
             count += n;
         }
         let line = format!("{}: covered {covered_of_all} of {count} in all", of_method[0].method.name());
-        println!("{line}");
         if (covered_of_all as f64) < COVERAGE * count as f64 {
             breaches.push(line);
         }
@@ -396,8 +376,7 @@ fn the_estimate_covers_the_error_of_many_runs() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
-/// Law: spin about the intermediate axis is ill conditioned where its offset is so small, and the run so long, that
-/// rounding the input decides when it flips.
+/// Law: spin about the intermediate axis is ill conditioned if rounding the input decides when it flips.
 #[test]
 fn what_rounding_decides_is_ill_conditioned() {
     let spin = |axis: usize, off: f64| {
@@ -416,10 +395,10 @@ fn what_rounding_decides_is_ill_conditioned() {
         assert_eq!(ill, if axis == 1 { [false, false, true, true] } else { [false; 4] }, "axis {axis}");
         if axis == 1 {
             let growth: Vec<f64> = runs.iter().map(|run| run.amplification).collect();
-            // of the last two rounding decides how often they flip, and by that which of them grows more
+            // rounding decides how often the last two flip, and which grows more
             assert!(growth[..3].is_sorted() && growth[3] > growth[1], "{growth:?}");
         } else {
-            // 360 rad of rotation, and no more than some times that
+            // a few times the 360 rad of rotation
             for (off, run) in offs.iter().zip(&runs) {
                 assert!(run.amplification < 5e3, "axis {axis}, offset {off:e}: {:e}", run.amplification);
             }
@@ -427,8 +406,7 @@ fn what_rounding_decides_is_ill_conditioned() {
     }
 }
 
-/// Law: the estimate of the null-space method covers its error at 1e-10 too, and what its redundant states feed back
-/// into omega is a part of it.
+/// Law: the estimate of the null-space method covers its error at 1e-10 and includes the feedback of redundant states.
 #[test]
 fn the_null_space_estimate_covers_and_includes_what_feeds_back() {
     let family = Family::new("mixed, short", Grid::uniform(1.0, 11), mixed(8, false, 1.0));

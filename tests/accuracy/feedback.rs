@@ -1,4 +1,4 @@
-//! Sampled-data control: every method and the double-double solution fly the same closed loop.
+//! Every method and the double-double solution fly the same sampled-data loop.
 
 use crate::support::feedback::{Flight, fly, law};
 use crate::support::runs::{adaptive, everything, fixed};
@@ -10,11 +10,10 @@ use spindrift::propagation::{Method, PropagationSettings};
 use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::{Actuated, Scene};
 
-/// Some control periods, and some quarter turns of the slowest scene, s.
+/// Some control periods and quarter turns of the slowest scene, s.
 const HORIZON: f64 = 3.1;
 
-/// Largest distance from the double-double solution of any state, over its largest magnitude: within 10 of the measured
-/// values.
+/// Largest relative distance from the double-double solution of any state: within 10 times the measured.
 const BOUNDS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 2e-14),
     (Method::Taylor, adaptive(1e-16), 2e-14),
@@ -82,9 +81,8 @@ fn all_methods_fly_the_same_closed_loop() {
         failed |= worst > bound || worst.is_nan();
         report.push_str(&format!("{}: {worst:.1e}, bound {bound:.1e}\n", method.name()));
     }
-    println!("{report}");
     assert!(!failed, "{report}");
-    // the law acts: without it the same scenes end elsewhere
+    // counter-test: without the law the scenes end elsewhere
     let free = ReferenceSolution::new(Isa::best(), &scenes[0], &grid, everything(Method::Taylor), TOLERANCE);
     let last = grid.points() - 1;
     let free = free.expect("arrives").high.at::<3>(StateField::Rate, last);

@@ -1,8 +1,8 @@
-//! NASA's JEOD: free rotation, pulses of torque and force on the inertia of the space station, and the gravity gradient
-//! on a circle and on an ellipse, for eight hours on a two-body orbit.
+//! NASA's JEOD: free rotation, pulses of torque and force on the space station, and the gravity gradient on a circle and
+//! an ellipse, over eight hours of a two-body orbit.
 
 use crate::support::orbits::{body, near_rounding};
-use crate::support::runs::{adaptive, everything, propagate};
+use crate::support::runs::{adaptive, everything, propagate, propagate_one};
 use serde_json::Value;
 use spindrift::dynamics::effects::ForceModel;
 use spindrift::math::Isa;
@@ -12,38 +12,35 @@ use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLE
 use spindrift::run::{Grid, StateField, StateTable};
 use spindrift::scene::{ActuationInput, Name, OrbitInput, Scene, SceneInput, ThrusterInput};
 
-/// A run of JEOD.
 pub struct JeodRun {
     name: String,
     craft: Craft,
-    /// Position (m) and velocity (m/s) at time zero.
+    /// At time zero, m and m/s.
     start: [[f64; 3]; 2],
-    /// Attitude at time zero, F_s -> F_e: JEOD's left quaternion, with minus its vector.
+    /// F_s -> F_e at time zero: JEOD's left quaternion, with minus its vector.
     attitude: [f64; 4],
-    /// Angular velocity at time zero and after 28,800 s, F_s, rad/s.
+    /// At time zero and after 28,800 s, F_s, rad/s.
     rates: [[f64; 3]; 2],
     /// Position after 28,800 s, m.
     position: [f64; 3],
-    /// From F_e to F_s, by rows, after 28,800 s: `T_parent_this`.
+    /// `T_parent_this` after 28,800 s, by rows.
     dcm: [[f64; 3]; 3],
-    /// How far JEOD is from the reference solution at most: m, rad/s, and in its matrix.
+    /// Largest distance of JEOD from the reference solution: m, rad/s, and in its matrix.
     own: [f64; 3],
 }
 
-/// The spacecraft, and what acts on it.
 #[derive(Clone, Copy, PartialEq)]
 enum Craft {
     /// A cylinder of 1000 kg in the gravity gradient.
     Cylinder,
     /// A sphere of 1 kg and nothing.
     Sphere,
-    /// The space station and 10 N m about s1 from 1000 s to 2000 s, with this force along s1 through the centre of
-    /// mass, N.
+    /// The space station under 10 N m about s1 from 1000 s to 2000 s, with this force along s1, N.
     Station(f64),
 }
 
-/// With zero rate (8A, 9A, 9C) and that of the orbit (8B, 9B, 9D); then on a circle (10A) and on an ellipse (10C),
-/// there with an additional rate in pitch too (10D).
+/// With zero rate (8A, 9A, 9C) and that of the orbit (8B, 9B, 9D); then on a circle (10A) and an ellipse (10C, and 10D
+/// with a rate in pitch).
 pub fn jeod_runs() -> Vec<JeodRun> {
     let file: Value = serde_json::from_str(include_str!("../golden/jeod.json")).expect("JSON");
     let craft = |run: &Value| match (run["craft"].as_str(), run["force_n"].as_f64()) {
@@ -135,21 +132,19 @@ fn nasa_jeod_runs() {
         };
         let shown = |[m, rate, angle]: [f64; 3]| format!("{m:.1e} m, {rate:.1e} rad/s, {angle:.1e} rad");
         let theirs = from(&exact, jeod.position, jeod.rates[1], jeod.dcm);
-        println!("{} itself: {}", jeod.name, shown(theirs));
         let c_es = dcm_from_quaternion(exact.at(StateField::Attitude, 480));
         let transposed = core::array::from_fn(|i| core::array::from_fn(|j| c_es[j][i]));
         for (method, control) in near_rounding(ForceModel::of(&scene)) {
-            let run = propagate(method, control, &grid, std::slice::from_ref(&scene)).remove(0);
+            let run = propagate_one(method, control, &grid, &scene);
             let off = from(&run.table, jeod.position, jeod.rates[1], jeod.dcm);
             let ours =
                 from(&run.table, exact.at(StateField::ComPosition, 480), exact.at(StateField::Rate, 480), transposed);
-            println!("{} {}: {}, from the reference solution {}", jeod.name, method.name(), shown(off), shown(ours));
             for (off, bound) in off.into_iter().zip(jeod.own) {
                 assert!(off < bound, "{} {}", jeod.name, method.name());
             }
             assert!(ours[0] < 1e-6 && ours[1] < 1e-15 && ours[2] < 2e-13, "{} {}", jeod.name, method.name());
         }
-        // the counter-test: without its torques the body points elsewhere
+        // counter-test: without its torques the body points elsewhere
         if jeod.craft != Craft::Sphere {
             let scene = Scene::resolve(&jeod.input(false)).expect("a legal scene");
             let run = propagate(Method::Auto, adaptive(1e-16), &grid, &[scene]).remove(0);

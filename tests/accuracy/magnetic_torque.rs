@@ -1,5 +1,4 @@
-//! The torque of a residual magnetic dipole, by every method that integrates it, against a run of SciPy with the field
-//! of another package.
+//! The torque of a residual magnetic dipole by every method, against SciPy with the field of another package.
 
 use crate::support::runs::{adaptive, fixed, propagate};
 use spindrift::math::vector::{difference, norm};
@@ -28,8 +27,7 @@ fn scene(model: FieldModel) -> Scene {
     Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
 }
 
-/// Truth: what `benches/peers/magnetic_torque.py` prints (SciPy 1.16's DOP853 at 1e-13, pyIGRF14 1.0.4, pyerfa
-/// 2.0.1.5).
+/// Truth: `benches/peers/magnetic_torque.py` (SciPy 1.16's DOP853 at 1e-13, pyIGRF14 1.0.4, pyerfa 2.0.1.5).
 #[test]
 fn a_whole_run_is_that_of_scipy() {
     const ATTITUDE: [f64; 4] =
@@ -52,12 +50,10 @@ fn a_whole_run_is_that_of_scipy() {
         (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.2)),
     ] {
         let (attitude, rate) = off(FieldModel::Igrf, method, control);
-        println!("{}: {attitude:.1e}, {rate:.1e} rad/s", method.name());
-        // measured 1.8e-10 and 5.2e-13 by auto, taylor and dop853 alike: what SciPy has left, and the Earth's angle,
-        // which is rounded to 1e-10 rad
+        // measured 1.8e-10 and 5.2e-13: the error of SciPy, and the Earth's angle, rounded to 1e-10 rad
         assert!(attitude < 1e-9 && rate < 5e-12, "{}: {attitude:e} {rate:e}", method.name());
     }
-    // the counter-test: a dipole is another field
+    // counter-test: a dipole is another field
     let (attitude, _) = off(FieldModel::Dipole, Method::Auto, adaptive(1e-16));
     assert!(attitude > 1e-2, "{attitude}");
 }
@@ -86,7 +82,6 @@ fn rods_add_to_the_residual_dipole() {
             propagate(method, control, &grid, &scenes).into_iter().map(|run| run.table.at(StateField::Attitude, 60));
         let q: Vec<[f64; 4]> = q.collect();
         let off = |other: [f64; 4]| (0..4).map(|i| (q[0][i] - other[i]).powi(2)).sum::<f64>().sqrt();
-        println!("{}: {:.1e}, {:.1e}", method.name(), off(q[1]), off(q[2]));
         assert!(off(q[1]) < 1e-11 && off(q[2]) > 1e-2, "{}: {:e} {:e}", method.name(), off(q[1]), off(q[2]));
     }
 }

@@ -1,5 +1,4 @@
-//! The right-hand side of the null-space kernel: the block form against the matrices as printed and against the
-//! gyrostat equations.
+//! The right-hand side of the null-space kernel: its block form against Berdoz's matrices and the gyrostat equations.
 
 use crate::null_space_matrices as matrices;
 use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, State, with_printed_sign};
@@ -79,8 +78,7 @@ fn moved(state: &State, rate: &State, time: f64) -> State {
     State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))
 }
 
-/// d(T)/dt in closed form, nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat; and the sum
-/// of the terms' sizes.
+/// d(T)/dt = nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat, and the sum of the terms' sizes.
 fn energy_rate(parameters: &Parameters, state: &State, rate: &State) -> (f64, f64) {
     let pi = matrices::pi(parameters, state);
     let nu_hat = matrices::reduced_speeds(state);
@@ -174,7 +172,7 @@ proptest! {
         }
     }
 
-    /// model: J* omega-dot = H x omega + tau_ext - tau_i a_i, h_i-dot = tau_i, m c-dot-dot = C_es F; written plainly.
+    /// J* omega-dot = H x omega + tau_ext - tau_i a_i, h_i-dot = tau_i, m c-dot-dot = C_es F.
     #[test]
     fn agrees_with_the_gyrostat((scene, actuation) in scenes()) {
         let mass = &scene.mass;
@@ -197,7 +195,7 @@ proptest! {
         let found = Vector3::from(rate.omega_s);
         prop_assert!((found - omega_dot).norm() <= RATE_TOLERANCE * size, "{} {}", found, omega_dot);
 
-        // the kernel has entries for two wheels: the rate of one that the scene does not have is constant
+        // the kernel has entries for two wheels; that of a missing wheel is constant
         for i in 0..2 {
             if let Some(wheel) = mass.wheels.get(i) {
                 let expected = actuation.motor_torque[i] / wheel.axial - omega_dot.dot(&Vector3::from(wheel.axis));

@@ -1,36 +1,23 @@
-//! Berdoz's matrices whole, as printed (and corrected): Gamma, Pi, Pi-dot, M, M-dot, Omega, a_non, B; and its equations
-//! of motion with the sign that it prints.
-//!
-//! Dense and slow: the proof that the block form of `dynamics::null_space` is Berdoz's form. Rows of nu are, per body,
-//! [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd,
-//! omega_d].
+//! Berdoz's matrices as printed (and corrected), dense and slow, to prove the block form of `dynamics::null_space`. Rows
+//! of nu are, per body, [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot,
+//! beta-dot, v_gd, omega_d].
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use spindrift::dynamics::null_space;
 use spindrift::dynamics::null_space::state::{PER_BODY, coordinates, speeds};
 
-/// Wheels of the paper.
 const WHEELS: usize = 2;
-/// The state with Berdoz's two wheels.
 pub type State = null_space::State<WHEELS>;
-/// The constants with Berdoz's two wheels.
 pub type Parameters = null_space::Parameters<WHEELS>;
-/// The kernel of Berdoz's two wheels.
 pub type Kernel = null_space::Kernel<WHEELS>;
 
-/// Bodies: fuselage, wheels, debris.
 pub const BODIES: usize = State::BODIES;
-/// Coordinates q.
 pub const COORDINATES: usize = coordinates(WHEELS);
-/// Reduced speeds nu-hat.
 pub const SPEEDS: usize = speeds(WHEELS);
-/// Everything that is integrated.
 pub const COMPONENTS: usize = null_space::components(WHEELS);
-/// Speeds nu before reduction.
 pub const FULL_SPEEDS: usize = 24;
 
-/// nu-hat of a state.
 pub fn reduced_speeds(state: &State) -> SVector<f64, SPEEDS> {
     SVector::from_column_slice(&state.components::<COMPONENTS>()[COORDINATES..COORDINATES + SPEEDS])
 }
@@ -202,8 +189,7 @@ pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], s
     force
 }
 
-/// The derivative `rate` of `state` as it is with a-hat_non,s of the opposite sign, as printed at the end of section
-/// XVIII.
+/// The derivative `rate` of `state` with a-hat_non,s of the sign printed in section XVIII.
 pub fn with_printed_sign(parameters: &Parameters, state: &State, rate: &State) -> State {
     let change = a_non(parameters, state, -1.0) - a_non(parameters, state, 1.0);
     let force = pi(parameters, state).transpose() * change;

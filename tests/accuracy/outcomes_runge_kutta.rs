@@ -1,4 +1,4 @@
-//! How a run ends is data: done, step limit, step floor, not finite; arcs and observation points are met exactly.
+//! Ends of runs: done, step limit, step floor, not finite; arcs and observation points are met exactly.
 
 use crate::support::runs::{adaptive, fixed, propagate};
 use crate::support::scenes::mixed;
@@ -6,11 +6,9 @@ use crate::textbook::*;
 use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 use spindrift::run::{Grid, Outcome, Status};
 
-/// Round-off of a sum of some ten steps of order one to ten.
 const ROUND_OFF: f64 = 1e-14;
 
 fn jumps_are_met<M: LaneMethod>(method: M, name: &str) {
-    // Methods of order four and more integrate a quadratic exactly, if no step straddles a jump.
     let ends = vec![0.3, 0.3, 1.0, 1.7];
     let case = Case { state: [0.0], parameters: [], ends };
     let times = vec![0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 1.7];
@@ -45,7 +43,7 @@ fn ends_as<M: LaneMethod, L: Law<1, 0>>(method: M, law: L, state: f64, control: 
     let outcome = journey.outcome;
     assert_eq!(outcome.status, status, "{outcome:?}");
     assert!(outcome.time < 2.0);
-    // 1e-9 of an interval: the quotient may be rounded to below a whole number
+    // the quotient may be rounded to below a whole number
     assert_eq!(outcome.points, 1 + (outcome.time / 0.1 + 1e-9) as usize, "{outcome:?}");
     for (point, state) in journey.points.iter().enumerate() {
         assert_eq!(state[0].is_nan(), point >= outcome.points, "point {point}");
@@ -62,7 +60,7 @@ fn a_pole_is_a_step_floor_or_not_finite() {
         scalar(Adaptive(Dop853), BlowUp, &[case], &Grid::uniform(2.0, 21), &control).remove(0),
     ] {
         assert!(matches!(journey.outcome.status, Status::StepFloor | Status::NonFinite), "{:?}", journey.outcome);
-        // the error of the solution moves its pole; the tolerance is 1e-8, measured: 1.2e-9
+        // the error of the solution moves its pole
         assert!((journey.outcome.time - 1.0).abs() < 1e-8, "the pole is at 1: {:?}", journey.outcome);
         assert_eq!(journey.outcome.points, 10 + usize::from(journey.outcome.time >= 1.0));
     }

@@ -1,5 +1,4 @@
-//! Periodic propagation: the cost of a horizon, its agreement with plain Taylor integration, and the cases with a
-//! period of zero, of the whole run, or without a period.
+//! Periodic propagation: its cost, its agreement with plain Taylor integration, and special periods.
 
 use crate::support::golden::Golden;
 use crate::support::observed::{observed, request};
@@ -12,9 +11,7 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, StateField, StateTable, Status};
 use spindrift::scene::{Scene, SceneInput};
 
-/// Tolerance of every run here: what remains is rounding.
 const TOLERANCE: f64 = 1e-16;
-/// Points of a run.
 const POINTS: usize = 101;
 
 fn runs(method: Method, horizon: f64, scenes: &[Scene]) -> Vec<Run> {
@@ -25,7 +22,6 @@ fn scene(input: &SceneInput) -> Scene {
     Scene::resolve(input).expect("a physical scene")
 }
 
-/// Table I without debris, its rates dispersed.
 fn table_one(count: u64) -> Vec<Scene> {
     let mut input = Golden::load("table1").scene;
     input.debris = None;
@@ -42,7 +38,7 @@ fn table_one(count: u64) -> Vec<Scene> {
     (0..count).map(&mut dispersed).collect()
 }
 
-/// Largest errors of energy about c (over its size) and of angular momentum, measured from the states.
+/// Largest errors of energy about c and angular momentum from the states.
 fn conservation(scene: &Scene, horizon: f64, run: &Run) -> [f64; 2] {
     let request = request(Groups::ALL, scene.mass.wheels.len(), false, false, false);
     let grid = Grid::uniform(horizon, POINTS);
@@ -50,14 +46,11 @@ fn conservation(scene: &Scene, horizon: f64, run: &Run) -> [f64; 2] {
     ["energy_com_error_max", "angular_momentum_error_max"].map(|name| row[name])
 }
 
-/// Angle of the body over the horizon, rad.
 fn angle(table: &StateTable, horizon: f64) -> f64 {
     horizon * (0..table.points()).map(|point| norm(table.at::<3>(StateField::Rate, point))).fold(0.0, f64::max)
 }
 
-/// Energy and angular momentum along one period, for any duration: rounding of a few dozen operations.
-///
-/// Measured: 5.9e-16 and 1.4e-15.
+/// Rounding of energy and angular momentum along one period. Measured: 5.9e-16 and 1.4e-15.
 const CONSERVATION: f64 = 2e-14;
 
 /// Law: ten thousand seconds take the steps of ten, and conserve as well.
@@ -75,7 +68,6 @@ fn a_horizon_costs_one_period() {
             *worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
         }
     }
-    println!("energy and momentum errors: 10 s {:?}, 10000 s {:?}", worst[0], worst[1]);
     assert!(worst.iter().flatten().all(|error| *error < CONSERVATION), "{worst:?}");
     // counter-test: plain integration pays for every second
     let taylor = |horizon| runs(Method::Taylor, horizon, &scenes[..1])[0].outcome.effort.steps;
@@ -83,13 +75,11 @@ fn a_horizon_costs_one_period() {
     assert!(taylor(100.0) > 9 * taylor(10.0));
 }
 
-/// Distance between periodic and plain propagation, over one plus the angle that the body has turned by: an error of
-/// rounding in the rate, or in the period, grows no faster than that.
-///
-/// Measured: 2e-16 at 10 s, 3e-16 at 100 s, 8e-16 at 1000 s.
+/// Distance between periodic and plain propagation over one plus the angle of the body. Measured: 2e-16 at 10 s, 3e-16 at
+/// 100 s, 8e-16 at 1000 s.
 const PER_RADIAN: f64 = 2e-15;
 
-/// Law: periodic and plain propagation are the same to a bound that grows linearly with the horizon.
+/// Law: periodic and plain propagation agree to a bound that grows linearly with the horizon.
 #[test]
 fn periodic_is_plain_propagation() {
     for horizon in [10.0, 100.0, 1000.0] {
@@ -107,7 +97,6 @@ fn periodic_is_plain_propagation() {
             worst = [worst[0].max(rate / size), worst[1].max(attitude / size)];
             folded += usize::from(auto.outcome.effort.steps < taylor.outcome.effort.steps);
         }
-        println!("{horizon} s: {worst:?} per radian, {folded} of {} folded", auto.len());
         assert!(worst.iter().all(|error| *error < PER_RADIAN), "{horizon}: {worst:?}");
         // measured: 26 of 32 at 10 s, 31 at 100 s and 1000 s
         assert!(folded >= 8, "most scenes of Table I have their period within ten seconds");
@@ -115,8 +104,7 @@ fn periodic_is_plain_propagation() {
     }
 }
 
-/// A scene that is special, and how much larger than elsewhere its errors may be because the motion itself amplifies
-/// them.
+/// A special scene, with the amplification of errors by its motion.
 struct Special {
     name: &'static str,
     input: SceneInput,
@@ -124,7 +112,6 @@ struct Special {
     amplification: f64,
 }
 
-/// A body with moments of inertia of its own and no wheels.
 fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     let [a, b, c] = moments;
@@ -135,7 +122,6 @@ fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
     input
 }
 
-/// Table I without debris at other rates.
 fn spun(omega: [f64; 3], wheel_rates: [f64; 2]) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     input.debris = None;
@@ -144,7 +130,7 @@ fn spun(omega: [f64; 3], wheel_rates: [f64; 2]) -> SceneInput {
     input
 }
 
-/// Wheels with a momentum opposite to that of the body: H = 0 to rounding.
+/// Wheels opposite to the body: H = 0 to rounding.
 fn without_momentum(omega: [f64; 3]) -> SceneInput {
     let mut input = spun(omega, [0.0; 2]);
     let mass = scene(&input).mass;
@@ -179,17 +165,15 @@ fn specials() -> Vec<Special> {
         special("fast", spun([1e6, -2e6, 0.5e6], [3e7, -1e7]), 4e-5),
         special("slow wheels, fast body", spun([1e3, -2e3, 0.5e3], [1e-3, 1e-3]), 0.04),
         Special {
-            // omega rotates by 60 rad in this time, which the angle of the body does not count
+            // omega rotates by 60 rad, which the angle of the body does not count
             amplification: 3.0,
             ..special("fast wheels, slow body", spun([1e-4, -2e-4, 0.5e-4], [3e3, -1e3]), 40.0)
         },
     ];
-    // an error along the unstable axis grows as exp(lambda t) on every pass, lambda = 3 sqrt(1/8) = 1.06/s; from one
-    // pass to the next what counts is the distance in energy, the square of the offset: below 1e-8 rounding decides the
-    // side
+    // an error along the unstable axis grows as exp(1.06 t) on every pass; from pass to pass the distance in energy
+    // counts, the square of the offset: below 1e-8 rounding decides the side
     for (name, off, horizon, amplification) in [
-        // measured per radian with a period found: 8e-13 of 8e-12, and 1e-6 of 1e-5; shorter than a period both are the
-        // same bits
+        // measured per radian with a period found: 8e-13 of 8e-12, and 1e-6 of 1e-5
         ("near the separatrix, shorter than a period", 1e-3, 12.0, 1.0),
         ("near the separatrix, with its period", 1e-3, 60.0, 4e3),
         ("very near the separatrix, shorter than a period", 1e-9, 30.0, 1.0),
@@ -201,7 +185,7 @@ fn specials() -> Vec<Special> {
     list
 }
 
-/// Law: special cases are plain propagation too: no division by zero, no wrong period.
+/// Law: special cases are plain propagation too.
 #[test]
 fn special_cases_are_plain_propagation() {
     for Special { name, input, horizon, amplification } in specials() {
@@ -214,7 +198,6 @@ fn special_cases_are_plain_propagation() {
         let [rate, attitude] = rotation_distance(&auto.table, &taylor.table);
         let size = 1.0 + angle(&taylor.table, horizon);
         let steps = [auto.outcome.effort.steps, taylor.outcome.effort.steps];
-        println!("{name}: {:.1e} {:.1e} per radian, steps {steps:?}", rate / size, attitude / size);
         assert!(rate.max(attitude) < amplification * PER_RADIAN * size, "{name}: {rate:e} {attitude:e}");
         assert!(steps[0] <= steps[1], "{name}: {steps:?}");
         if steps[0] == steps[1] {
@@ -223,7 +206,7 @@ fn special_cases_are_plain_propagation() {
     }
 }
 
-/// Law: an equilibrium stays one, to the bit, at any horizon, and is known after one step.
+/// Law: an equilibrium stays one to the bit at any horizon, and is known after one step.
 #[test]
 fn equilibria_stand_still() {
     let tri = [1000.0, 1500.0, 2000.0];
@@ -245,11 +228,11 @@ fn equilibria_stand_still() {
     }
 }
 
-/// Tolerance of the null-space kernel here, and what its runs are off by at most. Measured: 3.7e-10.
+/// Tolerance of the null-space kernel, and the error of its runs. Measured: 3.7e-10.
 const REFERENCE: f64 = 1e-10;
 const REFERENCE_ERROR: f64 = 3e-9;
 
-/// Law: Berdoz's own equations agree in the special cases as well, those at rates it can follow.
+/// Law: Berdoz's own equations agree in the special cases at rates that they can follow.
 #[test]
 fn special_cases_are_those_of_the_null_space_form() {
     for Special { name, input, amplification, .. } in specials() {
@@ -263,13 +246,11 @@ fn special_cases_are_those_of_the_null_space_form() {
         let reference = propagate(Method::NullSpace, adaptive(REFERENCE), &grid, &scenes).remove(0);
         let auto = propagate(Method::Auto, adaptive(TOLERANCE), &grid, &scenes).remove(0);
         let [rate, attitude] = rotation_distance(&reference.table, &auto.table);
-        println!("{name}: {rate:.1e} {attitude:.1e}");
         assert!(rate.max(attitude) < amplification * REFERENCE_ERROR, "{name}: {rate:e} {attitude:e}");
     }
 }
 
-/// Law: rates 2^k times as large over a time 2^k times as short give the same attitudes to the bit: no rate is too slow
-/// or too fast, and no hidden constant has a unit of time.
+/// Law: rates 2^k times as large over a time 2^k times as short give the same attitudes to the bit.
 #[test]
 fn time_has_no_scale() {
     let kind = Kind { wheels: [true; 2], debris: 2, products: true, offset: true, forced: false };
@@ -304,8 +285,7 @@ fn time_has_no_scale() {
     }
 }
 
-/// Counter-test: a period that is off by 1e-10 keeps energy and momentum (the states are right, only late),
-/// so conservation alone is not sufficient: the comparison with plain propagation notices it.
+/// Counter-test: a period off by 1e-10 keeps energy and momentum, and only the comparison with plain propagation sees it.
 #[test]
 fn a_wrong_period_is_noticed() {
     let horizon = 1000.0;

@@ -1,11 +1,9 @@
-//! Figures 3 to 5 of the paper: the total kinetic energy of its own 62-state form with Dormand-Prince 5(4).
-//!
-//! Source: Berdoz, *Final Report - ADR Spacecraft*, Figures 3-5; the numbers from an independent run of the same form
-//! over two seconds, observed at 201 points. Law: the error of the energy follows the tolerance.
+//! Figures 3 to 5 of Berdoz, *Final Report - ADR Spacecraft*: the kinetic energy of its own 62-state form with
+//! Dormand-Prince 5(4), against an independent run over two seconds, observed at 201 points.
 
 use crate::support::golden::Golden;
 use crate::support::observed::{observed, request};
-use crate::support::runs::{adaptive, propagate};
+use crate::support::runs::{adaptive, propagate_one};
 use spindrift::math::Isa;
 use spindrift::observables::Groups;
 use spindrift::ode::Control;
@@ -13,11 +11,9 @@ use spindrift::propagation::Method;
 use spindrift::run::{Grid, StepStatistics};
 use spindrift::scene::Scene;
 
-/// Horizon of the figures, s.
 const HORIZON: f64 = 2.0;
-/// Observation points.
 const POINTS: usize = 201;
-/// How far from the independent run: its step control, and where its solver's steps fall, are its own.
+/// Factor on the error of the independent run, whose step control is its own.
 const FACTOR: f64 = 3.0;
 
 fn table_one() -> Scene {
@@ -26,7 +22,7 @@ fn table_one() -> Scene {
 
 fn figures(control: Control) -> (Vec<(String, Vec<f64>)>, StepStatistics) {
     let (scene, grid) = (table_one(), Grid::uniform(HORIZON, POINTS));
-    let run = propagate(Method::NullSpace, control, &grid, std::slice::from_ref(&scene)).remove(0);
+    let run = propagate_one(Method::NullSpace, control, &grid, &scene);
     let request = request(Groups::ALL, 2, true, false, true);
     let (_, observer) = observed(Isa::best(), request, &grid, &scene, (&run.table, &run.outcome), None);
     let named = observer.series().map(|(series, values)| {
@@ -43,14 +39,13 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }
 
-/// Figures 3 and 4: at most the error of the paper at its tolerance, and in proportion to the tolerance.
+/// Figures 3 and 4: at most the error of the paper, in proportion to the tolerance.
 #[test]
 fn the_error_of_the_energy_follows_the_tolerance() {
     let errors = [(1e-6, 6.2e-7), (1e-8, 6.6e-9)].map(|(tolerance, expected)| {
         let (all, effort) = figures(adaptive(tolerance));
         let error = largest(&series(&all, "energy_error"));
-        println!("tolerance {tolerance:e}: energy error {error:e}, {} steps", effort.steps);
-        // Berdoz's own figure, eleven times the measured one: it controlled the root mean square of a step's error
+        // eleven times the measured: Berdoz controlled the root mean square of a step's error
         assert!(error < expected, "{error:e} at {tolerance:e}");
         error
     });
@@ -59,9 +54,8 @@ fn the_error_of_the_energy_follows_the_tolerance() {
     assert!(ratio > 100.0 / FACTOR && ratio < 100.0 * FACTOR, "{errors:?}");
 }
 
-/// The independent run measured the error of a step by its root mean square over the 62 states; ode45, and so this
-/// program, by the largest. The largest component is this much larger than the mean here: at tolerances that differ by
-/// as much both take the same steps.
+/// Ratio of the largest component of a step's error, as in ode45, to the root mean square over 62 states of the
+/// independent run.
 const LARGEST_OVER_MEAN: f64 = 12.4;
 
 #[test]
@@ -69,14 +63,13 @@ fn with_the_steps_of_the_independent_run_the_error_is_its_error() {
     for (tolerance, expected, steps) in [(1e-6, 6.2e-7, 1800.0), (1e-8, 6.6e-9, 4575.0)] {
         let (all, effort) = figures(adaptive(LARGEST_OVER_MEAN * tolerance));
         let error = largest(&series(&all, "energy_error"));
-        println!("energy error {error:e} ({expected:e}), {} steps ({steps})", effort.steps);
         // measured: 0.0006 and 0.012
         assert!((effort.steps as f64 / steps - 1.0).abs() < 0.05, "{effort:?}, not {steps}");
         assert!(error < FACTOR * expected && error > expected / FACTOR, "{error:e} at {tolerance:e}");
     }
 }
 
-/// Figure 5: energy oscillates between fuselage and wheels, without any motor torque, and their sum is constant.
+/// Figure 5: energy oscillates between fuselage and wheels without motor torque, and their sum is constant.
 #[test]
 fn energy_moves_between_fuselage_and_wheels() {
     let (all, _) = figures(adaptive(1e-8));
@@ -87,11 +80,9 @@ fn energy_moves_between_fuselage_and_wheels() {
     };
     let total = series(&all, "energy_total_j")[0];
     let [fuselage, first, second] = ["energy_body_j", "energy_w1_j", "energy_w2_j"].map(swing);
-    println!("swings {fuselage} {first} {second} of {total} J");
-    // three kilojoules go from wheel to wheel and back, through the fuselage, which keeps seventy joules of them
+    // three kilojoules go from wheel to wheel through the fuselage, which keeps seventy joules
     assert!(first.min(second) > 2e-3 * total && fuselage > 5e-5 * total, "{fuselage} {first} {second} of {total}");
-    // the energy error of 5.7e-10 at this tolerance, times 1.19 MJ, is 1e-5 of the 70 J; measured: 9.5e-6
+    // an error of 5.7e-10 of 1.19 MJ is 1e-5 of the 70 J
     assert!(swing("energy_total_j") < 5e-5 * fuselage);
-    // the debris is a free cube: its energy is its own
     assert_eq!(swing("energy_debris_j"), 0.0);
 }

@@ -1,11 +1,9 @@
 //! Round-off: at the smallest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer,
-//! Astronomical Journal 46, 1937: the energy's error grows with the square root of the number of steps), and nothing
-//! grows faster.
+//! Astronomical Journal 46, 1937), and nothing grows faster.
 //!
-//! Ensemble: 64 random scenes (wheels, products of inertia, offset centres of mass), fixed seeds. A law is three
-//! statements of the signed relative errors e of the ensemble after N steps: rms e <= bound sqrt(N); the log-log slope
-//! of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n = 64, two-sided
-//! alpha = 0.0027; a bias as large as the scatter shows with a power above 0.999).
+//! Ensemble: 64 random scenes with fixed seeds. Of the signed relative errors e after N steps: rms e <= bound sqrt(N);
+//! the log-log slope of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n = 64,
+//! two-sided alpha = 0.0027).
 
 use crate::support::claims::hold;
 use crate::support::invariants::Invariants;
@@ -19,28 +17,23 @@ use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::Scene;
 
 const SECTION: &str = "round_off";
-/// The smallest tolerance.
 const TOLERANCE: f64 = 1e-16;
-/// Scenes of the ensemble.
 const SCENES: u64 = 64;
 /// rms |dE/E| after N steps, over sqrt(N).
 const ENERGY: f64 = 1.5e-16;
-/// The same of |L|.
 const MAGNITUDE: f64 = 1.5e-16;
-/// The same of the vector L in F_e, with the roundings of the attitude.
+/// The same of the vector L in F_e.
 const MOMENTUM: f64 = 3e-16;
-/// Median over the scenes of the error of the attitude quaternion's norm, which nothing renormalises, over sqrt(N).
+/// Median error of the attitude quaternion's norm, which nothing renormalises, over sqrt(N).
 const NORM: f64 = 1.5e-16;
-/// The largest such error over N: a scene whose rates hardly change makes the same roundings in every step, which then
-/// add up (two of the 64 do, 2.6e-18 a step).
+/// Largest such error over N: nearly constant rates repeat their roundings (2.6e-18 a step in two of 64 scenes).
 const NORM_A_STEP: f64 = 1e-17;
-/// The random walk's slope, and how far the measured one may be off.
+/// The random walk's slope and its slack.
 const SLOPE: f64 = 0.5;
 const SLOPE_SLACK: f64 = 0.1;
-/// Standard errors by which a mean may be off zero.
 const SIGMAS: f64 = 3.0;
 
-/// Signed errors of an ensemble: point by point (mean number of steps, errors over the scenes and those over sqrt(N)).
+/// Signed errors by point: mean number of steps, errors over the scenes, and errors over sqrt(N).
 struct Walk {
     steps: Vec<f64>,
     errors: Vec<Vec<f64>>,
@@ -52,7 +45,6 @@ fn rms(values: &[f64]) -> f64 {
 }
 
 impl Walk {
-    /// Largest rms e / sqrt(N) at any point.
     fn rate(&self) -> f64 {
         self.scaled.iter().map(|errors| rms(errors)).fold(0.0, f64::max)
     }
@@ -101,7 +93,7 @@ fn taylor(steps: &[f64]) -> [Walk; 4] {
         let parts: Vec<_> = scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         parts.into_iter().flatten().collect::<Vec<_>>()
     };
-    // steps hardly differ along a run: a short run says how many there are in a second
+    // a short run gives the steps in a second
     let rates: Vec<f64> =
         run(vec![0.0, 20.0], &scenes).iter().map(|run| run.outcome.effort.steps as f64 / 20.0).collect();
     let mean = libm::exp(rates.iter().map(|rate| libm::log(*rate)).sum::<f64>() / rates.len() as f64);
@@ -137,14 +129,13 @@ fn hold_law(count: i32, last: &str) {
     let [energy, momentum, norm, vector] = taylor(&steps);
     for (name, walk, bound) in [("energy", &energy, ENERGY), ("magnitude of L", &momentum, MAGNITUDE)] {
         let (slope, bias) = (walk.slope(), walk.bias());
-        println!("{name}: rms e / sqrt(N) {:e}, slope {slope:.3}, mean {bias:.2} standard errors", walk.rate());
         assert!(walk.broken(bound).is_empty(), "{name}: {:?}", walk.broken(bound));
         let claim = |what: &str| format!("`taylor` at 1e-16, {name}: {what}, N to {last}");
         hold(SECTION, &claim("rms over 64 scenes of the relative error / sqrt(N)"), bound, walk.rate());
         hold(SECTION, &claim("distance of its log-log slope from 1/2"), SLOPE_SLACK, (slope - SLOPE).abs());
         hold(SECTION, &claim("mean in standard errors"), SIGMAS, bias);
     }
-    // sizes of vectors have no sign: no mean; their slope is near one half by chance (0.001), those above by 0.03
+    // sizes of vectors have no sign and no mean
     let claim = |what: &str| format!("`taylor` at 1e-16, {what}, N to {last}");
     assert!((vector.slope() - SLOPE).abs() < SLOPE_SLACK, "vector L: slope {}", vector.slope());
     hold(
@@ -159,7 +150,7 @@ fn hold_law(count: i32, last: &str) {
         sizes.sort_by(f64::total_cmp);
         middle = middle.max(sizes[sizes.len() / 2]);
         let size = errors.iter().fold(0.0_f64, |size, e| size.max(e.abs()));
-        // the first hundred steps are all rounding of the start
+        // the first hundred steps are rounding of the start
         largest = if *n > 1e3 { largest.max(size / n) } else { largest };
     }
     hold(SECTION, &claim("norm of the quaternion: median error / sqrt(N)"), NORM, middle);
@@ -177,13 +168,11 @@ fn taylor_errors_are_a_random_walk_over_a_million_steps() {
     hold_law(4, "1e6");
 }
 
-/// Largest error of energy, |L|, norm and vector L of a run that is continued by its period, at any horizon: the
-/// roundings of one period.
+/// Largest error of energy, |L|, norm and vector L of a periodic run at any horizon.
 const PERIODIC: f64 = 1e-14;
-/// How many times the largest error at a short horizon the largest at any other may be: no growth.
+/// Largest error at any horizon over that at a short one.
 const GROWTH: f64 = 2.0;
 
-/// Most steps of a run that is continued by its period.
 const MOST_STEPS: u64 = 200;
 
 #[test]
@@ -195,7 +184,7 @@ fn periods_add_no_error_of_conservation() {
         let horizon = libm::pow(10.0, f64::from(exponent));
         let plan = PropagationSettings::new(
             Method::Auto,
-            // a run without a period within memory has its own law, and ends here
+            // a run without a period within memory ends here
             Control { max_steps: MOST_STEPS, ..adaptive(TOLERANCE) },
             Grid::uniform(horizon, 101),
             fields,
@@ -215,7 +204,6 @@ fn periods_add_no_error_of_conservation() {
                 worst = errors.iter().fold(worst, |worst, e| worst.max(e.abs()));
             }
         }
-        println!("{horizon:e} s: {worst:e}, {periodic} periodic");
         assert!(periodic > 50, "most random scenes have a period: {periodic}");
         first = if exponent == 2 { worst } else { first };
         all = all.max(worst);

@@ -1,5 +1,4 @@
-//! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes that no campaign file can
-//! describe.
+//! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes beyond campaign files.
 
 use crate::support::claims::hold;
 use crate::support::golden::Golden;
@@ -15,12 +14,9 @@ use spindrift::run::{Grid, StateField, Status};
 use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
 
 const SECTION: &str = "stress";
-/// Samples of a campaign in its small version.
 const SMALL: u64 = 48;
-/// Errors of energy, linear and angular momentum and attitude: some hundred roundings. Measured: 1.5e-14 at most
-/// (`stress_rates`).
+/// Errors of energy, momenta and attitude: hundreds of roundings. Measured: 1.5e-14 (`stress_rates`).
 const CONSERVED: f64 = 1e-13;
-/// The columns that hold them.
 const ERRORS: [&str; 6] = [
     "energy_error_max",
     "energy_com_error_max",
@@ -41,7 +37,6 @@ fn largest_error(what: &str, table: &Table) -> f64 {
     let mut worst = 0.0_f64;
     for (name, values) in table.columns() {
         for (sample, value) in values.iter().enumerate() {
-            // a motion without exchange, or too slow for one, has no frequency
             let may_be_absent = name == "exchange_frequency_hz";
             assert!(value.is_finite() || may_be_absent, "{what}: {name} of sample {sample} is {value}");
             if ERRORS.contains(&name) {
@@ -65,7 +60,6 @@ fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
 
 fn error_of(what: &str, scene: &SceneInput, duration: f64) -> f64 {
     let worst = largest_error(what, &rows(&plan(scene, duration, 41)));
-    println!("{what}: {worst:.1e}");
     worst
 }
 
@@ -121,8 +115,7 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     let (x, y) = (mean(0), mean(1));
     let moment = |i: usize, j: usize| points.iter().map(|p| (p[i] - [x, y][i]) * (p[j] - [x, y][j])).sum::<f64>();
     let (slope, r2) = (moment(0, 1) / moment(0, 0), moment(0, 1).powi(2) / (moment(0, 0) * moment(1, 1)));
-    println!("flip time: slope {slope}, 1/lambda {}, 1 - R^2 {:e}", 1.0 / lambda, 1.0 - r2);
-    // what the next orders in delta and the interpolation on a grid of 10 ms leave; measured: 5.5e-11 and 3.8e-6
+    // next orders in delta and interpolation on a grid of 10 ms; measured: 5.5e-11 and 3.8e-6
     hold(SECTION, "flip time against ln(1/delta), delta 1e-2 to 1e-15: 1 - R^2", 5e-10, 1.0 - r2);
     hold(SECTION, "the same: relative distance of the slope from 1/lambda", 3e-5, (slope * lambda - 1.0).abs());
 }
@@ -174,7 +167,7 @@ fn any_shape_passes() {
     ]
     .map(|(name, moments)| (name.to_owned(), body(diagonal(moments), omega)))
     .to_vec();
-    // turned out of its axes, the flat body has products of inertia at the triangle's limit
+    // turned, the flat body has products of inertia at the triangle's limit
     let (c, s) = (0.8, 0.6);
     let turned = [
         [c * c * 1000.0 + s * s * 2500.0, 0.0, c * s * (2500.0 - 1000.0)],
@@ -223,7 +216,6 @@ fn any_tolerance_passes() {
             plan.tolerance = Tolerance { relative: tolerance, absolute: tolerance };
             largest_error(&format!("{method:?} at {tolerance:e}"), &rows(&plan))
         });
-        println!("{method:?}: {errors:?}");
         // measured: 7.4e-16 and 1.4e-7
         assert!(errors[0] < 6e-15 && errors[1] < 1e-6, "{method:?}: {errors:?}");
     }
@@ -253,9 +245,8 @@ fn short_thrusts_are_not_missed() {
             let plan = PropagationSettings::new(Method::Auto, adaptive(1e-16), Grid::uniform(2.0, 21), fields, &scene);
             propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0)
         };
-        // the body spins about the axis of the thrust, which therefore keeps its direction
+        // the body spins about the axis of the thrust
         let off = (run.table.column(StateField::Impulse, 2)[20] / expected - 1.0).abs();
-        println!("thrust for {length:e} s: impulse off by {off:e}");
         worst = worst.max(off);
     }
     // nine times the measured 4.4e-16, two ulps
@@ -305,16 +296,9 @@ fn units_do_not_matter() {
     {
         let other = states(&scaled(&input, length, mass));
         for point in 0..grid.points() {
-            assert_eq!(
-                other.at::<3>(StateField::Rate, point),
-                nominal.at::<3>(StateField::Rate, point),
-                "{length} {mass}"
-            );
-            assert_eq!(
-                other.at::<4>(StateField::Attitude, point),
-                nominal.at::<4>(StateField::Attitude, point),
-                "{length} {mass}"
-            );
+            let rates = [&other, &nominal].map(|table| table.at::<3>(StateField::Rate, point));
+            let attitudes = [&other, &nominal].map(|table| table.at::<4>(StateField::Attitude, point));
+            assert!(rates[0] == rates[1] && attitudes[0] == attitudes[1], "{length} {mass}");
         }
     }
     let mut worst = 0.0_f64;
@@ -323,6 +307,6 @@ fn units_do_not_matter() {
         let [rate, attitude] = crate::support::runs::rotation_distance(&other, &nominal);
         worst = worst.max(rate).max(attitude);
     }
-    // other units round the moments by an ulp or two, which the angle of ten seconds multiplies; measured: 5.5e-15
+    // other units round the moments by an ulp or two; measured: 5.5e-15
     hold(SECTION, "millimetres, kilometres, tonnes: distance from the same scene in metres after 10 s", 5e-14, worst);
 }

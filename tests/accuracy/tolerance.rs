@@ -1,4 +1,4 @@
-//! What a tolerance, a step and a direction of time promise.
+//! Promises of a tolerance, a step and a direction of time.
 
 use crate::support::claims::hold;
 use crate::support::exact::Exact;
@@ -30,10 +30,7 @@ fn slope(points: &[[f64; 2]]) -> f64 {
     covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
 }
 
-/// The scenes, their horizon in seconds, and how many times the tolerance the error may be at any tolerance; by method.
-///
-/// Error per step is the tolerance's, so the sum grows with the horizon: over 10 s and some hundred radians of ten
-/// scenes.
+/// Methods with their number of scenes, horizon in seconds, and largest error over the tolerance.
 const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::Auto, 8, 10.0, 4e2),
     (Method::Taylor, 8, 10.0, 4e2),
@@ -41,11 +38,11 @@ const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::Gyrostat(Integrator::Dop853), 8, 10.0, 2e1),
     (Method::NullSpace, 4, 1.0, 2.0),
 ];
-/// How far the log-log slope of the error over the tolerance may be off one: 5% over nine decades.
+/// Slack of the log-log slope of the error over the tolerance from one.
 const PROPORTIONAL: f64 = 0.05;
-/// The same for the Taylor method, whose order is a whole number that changes with the tolerance.
+/// The same of the Taylor method, whose order changes in whole numbers.
 const STAIRCASE: f64 = 0.15;
-/// What rounding leaves of these runs; tolerances whose errors are near it say nothing about proportion.
+/// Rounding of these runs.
 const FLOOR: f64 = 2e-14;
 
 #[test]
@@ -56,7 +53,6 @@ fn errors_fall_in_proportion_to_the_tolerance() {
         for exponent in 4..=13 {
             let tolerance = libm::pow(10.0, -f64::from(exponent));
             let (error, _) = error(&exact, method, adaptive(tolerance));
-            println!("{method:?} at 1e-{exponent}: {error:.2e}");
             largest = largest.max(error / tolerance.max(FLOOR));
             if error > FLOOR {
                 points.push([libm::log(tolerance), libm::log(error)]);
@@ -73,11 +69,9 @@ fn errors_fall_in_proportion_to_the_tolerance() {
     }
 }
 
-/// What a measured order may differ from the stated one.
 const ORDER_SLACK: f64 = 0.3;
 
-/// Law: errors fall with the order of the method, with the step where it is fixed, with the number of steps where it
-/// follows the tolerance.
+/// Law: errors fall with the order of the method, over the step or the number of steps.
 #[test]
 fn methods_have_their_order() {
     for forced in [false, true] {
@@ -107,7 +101,7 @@ fn methods_have_their_order() {
     }
 }
 
-/// How far a run may end from where it began, once forward and once back: 1e3 eps.
+/// Distance from the start, once forward and once back.
 const RETURN: f64 = 1e3 * f64::EPSILON;
 
 #[test]

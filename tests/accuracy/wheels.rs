@@ -1,12 +1,8 @@
 //! Wheels whose motors hold their speed, and wheels with misaligned axes and offset centres.
-//!
-//! Laws: a held wheel keeps its rate and turns uniformly; a body rotated by a known torque about a wheel's axis has J
-//! with the wheel held and J* with the wheel free. (Any wheels in any mode, with their balances: `many_wheels.rs`; J
-//! and J* mixed up: `drift_bounds.rs`.)
 
 use crate::support::campaigns::FUSELAGE;
 use crate::support::golden::Golden;
-use crate::support::runs::{adaptive, propagate, rotation_distance};
+use crate::support::runs::{adaptive, propagate, propagate_one, rotation_distance};
 use crate::support::scenes::{Kind, keep_wheels, misaligned, random, speed_held};
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
@@ -18,12 +14,10 @@ use spindrift::run::{Grid, StateField};
 use spindrift::sampling::SampleId;
 use spindrift::scene::{Actuated, ActuationInput, Scene, SceneInput, WheelMode};
 
-/// Horizon of random scenes, s.
 const HORIZON: f64 = 1.0;
-/// Tolerance of Taylor methods: what remains is rounding.
 const TAYLOR: f64 = 1e-16;
 
-/// Random scenes with every combination of held wheels but none, most of them misaligned; all forced or none.
+/// Random scenes with every combination of held wheels, most of them misaligned.
 fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
     let scene = |k: u64| {
         let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: !k.is_multiple_of(3), forced };
@@ -34,7 +28,6 @@ fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
     (0..count).map(scene).collect()
 }
 
-/// The same at the default tolerance of a campaign, 1e-14. Measured: 2.1e-14.
 const CAMPAIGN_BALANCE: f64 = 2e-13;
 #[test]
 fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
@@ -55,8 +48,7 @@ fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
     }
 }
 
-/// Berdoz's body with wheel 1 turned onto s1, so that P2 against P3 turns the body about the wheel's own axis, and P1
-/// against their push.
+/// Berdoz's body with wheel 1 on s1, so that P2 against P3 turns the body about the wheel's axis, and P1 balances them.
 fn rotor(mode: WheelMode) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     input.debris = None;
@@ -71,8 +63,8 @@ fn rotor(mode: WheelMode) -> SceneInput {
     input
 }
 
-/// Law: about the wheel's axis the body's rate grows by tau t/J with the wheel held and by tau t/J* with the wheel
-/// free; the free wheel lags by as much, the motor of the held one does Omega J_1 (omega - omega(0)).
+/// Law: about the wheel's axis the body's rate grows by tau t/J with the wheel held and tau t/J* with it free; the free
+/// wheel lags by as much, and the motor of the held one does Omega J_1 (omega - omega(0)).
 #[test]
 fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     const TAU: f64 = 0.5 * (200.0 - 100.0);
@@ -88,7 +80,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
             let (wheel, locked) = (scene.mass.wheels[0], scene.mass.inertia[0][0]);
             let held = mode == WheelMode::SpeedHeld;
             let inertia = if held { locked } else { locked - wheel.axial };
-            let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
+            let run = propagate_one(method, adaptive(tolerance), &grid, &scene);
             for (point, time) in grid.times().iter().enumerate() {
                 let gained = TAU * time / inertia;
                 let omega: [f64; 3] = run.table.at(StateField::Rate, point);
@@ -107,7 +99,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     }
 }
 
-/// A period found for held wheels is valid for many periods.
+/// Law: a period found for held wheels is valid for many periods.
 #[test]
 fn periods_carry_held_wheels_too() {
     let kind = Kind { wheels: [true; 2], debris: 0, products: true, offset: true, forced: false };
@@ -116,7 +108,7 @@ fn periods_carry_held_wheels_too() {
     for seed in 0..6 {
         let input = misaligned(speed_held(random(kind, 70 + seed, 1.0), [seed % 2 == 0, seed % 3 > 0]), seed);
         let scene = Scene::resolve(&input).expect("a physical scene");
-        let run = |method| propagate(method, adaptive(TAYLOR), &grid, std::slice::from_ref(&scene)).remove(0);
+        let run = |method| propagate_one(method, adaptive(TAYLOR), &grid, &scene);
         let (auto, plain) = (run(Method::Auto), run(Method::Taylor));
         folded += usize::from(auto.outcome.effort.steps * 4 < plain.outcome.effort.steps);
         let [rate, attitude] = rotation_distance(&auto.table, &plain.table);

@@ -1,5 +1,4 @@
-//! The tables that say what is made of the rows: what they mean, what is refused and how, and that no row depends on
-//! them.
+//! The tables that say what is made of the rows; no row depends on them.
 
 use crate::refusals::good;
 use spindrift::campaign::requirement::{BandSubject, Subject};
@@ -11,7 +10,6 @@ fn plan(more: &str) -> Plan {
     Plan::from_text("good.toml", &(good() + more), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Every key.
 const FULL: &str = r#"
 [statistics]
 quantiles = [0.05, 0.5, "99.87 %"]
@@ -92,17 +90,14 @@ fn units_that_are_written_come_back() {
     assert_eq!(shown("rate_deg_s", "deg/s"), "rad/s");
     assert_eq!(shown("omega_se_s_x_final_rad_s", "rad/s"), "deg/s");
     assert_eq!(shown("omega_se_s_y_final_rad_s", "rad/s"), "rpm");
-    // angles and rates are in degrees where nothing is said
     assert_eq!(shown("omega_se_s_z_final_rad_s", "rad/s"), "deg/s");
     assert_eq!(shown("spin_axis_angle_max_rad", "rad"), "arcsec");
     assert_eq!(shown("wheels.w1.rate_rad_s", "rad/s"), "rpm");
     let written = plan.analysis.display.of("omega_se_s_x_final_rad_s", "rad/s").written(limits[1]);
     assert_eq!(written, 2.5);
-    // a third of three sigma
     let std =
         plan.text().lines().rfind(|line| line.starts_with("std = ")).and_then(|line| line[6..].parse::<f64>().ok());
     assert!((std.expect("a standard deviation") - core::f64::consts::PI / 3.0).abs() < 1e-15);
-    // in the plan, and in no row
     let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((&again, again.text()), (&plan, plan.text()));
     let other = self::plan(&text.replace("arcsec", "deg"));

@@ -1,5 +1,3 @@
-//! Bad campaign files: every message names file, line, key, value, what is allowed and a remedy.
-
 use crate::refusals::good;
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 
@@ -96,7 +94,6 @@ fn a_syntax_error_is_told_alone() {
             "close with ] the array that begins here or above",
         ),
     ] {
-        // a wrong value elsewhere is told once the file is TOML
         let error = errors(&changed(from, to).replace("duration_s = ", "duration_s = -"));
         let said = error.with_excerpts();
         assert_eq!((error.problems.len(), error.more, error.problems[0].line), (1, 0, Some(line)), "{said}");

@@ -1,6 +1,5 @@
-//! The identity of a plan, key by key: each key that a file may have changes the plan, reads back, and changes the hash
-//! of the rows exactly where it changes rows. A key of rows that the program knows and that no file here has fails the
-//! tests.
+//! Each key of a file changes the plan, reads back, and changes the hash of the rows exactly where it changes rows. A key
+//! that no file here has fails the tests.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,10 +14,9 @@ use toml::Value;
 use crate::support::every_key::{EVERY_TABLE, distribution_tables, every_loop, every_scene, without_draws};
 use crate::support::scratch_folder::ScratchFolder;
 
-/// A word that is no key.
 const NOTHING: &str = "qqzzqqzz";
 
-/// Other texts than the one written, for any key that takes text: the first that is accepted is the change.
+/// For any key that takes text: the first that is accepted is the change.
 const TEXTS: [&str; 35] = [
     "s3",
     "fast",
@@ -57,7 +55,6 @@ const TEXTS: [&str; 35] = [
     "first",
 ];
 
-/// A folder with two tables of data that differ in one number.
 fn folder(name: &str) -> ScratchFolder {
     let scratch = ScratchFolder::new(name);
     scratch.file("data.csv", "a,b\n0.21,0.11\n0.24,0.12\n0.27,0.14\n");
@@ -69,13 +66,11 @@ fn read(folder: &Path, text: &str) -> Result<Plan, CampaignError> {
     Plan::from_text_in(folder, "keys.toml", text, Overrides::default())
 }
 
-/// `plan`, as its own text is read: the same, with the same text.
 fn reads_back(folder: &Path, plan: &Plan, what: &str) {
     let again = read(folder, &plan.text()).unwrap_or_else(|error| panic!("{what}: {error}"));
     assert!(again == *plan && again.text() == plan.text(), "{what} does not read back:\n{}", plan.text());
 }
 
-/// Values near `value`, one number, text or flag of it changed in each.
 fn others(value: &Value) -> Vec<Value> {
     match value {
         Value::Integer(x) => [x + 1, x - 1, x + 2, x + 8].map(Value::Integer).to_vec(),
@@ -113,7 +108,7 @@ fn others(value: &Value) -> Vec<Value> {
     }
 }
 
-/// A key of a file: the header of its table and what kind of table it is, its name, and files with other values of it.
+/// A key of a file: the header and kind of its table, its name, and files with other values of it.
 struct Change {
     header: String,
     kind: String,
@@ -121,14 +116,13 @@ struct Change {
     texts: Vec<String>,
 }
 
-/// The kind of the table that starts `text`: its distribution or design; empty for a table that has only one.
+/// The distribution or design of the table that starts `text`; empty for one without kinds.
 fn kind(text: &str) -> String {
     let mut lines = text.lines().skip(1).take_while(|line| !line.starts_with('['));
     let line = lines.find(|line| line.starts_with("distribution = ") || line.starts_with("kind = "));
     line.unwrap_or_default().to_owned()
 }
 
-/// The keys in `text` from byte `start` on, with files in which one of them is another.
 fn changes(text: &str, start: usize) -> Vec<Change> {
     let (mut header, mut of_kind, mut at, mut found) = (String::new(), String::new(), 0, Vec::new());
     for line in text.split_inclusive('\n') {
@@ -145,7 +139,6 @@ fn changes(text: &str, start: usize) -> Vec<Change> {
         }
         let table: toml::Table = line.parse().unwrap_or_else(|error| panic!("{line}: {error}"));
         let texts = match key {
-            // a name is called elsewhere in the file
             "name" => {
                 let name = written.trim().trim_matches('"');
                 vec![text.replace(name, &format!("{name}x"))]
@@ -160,13 +153,12 @@ fn changes(text: &str, start: usize) -> Vec<Change> {
     found
 }
 
-/// The path of a key as [`Plan::OUTSIDE_ROWS`] has it.
+/// As [`Plan::OUTSIDE_ROWS`] has it.
 fn path(header: &str, key: &str) -> String {
     let table = header.trim_matches(['[', ']']);
     if header.starts_with("[[") { format!("{table}[0].{key}") } else { format!("{table}.{key}") }
 }
 
-/// The keys of the table at the end of `text`, as the program lists them.
 fn listed(folder: &Path, text: &str) -> Vec<String> {
     let error = read(folder, &format!("{text}{NOTHING} = 1\n")).expect_err("a key that no table has");
     let problem = error.problems.iter().find(|problem| problem.key.ends_with(NOTHING));
@@ -175,7 +167,6 @@ fn listed(folder: &Path, text: &str) -> Vec<String> {
     names.split(", ").map(str::to_owned).collect()
 }
 
-/// The tables of designs, with all their keys.
 const DESIGNS: [&str; 11] = [
     "kind = \"random\"\n",
     "kind = \"latin_hypercube\"\n",
@@ -190,7 +181,6 @@ const DESIGNS: [&str; 11] = [
     "kind = \"table\"\nfile = \"data.csv\"\nparameters = [\"wheels.w1.length_m\"]\ncolumns = [\"a\"]\n",
 ];
 
-/// Parts of [`EVERY_TABLE`], each with another way to say it.
 const SHAPES: [(&str, &str); 4] = [
     ("shape = \"sphere\"\nradius_m = 0.1", "shape = \"point_mass\""),
     (
@@ -206,7 +196,7 @@ const STOP: &str =
 const GATES: &str = "[[require]]\nobservable = \"steps\"\nmean = true\nat_least = 1.0\nconfidence = 0.9\n\
     [[require]]\nband = \"angular_rate_rad_s\"\nfraction = 0.9\nat_most = 1e6\nfrom_s = 1.0\nto_s = 9.0\n";
 
-/// Files, each with the place from which on its keys are changed, and whether that part is a table of its own kind.
+/// Files, each with the place from which on keys are changed, and whether that part is a table of its own kind.
 fn files() -> Vec<(String, usize)> {
     let every = EVERY_TABLE.to_owned();
     let second_arc = "[[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\nthrust_n = { p1 = 3.0 }\ntorque_n_m \
@@ -248,9 +238,8 @@ fn files() -> Vec<(String, usize)> {
     files
 }
 
-/// Law: each key of each table changes the plan, and the plan reads back from its text; the hash of the rows changes
-/// exactly where the key is none of those that no row depends on. Tables that differ in their kind alone have other
-/// rows.
+/// Law: each key changes the plan, which reads back; the hash of the rows changes unless the key is one of
+/// [`Plan::OUTSIDE_ROWS`].
 #[test]
 fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
     let scratch = folder("every-key-changes");
@@ -264,7 +253,6 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
         hashes.insert(plan.row_hash());
         for Change { header, kind, key, texts } in changes(text, *start) {
             let path = path(&header, &key);
-            // which parameter it is, is no matter of the distribution
             let of = (path.clone(), if key == "parameter" { String::new() } else { kind });
             known.insert(of.clone());
             let other = texts.iter().filter_map(|text| read(folder, text).ok()).find(|other| *other != plan);
@@ -280,9 +268,7 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
             }
         }
     }
-    // that with a confidence of its stop has the rows of the first
     assert!(hashes.len() == files.len() - 1, "{} of {}", hashes.len(), files.len());
-    // and the keys of each table, as the program lists them
     for (text, start) in &files {
         let tables: Vec<usize> =
             text.match_indices("\n[").map(|(at, _)| at + 1).filter(|at| at >= start).chain([text.len()]).collect();
@@ -291,7 +277,6 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
             if is_of_scene(&header) {
                 continue;
             }
-            // the rest of the file stands before it, so that a key at the end is one of this table
             let moved = format!("{}{}{}", &text[..ends[0]], &text[ends[1]..], &text[ends[0]..ends[1]]);
             let kind = kind(&text[ends[0]..]);
             let of = |key: &String| (path(&header, key), if key == "parameter" { String::new() } else { kind.clone() });
@@ -308,7 +293,6 @@ fn every_key_changes_the_plan_and_the_hash_of_the_rows_where_it_should() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Whether a table is one of the scene: its numbers are in `every_number_of_a_scene_is_in_the_plan`.
 fn is_of_scene(table: &str) -> bool {
     let tables = [
         "body",
@@ -325,8 +309,7 @@ fn is_of_scene(table: &str) -> bool {
     tables.iter().any(|scene| table.trim_matches('[').starts_with(scene))
 }
 
-/// Law: each number of each row of the schema, in the second arc as in the first, is in the plan: it reads back, and
-/// changes the rows' hash.
+/// Law: each number of the schema, in the second arc as in the first, is in the plan and in the rows' hash.
 #[test]
 fn every_number_of_a_scene_is_in_the_plan() {
     let (mut rows, mut seen) = (BTreeSet::new(), BTreeSet::new());
@@ -334,7 +317,6 @@ fn every_number_of_a_scene_is_in_the_plan() {
     for text in every_scene().into_iter().chain(every_loop()) {
         let plan = read(folder, &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         for parameter in Parameter::all(&plan.nominal) {
-            // of a row its place in memory: two tables may have a key of one name
             rows.insert((std::ptr::from_ref(parameter.facts()) as usize, parameter.facts().key));
             for component in 0..parameter.width() {
                 let name = parameter.component_name(component);
@@ -343,13 +325,11 @@ fn every_number_of_a_scene_is_in_the_plan() {
                 if lacking(&plan.nominal.environment, header, parameter.facts().key).is_some() {
                     continue;
                 }
-                // debris that is given in F_e has no motion relative to the spacecraft
                 let is_inertial = plan.nominal.initial.debris_attitude_inertial.is_some();
                 let relative = ["debris_attitude", "debris_relative_angular_velocity_rad_s"];
                 if is_inertial && relative.contains(&parameter.facts().key) {
                     continue;
                 }
-                // where the spacecraft is follows from its orbit, and an attitude is written in one frame
                 if plan.nominal.orbit.is_some()
                     && ["initial.position_m", "initial.velocity_m_s"].contains(&&*parameter.name())
                     || plan.nominal.initial.attitude_orbital.is_some()
@@ -357,7 +337,6 @@ fn every_number_of_a_scene_is_in_the_plan() {
                 {
                     continue;
                 }
-                // a locked wheel does not turn
                 if name.starts_with("wheels.w2.") && ["rate_rad_s", "angle_rad"].contains(&parameter.facts().key) {
                     continue;
                 }
@@ -378,8 +357,7 @@ fn every_number_of_a_scene_is_in_the_plan() {
     assert_eq!(seen, rows, "every row of the schema is in a scene here");
 }
 
-/// Law: of relative and absolute tolerance, one that is written leaves the other at the method's default, or at
-/// `tolerance` where that is written too; for every method.
+/// Law: of relative and absolute tolerance one that is written leaves the other at the default, or at `tolerance`.
 #[test]
 fn a_tolerance_changes_no_other() {
     for method in Method::ALL {
@@ -391,7 +369,6 @@ fn a_tolerance_changes_no_other() {
             [plan.tolerance.relative, plan.tolerance.absolute]
         };
         let [default, same] = tolerances("");
-        // docs/campaign-files.md
         let taylor = ["auto", "taylor"].contains(&method.name());
         assert_eq!([default, same], [if taylor { 1e-14 } else { 1e-10 }; 2], "{}", method.name());
         for (keys, expected) in [

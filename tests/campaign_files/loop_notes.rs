@@ -1,5 +1,3 @@
-//! What looks like a mistake in a control loop is noted, not refused.
-
 use spindrift::campaign::{Overrides, Plan};
 
 use super::loops::{LOOP, plan};
@@ -21,7 +19,6 @@ fn each_note_has_a_file_that_gets_it_and_a_neighbour_that_does_not() {
         assert_eq!(LOOP.matches(&from).count(), 1, "{from}");
         let found = plan(&LOOP.replacen(&from, &wrong, 1)).notes();
         let notes: Vec<&str> = says.split(" | ").collect();
-        // a note and its advice, with two bars
         let is_said = |text: &&str| text.split(" || ").all(|part| found.iter().any(|note| note.contains(part)));
         assert!(notes.iter().all(is_said) && found.len() == notes.len(), "{wrong}: {found:#?}");
         let neighbour = plan(&LOOP.replacen(&from, &right, 1)).notes();
@@ -49,13 +46,11 @@ fn keys_without_effect_are_not_in_the_plan() {
     let removed = LOOP.replacen("initial_attitude_sigma_rad = 0.1\n", "", 1).replacen("\"mekf\"", "\"perfect\"", 1);
     assert_eq!(plan(&removed).hash(), tried.hash());
     assert!(plan(&tried.text()).notes().is_empty());
-    // a key that no kind has is refused as before
     let misspelt = LOOP.replacen("initial_attitude_sigma_rad", "initial_attitude_sigma", 1);
     assert!(Plan::from_text("loop.toml", &misspelt, Overrides::default()).is_err());
 }
 
-/// Law: a key of `[environment]` whose effect does not act is noted and changes neither plan nor columns; a dispersion
-/// on it is refused, naming the setting that it needs.
+/// Law: a key of `[environment]` without effect is noted and changes nothing; a dispersion on it is refused.
 #[test]
 fn keys_of_effects_that_do_not_act_change_nothing() {
     let orbit = "[orbit]\nsemi_major_axis_m = 7e6\n[initial]";

@@ -1,15 +1,12 @@
-//! Control loops in campaign files: what is refused, with one problem for one mistake, and how a phase or a sensor is
-//! addressed.
+//! Control loops in campaign files: what is refused, and how a phase or a sensor is addressed.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::control::observes::Observes;
 
 use crate::support::scratch_folder::ScratchFolder;
 
-/// A loop of everything that does not need debris.
 pub const LOOP: &str = include_str!("loop.toml");
 
-/// What sensors of an orbit need, before `[initial]`.
 const IN_A_FIELD: &str = "[environment]\nmagnetic_field = \"igrf\"\n[orbit]\nepoch = \
     \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = 7e6\n[initial]";
 
@@ -61,7 +58,6 @@ fn a_transfer_takes_less_than_half_a_revolution() {
     let on_orbit = format!("{text}\n[orbit]\nsemi_major_axis_m = 7e6\n");
     let notes = |text: &str| plan(text).notes().join("\n");
     assert!(!notes(&on_orbit).contains("orbit.j2"));
-    // allowed about a flattened body too, with a note
     assert!(
         notes(&format!("{on_orbit}j2 = 1.08262668e-3\n")).contains("Clohessy & Wiltshire about a point mass; orbit.j2")
     );
@@ -77,13 +73,11 @@ fn a_loop_without_phases_is_one_problem() {
     let without = LOOP[..LOOP.find("[[guidance]]").expect("phases")].to_owned() + requirement;
     let keys = |text: &str| refused(text).problems.into_iter().map(|problem| problem.key).collect::<Vec<_>>();
     assert_eq!(keys(&without), ["guidance"]);
-    // beside another mistake it is told too, and so are mistakes that have nothing to do with the loop
     let several = without.replacen("\"mekf\"", "\"ekf2\"", 1).replacen("mass_kg = 100", "mass_kg = \"heavy\"", 1);
     assert_eq!(keys(&several), ["body.mass_kg", "control.estimator", "guidance"]);
 }
 
-/// Law: a module is refused in one problem: by a build without WebAssembly with the command that builds it in, where it
-/// cannot be read, where no phase flies it, and where a phase names it and there is none.
+/// Law: a module that is not built in, not readable, not flown or not there is one problem.
 #[test]
 fn a_module_that_cannot_be_flown_is_refused() {
     let scratch = ScratchFolder::new("campaign-files-module");
@@ -115,8 +109,7 @@ fn a_module_that_cannot_be_flown_is_refused() {
     }
 }
 
-/// Law: sensors measure at whole multiples or whole fractions of the control period, whatever the others do, where a
-/// tick of a thousandth of it or more is common to all.
+/// Law: sensors measure at whole multiples or fractions of the control period, with a common tick of a thousandth of it.
 #[test]
 fn periods_of_sensors_fit_into_the_loop() {
     let with = |control: &str, gyro: &str, tracker: &str| {
@@ -174,8 +167,8 @@ fn a_remedy_is_accepted() {
     assert!(tried > 20, "{tried} remedies");
 }
 
-/// Law: a phase and a sensor are addressed by their names, as messages and `[[disperse]]` name them, and by their
-/// places; a file that extends another overrides one of them alone.
+/// Law: phases and sensors are addressed by names, as in messages, and by places; a file that extends another overrides
+/// one alone.
 #[test]
 fn phases_and_sensors_have_names() {
     let value =
@@ -203,8 +196,7 @@ fn phases_and_sensors_have_names() {
     assert_eq!(variant.nominal.control.guidance.len(), 3);
 }
 
-/// Law: what a filter takes from the file in every run is refused as a dispersion, as a derived parameter and in a file
-/// of draws, with the reason.
+/// Law: what a filter takes from the file is refused as a dispersion, a derived parameter and in a file of draws.
 #[test]
 fn numbers_of_a_filter_are_not_dispersed() {
     let sigma = "control.initial_attitude_sigma_rad";
@@ -230,7 +222,6 @@ fn numbers_of_a_filter_are_not_dispersed() {
     let scratch = ScratchFolder::new("campaign-files-sigmas");
     scratch.file("draws.csv", "delay,sigma\n0.01,0.01\n0.02,0.02\n");
     let list = |name: &str| format!("file = \"draws.csv\"\nparameters = [\"control.delay_s\", \"{name}\"]\n");
-    // a design by a table has as many samples as the table
     for (table, samples) in
         [("[[disperse]]\ndistribution = \"bootstrap\"\n", "samples = 3\n"), ("[design]\nkind = \"table\"\n", "")]
     {

@@ -1,4 +1,4 @@
-//! Every key and every name of a value, misspelt by one edit, gets the right suggestion.
+//! Every key and name, misspelt by one edit, gets the right suggestion.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,6 @@ use spindrift::scene::Parameter;
 
 use crate::support::every_key::{EVERY_TABLE, distributions};
 
-/// A word that is no key and no name, and that nothing resembles.
 const NOTHING: &str = "qqzzqqzz";
 
 fn error(text: &str) -> CampaignError {
@@ -115,7 +114,6 @@ fn every_misspelt_key_gets_its_suggestion() {
     assert!(keys.len() > 200 && tried > 2000, "{} keys, {tried} misspellings", keys.len());
 }
 
-/// The keys whose values are names: a line of the file, and the same with another name in it.
 const NAMED: [(&str, &str); 9] = [
     ("method = \"auto\"", "method = \"{}\""),
     ("groups = [\"effort\", \"energy_conservation\"]", "groups = [\"{}\"]"),
@@ -152,7 +150,6 @@ fn every_misspelt_name_gets_its_suggestion() {
 
 #[test]
 fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
-    // the default groups have most observables
     let base = EVERY_TABLE.replace("groups = [\"effort\", \"energy_conservation\"]\n", "");
     let plan = Plan::from_text("good.toml", &base, Overrides::default()).expect("good");
     let parameters: Vec<String> = Parameter::all(&plan.nominal).map(|parameter| parameter.name()).collect();
@@ -164,7 +161,6 @@ fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
         assert!(base.contains(line) && names.len() > 40, "{line}: {} names", names.len());
         let key = line.split(' ').next().unwrap_or_default();
         for name in &names {
-            // one misspelling of each: these names are many
             let Some(edited) = edits(name).into_iter().find(|edited| !names.contains(edited)) else { continue };
             tried += 1;
             let error = error(&base.replacen(line, &format!("{key} = \"{edited}\""), 1));

@@ -1,4 +1,4 @@
-//! Ranges of numbers: each end is accepted, and the next number beyond it is refused, by its key.
+//! Each end of a range is accepted, and the next number beyond it refused by its key.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,6 @@ use spindrift::scene::schema::Limit;
 
 use crate::support::every_key::every_scene;
 
-/// The smallest number above zero.
 const TINY: f64 = 5e-324;
 
 fn read(text: &str) -> Result<Plan, CampaignError> {
@@ -25,7 +24,6 @@ fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
         ends.iter().flat_map(|(x, passes)| (0..width).map(move |component| (with(*x, component), *passes))).collect()
     };
     let infinite = [f64::INFINITY, f64::NEG_INFINITY].map(|x| (x, false));
-    // a tensor by its entries on and above the diagonal
     let diagonal = |[a, b, c]: [f64; 3]| vec![a, 0.0, 0.0, b, 0.0, c];
     // beyond the slack of 16 roundings of the trace that docs/campaign-files.md allows
     let beyond = 6000.0 * 17.0 * f64::EPSILON;
@@ -45,7 +43,6 @@ fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
         Limit::NotNegative | Limit::Thrust(_) => {
             each(&[(-TINY, false), (-0.0, true), (0.0, true), (TINY, true), (f64::INFINITY, false)])
         }
-        // directions have lengths whose squares are normal numbers
         Limit::Direction => {
             [(short, true), (short.next_down(), false), (long, true), (long.next_up(), false), (0.0, false)]
                 .into_iter()
@@ -54,7 +51,6 @@ fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
                 })
                 .collect()
         }
-        // 1.000001 is within 1e-6 of one in doubles, 0.999999 is not
         Limit::UnitQuaternion => {
             [(1.000001, true), (1.000001f64.next_up(), false), (0.999999, false), (0.999999f64.next_up(), true)]
                 .into_iter()
@@ -74,13 +70,11 @@ fn each_row_of_the_schema_holds_its_limit() {
     for text in every_scene() {
         let plan = read(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         for parameter in Parameter::all(&plan.nominal) {
-            // debris that is given in F_e has no motion relative to the spacecraft
             let relative = ["debris_attitude", "debris_relative_angular_velocity_rad_s"];
             let is_inertial = plan.nominal.initial.debris_attitude_inertial.is_some();
             if parameter.value(&plan.nominal, 0).is_none() || is_inertial && relative.contains(&parameter.facts().key) {
                 continue;
             }
-            // where the spacecraft is follows from its orbit, and an attitude is written in one frame
             if plan.nominal.orbit.is_some()
                 && ["initial.position_m", "initial.velocity_m_s"].contains(&&*parameter.name())
                 || plan.nominal.initial.attitude_orbital.is_some()
@@ -91,7 +85,6 @@ fn each_row_of_the_schema_holds_its_limit() {
             for (values, passes) in ends(parameter.facts().limit, parameter.width()) {
                 let mut other = plan.clone();
                 values.iter().enumerate().for_each(|(i, x)| parameter.set(&mut other.nominal, i, *x));
-                // messages count arcs
                 let key = parameter
                     .name()
                     .replace("actuation.burn", "actuation[0]")
@@ -104,10 +97,8 @@ fn each_row_of_the_schema_holds_its_limit() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    println!("{counts:?} refused and accepted");
 }
 
-/// A campaign that a number X is put into.
 const SMALL: &str = r#"[campaign]
 name = "small"
 samples = 11
@@ -131,8 +122,7 @@ fn with(from: &str, to: &str) -> String {
     if from.is_empty() { format!("{SMALL}{to}") } else { SMALL.replace(from, to) }
 }
 
-/// A number of a campaign file that no row of the schema has: a file with `@` in its place, its key in messages, the
-/// values at the ends of its range, and the next ones beyond.
+/// A file with `@` for a number that no row of the schema has, its key, the values at the ends, and the next beyond.
 struct Range {
     file: String,
     key: &'static str,
@@ -195,7 +185,6 @@ fn ranges() -> Vec<Range> {
         closed(integrator("absolute_tolerance = @\n"), "integrator.absolute_tolerance", [1e-16, 1e-2]),
         closed(integrator("method = \"runge_kutta_4\"\nstep_s = @\n"), "integrator.step_s", [TINY, 10.0]),
         whole(with("points = 11", "points = @"), "observe.points", [2, 1_000_000]),
-        // no bands, then as many as the grid has points, and no more than 257
         whole(with("", "[bands]\npoints = @\n"), "bands.points", [2, 11]),
         whole(with("points = 11", "points = 1001") + "[bands]\npoints = @\n", "bands.points", [2, 257]),
         closed(with("", "[audit]\nfraction = @\n"), "audit.fraction", [0.0, 1.0]),
@@ -233,7 +222,6 @@ fn each_end_of_each_range_is_accepted_and_the_next_number_refused() {
     let mut wrong = Vec::new();
     for Range { file, key, accepted, refused } in ranges() {
         for value in accepted {
-            // a distribution too narrow to draw from, of a legal number, is refused by its name
             if is_refused(&file.replace('@', &value), key) {
                 wrong.push(format!("{key} = {value} is refused"));
             }

@@ -1,5 +1,3 @@
-//! Files that are refused, one for each kind of refusal.
-
 use spindrift::campaign::{CampaignError, Overrides, Plan, Problem};
 
 use crate::loops::LOOP;
@@ -8,7 +6,6 @@ use crate::support::campaigns::{DEBRIS, FUSELAGE, WHEEL1, WHEEL1_AT_REST};
 
 const CASES: &str = include_str!("refusals.txt");
 
-/// The valid file up to its scene.
 const HEAD: &str = r#"[campaign]
 name = "bad"
 samples = 10
@@ -21,7 +18,6 @@ tolerance = 1e-10
 points = 11
 "#;
 
-/// The rest of the file, after its bodies.
 const REST: &str = r#"[initial]
 attitude = [1, 0, 0, 0]
 angular_velocity_rad_s = [0, 3, 31]
@@ -44,7 +40,6 @@ pub fn good() -> String {
     [HEAD, FUSELAGE, WHEEL1, DEBRIS, REST].concat()
 }
 
-/// Given by mass and tensor, with two wheels and two thrusters.
 const DIRECT: &str = r#"[campaign]
 name = "bad"
 samples = 10
@@ -86,7 +81,6 @@ thrust_n = { p1 = 10.0 }
 torque_n_m = { w1 = 0.1 }
 "#;
 
-/// Given by parts.
 const PARTS: &str = r#"[campaign]
 name = "bad"
 samples = 10
@@ -113,7 +107,6 @@ mass_kg = 1.0
 angular_velocity_rad_s = [0, 0, 1]
 "#;
 
-/// On an orbit.
 const ORBIT: &str = r#"[campaign]
 name = "bad"
 samples = 10
@@ -264,8 +257,7 @@ fn a_spacecraft_without_a_body_is_refused() {
     );
 }
 
-/// Law: every list of tables that the documents show has a limit, so that reading takes no more than a moment however
-/// many there are.
+/// Law: every list of tables that the documents show has a limit.
 #[test]
 fn every_list_of_tables_has_a_limit() {
     let documents = [include_str!("../../docs/campaign-files.md"), include_str!("../../docs/control.md")];
@@ -275,13 +267,11 @@ fn every_list_of_tables_has_a_limit() {
     assert!(lists.len() >= 11 && lists.contains("sensors") && lists.contains("body.parts"), "{lists:?}");
     for list in lists {
         let tables = format!("[[{list}]]\n").repeat(20_000);
-        // a loop is read where there is one, and parts are those of a body
         let text = match list {
             "body.parts" => PARTS.replacen("[initial]", &format!("{tables}[initial]"), 1),
             "sensors" | "guidance" => format!("{DIRECT}\n[control]\nperiod_s = 0.1\n{tables}"),
             _ => format!("{DIRECT}\n{tables}"),
         };
-        // tables of a list may be in several places of a file
         let error = refused(&text);
         let is_limit = |problem: &spindrift::campaign::Problem| {
             let count = problem.value.as_deref().and_then(|value| value.strip_suffix(" tables")?.parse::<usize>().ok());

@@ -1,5 +1,4 @@
-//! The JSON Schema of campaign files: what is accepted by the program is accepted by the schema; wrong names and types
-//! are refused.
+//! The JSON Schema of campaign files accepts what the program accepts, and refuses wrong names and types.
 
 use serde_json::{Value, json};
 use spindrift::campaign::schema::schema;
@@ -11,7 +10,6 @@ fn obeys(schema: &Value, value: &Value) -> bool {
     is_valid(schema, schema, value)
 }
 
-/// Whether `value` obeys a part `schema` of the schema `root`.
 fn is_valid(root: &Value, schema: &Value, value: &Value) -> bool {
     let obeys = |schema: &Value, value: &Value| is_valid(root, schema, value);
     let keywords = schema.as_object().expect("a schema");
@@ -74,7 +72,6 @@ fn parsed(text: &str) -> Value {
     serde_json::to_value(table).expect("a file without infinite numbers")
 }
 
-/// Valid files: those that are shipped, and files with every key.
 fn files() -> Vec<(String, String)> {
     let entries = std::fs::read_dir("campaigns").expect("the campaigns").map(|entry| entry.expect("an entry").path());
     let shipped = entries.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
@@ -87,7 +84,6 @@ fn files() -> Vec<(String, String)> {
     files
 }
 
-/// Law: the schema accepts each shipped campaign and each file with every key.
 #[test]
 fn valid_files_are_accepted() {
     let schema = schema();
@@ -127,11 +123,9 @@ fn changed(value: &Value, other: &dyn Fn(&Value) -> Option<Value>, path: &str, f
     found.extend(other(value).map(|value| (path.to_owned(), value)));
 }
 
-/// Tables whose keys are names of the file.
 const BY_NAME: [&str; 3] = ["thrust_n", "torque_n_m", "display.columns"];
 
-/// Law: a file with a key that no table has is refused, in every table; so is one with a value of another type, for
-/// every key.
+/// Law: a key that no table has is refused in every table, and a value of another type for every key.
 #[test]
 fn wrong_names_and_types_are_refused() {
     let schema = schema();
@@ -154,8 +148,8 @@ fn wrong_names_and_types_are_refused() {
     assert!(count > 5000, "{count}");
 }
 
-/// Law: numbers beyond their limits and words of no list are refused, and a number with a unit is accepted; a file that
-/// extends another one may leave out what that has.
+/// Law: numbers beyond limits and words of no list are refused, and units accepted; a file that extends another may leave
+/// out what that has.
 #[test]
 fn limits_and_words_are_those_of_the_program() {
     let schema = schema();

@@ -33,8 +33,7 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
     }
 }
 
-/// Law: each property of the launch that the header of `net_launch.toml` promises is a requirement, with the limit of
-/// the header.
+/// Law: what the header of `net_launch.toml` promises is a requirement with that limit.
 #[test]
 fn a_launch_is_judged_by_what_its_file_promises() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/net_launch.toml");

@@ -1,12 +1,10 @@
-//! A spacecraft as its file describes it: names, units in values, and how little a first campaign needs.
-
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
-/// 500 kg by mass and tensor, one wheel, a thruster with an alignment error, a spin in degrees per second.
+/// By mass and tensor, one wheel, a thruster with an alignment error, a spin in degrees per second.
 pub const NEWCOMER: &str = r#"[campaign]
 name = "first"
 samples = 8
@@ -105,7 +103,6 @@ fn names_are_lower_case_letters_digits_and_underscores_and_unique() {
     assert!(twice("tip", "top").is_ok());
     let error = twice("tip", "tip").expect_err("two parts of one name");
     assert!(error.to_string().contains("must be another name than that of the other [[body.parts]] tables"), "{error}");
-    // one name in two lists is two names: wheels.a and thrusters.a
     plan(&changed("\"w1\"", "\"p1\""));
 }
 

@@ -2,7 +2,6 @@
 
 use spindrift::campaign::{Overrides, Plan};
 
-/// A campaign with a number of each unit, each once, as `@unit@`.
 const FILE: &str = r#"[campaign]
 name = "units"
 samples = 2
@@ -42,9 +41,8 @@ velocity_m_s = [@m/s@, 0, 0]
 angular_velocity_rad_s = [0, 0, 1]
 "#;
 
-/// SI units, and the units that may be written in place of each, with their sizes: exact by definition (BIPM, *The
-/// International System of Units*, 9th edition, tables 5, 7 and 8; NIST SP 811, appendix B.8, has them to seven
-/// digits), those with pi to 20 digits.
+/// SI units, and others with their sizes: exact (BIPM, *The International System of Units*, 9th edition, tables 5, 7 and
+/// 8; NIST SP 811, appendix B.8), those with pi to 20 digits.
 #[expect(clippy::excessive_precision, clippy::approx_constant, reason = "digits of a table, not of this machine")]
 const TABLE: [(&str, &[(&str, f64)]); 11] = [
     (
@@ -100,8 +98,7 @@ fn units_have_their_sizes() {
             for number in [1.0, 0.3, 7e3] {
                 let written =
                     plan(&file(si, &format!("\"{number} {unit}\""))).unwrap_or_else(|error| panic!("{error}"));
-                // the number that the plan's text has where that in plain SI has this one, to three roundings: of the
-                // size here, of the product, and of the program's quotient
+        // three roundings: of the size here, of the product, and of the program's quotient
                 let near = |steps: i32| {
                     let exact = number * size;
                     let value =

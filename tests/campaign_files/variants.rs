@@ -26,7 +26,6 @@ fn what_is_set_is_as_if_it_were_written() {
     assert_eq!(plan.audit_fraction, 0.25);
     assert_ne!(plan.hash(), plain.hash());
     assert_eq!(written(&plan), Plan { description: written(&plan).description, ..plan.clone() });
-    // the last of two wins; a list is replaced as a whole
     let twice =
         set(&text, &[("campaign.seed", "5"), ("campaign.seed", "6"), ("observe.groups", "[\"exchange\"]")]).unwrap();
     assert_eq!((twice.seed, twice.groups.len()), (6, 1));
@@ -74,7 +73,6 @@ fn a_file_extends_another() {
     assert_eq!(plan.row_text(), one.row_text());
     assert_eq!((plan.name.as_str(), plan.nominal.wheels.len()), ("longer", one.nominal.wheels.len()));
     assert!(files.paths().contains(&scratch.path("bases/sweep.toml")), "{:?}", files.paths());
-    // an error of the file below is told with its name and its line
     let line = 1 + shipped().lines().position(|line| line.starts_with("seed")).unwrap();
     scratch.file("bases/wrong.toml", &shipped().replace("seed = ", "seed = -"));
     scratch.file("of_wrong.toml", &variant.replace("sweep", "wrong"));
@@ -83,7 +81,6 @@ fn a_file_extends_another() {
     scratch.file("own_error.toml", &variant.replace("33.0", "-33.0"));
     let said = load("own_error.toml").unwrap_err().to_string();
     assert!(said.contains("own_error.toml:4: campaign.duration_s = -33.0"), "{said}");
-    // what is not there, and a circle
     scratch.file("gone.toml", "extends = \"none.toml\"\n");
     let said = load("gone.toml").unwrap_err().to_string();
     assert!(said.contains("gone.toml:1: extends = \"none.toml\": must be"), "{said}");

@@ -1,41 +1,36 @@
-//! [`Assembled`]: WebAssembly modules byte by byte (WebAssembly 1.0, section 5), for what no compiler would build.
+//! [`Assembled`]: WebAssembly modules byte by byte (WebAssembly 1.0, section 5), beyond what compilers build.
 
-/// Where the input and the output of modules are here, their measurements and their telemetry.
+/// Addresses of input, output, measurements and telemetry.
 pub const INPUT: i32 = 1024;
 pub const OUTPUT: i32 = 4096;
 pub const MEASURED: i32 = 20_480;
 pub const REPORTED: i32 = 24_576;
 
-/// Where the texts of parameters, of measurements and of telemetry are.
+/// Addresses of the texts of parameters, measurements and telemetry.
 const TEXTS: [i32; 3] = [8192, 28_672, 32_768];
 
-/// The code of a module that wants no torque, and ends.
+/// A step that applies no torque.
 pub const NOTHING: &[u8] = &[0x0b];
 
-/// A module: one that is flown without a torque, but for what a test changes.
+/// A module that is flown without a torque, but for the changes of a test.
 #[derive(Clone, Debug)]
 pub struct Assembled {
-    /// What `spindrift_interface`, `spindrift_input`, `spindrift_output`, `spindrift_measurements` and
-    /// `spindrift_telemetry` return.
+    /// Answers of `spindrift_interface`, `_input`, `_output`, `_measurements` and `_telemetry`.
     pub places: [i32; 5],
-    /// Pages of 64 KiB of the memory.
     pub pages: u32,
-    /// The body of `spindrift_step`, with its end.
     pub step: Vec<u8>,
-    /// The body of a start function.
     pub start: Option<Vec<u8>>,
-    /// The text of the parameters, at 8192; their numbers are at 16384.
+    /// The text of the parameters.
     pub table: Option<&'static str>,
-    /// The texts of measurements, at 28672, and of telemetry, at 32768.
+    /// The texts of measurements and of telemetry.
     pub tables: [Option<&'static str>; 2],
-    /// A name that is exported as another one.
+    /// An export with another name.
     pub misnamed: &'static str,
-    /// Whether it imports a function.
     pub imports: bool,
-    /// Whether its step returns a number, and whether it exports a function as `spindrift_init` that does.
+    /// Its step, or its `spindrift_init`, returns a number.
     pub is_mistyped: bool,
     pub is_init_mistyped: bool,
-    /// How many locals its step has, and how many functions do nothing.
+    /// Locals of its step, and idle functions.
     pub locals: usize,
     pub functions: usize,
 }
@@ -110,7 +105,6 @@ impl Assembled {
     }
 
     pub fn bytes(&self) -> Vec<u8> {
-        // types: 0 without a result, 1 with an i32
         let types = list(&[vec![0x60, 0, 0], vec![0x60, 0, 1, 0x7f]]);
         let step_type = u8::from(self.is_mistyped);
         let mut functions = vec![1, 1, 1, step_type, 1, 1, 1, 1, 1, 1];
@@ -160,7 +154,6 @@ impl Assembled {
             module.extend(section(8, size(first + names.len())));
         }
         let code = |(place, body): (usize, &Vec<u8>)| {
-            // f64 locals
             let locals =
                 if place == 3 && self.locals > 0 { vec![[size(self.locals), vec![0x7c]].concat()] } else { vec![] };
             sized(&[list(&locals), body.clone()].concat())

@@ -1,4 +1,4 @@
-//! Bands: quantiles over time equal those of the runs themselves, and depend on nothing but the plan.
+//! Bands are the quantiles over time of the runs, and depend on nothing but the plan.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -35,7 +35,6 @@ fn plan(points: usize) -> Plan {
     plan
 }
 
-/// Keeps the bytes of the bands of each part.
 #[derive(Default)]
 struct Memory(Mutex<BTreeMap<u64, Vec<u8>>>);
 
@@ -62,7 +61,6 @@ fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
 }
 
 fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
-    // tests run side by side
     static FOLDERS: AtomicUsize = AtomicUsize::new(0);
     let scratch = ScratchFolder::new(&format!("bands-{}", FOLDERS.fetch_add(1, Ordering::Relaxed)));
     let written = files.into_iter().zip(0..).map(|(bytes, number)| {
@@ -99,7 +97,7 @@ fn exact(plan: &Plan, points: &[usize]) -> BTreeMap<String, Vec<Vec<f64>>> {
 }
 
 fn deviations(bands: &Bands, exact: &BTreeMap<String, Vec<Vec<f64>>>) -> Vec<String> {
-    /// Roundings of an angle that is kept as the tangent of its half, and of a sum: some units in the last place.
+    /// An angle is kept as the tangent of its half.
     const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let mut wrong = Vec::new();
     for series in 0..bands.layout().series.len() {
@@ -145,7 +143,6 @@ fn bands_are_the_quantiles_of_the_runs() {
     assert_eq!(bands.runs(), runs);
     let wrong = deviations(&bands, &exact);
     assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
-    // the spread is wider than the bound: the test sees something
     let body = bands.find("energy_body_j").unwrap();
     let [low, high] = [0.05, 0.95].map(|p| bands.quantile(body, 5, p).unwrap());
     assert!(high - low > 100.0 * RELATIVE_ERROR * (high - bands.nominal(body, 5).unwrap()).abs());
@@ -169,17 +166,14 @@ fn the_angular_rate_has_bands() {
     for ((count, extremes, quantiles), (counts, exact, expected)) in own.iter().zip(&observed) {
         assert_eq!(count, counts);
         for (found, expected) in extremes.iter().zip(exact) {
-            // the same squares, added in another order
             assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected, "{found} {expected}");
         }
         for (found, expected) in quantiles.iter().zip(expected) {
-            assert!(
-                (found - expected).abs() <= 2.0 * RELATIVE_ERROR * (extremes[1] - extremes[0]),
-                "{found} {expected}"
-            );
+            let bound = 2.0 * RELATIVE_ERROR * (extremes[1] - extremes[0]);
+            assert!((found - expected).abs() <= bound, "{found} {expected}");
         }
     }
-    // the counter-test: the rates differ from run to run and from point to point
+    // counter-test: the rates differ from run to run
     assert!(own[8].1[1] > 1.1 * own[8].1[0]);
 }
 
@@ -226,7 +220,6 @@ fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
         for p in [0.05, 0.5, 0.95] {
             let [value, of_first, of_all] =
                 [&found, &first, &all].map(|bands| bands.quantile(series, point, p).unwrap());
-            // those of all runs end at other extremes
             let [min, max] = first.extremes(series, point).unwrap();
             assert!(value == of_first || value < min || value > max, "{value} {of_first}");
             others += u64::from(value != of_all);
@@ -236,7 +229,6 @@ fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
                 (found.within(series, point, limit), all.within(series, point, limit));
             assert!(least <= least_of_all && most_of_all <= most, "{least} {least_of_all} {most_of_all} {most}");
             undecided += u64::from(most - least >= found.count(series, point) - found.counted(series, point));
-            // equal values are below and above it
             let [_, above] = all.within(series, point, GateLimit::AtLeast(value));
             let (count, error) = (all.count(series, point) as f64, (p * (1.0 - p) / RUNS as f64).sqrt());
             let [below, not_above] = [count - above as f64, most_of_all as f64].map(|runs| runs / count);

@@ -1,8 +1,9 @@
-//! Extremes of quantities between observation points: those of closed forms and of many points; bits are a row's own.
+//! Extremes between observation points, against closed forms and many points.
 
 use super::whole_rows::{SPREAD, column, event, free_body, near_rounding, plan, precession, rows, single};
 use spindrift::campaign::Plan;
 use spindrift::math::Isa;
+use spindrift::observables::Series;
 use spindrift::propagation::Method;
 use spindrift::run::StateField;
 
@@ -21,7 +22,7 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
     let alpha = |time: f64| 2.0 * (angle.sin() * (0.5 * rate * time).sin().abs()).asin();
     let up = 2.0 / rate * ((0.5 * 0.5_f64).sin() / angle.sin()).asin();
     let period = 2.0 * std::f64::consts::PI / rate;
-    // from this delay on it falls to the end
+    // from this delay on it falls
     let late = 60.0 - 0.2 * period - up;
     assert!(alpha(60.0) < alpha(60.0 - 0.2 * period) && (60.0 / period).fract() > 0.7, "{}", 60.0 / period);
     let more = event("up", "spin_axis_angle_rad", 0.5, "direction = \"rising\"")
@@ -41,7 +42,7 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
         for (name, expected, bound) in [
             ("most_rad", 2.0 * angle, bound),
             ("most_after_deg", (2.0 * angle).to_degrees(), 60.0 * bound),
-            // the square root of what rounding leaves of nothing
+            // the square root of rounding
             ("least_rad", 0.0, 1e-6),
             ("last_rad", alpha(up + late), 10.0 * bound),
         ] {
@@ -49,7 +50,6 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
             assert!((found - expected).abs() <= bound, "{} {name}: {found} for {expected}", method.name());
         }
         assert!(found("none_rad").is_nan() && found("beyond_rad").is_nan());
-        // the points themselves do not see it
         assert!(found("spin_axis_angle_max_rad") < 2.0 * angle - 1e-5);
     }
 }
@@ -83,8 +83,7 @@ fn extremes_are_values_of_the_quantity() {
     }
 }
 
-/// Law: extremes of bodies without an axis of symmetry, from points a second apart, are those of points that are 500
-/// times as near, and no smaller.
+/// Law: extremes from points a second apart are those of points 500 times as near, and no smaller.
 #[test]
 fn extremes_are_those_of_many_points() {
     let more = SPREAD.to_owned()
@@ -99,12 +98,9 @@ fn extremes_are_those_of_many_points() {
     for row in 0..40 {
         for (name, dense) in [("angle_rad", "spin_axis_angle_max_rad"), ("rate_rad_s", "angular_rate_max_rad_s")] {
             let [found, dense] = [column(&coarse, &found, name)[row], column(&fine, &truth, dense)[row]];
-            // an eighth of the square of an interval, by the largest second derivative, which an angle near half a turn
-            // has
-            assert!(
-                found >= dense - 1e-12 && found - dense < 1e-6 / (std::f64::consts::PI - found).clamp(1e-3, 1.0),
-                "sample {row}, {name}: {found} and {dense}"
-            );
+            // an eighth of the square of an interval times the largest second derivative, near half a turn
+            let bound = 1e-6 / (std::f64::consts::PI - found).clamp(1e-3, 1.0);
+            assert!(found >= dense - 1e-12 && found - dense < bound, "sample {row}, {name}: {found} and {dense}");
         }
         let sampled = column(&coarse, &found, "angular_rate_max_rad_s")[row];
         beyond += usize::from(column(&coarse, &found, "rate_rad_s")[row] > sampled + 1e-6);
@@ -131,16 +127,12 @@ fn extremes_of_loops_are_at_ticks() {
     }
     let [errors, later] = &every;
     assert!(errors.iter().zip(later).all(|(error, later)| later <= error && *later > 0.0), "{every:?}");
-    // tick by tick, from single runs
     let plan = plan(&(shipped.replace("points = 181", "points = 721") + &more));
     let (_, turned) = of(721);
     for sample in 0..12 {
         let run = single(&plan, sample);
-        let (_, values) = run
-            .series
-            .iter()
-            .find(|(series, _)| *series == spindrift::observables::Series::PointingError)
-            .expect("a series");
+        let is_error = |(series, _): &&(Series, Vec<f64>)| *series == Series::PointingError;
+        let (_, values) = run.series.iter().find(is_error).expect("a series");
         let from = turned[sample] + 30.0;
         let ticks = plan.grid.times().iter().zip(values).filter(|(time, _)| **time >= from - 1e-9);
         let most = ticks.fold(0.0, |most: f64, (_, value)| most.max(*value));

@@ -1,4 +1,4 @@
-//! Devices that fail during a run: what is before the failure, what is after it, and the columns that say so.
+//! Devices that fail during a run: the motion before and after, and the columns of the failure.
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::{Ensemble, Part, PartId, SingleRun, Supervision};
@@ -6,7 +6,7 @@ use spindrift::math::Isa;
 use spindrift::run::{StateField, StateTable};
 use spindrift::sampling::SampleId;
 
-/// A body with four wheels in a pyramid, held by a memoryless law that knows its state.
+/// A body with four wheels in a pyramid under a memoryless law with perfect knowledge.
 const HELD: &str = r#"[campaign]
 name = "held"
 samples = 20
@@ -98,7 +98,7 @@ fn a_run_is_the_same_until_the_failure() {
         (format!("{DEAD}coulomb_friction_n_m = 0.004\n"), true),
         (format!("{DEAD}viscous_friction_n_m_s = 1e-4\n"), true),
         ("[[failure]]\nname = \"on\"\nthruster = \"p1\"\nthrust_n = 0.05\n".to_owned(), true),
-        // the loop fires it for nothing but torque, with which wheels are quicker
+        // the loop fires it for torque alone, with which wheels are quicker
         ("[[failure]]\nname = \"off\"\nthruster = \"p1\"\nthrust_n = 0.0\n".to_owned(), false),
     ] {
         for at in [10.1, 20.0] {
@@ -160,7 +160,7 @@ fn after_its_failure_a_wheel_is_another_wheel() {
             {
                 for i in 0..width {
                     let [a, b] = [whole.table.column(field, i)[point + k], rest.table.column(field, i)[k]];
-                    // rounding of the state that was written, through the loop, and of its norm
+                    // rounding of the written state, through the loop
                     assert!((a - b).abs() < 1e-11 * size, "{failure} {field:?} {i} {k}: {a} {b}");
                 }
             }
@@ -217,12 +217,9 @@ fn a_thruster_that_is_stuck_on_burns_propellant() {
     let healthy = run(&held(), 0);
     let fired = value(&failed, "propellant_kg");
     let before = value(&healthy, "propellant_kg");
-    // F t/(Isp g0), and what was fired before
     let stuck = 0.05 * 49.9 / (200.0 * 9.80665);
-    assert!(
-        fired >= stuck * (1.0 - 1e-12) && fired <= before + stuck * (1.0 + 1e-12),
-        "{fired} for {stuck} and {before}"
-    );
+    let range = stuck * (1.0 - 1e-12)..=before + stuck * (1.0 + 1e-12);
+    assert!(range.contains(&fired), "{fired} for {stuck} and {before}");
 }
 
 #[test]
@@ -232,26 +229,17 @@ fn the_row_says_what_has_failed() {
     let plan = plan(&text);
     let ensemble = Ensemble::new(&plan, Isa::best());
     let mut rows = ensemble.rows(20);
-    ensemble.worker().run(
-        Part { id: PartId(0), first: SampleId(0), count: 20 },
-        &mut rows,
-        Supervision::progress(&|_| {}),
-    );
+    let part = Part { id: PartId(0), first: SampleId(0), count: 20 };
+    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
     let columns = ensemble.request().columns();
     let place = |name: &str| columns.iter().position(|column| column.quantity.name() == name).expect(name);
-    let drawn = plan
-        .dispersions
-        .columns()
-        .iter()
-        .position(|column| column.parameter.name() == "failure.dead.at_s")
-        .expect("drawn");
+    let mut columns_of_draws = plan.dispersions.columns().iter();
+    let drawn = columns_of_draws.position(|column| column.parameter.name() == "failure.dead.at_s").expect("drawn");
     let mut happened = 0;
     for sample in 0..20_usize {
         let at = rows.parameter(drawn)[sample];
-        let (time, said) = (
-            rows.observable(place("failure_dead_time_s"))[sample],
-            rows.observable(place("failure_dead_happened"))[sample],
-        );
+        let [time, said] =
+            ["failure_dead_time_s", "failure_dead_happened"].map(|name| rows.observable(place(name))[sample]);
         assert_eq!(said, f64::from(u8::from(at < 80.0)));
         assert!(if at < 80.0 { time == at } else { time.is_nan() }, "{at} {time}");
         happened += u32::from(said == 1.0);
@@ -279,15 +267,14 @@ fn loops_fly_on_without_a_sensor() {
     ] {
         assert!(of(failure).is_finite(), "{failure}");
     }
-    // what the filter takes of the tracker's bias grows to all of it
+    // the bias that the filter takes from the tracker grows to all of it
     let biased = of("sensor = \"tracker\"\nbias_rad = [0.0, 0.0, 0.01]");
     assert!(healthy < 1e-3 && (2e-3..2e-2).contains(&biased), "{healthy} {biased}");
     let frozen = of("sensor = \"tracker\"\noutput = \"frozen\"");
     assert!(frozen.is_finite());
 }
 
-/// Law: a torque rod that is dead from the start is one of the scale zero, and one that is stuck is a part of the
-/// residual dipole.
+/// Law: a dead torque rod has the scale zero, and a stuck one is a part of the residual dipole.
 #[test]
 fn a_torque_rod_fails() {
     let shipped = include_str!("../../campaigns/detumble_magnetic.toml").replace("110 min", "30 min");
@@ -304,7 +291,7 @@ fn a_torque_rod_fails() {
     let (stuck, residual) = (failed(0.0, 0.2), run(&residual, 0));
     let rate = |run: &SingleRun| run.table.at::<3>(StateField::Rate, points - 1);
     let apart = |a: [f64; 3], b: [f64; 3]| (0..3).fold(0.0_f64, |most, i| most.max((a[i] - b[i]).abs()));
-    // ticks of b-dot multiply what the sum of two dipoles is rounded by
+    // ticks of b-dot multiply the rounding of the sum of two dipoles
     assert!(apart(rate(&stuck), rate(&residual)) < 1e-9, "{:?} {:?}", rate(&stuck), rate(&residual));
     assert!(apart(rate(&stuck), rate(&healthy)) > 1e-3);
     // a point every 16.4 s, a tick every 5 s

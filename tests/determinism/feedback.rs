@@ -1,5 +1,4 @@
-//! Runs under laws of their own: bits do not depend on lanes, other runs, order, instruction set or threads, and the
-//! record of the arcs flown gives the same run again.
+//! Runs under laws: bits do not depend on company, order, instruction set or threads, and the record of arcs replays.
 
 use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law};
 use crate::support::observed::request;
@@ -13,7 +12,6 @@ use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::Grid;
 use spindrift::scene::{Actuated, Arc, Scene, WheelMode};
 
-/// s.
 const HORIZON: f64 = 3.1;
 
 fn settings(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
@@ -25,8 +23,7 @@ fn bits(flights: &[Flight]) -> Vec<Bits> {
     flights.iter().map(|flight| flight.run.bits()).collect()
 }
 
-/// Law: a run under feedback is the same bits alone, together with others, in any order, on every instruction set, and
-/// on two threads.
+/// Law: a run under feedback has the same bits alone, with others, in any order and on every instruction set.
 #[test]
 fn bits_are_a_run_s_own() {
     for (method, control) in METHODS {
@@ -70,13 +67,11 @@ fn the_environment_acts_beside_a_law() {
     }
 }
 
-/// Law: arcs much shorter than a step, of another length and order in every lane, beside lanes with longer ones and
-/// with nothing that acts.
+/// Law: so has one of arcs much shorter than a step, beside lanes with longer ones and idle ones.
 #[test]
 fn bits_of_brief_arcs_are_a_run_s_own() {
     let mut scenes = mixed(13, false, HORIZON);
     for (k, scene) in scenes.iter_mut().enumerate() {
-        // from almost at rest to some rad/s
         let slower = (-2.0 * (k % 6) as f64).exp2();
         scene.initial.omega_se_s = scene.initial.omega_se_s.map(|rate| slower * rate);
         scene.initial.wheel_rates = scene.initial.wheel_rates.map(|rate| slower * rate);
@@ -108,14 +103,13 @@ fn bits_of_brief_arcs_are_a_run_s_own() {
     }
 }
 
-/// A law, with a motor torque of its own on some wheels.
+/// A law with a torque of its own on some wheels.
 struct Pushing<L>(L, Vec<bool>, f64);
 
 impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         let mut answer = self.0.arc(time, body, wheels);
         for (index, torque) in answer.motor_torque.iter_mut().enumerate() {
-            // a place where there is no wheel is pushed too
             if self.1.get(index).is_none_or(|is_pushed| *is_pushed) {
                 *torque = self.2;
             }
@@ -148,7 +142,7 @@ fn a_torque_on_a_held_wheel_changes_no_bit() {
     }
 }
 
-/// What an observer is told of a run: whether its arcs are those flown, or those of the scene's schedule.
+/// Observes a run with the arcs flown, or with those of the schedule.
 type Observe = fn(&mut Observer, Isa, &Scene, &CompletedRun<'_>, &mut [f64]);
 
 fn flown(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {
@@ -186,18 +180,16 @@ fn rows(
     (rows, records)
 }
 
-/// Law: on every instruction set, the columns of a run under a law are those of its record flown as an open-loop
-/// schedule, bit for bit.
+/// Law: the columns of a run under a law are those of its record flown as a schedule, bit for bit.
 #[test]
 fn columns_are_those_of_the_record_replayed() {
     for (method, control) in METHODS {
-        // a row has columns for as many wheels as its spacecraft
         let mut scenes = mixed(10, false, HORIZON);
         scenes.retain(|scene| scene.mass.wheels.len() == WHEELS.len());
         let method = (method, control);
         let (best, _) = rows(Isa::best(), method, &scenes, true, flown);
         let closed: Vec<_> = Isa::available().into_iter().map(|isa| rows(isa, method, &scenes, true, flown)).collect();
-        // an observer that reads the schedule of the scene takes the run for a free one
+        // an observer of the schedule takes the run for a free one
         let (mistaken, _) = rows(Isa::best(), method, &scenes, true, scheduled);
         for (run, (a, b)) in mistaken.iter().zip(&best).enumerate() {
             assert!(a != b, "{}: run {run} has the same row", method.0.name());

@@ -1,5 +1,4 @@
-//! Flight code in WebAssembly modules: rows are those of the built-in law of the same operations, and functions of plan
-//! and sample as all others.
+//! Flight code in WebAssembly modules has the rows of the built-in law of the same operations.
 
 use std::path::PathBuf;
 
@@ -27,7 +26,6 @@ fn example(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/flight_code").join(file)
 }
 
-/// A module of interface 2, with measurements and telemetry.
 const LATER: &str = "gyro_feedback.wasm";
 
 fn later() -> String {
@@ -50,8 +48,8 @@ fn built_in() -> String {
     CAMPAIGN.replace("law = \"module\"", "law = \"mrp_feedback\"").replace("module = \"mrp_feedback_c.wasm\"\n", "")
 }
 
-/// Law: modules from C and from Rust that compute what the built-in law computes give its rows, bit for bit, with a
-/// memory, in two phases, and with a dispersed parameter.
+/// Law: modules from C and Rust that compute the built-in law give its rows, bit for bit, with a memory, in two phases,
+/// and with a dispersed parameter.
 #[test]
 fn modules_have_the_bits_of_the_built_in_law() {
     let folder = folder("flight-code-bits");
@@ -199,12 +197,11 @@ fn runs_end_with_the_reason_of_their_module() {
         [constant(OUTPUT), number, vec![0x39, 3, 0, 0x0b]].concat()
     };
     let after = |seconds: f64, code: &[u8]| {
-        // if time >= seconds
         let time = [constant(INPUT), vec![0x2b, 3, 0, 0x44], seconds.to_le_bytes().to_vec(), vec![0x66]].concat();
         [time, vec![0x04, 0x40], code.to_vec(), vec![0x0b, 0x0b]].concat()
     };
     let endless: &[u8] = &[0x03, 0x40, 0x0c, 0, 0x0b, 0x0b];
-    // grows its memory page by page until it is refused, and goes on
+    // grows its memory page by page until refused
     let growing: &[u8] = &[0x03, 0x40, 0x41, 1, 0x40, 0, 0x1a, 0x0c, 0, 0x0b, 0x0b];
     let [trap, fuel, diverged] = [Failure::ModuleTrap, Failure::ModuleFuel, Failure::Diverged];
     let cases: [(&str, Vec<u8>, Failure, f64); 10] = [
@@ -243,7 +240,7 @@ fn modules_that_cannot_fly_are_refused() {
         [sound.bytes(), vec![0], filling].concat()
     };
     let nested = |depth| [[0x02, 0x40].repeat(depth), vec![0x0b; depth + 1]].concat();
-    // i32.const 0, br_table of so many targets and a default
+    // i32.const 0, br_table
     let branches = |count: usize| [vec![0x41, 0, 0x0e], size(count), vec![0; count + 1], vec![0x0b]].concat();
     let component = b"\0asm\x0d\0\x01\0".to_vec();
     let truncated = sound.bytes()[..60].to_vec();

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::assembled_module::section;
 use super::flight_code::{CAMPAIGN, without_own_keys};
 use super::whole_rows::{bits, rows};
+use crate::support::scenes::Uniform;
 use crate::support::scratch_folder::ScratchFolder;
 use rustix::time::{ClockId, clock_gettime};
 use spindrift::campaign::{Overrides, Plan};
@@ -13,19 +14,15 @@ use spindrift::run::Status;
 
 const SEED: u64 = 20_261_126;
 const MODULES: u64 = 250;
-/// Most time on the processor that a module may take to be compiled and to fly twice, s: several times the slowest that
-/// was found.
+/// CPU time in which a module must be compiled and fly twice, s.
 const MOST_CPU: f64 = 30.0;
 
-/// Numbers at random, the same on every machine: `SplitMix64` (G. Steele, D. Lea & C. Flood, 2014).
-struct Numbers(u64);
+/// Numbers at random.
+struct Numbers(Uniform);
 
 impl Numbers {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     fn below(&mut self, end: usize) -> usize {
@@ -103,13 +100,13 @@ fn damaged(numbers: &mut Numbers, mut whole: Vec<u8>, shipped: &[Vec<u8>]) -> Ve
             }
             9 => drop(whole.drain(some_section(numbers, &places))),
             10 => {
-                // a section of another module in the place of one
+                // a section of another module
                 let other = &shipped[numbers.below(shipped.len())];
                 let taken = other[some_section(numbers, &sections(other))].to_vec();
                 whole.splice(some_section(numbers, &places), taken);
             }
             _ => {
-                // two sections change places
+                // two sections swapped
                 let [one, two] = [0; 2].map(|_| some_section(numbers, &places));
                 let (first, second) = if one.start < two.start { (one, two) } else { (two, one) };
                 let between = whole[first.end.min(second.start)..second.start].to_vec();
@@ -161,8 +158,8 @@ fn modules_at_random_are_refused_or_fly() {
     let plain = without_own_keys(&short);
     let mut outcomes: BTreeMap<(&str, bool), u32> = BTreeMap::new();
     for number in 0..MODULES {
-        let mut numbers =
-            Numbers(SEED.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let seed = SEED.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d);
+        let mut numbers = Numbers(Uniform::new(seed));
         let (kind, text, bytes) = match numbers.below(10) {
             0 => ("bytes", &plain, at_random(&mut numbers)),
             _ => {

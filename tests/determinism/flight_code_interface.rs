@@ -1,4 +1,4 @@
-//! What interface 2 of flight code has beside interface 1.
+//! Interface 2 of flight code: measurements and telemetry.
 
 use super::assembled_module::{Assembled, INPUT, MEASURED, REPORTED, constant, copied};
 use super::flight_code::{plan_in, with};
@@ -27,13 +27,12 @@ fn of_row(run: &SingleRun, name: &str) -> f64 {
         [columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("no column {name}"))]
 }
 
-/// Law: a module is told of each sensor that it wants what this one has delivered last, in the order of its columns of
-/// telemetry, and how long ago that was measured.
+/// Law: a module gets the last delivery of each sensor that it wants, in the order of telemetry columns, and its age.
 #[test]
 fn measurements_are_what_sensors_have_delivered_last() {
     let folder = ScratchFolder::new("flight-code-measurements");
     let sensors = "tracker | star_tracker\ntachometers | tachometers\n\ngyro | rate_gyro\n";
-    // 13 numbers of each sensor; all of the tracker, which are 5 and a zero, and 4 of each of the others
+    // 13 numbers of each sensor: all of the tracker, and 4 of each of the others
     let [tracker, tachometers, gyro] = [0, 13, 26].map(|first| MEASURED + 8 * first);
     let parts = [
         copied(tracker, REPORTED, 6),
@@ -43,7 +42,7 @@ fn measurements_are_what_sensors_have_delivered_last() {
     ];
     let text: String = (0..14).map(|k| format!("n{k} | 1 | Number {k}\n")).collect();
     let module = module(sensors, String::leak(text), &parts.concat());
-    // sensors of three periods, in a loop of 0.25 s: the gyro measures twice a period
+    // sensors of three periods; the gyro measures twice a control period
     let campaign =
         with(&folder, &module.bytes()).replace("kind = \"rate_gyro\"", "kind = \"rate_gyro\"\nperiod_s = 0.125");
     let plan = plan_in(&folder, &campaign.replace("kind = \"tachometers\"", "kind = \"tachometers\"\nperiod_s = 1.0"));
@@ -79,8 +78,8 @@ fn measurements_are_what_sensors_have_delivered_last() {
     assert_eq!(recorded(&run, "module_n0")[..5], [-1.0, 0.25, 0.5, 0.25, 0.5]);
 }
 
-/// Law: telemetry is a column of time series at each tick, and two of rows: what was reported last, and the largest
-/// magnitude, with the unit and the meaning that the module says; `[[require]]` knows them.
+/// Law: telemetry is a column of time series, and two of rows: the last value and the largest magnitude, with the
+/// module's unit and meaning, for `[[require]]` too.
 #[test]
 fn telemetry_is_columns() {
     let folder = ScratchFolder::new("flight-code-telemetry");
@@ -95,7 +94,7 @@ fn telemetry_is_columns() {
     for axis in ["x", "y", "z"] {
         let told = recorded(&run, &format!("module_{axis}_rad_s"));
         assert_eq!(told, recorded(&run, &format!("estimated_omega_se_s_{axis}_rad_s")));
-        // the tick at the end of a run is no tick of its columns
+        // the tick at the end of a run is not in its columns
         let judged = &told[..told.len() - 1];
         assert_eq!(of_row(&run, &format!("module_{axis}_final_rad_s")), judged[judged.len() - 1]);
         let most = judged.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
@@ -110,14 +109,13 @@ fn telemetry_is_columns() {
     assert!(names(&none).iter().all(|name| !name.starts_with("module_")));
 }
 
-/// Law: telemetry that is no finite number is null where it stands, in the largest magnitude for the whole run, and in
-/// the last value where it is the last.
+/// Law: telemetry that is not finite is null where it stands, in the largest magnitude, and as the last value.
 #[test]
 fn telemetry_that_is_not_finite_is_null() {
     let folder = ScratchFolder::new("flight-code-telemetry-null");
     let number = |value: f64| [vec![0x44], value.to_le_bytes().to_vec()].concat();
     let time = [constant(INPUT), vec![0x2b, 3, 0]].concat();
-    // reports the time, and from 2 s to 3 s, or from 2 s on, another number
+    // reports the time, and from 2 s on another number
     let step = |value: f64, end: f64, then: &[u8]| {
         let is_between = [time.clone(), number(2.0), vec![0x66], time.clone(), number(end), vec![0x63, 0x71]].concat();
         let otherwise =

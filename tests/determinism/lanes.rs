@@ -1,4 +1,4 @@
-//! The bits of a run depend on nothing else: not on other runs, order, lane or instruction set.
+//! The bits of a run do not depend on other runs, order, lane or instruction set.
 
 use crate::support::orbits::tumbling;
 use crate::support::runs::{Bits, METHODS, Run, adaptive, control_of, everything, hash, propagate_on};
@@ -11,7 +11,6 @@ use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::{Grid, LocalErrors, StateField};
 use spindrift::scene::Scene;
 
-/// Horizon, s: some periods of most scenes, less than one of a few.
 const HORIZON: f64 = 6.0;
 
 fn plan(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
@@ -21,7 +20,7 @@ fn plan(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettin
 fn plan_until(horizon: f64, method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
     let settings =
         PropagationSettings::new(method, control, Grid::uniform(horizon, 29), everything(method), &scenes[0]);
-    // a table with columns for what any of the scenes has
+    // columns for everything that any of the scenes has
     PropagationSettings {
         wheels: scenes.iter().map(|scene| scene.mass.wheels.len()).max().expect("there are scenes"),
         thrust: scenes.iter().any(|scene| scene.commands_thrust),
@@ -30,7 +29,7 @@ fn plan_until(horizon: f64, method: Method, control: Control, scenes: &[Scene]) 
     }
 }
 
-/// The bits of a run, and what its method estimates of its errors.
+/// The bits of a run and its estimated errors.
 type Whole = (Bits, LocalErrors, LocalErrors);
 
 fn whole(run: &Run) -> Whole {
@@ -57,18 +56,15 @@ fn equal_among_runs_of(horizon: f64, method: Method, control: Control, scenes: &
             let backwards: Vec<Scene> = scenes.iter().rev().cloned().collect();
             assert!(wholes(&propagate_on(isa, &plan, &backwards)).iter().rev().eq(&alone), "{what}, backwards");
         }
-        // a second batch in the same engine does not depend on the first
+        // a second batch in the same engine
         let mut engine = plan.engine(Isa::best());
         engine.propagate(&scenes[10..], &mut |_| {});
         let mut found = vec![None; 10];
         engine.propagate(&scenes[..10], &mut |CompletedRun { index, table, outcome, .. }| {
             found[index] = Some(whole(&Run { table: table.clone(), outcome: *outcome }));
         });
-        assert!(
-            found.into_iter().flatten().eq(alone[..10].iter().cloned()),
-            "{}, second batch, forced: {forced}",
-            method.name()
-        );
+        let what = format!("{}, second batch, forced: {forced}", method.name());
+        assert!(found.into_iter().flatten().eq(alone[..10].iter().cloned()), "{what}");
     }
 }
 
@@ -83,11 +79,11 @@ fn bits_do_not_depend_on_other_runs() {
 fn many_wheels_among_any_runs() {
     let scenes = |forced: bool| -> Vec<Scene> {
         let input = |k: u64| many_wheels([8, 4, 3, 1, 0][(k % 5) as usize], k, forced, HORIZON);
-        // eight lanes, and five runs that take the place of others
+        // eight lanes, and five runs that follow
         (0..13).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
     };
     METHODS.par_iter().filter(|(method, _)| !method.has_fixed_step()).for_each(|(method, control)| {
-        // a second of the null-space method with eight wheels takes longer than a hundred of the others
+        // with eight wheels the null-space method is slow
         let horizon = if *method == Method::NullSpace { 1.0 } else { HORIZON };
         equal_among_runs_of(horizon, *method, *control, &scenes);
     });
@@ -131,10 +127,8 @@ fn runs_that_fail_beside_runs_that_do_not() {
 
 /// SHA-256 of outcome and states of sixteen fixed scenes, without and with actuators.
 ///
-/// They may change where the arithmetic of a method changes on purpose: another order of operations, step rule, dense
-/// output, or a component more in the table. Then the new ones (printed by this test) are committed together with that
-/// change, and its message says why. They may not change with the machine, the compiler, the instruction set, the
-/// number of threads, an optimisation that claims to keep the bits, or a new version of a dependency.
+/// A deliberate change of a method's arithmetic commits new ones (printed by this test) with its reason. Machine,
+/// compiler, instruction set, threads and dependencies must not change them.
 const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
@@ -179,7 +173,7 @@ fn golden_bits(run: &Run, k: u64, forced: bool) -> Bits {
     assert_eq!(table.wheels(), 2, "the first scene, which makes the table, has both wheels");
     let mut bits = run.outcome_bits();
     for block in StateField::ALL.into_iter().filter(|block| table.fields().contains(*block)) {
-        // the wheels' components follow this many others; none in blocks that are not of wheels
+        // the wheels' components follow these; none in blocks without wheels
         let before = match block {
             StateField::WheelRates | StateField::WheelAngles => 0,
             StateField::KineticEnergies => 1,

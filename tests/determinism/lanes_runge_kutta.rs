@@ -1,5 +1,4 @@
-//! Lane i of eight equals the scalar run bit for bit, on every path, whatever runs are in other lanes or came before
-//! it.
+//! Lane i of eight equals the scalar run bit for bit, whatever runs are in other lanes or came before.
 
 use std::collections::HashSet;
 
@@ -10,7 +9,7 @@ use spindrift::run::{Grid, Status};
 
 const HORIZON: f64 = 6.0;
 
-/// Three-body runs of very different length and outcome, with arcs of their own.
+/// Three-body runs of very different lengths and outcomes.
 fn cases() -> Vec<Case<4, 1>> {
     (0..29)
         .map(|run| {
@@ -41,7 +40,6 @@ fn equal<M: LaneMethod, L: Law<N, 1>, const N: usize>(method: M, law: L, cases: 
     for isa in Isa::available() {
         assert!(found(isa, cases) == truth, "{}", isa.name());
     }
-    // other neighbours, other lanes; fewer runs than lanes
     let backwards: Vec<_> = cases.iter().rev().cloned().collect();
     assert!(found(Isa::best(), &backwards).iter().rev().eq(&truth) && found(Isa::best(), &cases[..3]) == truth[..3]);
 }
@@ -59,7 +57,7 @@ fn lanes_are_scalar_runs() {
     equal_in_all_lanes(Fixed(GaussLegendre), &control);
 }
 
-/// Law: the same where steps end at switches, in each lane at its own, and some lanes have none.
+/// Law: so it does where steps end at switches, in each lane at its own.
 #[test]
 fn lanes_switch_apart_from_each_other() {
     let case = |run: u32| {
@@ -78,7 +76,6 @@ fn lanes_switch_apart_from_each_other() {
 
 #[test]
 fn runs_that_fail_beside_runs_that_do_not() {
-    // half of them: the median of the attempts that they need
     let of =
         |control: &Control| scalar(Adaptive(DormandPrince), ThreeBody, &cases(), &Grid::uniform(HORIZON, 45), control);
     let whole = of(&bounded(100_000));

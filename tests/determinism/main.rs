@@ -1,5 +1,4 @@
-//! A row is a pure function of plan and sample: threads, order, lanes, instruction sets, skipped parts and time change
-//! no bit.
+//! A row is a pure function of plan and sample.
 
 #![allow(clippy::disallowed_methods)] // digits of no row: the elementary functions of the platform will do
 

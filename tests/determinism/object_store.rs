@@ -1,6 +1,5 @@
-//! Results in an object store: the bytes of a folder, whatever stops a process and however many there are; nothing is
-//! replaced, and nothing that is not whole looks whole. The store is a real server ([`super::store_proxy`]), which
-//! `.ci/cloud` starts.
+//! Results in an object store: the bytes of a folder, whatever stops a process; nothing is replaced, and nothing that is
+//! not whole looks whole. `.ci/cloud` starts the server ([`super::store_proxy`]).
 
 use std::process::{Command, Stdio};
 
@@ -9,8 +8,8 @@ use super::store_proxy::{Fate, Message, Proxy};
 use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::scratch_folder::contents;
 
-/// Law: a store has the files of a folder, byte for byte, each put on the condition that there is none; on another
-/// machine every command that reads a result finds it there, and the campaign finds it complete and puts nothing.
+/// Law: a store has the files of a folder, each put if absent; every command on another machine finds them there, and
+/// the campaign puts nothing again.
 #[test]
 fn a_store_has_the_files_of_a_folder() {
     let bench = Bench::new("same");
@@ -25,7 +24,7 @@ fn a_store_has_the_files_of_a_folder() {
     for kind in ["trajectories/", "data/", "report.html", "runs/part-000002"] {
         assert!(found.keys().any(|name| name.starts_with(kind)), "{kind}");
     }
-    // first whose rows these are, then what the plan names, then the plan; last the mark
+    // first the identity of the rows, then the plan with its data; last the mark
     let puts: Vec<String> = proxy.requests().into_iter().filter(|request| request.starts_with("PUT")).collect();
     let at = |object: &str| puts.iter().position(|put| put.contains(object)).expect("a put");
     assert_eq!([HEAD_OBJECT, "/data/", "plan.toml"].map(at), [0, 1, 2], "{puts:?}");
@@ -50,8 +49,7 @@ fn a_store_has_the_files_of_a_folder() {
     }));
 }
 
-/// Law: shards on machines of their own and a finish on another give the same objects; one that was not all made is
-/// unfinished.
+/// Law: shards on machines of their own and a finish on another give the same objects.
 #[test]
 fn shards_meet_in_a_store() {
     let bench = Bench::new("shards");
@@ -66,14 +64,13 @@ fn shards_meet_in_a_store() {
     assert!(bench.prints("verify s3:x", 5).contains("not finished"));
     bench.prints("finish s3:x", 0);
     assert_whole(&bench.objects("x"), &whole, "shards");
-    // the counter-test: no shard ran what the other had put
+    // counter-test: no shard runs the other's parts
     let proxy = Proxy::new(|_, _: &Message| Fate::Passed);
     assert_eq!(bench.behind(&proxy, "campaign stored.toml --shard 1/2 --out s3:x"), Some(0));
     assert!(proxy.requests().iter().all(|request| request.starts_with("GET")));
 }
 
-/// Law: a process that is killed at any request, before the store sees it or before its answer, leaves nothing that
-/// looks whole and is not; the same command makes the whole result of the same bytes.
+/// Law: a process killed at any request leaves nothing that only looks whole; the same command completes it.
 #[test]
 fn a_kill_at_every_request_changes_no_byte() {
     let bench = Bench::new("kills");
@@ -91,7 +88,7 @@ fn a_kill_at_every_request_changes_no_byte() {
                 assert_whole(&found, &whole, &prefix);
             } else {
                 assert!(ended.is_none(), "{prefix}");
-                // 5: what is there is sound; 4: it has no plan yet; 2: there is no result yet
+                // sound, without a plan, or no result yet
                 let code = match (found.contains_key("plan.toml"), found.contains_key(HEAD_OBJECT)) {
                     (true, _) => 5,
                     (false, true) => 4,
@@ -108,13 +105,11 @@ fn a_kill_at_every_request_changes_no_byte() {
             assert_whole(&bench.objects(&prefix), &whole, &prefix);
         }
     }
-    println!("{killed} kills");
     assert!(killed > 50, "{killed}");
 }
 
-/// Law: a shard that ends with 0 has put all its parts, whatever request it was killed at before; and a campaign with
-/// `[stop]`, whose last part gets further rows after each look, puts no part that is not final: the result is that of a
-/// folder.
+/// Law: a shard that ends with 0 has put all its parts, whatever killed it before; a campaign with `[stop]` puts no part
+/// that is not final.
 #[test]
 fn parts_are_put_once_they_are_final() {
     let bench = Bench::new("final");
@@ -142,10 +137,9 @@ fn parts_are_put_once_they_are_final() {
 
     let design = HEAD.split("[design]").next().expect("a campaign").replace("seed = 7", "seed = 7\nsamples = 300");
     let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 1200\n";
-    bench
-        .scratch
-        .file("stop.toml", &[&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat());
-    // 5: it does not become so precise
+    let text = [&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat();
+    bench.scratch.file("stop.toml", &text);
+    // 5: the precision is not reached
     bench.prints("campaign stop.toml --no-report --out stopped", 5);
     let whole = contents(&bench.scratch.path("stopped"));
     for at in (0..).step_by(4) {
@@ -160,8 +154,7 @@ fn parts_are_put_once_they_are_final() {
     }
 }
 
-/// Law: of processes that make the same at the same time all succeed, with one result; another plan, or another content
-/// under a name, is refused by name, and what was there first stays.
+/// Law: processes that make the same at the same time all succeed; another plan or content is refused by name.
 #[test]
 fn the_first_content_stays() {
     let bench = Bench::new("writers");
@@ -180,7 +173,7 @@ fn the_first_content_stays() {
     let said = bench.prints("campaign stored.toml --seed 8 --set campaign.duration_s=2 --out s3:x", 4);
     let named = ["another plan", "campaign.seed: 7 there, 8 here", "campaign.duration_s", "choose another --out"];
     assert!(named.iter().all(|part| said.contains(part)), "{said}");
-    // a question that changes no row is another plan, too
+    // a change without new rows is another plan, too
     let said = bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", 4);
     assert!(said.contains("campaign.description"), "{said}");
     assert!(bench.objects("x") == found);
@@ -198,8 +191,7 @@ fn the_first_content_stays() {
     }
 }
 
-/// Law: whatever object is changed or missing, `verify` and commands that read it name it; once what has changed is
-/// removed, the campaign's command puts the same bytes again.
+/// Law: `verify` and commands that read it name any changed or missing object; the campaign's command puts it again.
 #[test]
 fn every_damaged_object_is_found() {
     let bench = Bench::new("damage");
@@ -221,22 +213,21 @@ fn every_damaged_object_is_found() {
         bench.prints(campaign, 0);
         assert_whole(&bench.objects("x"), &whole, name);
     }
-    // of a result that is not finished, too
+    // so in an unfinished result
     for name in [SUCCESS, "manifest.json", "runs/part-000001.parquet"] {
         bench.remove(&format!("x/{name}"));
     }
     assert!(bench.prints("verify s3:x", 5).contains("1 part not made yet"));
     bench.prints(campaign, 0);
     assert_whole(&bench.objects("x"), &whole, "unfinished");
-    // the mark has no content that could change
     bench.remove(&format!("x/{SUCCESS}"));
     assert!(bench.prints("verify s3:x", 5).contains("not finished"));
     bench.prints("finish s3:x", 0);
     assert_whole(&bench.objects("x"), &whole, SUCCESS);
 }
 
-/// Law: 409 and 503 are tried again, and an answer that was lost is looked up; a store that never takes an object is
-/// given up with its name.
+/// Law: 409 and 503 are tried again, and a lost answer is looked up; a store that never takes an object is given up with
+/// its name.
 #[test]
 fn what_a_store_refuses_for_a_moment_is_tried_again() {
     let bench = Bench::new("again");
@@ -271,7 +262,7 @@ fn what_a_store_refuses_for_a_moment_is_tried_again() {
     assert_whole(&bench.objects("never"), &whole, "never");
 }
 
-/// Law: what is missing is said with its remedy, within seconds, and no message has a credential.
+/// Law: a missing setting is named with its remedy, and no message has a credential.
 #[test]
 fn what_is_missing_is_said() {
     let bench = Bench::new("missing");
@@ -315,6 +306,5 @@ fn what_is_missing_is_said() {
         says(bench.command(arguments, direct()), 2, &parts);
     }
     says(bench.command("report s3:x", direct()), 2, &["/x` has no result of spindrift"]);
-    // nothing of this has put anything
     assert!(bench.objects("x").is_empty());
 }

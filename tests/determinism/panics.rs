@@ -10,11 +10,10 @@ use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 use spindrift::scene::Scene;
 
-/// The engine of a campaign, which panics at scenes with a spin above [`TOO_FAST`], before the last run of a batch
-/// ends.
+/// An engine that panics at spins above [`TOO_FAST`], before the last run of a batch ends.
 struct Fragile(Box<dyn Engine>);
 
-/// Some 2% of the samples of the campaign spin faster, rad/s.
+/// About 2% of the samples spin faster, rad/s.
 const TOO_FAST: f64 = 34.5;
 
 fn is_too_fast(scene: &Scene) -> bool {

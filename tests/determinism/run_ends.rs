@@ -1,5 +1,4 @@
-//! Events that end runs: an ended run is the run of a campaign of that duration, and its states at the end are those of
-//! closed forms.
+//! Events that end runs: the row is that of a campaign of that duration, with the final state of closed forms.
 
 use super::whole_rows::{
     SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows, single,
@@ -12,7 +11,7 @@ use spindrift::sampling::SampleId;
 
 const ENDS: &str = "ends_run = true\n";
 
-/// Law: a run ends where s3 has left its direction by alpha, sin(alpha/2) = sin(theta) sin(Omega t/2), by every method.
+/// Law: a run ends where s3 has left its direction by alpha, sin(alpha/2) = sin(theta) sin(Omega t/2).
 #[test]
 fn a_free_body_ends_in_the_state_of_its_closed_form() {
     let (rate, angle) = precession();
@@ -39,11 +38,7 @@ fn a_free_body_ends_in_the_state_of_its_closed_form() {
                 ("omega_se_s_z_final_rad_s", 0.6),
             ] {
                 let found = found(name);
-                assert!(
-                    (found - expected).abs() <= bound,
-                    "{} {name} at {value}: {found} for {expected}",
-                    method.name()
-                );
+                assert!((found - expected).abs() <= bound, "{} {name} {value}: {found} {expected}", method.name());
             }
             assert_eq!((rows.statuses()[0], found("ended_by")), (Status::Done, 2.0), "late is 1, tipped 2");
             let counts = ["late", "tipped", "before", "never"].map(|event| found(&format!("{event}_count")));
@@ -53,8 +48,7 @@ fn a_free_body_ends_in_the_state_of_its_closed_form() {
     }
 }
 
-/// Law: the row of a run that ends at 17.5 s, where its rate 0.6 - 0.02 t falls below 0.25 rad/s, is that of a campaign
-/// of 17.5 s with the same observation points, in every column.
+/// Law: the row of a run that ends at 17.5 s is that of a campaign of 17.5 s with the same points, in every column.
 #[test]
 fn an_ended_run_is_one_of_that_duration() {
     let text = free_body("", 121, 30.0).replace("[0.3, 0.0, 0.6]", "[0.0, 0.0, 0.6]")
@@ -69,7 +63,7 @@ fn an_ended_run_is_one_of_that_duration() {
         let rows = rows(&short, Isa::best(), 0, 1);
         let of = |name: &String| {
             let [a, b] = [column(&ends, &ended, name)[0], column(&short, &rows, name)[0]];
-            // what rounding makes of nothing has no digits in common
+            // rounding of zero has no digits in common
             if a.to_bits() == b.to_bits() || a.abs().max(b.abs()) < 1e-13 {
                 0.0
             } else {
@@ -99,8 +93,7 @@ fn single_runs_end_where_their_rows_do() {
     }
 }
 
-/// Law: a control loop ends at the tick at which its quantity crosses, and reports what a campaign of that duration
-/// does, in every column.
+/// Law: a control loop ends at the tick of the crossing with the columns of a campaign of that duration.
 #[test]
 fn loops_end_as_in_a_campaign_of_that_duration() {
     let shipped = include_str!("../../campaigns/slew_closed.toml").replace("points = 181", "points = 721");
@@ -121,7 +114,7 @@ fn loops_end_as_in_a_campaign_of_that_duration() {
             let is_same = a.to_bits() == b.to_bits() || (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-15;
             (!is_same).then(|| format!("{name}: {a} and {b}"))
         };
-        // at rest, the direction of the angular momentum is one of rounding
+        // at rest, the direction of the angular momentum is rounding
         let compared = names(&short).into_iter().filter(|name| !name.starts_with("nutation_angle"));
         let wrong: Vec<String> = compared.filter_map(|name| off(&name)).collect();
         assert!(wrong.is_empty(), "sample {row} at {end} s: {wrong:#?}");

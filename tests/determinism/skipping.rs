@@ -1,4 +1,4 @@
-//! Groups that are not requested are not computed, and their absence changes no bit of the others.
+//! The absence of a group changes no bit of the others.
 
 use crate::support::observed::request;
 use crate::support::runs::{Bits, adaptive, blocks, control_of, everything, propagate_on};
@@ -11,7 +11,6 @@ use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::{Grid, StateField, StateFields};
 use spindrift::scene::Scene;
 
-/// Horizon, s.
 const HORIZON: f64 = 6.0;
 
 fn requests(method: Method) -> Vec<StateFields> {

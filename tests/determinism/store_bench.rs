@@ -1,4 +1,4 @@
-//! What the tests of object stores do: a campaign, machines that run it, and what the store has to have then.
+//! The campaign of the tests of object stores, and its machines.
 
 use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use super::store_proxy::{Proxy, asked, objects, server};
 use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, WHEEL1, WHEEL2};
 use crate::support::scratch_folder::{ScratchFolder, contents};
 
-/// Six hundred samples, which are three parts, from a table; with bands and two retained runs.
+/// Three parts from a table, with bands and two retained runs.
 pub const HEAD: &str = r#"
 [campaign]
 name = "stored"
@@ -26,13 +26,12 @@ trajectories = "worst:2 by energy_error_max"
 "#;
 pub const HEAD_OBJECT: &str = "dataset.json";
 pub const SUCCESS: &str = "_SUCCESS";
-/// What no message and no file has.
+/// Credentials that no message and no file may show.
 pub const SECRET: &str = "a-secret-that-nobody-reads";
 pub const KEY: &str = "AKIAKEYOFNOBODY";
 
 pub type Objects = BTreeMap<String, Vec<u8>>;
 
-/// A folder with the campaign as `stored.toml`, and a bucket of its own.
 pub struct Bench {
     pub scratch: ScratchFolder,
     pub bucket: String,
@@ -50,7 +49,7 @@ impl Bench {
         Bench { scratch, bucket }
     }
 
-    /// The program, which finds the store at `port`; `s3:x` is the address of `x` in the bucket.
+    /// The program with the store at `port`; `s3:x` is `x` in the bucket.
     pub fn command(&self, arguments: &str, port: u16) -> Command {
         let bucket = format!("s3://{}/", self.bucket);
         let arguments =
@@ -67,14 +66,13 @@ impl Bench {
         command
     }
 
-    /// Runs it without a proxy and checks its exit code; what it prints.
     pub fn prints(&self, arguments: &str, code: i32) -> String {
         let said = self.scratch.outputs(&mut self.command(arguments, direct()), code);
         assert!(!said.contains(SECRET) && !said.contains(KEY), "{said}");
         said
     }
 
-    /// Runs it behind `proxy`; its exit code, `None` where it was killed.
+    /// The exit code behind `proxy`, `None` if killed.
     pub fn behind(&self, proxy: &Proxy, arguments: &str) -> Option<i32> {
         let mut command = self.command(arguments, proxy.port);
         proxy.watch(command.stdout(Stdio::null()).stderr(Stdio::null()))
@@ -84,7 +82,7 @@ impl Bench {
         objects(&self.bucket, prefix)
     }
 
-    /// The files of the result that a folder has: what the store has to have.
+    /// The files of the result in a folder.
     pub fn whole(&self, options: &str) -> Objects {
         self.prints(&format!("campaign stored.toml --out whole {options}"), 0);
         contents(&self.scratch.path("whole"))
@@ -103,7 +101,6 @@ pub fn direct() -> u16 {
     server().rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port")
 }
 
-/// Checks that the store has the files `whole`, byte for byte.
 pub fn assert_whole(found: &Objects, whole: &Objects, what: &str) {
     assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>(), "{what}");
     for (name, bytes) in whole {

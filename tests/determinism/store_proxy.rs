@@ -1,5 +1,4 @@
-//! The S3 server of the tests, spoken to directly, and a proxy before it that counts requests, answers in its place,
-//! loses answers, or kills a process at a request.
+//! The S3 server of the tests, and a proxy that counts requests, answers itself, loses answers, or kills a process.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -7,9 +6,9 @@ use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The variable that says where the server listens, as `127.0.0.1:5000`.
+/// The variable with the server's address, as `127.0.0.1:5000`.
 const SERVER: &str = "SPINDRIFT_S3";
-/// Any signature is as good as another to a server of tests.
+/// Servers of tests take any signature.
 const SIGNED: &str =
     "AWS4-HMAC-SHA256 Credential=tests/20260101/us-east-1/s3/aws4_request, SignedHeaders=host, Signature=0";
 
@@ -18,7 +17,6 @@ pub fn server() -> String {
         .unwrap_or_else(|_| panic!("{SERVER} is not set: these tests need an S3 server; run .ci/cloud"))
 }
 
-/// A request or an answer: its first line and headers, and its body.
 #[derive(Clone, Debug)]
 pub struct Message {
     pub head: String,
@@ -90,21 +88,20 @@ pub fn objects(bucket: &str, prefix: &str) -> BTreeMap<String, Vec<u8>> {
     names.map(read).collect()
 }
 
-/// What happens to a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fate {
     Passed,
     /// The answer is lost.
     Lost,
-    /// It is answered with this status and body, and the server does not see it.
+    /// Answered without the server.
     Answered(u16, &'static str),
-    /// The process is killed before the server sees it.
+    /// The process is killed before the server sees the request.
     KilledBefore,
-    /// The process is killed once the server has done it, before the answer.
+    /// The process is killed before the server's answer.
     KilledAfter,
 }
 
-/// Decides on a request: its number, counted from 0, and what it is.
+/// Decides on a request by its number, from 0.
 type Rule = Box<dyn FnMut(usize, &Message) -> Fate + Send>;
 
 struct State {
@@ -113,7 +110,6 @@ struct State {
     victim: Option<Child>,
 }
 
-/// A proxy before the server.
 #[derive(Clone)]
 pub struct Proxy {
     state: Arc<Mutex<State>>,
@@ -146,7 +142,7 @@ impl Proxy {
 
     pub fn watch(&self, command: &mut Command) -> Option<i32> {
         {
-            // no request is seen before it is known who is to be killed
+            // the victim is known before its first request
             let mut state = self.state();
             state.victim = Some(command.spawn().expect("a process"));
         }

@@ -1,5 +1,4 @@
-//! Runs that reach the surface of the central body: the time is that of Kepler's equation, by every method, whatever
-//! the points.
+//! Runs that reach the surface of the central body, at the time of Kepler's equation.
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::ensemble::SingleRun;
@@ -32,27 +31,26 @@ fn flown(text: &str) -> SingleRun {
     SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("a physical scene")
 }
 
-/// Position and velocity at the last point.
 fn last(run: &SingleRun) -> [[f64; 3]; 2] {
     let last = run.grid.points() - 1;
     [StateField::ComPosition, StateField::ComVelocity].map(|field| run.table.at(field, last))
 }
 
-/// The time after which a body on a two-body orbit is at the distance `distance` on its way down, s.
+/// The time of a two-body orbit down to `distance`, s.
 fn time_down([position, velocity]: [[f64; 3]; 2], distance: f64) -> f64 {
     let start = norm(position);
     let axis = 1.0 / (2.0 / start - dot(velocity, velocity) / MU);
     let (along, across) = (1.0 - start / axis, dot(position, velocity) / (MU * axis).sqrt());
     let eccentricity = along.hypot(across);
     let before = across.atan2(along);
-    // E in the second half of a turn: the distance falls
+    // E in the second half of a turn
     let after = -((1.0 - distance / axis) / eccentricity).acos();
     let mean = |anomaly: f64| anomaly - eccentricity * anomaly.sin();
     (mean(after) - mean(before)).rem_euclid(std::f64::consts::TAU) * (axis / MU).sqrt() * axis
 }
 
-/// Truth: after a burn, the time at which a two-body orbit comes down to the radius. Measured: 1e-8 s, and 4e-6 s of
-/// `runge_kutta_4` in steps of 20 s. The row has no outcome.
+/// Truth: after a burn, the time at which a two-body orbit reaches the radius. Measured: 1e-8 s, and 4e-6 s of
+/// `runge_kutta_4` in steps of 20 s.
 #[test]
 fn a_burn_ends_at_the_surface() {
     let burn = 200.0;
@@ -68,7 +66,6 @@ fn a_burn_ends_at_the_surface() {
     ] {
         let run = flown(&braking(burn, integrator, points, 3000.0));
         let found = run.outcome;
-        println!("{integrator} {points}: {} for {expected}", found.time);
         assert_eq!(found.status, Status::Surface, "{integrator} {points}: {}", run.reason);
         assert!((found.time - expected).abs() < bound, "{integrator} {points}: {} for {expected}", found.time);
         assert!(run.reason.contains("reached the surface"), "{}", run.reason);
@@ -78,8 +75,7 @@ fn a_burn_ends_at_the_surface() {
     }
 }
 
-/// Law: a pass below the surface between two points is seen, a pass above it is none: burns whose periapses are 300 m
-/// below and 300 m above, flown with three points.
+/// Law: a pass 300 m below the surface between two points is seen, and none 300 m above.
 #[test]
 fn a_pass_between_points_is_seen() {
     let periapsis = |burn: f64| {
@@ -90,7 +86,6 @@ fn a_pass_between_points_is_seen() {
         parameter / (1.0 + (1.0 - parameter / axis).sqrt())
     };
     for (above, status) in [(-300.0, Status::Surface), (300.0, Status::Done)] {
-        // secants
         let (mut before, mut burn) = (90.0, 100.0);
         let mut height = periapsis(before) - RADIUS - above;
         for _ in 0..5 {
@@ -102,9 +97,8 @@ fn a_pass_between_points_is_seen() {
     }
 }
 
-/// Law: coupled drag brings a run down to the surface, at one time whatever the points; flown to a hundredth of a
-/// second before, the body is above the surface by no more than it falls in that time. An event on the way ends the run
-/// there, and the run is `ok`.
+/// Law: coupled drag brings a run down at one time whatever the points; a hundredth of a second before, the body is above
+/// the surface. An event on the way ends the run as `ok`.
 #[test]
 fn drag_brings_a_run_down() {
     let text = |points: usize, duration: f64| {
@@ -125,7 +119,6 @@ fn drag_brings_a_run_down() {
         assert_eq!(run.outcome.status, Status::Surface, "{}", run.reason);
         run.outcome.time
     });
-    println!("{few} {many}");
     assert!((few - many).abs() < 1e-3, "{few} {many}");
     let run = flown(&text(4, few - 0.01));
     assert_eq!(run.outcome.status, Status::Done, "{}", run.reason);

@@ -1,4 +1,4 @@
-//! A row is a pure function of (plan, sample): not of threads, parts, order, or what a worker did before.
+//! A row is a function of plan and sample, not of threads, parts or order.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,12 +10,11 @@ use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
-/// The shipped campaign of that name, with a wheel that is sometimes impossible where `with_failures`.
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
     shipped_with(name, Some(samples), if with_failures { SOMETIMES_IMPOSSIBLE } else { "" })
 }
 
-/// Refuses all parts from a given one on, and counts those that are offered.
+/// Refuses and counts all parts from a given one on.
 struct Full {
     from: u64,
     offered: AtomicU64,
@@ -48,8 +47,7 @@ fn rows_do_not_depend_on_threads() {
     }
 }
 
-/// Law: a sample that is run alone, by a worker that has run other samples before, in a part with other bounds, gives
-/// the same row.
+/// Law: a sample run alone, by a used worker, or in another part gives the same row.
 #[test]
 fn rows_do_not_depend_on_company() {
     let plan = plan("spin_sweep", 1000, true);
@@ -64,7 +62,6 @@ fn rows_do_not_depend_on_company() {
     }
 }
 
-/// Counter-test: the comparison sees a single changed bit of a scene.
 #[test]
 fn the_comparison_can_fail() {
     let plan = plan("spin_sweep", 64, false);
@@ -76,9 +73,7 @@ fn the_comparison_can_fail() {
     assert!(rows(&plan) != rows(&other));
 }
 
-/// Law: after an error of the sink no further part is started, and the error is reported. With one thread nothing
-/// follows the refused part. With more threads, where every part is refused, each thread offers one at most, however
-/// they are scheduled.
+/// Law: an error of the sink starts no further part and is reported; each thread offers one part at most after it.
 #[test]
 fn a_full_sink_stops_the_campaign() {
     let plan = plan("no_debris", 4096, false);
@@ -98,7 +93,6 @@ fn a_full_sink_stops_the_campaign() {
     }
 }
 
-/// Law: progress counts every sample once.
 #[test]
 fn progress_counts_every_sample() {
     let plan = plan("no_debris", 777, false);
@@ -107,13 +101,7 @@ fn progress_counts_every_sample() {
     let count = |samples| {
         heard.fetch_add(samples, Ordering::Relaxed);
     };
-    run(
-        &campaign,
-        Parts::of(777),
-        None,
-        &Full { from: u64::MAX, offered: AtomicU64::new(0) },
-        Supervision::progress(&count),
-    )
-    .unwrap();
+    let sink = Full { from: u64::MAX, offered: AtomicU64::new(0) };
+    run(&campaign, Parts::of(777), None, &sink, Supervision::progress(&count)).unwrap();
     assert_eq!(heard.into_inner(), 777);
 }

@@ -1,9 +1,8 @@
-//! Every shipped campaign gives the same values as before, bit for bit: hashes of each column of its first 257 rows.
+//! Every shipped campaign keeps its values, bit for bit: hashes of each column of its first 257 rows in
+//! `golden/value_hashes.json`.
 //!
-//! The hashes in `golden/value_hashes.json` were made when wheels and thrusters became lists; with the draws of before
-//! as a table, every column kept its bits (CHANGELOG.md). Where a column is renamed, its key in that file is, by hand.
-//! Any other difference is a defect, unless a decision recorded in CHANGELOG.md allows it; then
-//! `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file again.
+//! A renamed column is renamed there by hand. Any other difference is a defect, unless CHANGELOG.md records its decision;
+//! then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,22 +16,22 @@ use arrow_array::{Array, RecordBatch};
 use arrow_schema::DataType;
 use rayon::prelude::*;
 
-/// Rows of each campaign; all where a campaign has a number of its own (a table's rows).
+/// Rows of each campaign, if it does not fix them.
 const SAMPLES: u64 = 257;
 
-/// Campaigns with some audited samples, about ten each: free, forced, and with a general debris.
+/// Campaigns with some audited samples.
 const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
 
-/// The campaign one of whose requirements fails.
+/// A campaign with a failed requirement.
 const FAILS: &str = "acceptance";
 
-/// Those with a requirement that so few samples do not decide.
+/// Campaigns with an undecided requirement.
 const UNDECIDED: [&str; 3] = ["slew", "slew_closed", "net_launch"];
 
 /// Columns that measure the machine and not the run.
 const OF_THE_MACHINE: [&str; 2] = ["cpu_s", "wall_s"];
 
-/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo; RFC 9923): enough to tell a change, short enough to read.
+/// FNV-1a, 64 bits (RFC 9923).
 struct Fnv(u64);
 
 impl Fnv {
@@ -104,12 +103,10 @@ fn audited(parts: &[RecordBatch]) -> Vec<bool> {
     parts.iter().flat_map(of_part).collect()
 }
 
-/// The rows of a campaign.
 struct Found {
     rows: usize,
-    /// The hash of each column.
     columns: BTreeMap<String, String>,
-    /// Those of columns without values.
+    /// Hashes of columns without values.
     nothing: [String; 3],
 }
 

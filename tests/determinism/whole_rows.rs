@@ -1,4 +1,4 @@
-//! Plans written in a test, and their rows column by column.
+//! Plans of a test, and their rows column by column.
 
 use crate::support::plans::{RowBits, row_bits};
 use spindrift::campaign::{Overrides, Plan};
@@ -7,12 +7,10 @@ use spindrift::math::Isa;
 use spindrift::propagation::Method;
 use spindrift::sampling::SampleId;
 
-/// A dispersion of the angular velocity at time zero.
 pub const SPREAD: &str =
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
 
-/// A free body of moments 30, `middle` and 20 kg m^2 that turns at 0.3 rad/s across s3 and at 0.6 rad/s about it, for a
-/// minute.
+/// A free body of moments 30, `middle` and 20 kg m^2 at 0.3 rad/s across s3 and 0.6 rad/s about it, for a minute.
 pub fn free_body(integrator: &str, points: usize, middle: f64) -> String {
     format!(
         "[campaign]\nname = \"free\"\nsamples = 40\nseed = 3\nduration_s = 60.0\n[integrator]\n{integrator}\n\

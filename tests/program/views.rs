@@ -1,55 +1,30 @@
-//! What a reader sees of some campaigns, line by line, beside what somebody has read and found right:
-//! `tests/golden/views`.
-//!
-//! Other tests state what must hold of numbers, names and words; here stands what a person reads, once: sentences,
-//! captions, an order. A view that changes with purpose is written again (`SPINDRIFT_WRITE_VIEWS=1`), and its
-//! difference is read before it is committed.
+//! Screens and pages as approved by a reader: `tests/golden/views`. A view that changes on purpose is written again with
+//! `SPINDRIFT_WRITE_VIEWS=1`, and its difference is read before it is committed.
 
 use std::fmt::Write;
 use std::fs;
-use std::io::Read;
 use std::path::Path;
 
-use base64::Engine;
 use serde_json::Value;
 
+use crate::page::numbers::Found;
 use crate::small_campaign::{campaign, folder, mixed_failures};
 use crate::support::scratch_folder::ScratchFolder;
 
-/// With this variable views that differ are written.
 const WRITE: &str = "SPINDRIFT_WRITE_VIEWS";
 
 /// Elements of a page that begin a line.
-const BLOCKS: [&str; 18] = [
-    "title",
-    "h1",
-    "h2",
-    "h3",
-    "p",
-    "div",
-    "section",
-    "li",
-    "tr",
-    "summary",
-    "figcaption",
-    "pre",
-    "nav",
-    "header",
-    "details",
-    "dl",
-    "dt",
-    "article",
-];
-/// Rows of a table and terms of a glossary that stand in a view: what the others say follows from the same code.
+const BLOCKS: &str = "title h1 h2 h3 p div section li tr summary figcaption pre nav header details dl dt article";
+/// Rows of a table and terms of a glossary in a view.
 const MOST_ALIKE: usize = 6;
 
-/// What a person reads of the static part of a page, an element on a line.
+/// The text of the static part of a page, an element on a line.
 fn text_of_page(page: &str) -> String {
     let markup = page.split_once("<script").expect("a page has scripts").0;
     let body = markup.split_once("<body").expect("a body").1;
     let (mut out, mut line) = (String::new(), String::new());
     let mut rest = &body[body.find('>').expect("a tag ends") + 1..];
-    // inside of drawings and of the plan nothing is read
+    // drawings and the plan are left out
     let (mut hidden, mut alike) = (None, 0);
     while let Some((text, after)) = rest.split_once('<') {
         if hidden.is_none() {
@@ -62,7 +37,7 @@ fn text_of_page(page: &str) -> String {
             Some(one) if tag == format!("/{one}") => hidden = None,
             _ => {}
         }
-        if BLOCKS.contains(&name) && !line.trim().is_empty() {
+        if BLOCKS.split(' ').any(|block| block == name) && !line.trim().is_empty() {
             alike = if ["tr", "dt"].contains(&name) { alike + 1 } else { 0 };
             if alike <= MOST_ALIKE {
                 writeln!(out, "{}", line.trim()).expect("a string");
@@ -79,18 +54,7 @@ fn text_of_page(page: &str) -> String {
     out + line.trim() + "\n"
 }
 
-/// What the element `id` of a page has packed.
-fn unpacked(page: &str, id: &str) -> Vec<u8> {
-    let (_, packed) = page.split_once(&format!("id=\"{id}\">")).expect("data");
-    let packed = packed.split('<').next().expect("the element ends");
-    let bytes = base64::engine::general_purpose::STANDARD.decode(packed).expect("base64");
-    let mut text = Vec::new();
-    flate2::read::GzDecoder::new(&bytes[..]).read_to_end(&mut text).expect("gzip");
-    text
-}
-
-/// What a person reads of the figures of a page: title, axes with units, legend, and a caption where it is another one
-/// than that of the figure before; numbers are compared with the rows by laws.
+/// Title, axes, legend and caption of each figure of a page, a repeated caption once.
 fn text_of_figures(data: &Value) -> String {
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let (mut out, mut before) = (String::new(), String::new());
@@ -116,14 +80,12 @@ fn text_of_figures(data: &Value) -> String {
     out
 }
 
-/// `text` without what another version of the program, or another machine, says otherwise: identities of plans, times,
-/// and folders.
+/// `text` without identities of plans, times and folders.
 fn steady(text: &str, scratch: &ScratchFolder) -> String {
     let folder = scratch.0.to_string_lossy().into_owned();
     let is_identity =
         |word: &str| [8, 12, 64].contains(&word.len()) && word.bytes().all(|byte| byte.is_ascii_hexdigit());
     let mut out = String::new();
-    // what is timed is another number every time
     let is_timed = |line: &&str| {
         line.starts_with("== Estimate, from") || line.contains(" on one core") || line.contains("memory: at most")
     };
@@ -135,22 +97,14 @@ fn steady(text: &str, scratch: &ScratchFolder) -> String {
                 word.push(letter);
                 continue;
             }
-            out.push_str(
-                if is_identity(&word)
-                    && word.bytes().any(|byte| byte.is_ascii_digit())
-                    && word.bytes().any(|byte| byte.is_ascii_lowercase())
-                {
-                    "ID"
-                } else {
-                    &word
-                },
-            );
+            let has = |is: fn(&u8) -> bool| word.bytes().any(|byte| is(&byte));
+            let is_id = is_identity(&word) && has(u8::is_ascii_digit) && has(u8::is_ascii_lowercase);
+            out.push_str(if is_id { "ID" } else { &word });
             word.clear();
             out.push(letter);
         }
     }
     let (mut steady, mut rest) = (String::new(), out.as_str());
-    // "computed in 8.64 s (23/s)"
     while let Some((before, after)) = rest.split_once("computed in ") {
         let end = after.find(')').map_or(0, |end| end + 1);
         steady += &format!("{before}computed in TIME");
@@ -159,7 +113,7 @@ fn steady(text: &str, scratch: &ScratchFolder) -> String {
     steady + rest
 }
 
-/// Compares a view with the one that was approved, or writes it.
+/// Compares a view with the approved one, or writes it.
 fn approved(name: &str, view: &str, different: &mut Vec<String>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/views").join(format!("{name}.txt"));
     let before = fs::read_to_string(&path).unwrap_or_default();
@@ -178,8 +132,7 @@ fn approved(name: &str, view: &str, different: &mut Vec<String>) {
     different.push(format!("{name}.txt:{at}\n  was {}\n  is  {}", was.unwrap_or("-"), is.unwrap_or("-")));
 }
 
-/// Law: screens and pages of a campaign of free bodies, of a loop with requirements, of one on an orbit with events,
-/// and of one with failures of every kind are those that were read and approved, to the last word and number.
+/// Law: screens and pages of campaigns of free bodies, of a loop, on an orbit and with failures are those approved.
 #[test]
 fn what_a_reader_sees_was_approved() {
     let scratch = folder("views");
@@ -204,33 +157,25 @@ fn what_a_reader_sees_was_approved() {
         let verbose = run(&format!("campaign {options} --verbose --out {name}-again"), code);
         approved(&format!("{name}_screen"), &format!("{brief}\n---- verbose\n{verbose}"), &mut different);
         if ["spin_sweep", "mixed"].contains(&name) {
-            // of the others a part depends on how fast the machine is
             approved(&format!("{name}_check"), &run("check", 0), &mut different);
         }
         if name == "spin_sweep" {
             continue;
         }
         let page = scratch.text(&format!("{name}/report.html"));
-        let data = serde_json::from_slice(&unpacked(&page, "data")).expect("JSON");
+        let data = Found::data_of(&page);
         let said = text_of_page(&page) + &text_of_figures(&data);
         approved(&format!("{name}_page"), &steady(&said, &scratch), &mut different);
     }
-    let wide = |arguments: &str, code: i32| {
-        steady(&scratch.outputs(scratch.command(arguments).env("COLUMNS", "100"), code), &scratch)
-    };
+    let wide = |arguments: &str, code: i32| steady(&scratch.prints_at(arguments, code, 100), &scratch);
     scratch.prints("campaign base.toml --samples 300 --out before", 0);
     scratch.prints("campaign base.toml --samples 300 --set campaign.seed=8 --out after", 0);
     let rest = [
         wide("compare before after", 0),
         wide("sample base.toml --samples 5", 0),
         wide("simulate before/plan.toml --sample 3", 0),
-        // more points than lines
         wide("simulate spin_sweep/plan.toml --sample 3", 0),
     ];
     approved("other_commands", &rest.join("\n----\n"), &mut different);
-    assert!(
-        different.is_empty(),
-        "{}\nread the differences, then write the views with {WRITE}=1",
-        different.join("\n")
-    );
+    assert!(different.is_empty(), "{}\nread the differences, then set {WRITE}=1", different.join("\n"));
 }

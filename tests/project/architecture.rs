@@ -1,13 +1,8 @@
-//! The layers of the architecture, checked on the source line by line: imports, circles of files, the few crates that
-//! belong to one place.
-//!
-//! What the compiler, clippy (`clippy.toml`: elementary functions; `unwrap`, printing) and `cargo deny` hold is held
-//! there.
+//! The layers of the architecture, checked on the source line by line; the compiler, clippy and `cargo deny` hold others.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Layers: a module imports only from layers below its own (and from itself).
 const LAYERS: [(&str, u32); 20] = [
     ("math", 0),
     ("scene", 1),
@@ -31,7 +26,6 @@ const LAYERS: [(&str, u32); 20] = [
     ("main", 13),
 ];
 
-/// Crates that only these modules or files may use.
 const CRATES: [(&str, &[&str]); 4] = [
     ("clap", &["cli"]),
     ("fearless_simd", &["math", "dynamics", "ode", "propagation", "observables", "statistics"]),
@@ -39,7 +33,7 @@ const CRATES: [(&str, &[&str]); 4] = [
     ("rayon", &["ensemble"]),
 ];
 
-/// A source file: its path from `src` or `crates/kernels/src`, and its code up to the unit tests, without lines of comments.
+/// Its path, and its code up to the unit tests, without lines of comments.
 struct Source {
     path: String,
     code: String,
@@ -52,7 +46,6 @@ impl Source {
         Source { path: path.to_owned(), code }
     }
 
-    /// The module below the root: `math`.
     fn module(&self) -> &str {
         self.path.split('/').next().unwrap_or_default().trim_end_matches(".rs")
     }
@@ -87,15 +80,12 @@ fn read(folder: &Path, root: &Path, list: &mut Vec<Source>) {
     }
 }
 
-/// All files of the library and of the program.
 fn sources() -> Vec<Source> {
     ["src", "crates/kernels/src"].iter().flat_map(|folder| sources_in(folder)).collect()
 }
 
-/// Where the sources of each crate are.
 const CRATES_OF_THE_PROJECT: [&str; 3] = ["src", "crates/kernels/src", "crates/python/src"];
 
-/// All files of one crate.
 fn sources_in(folder: &str) -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut list = Vec::new();
@@ -103,7 +93,6 @@ fn sources_in(folder: &str) -> Vec<Source> {
     list
 }
 
-/// The imports of a file that its layer does not allow.
 fn forbidden_imports(source: &Source) -> Vec<String> {
     let layer = |module: &str| LAYERS.iter().find(|(name, _)| *name == module).map(|(_, layer)| *layer);
     let Some(own) = layer(source.module()) else { return vec![format!("{} has no layer", source.path)] };
@@ -115,7 +104,6 @@ fn forbidden_imports(source: &Source) -> Vec<String> {
         .collect()
 }
 
-/// The crates that a file uses and may not use.
 fn forbidden_crates(source: &Source) -> Vec<String> {
     let is_in = |places: &[&str]| {
         places.iter().any(|place| source.path == *place || source.path.starts_with(&format!("{place}/")))
@@ -125,7 +113,7 @@ fn forbidden_crates(source: &Source) -> Vec<String> {
     wrong.map(|(name, _)| format!("{} uses {name}", source.path)).collect()
 }
 
-/// The paths of a `use` tree or of a path in code: of `a::{b, c::d}` `a::b` and `a::c::d`, as names.
+/// Of `a::{b, c::d}` `a::b` and `a::c::d`, as names.
 fn paths(text: &str) -> Vec<Vec<String>> {
     let is_name = |letter: char| letter.is_alphanumeric() || letter == '_';
     if let Some(group) = text.strip_prefix('{') {
@@ -153,8 +141,7 @@ fn paths(text: &str) -> Vec<Vec<String>> {
     }
 }
 
-/// The files of a crate that depend on each other in circles, `mod.rs` too. A `mod x;` is no dependence; a path through
-/// what a `mod.rs` exports again is one on that file.
+/// Files that depend on each other in circles; a `mod x;` is no dependence.
 fn circles(sources: &[Source]) -> Vec<String> {
     let module = |source: &Source| {
         let stem = source.path.trim_end_matches(".rs");
@@ -175,7 +162,6 @@ fn circles(sources: &[Source]) -> Vec<String> {
             found.flat_map(|(at, _)| paths(&code[at + start.len()..])).map(|path| [base, &path[..]].concat()).collect()
         };
         let mut found = [after("crate::", &[]), after("super::", &above), after("self::", &names)].concat();
-        // a module below this one, named without `self`
         for below in modules.keys().filter_map(|other| other.strip_prefix(&format!("{own}/"))) {
             if !below.contains('/') {
                 found.extend(after(&format!("{below}::"), &[&names[..], &[below.to_owned()]].concat()));
@@ -200,7 +186,6 @@ fn circles(sources: &[Source]) -> Vec<String> {
     modules.keys().filter(reaches).cloned().collect()
 }
 
-/// Law: a module imports from layers below its own.
 #[test]
 fn modules_import_only_from_layers_below() {
     let sources = sources();
@@ -210,7 +195,6 @@ fn modules_import_only_from_layers_below() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Law: files of a crate do not depend on each other in a circle.
 #[test]
 fn files_do_not_depend_on_each_other_in_circles() {
     for folder in CRATES_OF_THE_PROJECT {
@@ -219,14 +203,13 @@ fn files_do_not_depend_on_each_other_in_circles() {
     }
 }
 
-/// Law: crates that belong to one place are used there only.
 #[test]
 fn crates_stay_in_their_places() {
     let wrong: Vec<String> = sources().iter().flat_map(forbidden_crates).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Counter-test: each of the checks finds what it looks for, in paths and in groups, and not in comments and tests.
+/// Counter-test: each check finds what it looks for, in paths and groups, and not in comments and tests.
 #[test]
 fn the_checks_can_fail() {
     let file = |path: &str, text: &str| Source::new(path, text);
@@ -252,10 +235,9 @@ fn the_checks_can_fail() {
     assert_eq!(circles(&[file("a/c.rs", "use crate::d::e::X;"), file("d/e.rs", "use crate::a::c::Y;")]).len(), 2);
 }
 
-/// Most characters of a line: what fits beside another on a screen.
 const WIDTH: usize = 120;
 
-/// Law: no line of Rust is longer than that; rustfmt leaves comments, texts and macros alone.
+/// Law: no line is longer; rustfmt leaves comments, texts and macros alone.
 #[test]
 fn no_line_is_too_long() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,5 +1,4 @@
-//! README and `docs/`: every name that a user meets is documented, every campaign file in them is valid, and every
-//! command exists.
+//! README and `docs/`: every name is documented, every campaign file is valid, and every command exists.
 
 use std::path::{Path, PathBuf};
 
@@ -11,13 +10,11 @@ use spindrift::propagation::Method;
 use spindrift::run::Status;
 use spindrift::scene::Scene;
 
-/// The maximum length of the README, in lines.
 const README_LINES: usize = 200;
 
 /// The mark above a TOML block that is a part of a campaign file.
 const FRAGMENT: &str = "<!-- fragment -->";
 
-/// Commands of other programs that may stand in a shell block.
 const OTHER_PROGRAMS: [&str; 8] = ["sha256sum", "git", "cd", "rustup", "cp", "pip", "clang", "rustc"];
 
 fn root() -> PathBuf {
@@ -39,7 +36,6 @@ fn documents() -> Vec<PathBuf> {
     files
 }
 
-/// A fenced block: its language, its text, and whether it is marked as a part of a campaign file.
 struct Block {
     language: String,
     text: String,
@@ -109,7 +105,6 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Simulate(options) => &options.file,
         Command::Sample(options) => &options.file,
         Command::Precision(options) => &options.file,
-        // a folder that a campaign has made
         Command::Compare(_)
         | Command::CompleteResult(_)
         | Command::Index(_)
@@ -120,7 +115,6 @@ fn program_problem(words: &[&str]) -> Option<String> {
         | Command::Verify(_) => return None,
         Command::Columns(options) => options.campaign.as_ref()?,
     };
-    // the files that the README and the tutorial ask the reader to save; FILE means any
     let shipped = || root().join("campaigns").join(file).is_file() || find(file).is_ok();
     let is_known =
         ["my_sweep.toml", "satellite.toml", "calibrated.toml", "FILE"].iter().any(|name| Path::new(name) == file)
@@ -170,8 +164,6 @@ fn the_readme_is_short() {
     assert!(lines <= README_LINES, "README.md has {lines} lines; move what is long to docs/");
 }
 
-/// Checked: the file that the README shows is the one that `spindrift new` writes, its output is short, and the replay
-/// that it shows is animated and small.
 #[test]
 fn the_readme_shows_what_new_writes() {
     let readme = text(&root().join("README.md"));
@@ -187,7 +179,6 @@ fn the_readme_shows_what_new_writes() {
     assert!(picture.windows(4).any(|four| four == b"acTL"), "it does not move");
 }
 
-/// Checked: every campaign file in the documents is valid.
 #[test]
 fn every_campaign_file_is_valid() {
     let mut count = 0;
@@ -229,7 +220,6 @@ fn every_command_exists() {
     assert!(count >= 10, "{count} commands were found");
 }
 
-/// Checked: every column in a query exists.
 #[test]
 fn every_queried_column_exists() {
     let columns = text(&root().join("docs/columns.md"));
@@ -272,7 +262,6 @@ fn every_name_is_documented() {
     let mut names: Vec<String> = vec![".ci/run".to_owned(), "cargo test --release".to_owned()];
     for command in command.get_subcommands() {
         names.push(format!("`{}", command.get_name()));
-        // its options are in `--help`
         for argument in command.get_arguments() {
             assert!(argument.get_help().is_some(), "{}: no help of {argument}", command.get_name());
         }

@@ -1,11 +1,8 @@
-//! `docs/gallery.md`: every shipped campaign with its question, its answer, a picture and the time that it took.
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use spindrift::campaign::{Overrides, Plan};
 
-/// Most bytes of a picture.
 const LARGEST: u64 = 600_000;
 
 fn root() -> PathBuf {

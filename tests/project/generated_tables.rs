@@ -60,7 +60,6 @@ fn columns_of_rows() -> String {
         let quantity = &column.quantity;
         [quantity.name(), quantity.unit(), quantity.meaning(), ""].map(str::to_owned)
     };
-    // the dispersed values follow the columns of the sample
     let dispersed: Vec<[String; 4]> = parameter_columns(&plan).map(|column| row(&column)).collect();
     let own: Vec<[String; 4]> = all.iter().map(row).take_while(|row| dispersed.first() != Some(row)).collect();
     section("the sample", &own);
@@ -124,8 +123,7 @@ fn rules() -> String {
     table
 }
 
-/// The dependencies of the program, its tests and its benches, with the comments that stand above them in the list of
-/// all packages.
+/// Dependencies with their comments in the list of all packages.
 fn dependencies() -> String {
     let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
     let listed = listed_dependencies();
@@ -152,7 +150,6 @@ fn dependencies() -> String {
     let mut named = BTreeSet::new();
     for (dependencies, place) in places {
         for name in dependencies.as_table().expect("a table").keys().filter(|name| !own(name)) {
-            // what the benches share with the program is in the table once
             if named.insert(name) {
                 let (version, why) = &listed[name];
                 let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(why));

@@ -5,14 +5,12 @@ use std::path::{Path, PathBuf};
 /// By how much a folder may be lighter than its number says, as a share: more, and the number is lowered.
 const SLACK: f64 = 0.05;
 
-/// A row of the table "Weight" of ARCHITECTURE.md.
 #[derive(Debug, PartialEq)]
 struct Row {
     folder: String,
     most_kb: f64,
 }
 
-/// The rows of the table below the heading "Weight".
 fn rows(document: &str) -> Vec<Row> {
     let (_, rest) = document.split_once("\n## Weight\n").expect("a section Weight");
     let section = rest.split("\n## ").next().unwrap_or_default();
@@ -26,7 +24,6 @@ fn rows(document: &str) -> Vec<Row> {
         .collect()
 }
 
-/// Bytes of all Rust files below `folder`.
 fn bytes(folder: &Path) -> u64 {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let paths = entries.map(|entry| entry.expect("an entry").path());
@@ -39,7 +36,6 @@ fn bytes(folder: &Path) -> u64 {
         .sum()
 }
 
-/// The sentence to print about a folder of `bytes` bytes, unless its number fits.
 fn complaint(row: &Row, bytes: u64) -> Option<String> {
     let kb = bytes as f64 / 1e3;
     let Row { folder, most_kb } = row;

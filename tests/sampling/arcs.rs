@@ -1,5 +1,4 @@
-//! Errors of single arcs of the schedule: what they do is what another command would do, bit for bit, and to that arc
-//! only.
+//! Errors of single arcs of the schedule do what another command would do, bit for bit, and to that arc only.
 
 use spindrift::campaign::{Overrides, Plan, SceneDraws};
 use spindrift::propagation::Method;
@@ -11,13 +10,10 @@ use crate::effect::{dispersed, plan_over};
 use crate::support::runs::{Run, adaptive, propagate};
 use crate::support::scenes::{Kind, Uniform, random};
 
-/// Duration of the runs, s.
 const HORIZON: f64 = 4.0;
-/// Random schedules of each law.
 const CASES: u64 = 40;
 
-/// A scene of three arcs, where the second starts as the first ends; with errors of every thruster and wheel, which are
-/// not those of an arc.
+/// Three arcs, the second starting as the first ends, with errors of every thruster and wheel.
 fn scene(seed: u64) -> SceneInput {
     let kind = Kind { wheels: [true; 2], debris: 1, products: true, offset: true, forced: true };
     let mut input = random(kind, seed, HORIZON);
@@ -36,7 +32,6 @@ fn schedule(input: &SceneInput) -> Vec<Arc> {
     Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0])).schedule
 }
 
-/// Every number of an arc as it is applied, as bits.
 fn bits(arc: &Arc) -> Vec<u64> {
     let applied = &arc.applied;
     let numbers = [arc.start, applied.until].into_iter().chain(applied.thrust).chain(applied.motor_torque);
@@ -52,8 +47,7 @@ fn runs(scenes: &[SceneInput]) -> Vec<Run> {
     propagate(Method::Taylor, adaptive(1e-12), &Grid::uniform(HORIZON, 41), &scenes)
 }
 
-/// Law: a scale s of arc k is the schedule whose command k is multiplied by s; delays of arc k are the schedule whose
-/// arc starts and ends as much later. Of the applied arcs and of the motion, bit for bit.
+/// Law: a scale of an arc is its command multiplied; delays are the arc as much later.
 #[test]
 fn an_error_of_an_arc_is_another_command() {
     for seed in 0..CASES {
@@ -66,7 +60,6 @@ fn an_error_of_an_arc_is_another_command() {
         commanded.actuation[arc].thrust_n.iter_mut().for_each(|x| *x *= thrust);
         commanded.actuation[arc].torque_n_m.iter_mut().for_each(|x| *x *= torque);
         assert_eq!(all_bits(&schedule(&scaled)), all_bits(&schedule(&commanded)), "{seed}");
-        // the last arc meets no other
         let (on, off) = (u.between(-0.1, 0.1), u.between(-0.1, 0.1));
         let mut late = nominal.clone();
         (late.actuation[2].errors.switch_on_delay_s, late.actuation[2].errors.switch_off_delay_s) = (on, off);
@@ -87,8 +80,7 @@ fn an_error_of_an_arc_is_another_command() {
     }
 }
 
-/// Law: the same errors of all arcs are those of all thrusters, wheels and delays, bit for bit, where these are ideal.
-/// Counter-test: of all arcs but one they are not.
+/// Law: the same errors of all arcs are those of all thrusters, wheels and delays; of all arcs but one they are not.
 #[test]
 fn the_same_error_of_all_arcs_is_that_of_the_actuators() {
     for seed in 0..CASES {
@@ -110,8 +102,7 @@ fn the_same_error_of_all_arcs_is_that_of_the_actuators() {
     }
 }
 
-/// Law: an error of an arc changes no bit of another arc, and no bit of the motion before that arc; after it the motion
-/// differs.
+/// Law: an error of an arc changes no other arc, and the motion only after its start.
 #[test]
 fn an_error_changes_its_arc_only() {
     for (k, (key, value)) in
@@ -151,12 +142,10 @@ const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 =
     }\n\
     [[actuation]]\nname = \"late\"\nstart_s = 6.0\nend_s = 7.0\nthrust_n = { p1 = 10 }\n";
 
-/// A plan of six seconds.
 fn plan(text: &str) -> Result<Plan, String> {
     plan_over(6.0, text)
 }
 
-/// Law: what an arc does not have is not dispersed, with a remedy.
 #[test]
 fn what_arcs_do_not_have_is_refused() {
     for (refused, says) in [
@@ -194,8 +183,7 @@ fn wrong_names_and_numbers_are_refused() {
     }
 }
 
-/// Law: names and errors read back; without them the plan has no word of them. What is recorded is applied, to that
-/// arc.
+/// Law: names and errors read back, and are not in a plan without them; what is recorded is applied.
 #[test]
 fn errors_are_drawn_recorded_and_written() {
     let ideal = plan(ARCS).unwrap_or_else(|error| panic!("{error}"));

@@ -1,5 +1,4 @@
-//! Rows of a file drawn together (`distribution = "bootstrap"`): every draw is a row of the file, bit for bit, each as
-//! often as the others, in every design; the joint distribution is that of the file.
+//! Rows of a file drawn together: every draw is a row, each as often as the others, in every design.
 
 use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
 use crate::support::draws;
@@ -12,17 +11,12 @@ const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";
 const LENGTH: &str =
     "[[disperse]]\nparameter = \"body.parts.fuselage.length_m\"\ndistribution = \"uniform\"\nhalf_width = 0.1\n";
 
-/// Rows of the file: each of them 4096/32 = 128 times, if all are equally frequent.
 const ROWS: usize = 32;
-/// Draws of each design: a power of two, so that the strata of a Latin hypercube and Sobol's intervals are parts of
-/// those of rows.
 const DRAWS: u64 = 4096;
-/// 99.9% quantile of chi-squared with 31 degrees of freedom (scipy.stats.chi2.ppf(0.999, 31)).
+/// 99.9% quantile with 31 degrees of freedom (scipy.stats.chi2.ppf(0.999, 31)).
 const CHI_SQUARED: f64 = 61.098;
 
-/// What a user measured: lateral rates on an arc of a circle (dependent without being normal) and a position that
-/// follows them; with a column that is no number. Third digits from the row's number make every cell of a column
-/// another number.
+/// Rates on an arc of a circle, and a position that follows them; every cell of a column is another number.
 fn measured() -> Vec<[f64; 3]> {
     let row = |k: usize| {
         let angle = 0.05 * k as f64;
@@ -42,7 +36,6 @@ const BOOTSTRAP: &str = "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"in
     \"initial.position_m.x\"]\n\
     columns = [\"wx\", \"wy\", \"x\"]\n";
 
-/// The three columns, each with a distribution of its own.
 fn apart() -> String {
     let one = |(parameter, column)| {
         format!(
@@ -62,7 +55,6 @@ fn plan(scratch: &ScratchFolder, text: &str) -> Plan {
     plan_of(scratch, text).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What `samples` apply to the columns called `names`.
 fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range<u64>) -> Vec<[f64; N]> {
     let known = draws::names(plan);
     let place =
@@ -74,7 +66,7 @@ fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range
 const NAMES: [&str; 3] =
     ["initial.angular_velocity_rad_s.x", "initial.angular_velocity_rad_s.y", "initial.position_m.x"];
 
-/// How often each row of the file was drawn, and how many draws are no row of it.
+/// How often each row was drawn, and how many draws are no row.
 fn counts(rows: &[[f64; 3]], drawn: &[[f64; 3]]) -> (Vec<u64>, usize) {
     let bits = |row: &[f64; 3]| row.map(f64::to_bits);
     let index: BTreeMap<[u64; 3], usize> = rows.iter().enumerate().map(|(k, row)| (bits(row), k)).collect();
@@ -98,9 +90,7 @@ fn correlation(rows: &[[f64; 3]], a: usize, b: usize) -> f64 {
     draws::correlation(&column(a), &column(b))
 }
 
-/// Law: every draw is a row of the file, bit for bit. H0: each row is equally likely; n = 4096, seed 11, alpha = 0.001
-/// for each design (chi-squared, 31 degrees of freedom; strata and sequences are more even than that). Where each row
-/// is drawn as often as the others, correlations are those of the file.
+/// H0: each row is equally likely; alpha = 0.001 for each design.
 #[test]
 fn every_draw_is_a_row_of_the_file_in_every_design() {
     let scratch = ScratchFolder::new("bootstrap-designs");
@@ -113,19 +103,13 @@ fn every_draw_is_a_row_of_the_file_in_every_design() {
         let (counts, others) = counts(&rows, &drawn);
         assert_eq!(others, 0, "{kind}: draws that are no row");
         let chi = chi_squared(&counts, DRAWS);
-        println!(
-            "{kind}: chi-squared {chi:.2}, counts {} to {}",
-            counts.iter().min().unwrap(),
-            counts.iter().max().unwrap()
-        );
         assert!(chi < CHI_SQUARED, "{kind}: {chi}");
-        // nothing is known of the order of the draws: rows follow each other in no order of the file
+        // rows follow each other in no order of the file
         assert!(drawn.windows(2).filter(|pair| pair[0][0] <= pair[1][0]).count() < 3 * drawn.len() / 4, "{kind}");
         for (a, b) in [(0, 1), (0, 2), (1, 2)] {
             let (found, asked) = (correlation(&drawn, a, b), correlation(&rows, a, b));
             assert!(asked.abs() > 0.8, "columns that depend on each other: {asked}");
-            // equal counts: rounding of 4096 additions; else three standard errors (1 - r^2)/sqrt(n) of a correlation
-            // of normal numbers, here of a file, whose tails are short
+            // equal counts: rounding; else three standard errors of a correlation of normal numbers
             let bound = if is_even { 1e-12 } else { 3.0 * (1.0 - asked * asked) / (DRAWS as f64).sqrt() };
             assert!((found - asked).abs() < bound, "{kind} {a} {b}: {found} for {asked}");
         }
@@ -135,8 +119,7 @@ fn every_draw_is_a_row_of_the_file_in_every_design() {
     }
 }
 
-/// Counter-test: columns that are drawn one by one keep their distributions and lose their rows and their correlation;
-/// and the test of frequencies sees that one row is twice as likely.
+/// Counter-test: columns drawn one by one lose their rows and correlation, and a row that is twice as likely is seen.
 #[test]
 fn columns_that_are_drawn_apart_are_no_rows() {
     let scratch = ScratchFolder::new("bootstrap-apart");
@@ -153,8 +136,8 @@ fn columns_that_are_drawn_apart_are_no_rows() {
     assert!(chi_squared(&counts, DRAWS) > CHI_SQUARED, "{counts:?}");
 }
 
-/// Law: with the random design and a Latin hypercube the rows do not depend on other tables of the file, nor on their
-/// order; two tables of one file draw their rows independently.
+/// Law: with the random design and a Latin hypercube rows do not depend on other tables; two tables of one file are
+/// independent.
 #[test]
 fn rows_do_not_depend_on_other_dispersions() {
     let scratch = ScratchFolder::new("bootstrap-company");
@@ -168,7 +151,6 @@ fn rows_do_not_depend_on_other_dispersions() {
             assert_eq!(drawn(&plan(&scratch, &format!("{head}{text}")), NAMES, 0..65), alone, "{kind}");
         }
     }
-    // two tables of components of one vector
     let half = |parameter: &str, column: &str| {
         format!(
             "[[disperse]]\ndistribution = \"bootstrap\"\nfile = \"insertion.csv\"\nparameters = \
@@ -181,12 +163,11 @@ fn rows_do_not_depend_on_other_dispersions() {
         .map(|[a, b]| [a, b, 0.0])
         .collect();
     let r = correlation(&pairs, 0, 1);
-    // H0: independent; n = 4096, seed 11, alpha = 0.001 (3.29 standard errors)
+    // alpha = 0.001
     assert!(r.abs() < 3.29 / (DRAWS as f64).sqrt(), "{r}");
 }
 
-/// Law: an attitude that is a unit quaternion in the file keeps its bits, one that is not is normalised; a vector and
-/// an attitude may be named as a whole, and the columns are then named like their components.
+/// Law: a unit quaternion keeps its bits, another is normalised; columns are named like their components.
 #[test]
 fn attitudes_and_vectors_are_drawn_as_a_whole() {
     let scratch = ScratchFolder::new("bootstrap-attitude");
@@ -214,8 +195,6 @@ fn attitudes_and_vectors_are_drawn_as_a_whole() {
     assert!([1.0, 4.0, 7.0].iter().all(|rate| rows.iter().any(|row| row[4] == *rate)));
 }
 
-/// A row counts as one factor: a grid has as many points as it has levels, one at a time and Saltelli's blocks vary it
-/// as a whole.
 #[test]
 fn a_row_is_one_factor() {
     let scratch = ScratchFolder::new("bootstrap-factor");
@@ -239,8 +218,6 @@ fn a_row_is_one_factor() {
     assert!(block[0] == block[1] && block[2] == block[3] && block[0] != block[3]);
 }
 
-/// Law: `sample --sample K` and `check --verbose` show the row that sample K takes, in all digits, and where it comes
-/// from.
 #[test]
 fn one_sample_is_shown_with_its_row() {
     let scratch = ScratchFolder::new("bootstrap-shown");

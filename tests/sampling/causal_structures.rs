@@ -1,21 +1,19 @@
-//! Causal structures of known truth: outcomes of inputs, with the share of the variance that each cause explains alone.
+//! Outcomes of inputs, with the share of the variance that each cause explains alone.
 
 use core::f64::consts::{E, PI};
 
-/// An outcome of inputs.
 pub struct Structure {
     pub name: &'static str,
     pub inputs: usize,
-    /// The outcome of inputs that are standard normal, and may be replaced: by functions of the numbers uniform in
-    /// (0, 1) from which they are.
+    /// Of standard normal inputs, which may be replaced by functions of their uniform numbers.
     pub of: fn(&mut [f64], &[f64]) -> f64,
-    /// The causes, each with its first-order share; NaN if that is not known.
+    /// With their first-order shares; NaN if unknown.
     pub causes: &'static [(usize, f64)],
-    /// The shares of inputs that are no cause, but are correlated with one.
+    /// Inputs correlated with a cause, with their shares.
     pub others: &'static [(usize, f64)],
-    /// Whether the fourth moment of a cause is infinite, so that no number of runs tells its share.
+    /// No number of runs tells the share of a cause without a fourth moment.
     pub has_tail: bool,
-    /// Limit of a requirement on the outcome; the shares are those of whether it is missed.
+    /// The shares are those of whether it is missed.
     pub limit: Option<f64>,
 }
 
@@ -23,7 +21,7 @@ fn step(is: bool) -> f64 {
     f64::from(u8::from(is))
 }
 
-/// Student's t of 3 degrees, by its quantile: the root of p = 1/2 + (t/(3 + t^2) sqrt(3) + atan(t/sqrt(3)))/pi.
+/// By its quantile: the root of p = 1/2 + (t/(3 + t^2) sqrt(3) + atan(t/sqrt(3)))/pi.
 fn student(p: f64) -> f64 {
     let root = 3.0_f64.sqrt();
     let mut ends = [-1e6, 1e6];

@@ -1,9 +1,5 @@
-//! Intervals cover, gates err and sketches are off as often and as much as stated: 10,000 small campaigns of known
-//! distributions.
-//!
-//! Seeds are fixed, so each test passes or fails for good. H0 of each: the probability is what is stated; two-sided (or
-//! one-sided, where only a bound is stated) at three standard errors, alpha = 0.0027 (0.0013). Power: what breaks each
-//! law on purpose is beside it.
+//! Intervals cover, gates err and sketches are off as stated: 10,000 small campaigns of known distributions. H0: the
+//! probability is what is stated; three standard errors, alpha = 0.0027 (0.0013 one-sided).
 
 use crate::support::scenes::Uniform;
 use spindrift::math::normal;
@@ -17,13 +13,11 @@ use spindrift::statistics::sketch::{RELATIVE_ERROR, Sketch};
 const CAMPAIGNS: u32 = 10_000;
 const SIGMAS: f64 = 3.0;
 
-/// A distribution: its quantile function.
 type Distribution = (&'static str, fn(f64) -> f64);
 
 const DISTRIBUTIONS: [Distribution; 3] =
     [("uniform", |u| u), ("normal", normal::quantile), ("exponential", |u| -libm::log1p(-u))];
 
-/// The standard error of a fraction of [`CAMPAIGNS`].
 fn error(p: f64) -> f64 {
     (p * (1.0 - p) / f64::from(CAMPAIGNS)).sqrt()
 }
@@ -38,7 +32,6 @@ fn sample(random: &mut Uniform, count: usize, quantile: fn(f64) -> f64) -> Vec<f
     values
 }
 
-/// How often order statistics of these ranks enclose the `p`-quantile.
 fn covered(seed: u64, count: usize, p: f64, ranks: Ranks, of: fn(f64) -> f64) -> f64 {
     let mut random = Uniform::new(seed);
     let truth = of(p);
@@ -49,8 +42,7 @@ fn covered(seed: u64, count: usize, p: f64, ranks: Ranks, of: fn(f64) -> f64) ->
     fraction((0..CAMPAIGNS).map(|_| u32::from(covers(&sample(&mut random, count, of)))).sum())
 }
 
-/// Law: order statistics cover a quantile with exactly their binomial probability, whatever the distribution; a rank
-/// off by one does not.
+/// Law: order statistics cover a quantile with their binomial probability; a rank off by one does not.
 #[test]
 fn order_statistics_cover_with_their_binomial_probability() {
     for (index, (name, of)) in DISTRIBUTIONS.into_iter().enumerate() {
@@ -60,7 +52,6 @@ fn order_statistics_cover_with_their_binomial_probability() {
             let found = covered(index as u64 + 1, count as usize, p, ranks, of);
             assert!((found - stated).abs() <= SIGMAS * error(stated), "{name} n {count} p {p}: {found} for {stated}");
             assert!(stated >= 0.95, "{stated}");
-            // one rank narrower on the side that is there
             let narrow = match ranks {
                 Ranks { lower: Some(lower), .. } => Ranks { lower: Some(lower + 1), ..ranks },
                 Ranks { lower: None, .. } => continue,
@@ -70,8 +61,7 @@ fn order_statistics_cover_with_their_binomial_probability() {
     }
 }
 
-/// Law: Clopper and Pearson's interval covers with exactly the probability of the counts whose interval has the
-/// fraction in it.
+/// Law: Clopper and Pearson's interval covers with the probability of the counts whose interval has the fraction in it.
 #[test]
 fn clopper_pearson_covers_with_its_exact_probability() {
     for (count, p, confidence) in [(50_u64, 0.9, 0.95), (20, 0.5, 0.9), (200, 0.99, 0.95)] {
@@ -92,8 +82,7 @@ fn clopper_pearson_covers_with_its_exact_probability() {
     }
 }
 
-/// Law: a campaign that stops at the first narrow interval covers as often as stated; without the correction for the
-/// looks it would not.
+/// Law: a campaign that stops at the first narrow interval covers as stated; uncorrected for the looks it would not.
 #[test]
 fn stopped_campaigns_cover() {
     let runs = looks(40, 640);
@@ -119,8 +108,7 @@ fn stopped_campaigns_cover() {
     assert!(uncorrected < covered, "{uncorrected} {covered}");
 }
 
-/// Law: at the limit itself, where every decision is an error, gates decide at most as often as 1 - confidence on each
-/// side; they are not silent either.
+/// Law: at the limit itself gates decide at most as often as 1 - confidence on each side, and are not silent.
 #[test]
 fn gates_err_as_seldom_as_stated() {
     let mut random = Uniform::new(51);
@@ -140,10 +128,8 @@ fn gates_err_as_seldom_as_stated() {
     }
 }
 
-/// Law: of campaigns with the number of runs that an undecided gate names nine in ten decide, where the truth is what
-/// was seen: of fractions on both sides of the target, and of means. H0: the probability is [`POWER`]; n = 10,000
-/// campaigns, alpha = 0.0013 below, and at most 0.93 above (successes are whole). Power: the number at which the
-/// estimate itself would be decided, as it stands, decides in about half of the campaigns.
+/// Law: where the truth is what was seen, nine in ten campaigns of the number of runs named decide, and at most 0.93,
+/// since successes are whole.
 #[test]
 fn nine_of_ten_campaigns_of_the_runs_named_decide() {
     let mut random = Uniform::new(71);
@@ -165,7 +151,6 @@ fn nine_of_ten_campaigns_of_the_runs_named_decide() {
         let draws = (0..CAMPAIGNS).map(|_| (0..runs).filter(|_| random.uniform() < truth).count());
         checked(draws.map(|k| u32::from(decisions[k])).sum(), &format!("{successes} of {trials}"));
     }
-    // mean 0.3 and standard deviation 1, exactly
     let unit = libm::sqrt(19.0 / 20.0);
     let seen = Moments::of((0..20).map(|k| 0.3 + if k % 2 == 0 { unit } else { -unit }));
     let runs = named(mean_gate(&seen, GateLimit::AtLeast(0.0), 0.95));
@@ -174,10 +159,8 @@ fn nine_of_ten_campaigns_of_the_runs_named_decide() {
     checked((0..CAMPAIGNS).map(|_| u32::from(passes(campaign()))).sum(), "mean");
 }
 
-/// Law: a campaign that looks until a requirement is decided errs over all its looks at most as often as stated, on
-/// each side; looks at the confidence of one err more often. H0: the truth is the target, where every decision is an
-/// error; n = 10,000 campaigns of up to 3,200 runs in seven looks, alpha = 0.0013. Power: without the correction the
-/// error is above 0.1. Where the truth is not near the target nine in ten decide before the last look.
+/// Law: a campaign that looks until a requirement is decided errs over all its looks as stated; uncorrected, more often.
+/// Where the truth is not near the target nine in ten decide before the last look.
 #[test]
 fn sequential_decisions_err_as_seldom_as_stated() {
     let runs = looks(50, 3200);
@@ -215,9 +198,8 @@ fn sequential_decisions_err_as_seldom_as_stated() {
     assert!(pass > 0.99 && fail < 0.001 && early > 0.9, "{pass} {fail} {early}");
 }
 
-/// Law: of six requirements that are met, none fails in at least as many campaigns as stated; each on its own
-/// confidence, one fails in a fifth of them. H0: each truth is the target; n = 10,000 campaigns of 300 runs, alpha =
-/// 0.0013. Two of the six missed by far do not change it, and Holm's correction then finds more than Bonferroni's.
+/// Law: of six requirements that are met, none fails in at least as many campaigns as stated; uncorrected, one fails in
+/// a fifth. Two more that are missed do not change it (Holm).
 #[test]
 fn several_requirements_that_are_met_seldom_fail() {
     const RUNS: usize = 300;
@@ -255,8 +237,7 @@ fn several_requirements_that_are_met_seldom_fail() {
     assert!(alone[0] > 0.15 && two_missed[1] > 0.999, "{alone:?} {two_missed:?}");
 }
 
-/// Law: quantiles of a sketch of ten million numbers are within the stated error of the exact ones, and so are the
-/// bounds of ranks.
+/// Law: quantiles of a sketch of ten million numbers, and bounds of ranks, are within the stated error.
 #[test]
 fn a_sketch_of_ten_million_is_within_its_error() {
     const COUNT: usize = 10_000_000;
@@ -273,7 +254,6 @@ fn a_sketch_of_ten_million_is_within_its_error() {
         let [lower, upper] = ranks.bounds(rank).expect("a rank");
         assert!(lower <= values[rank as usize - 1] && values[rank as usize - 1] <= upper, "{p}");
     }
-    // the counter-test: one percent further on is further than the error
     let (next, median) = (ranks.quantile(0.51).expect("many"), quantile(&values, 0.5).expect("many"));
     assert!((next - median).abs() > RELATIVE_ERROR * median.abs());
     assert_eq!((sketch.min(), sketch.max()), (values.first().copied(), values.last().copied()));

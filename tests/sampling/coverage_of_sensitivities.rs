@@ -1,13 +1,8 @@
-//! Intervals of correlations, regressions and indices from blocks cover as often as stated, over a list of models of
-//! known truth and numbers of runs. First-order indices from plain samples: `drivers_of_structures`.
+//! Intervals of correlations, regressions and indices from blocks cover as often as stated. First-order indices from
+//! plain samples: `drivers_of_structures`.
 //!
-//! H0 of each: a 95% interval covers in at least 0.93 of the campaigns (in less where few runs do not show the tail of
-//! the observable, as the lists say). Rejected where the count of covered campaigns is below what H0 gives in one case
-//! of 10,000 (alpha 1e-4 for each model). Fixed seeds. Power: intervals of half the width cover in 0.67 and less, which
-//! 300 campaigns find always.
-//!
-//! The long versions (`cargo test --release --test sampling -- --ignored sensitivities`) have 2,000 campaigns of 100
-//! runs, 1,000 of 1,000 and 300 of 8,000.
+//! H0: a 95% interval covers in at least 0.93 of the campaigns, or as the lists say; alpha 1e-4 for each model.
+//! Intervals of half the width cover in 0.67 and less, which 300 campaigns find always.
 
 use spindrift::math::normal::quantile;
 use spindrift::sampling::design::replicates::Sequence;
@@ -22,7 +17,6 @@ use crate::support::scenes::Uniform;
 
 const PI: f64 = core::f64::consts::PI;
 
-/// The count of covered campaigns below which H0 is rejected.
 fn fewest(campaigns: u64, coverage: f64) -> u64 {
     (0..campaigns).find(|count| binomial::at_most(*count, campaigns, coverage) >= 1e-4).expect("some count")
 }
@@ -32,8 +26,8 @@ fn covers(found: &Estimate, truth: f64) -> bool {
     found.lower <= truth + 1e-9 && truth <= found.upper + 1e-9
 }
 
-/// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that
-/// of R^2 apart: the sixth power of normal numbers, in the variance of x^3, has a tail that 100 runs do not show.
+/// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that of
+/// R^2 apart: the sixth power in the variance of x^3 has a tail that 100 runs do not show.
 type Linear = (&'static str, fn(f64, f64) -> f64, f64, [f64; 2], f64, [f64; 2]);
 
 fn linear_models() -> Vec<Linear> {
@@ -73,7 +67,6 @@ fn linear_measures_are_covered(sizes: &[(usize, u64)]) {
                     *count += u64::from(covers(&found, truth));
                 }
             }
-            println!("{runs} runs, {name}: Pearson, coefficients, R^2 {counts:?} of {campaigns}");
             let wanted =
                 [coverage[0], coverage[0], coverage[0], coverage[1]].map(|coverage| fewest(*campaigns, coverage));
             let are_enough = counts.iter().zip(wanted).all(|(count, wanted)| *count >= wanted);
@@ -82,8 +75,7 @@ fn linear_measures_are_covered(sizes: &[(usize, u64)]) {
     }
 }
 
-/// Law: intervals of Pearson's coefficient, of regression coefficients and of R^2 cover, whether or not numbers are
-/// normal and their spread is the same everywhere.
+/// Law: intervals of Pearson's coefficient, of regression coefficients and of R^2 cover.
 #[test]
 fn linear_measures_of_any_distribution_are_covered() {
     linear_measures_are_covered(&[(100, 300), (1000, 60)]);
@@ -95,7 +87,7 @@ fn linear_measures_of_many_campaigns_are_covered() {
     linear_measures_are_covered(&[(100, 2000), (1000, 1000), (8000, 300)]);
 }
 
-/// Law: so do those of rank correlations: 0 of x z and of x^2 + z, by symmetry; 6/pi asin(r/2) of normal numbers.
+/// Law: so do those of rank correlations; 6/pi asin(r/2) of normal numbers.
 #[test]
 fn rank_correlations_are_covered() {
     let normal = 6.0 / PI * libm::asin(0.3);
@@ -132,10 +124,8 @@ fn of_blocks(
     saltelli_indices(&(0..blocks).map(block).collect::<Vec<_>>(), 0.95).expect("it varies")
 }
 
-/// H0: 95% intervals of the indices from 64 and more blocks cover in at least 0.93, in every pair of 50 dimensions: 0
-/// and 1 of x in x y, of normal numbers, and in the exclusive or of x > 1/2 and y > 1/2. n = 1,225 pairs, one campaign
-/// each (seeds 0 to 1,224); alpha = 1e-4 of each of 16. Power: dimensions of one net in place of sequences of their own
-/// give -1 for the exclusive or of dimensions 0 and 3, as the counter-test shows.
+/// H0: in every pair of 50 dimensions intervals of the indices, 0 and 1 of x in x y, and in the exclusive or of x > 1/2
+/// and y > 1/2, cover in at least 0.93. Counter-test: dimensions 0 and 3 of one net give -1.
 #[test]
 fn indices_from_blocks_of_any_two_dimensions_are_covered() {
     const DIMENSIONS: usize = 50;
@@ -148,7 +138,6 @@ fn indices_from_blocks_of_any_two_dimensions_are_covered() {
         for f in functions {
             let mut counts = [0; 2];
             for (seed, pair) in (0..).zip(&pairs) {
-                // a dimension's numbers follow from its name alone
                 let design = Saltelli::new(seed, &pair.map(name), &[0, 1]);
                 let number =
                     |place: usize, from_b: bool, block: u64| design.number(place, 4 * block + u64::from(from_b) * 3);
@@ -157,7 +146,6 @@ fn indices_from_blocks_of_any_two_dimensions_are_covered() {
                 counts[1] += u64::from(covers(&found[1], 1.0));
             }
             let fewest = fewest(pairs.len() as u64, 0.93);
-            println!("{blocks} blocks: {counts:?} of {}, {fewest} wanted", pairs.len());
             assert!(counts.iter().all(|count| *count >= fewest), "{blocks}: {counts:?}, {fewest} wanted");
         }
     }
@@ -165,7 +153,7 @@ fn indices_from_blocks_of_any_two_dimensions_are_covered() {
     let net = Sobol::new(1, &names);
     let of_net = |place: usize, from_b: bool, block: u64| net.number(place + usize::from(from_b) * DIMENSIONS, block);
     let wrong = pairs.iter().filter(|pair| !covers(&of_blocks(of_net, 512, **pair, exclusive_or)[0], 0.0)).count();
-    // without a dependence the index of a net is 0 exactly, so that none is missed by chance; measured: 4
+    // measured: 4
     assert!(wrong > 0, "the counter-test: no pair");
 }
 
@@ -183,7 +171,6 @@ fn partial_correlations_are_covered() {
             let y = standardised(&(0..40).map(of_row).collect::<Vec<_>>());
             let of = Regressors::new(inputs.iter().map(|x| standardised(x)).collect()).expect("independent inputs");
             let found = of.regression(&y).expect("enough runs").partial(0, 0.95);
-            // 39 degrees of freedom in the place of 19
             let middle = libm::atanh(found.value);
             let narrow = |end: f64| libm::tanh(middle + libm::sqrt(19.0 / 39.0) * (libm::atanh(end) - middle));
             let without_cost = Estimate { lower: narrow(found.lower), upper: narrow(found.upper), ..found };

@@ -1,6 +1,4 @@
-//! Correlated and derived parameters: the applied values have the dependence that the campaign file specifies.
-//!
-//! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
+//! Correlated and derived parameters: the applied values have the dependence of the file.
 
 use spindrift::campaign::{Overrides, Plan};
 use spindrift::math::normal::probability;
@@ -16,7 +14,6 @@ seed = 3
 duration_s = 1.0
 "#;
 
-/// The initial state, and three parameters with distributions of their own.
 const DISPERSED: &str = r#"
 [initial]
 angular_velocity_rad_s = [0, 3, 31]
@@ -39,7 +36,6 @@ distribution = "normal"
 std = [0.5, 1.0, 2.0]
 "#;
 
-/// The text of a campaign with two wheels, and what `text` adds.
 fn campaign(text: &str) -> String {
     [HEAD, FUSELAGE, WHEEL1_AT_REST, WHEEL2_AT_REST, DISPERSED, text].concat()
 }
@@ -48,10 +44,8 @@ fn plan(text: &str) -> Plan {
     Plan::from_text("test.toml", &campaign(text), Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Number of dispersed samples.
 const N: usize = 20_000;
 
-/// The applied values of a column in all samples but the nominal one.
 fn column(plan: &Plan, name: &str) -> Vec<f64> {
     draws::column(plan, name, 1..=N as u64)
 }
@@ -68,10 +62,8 @@ fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     correlation(&ranks(a), &ranks(b))
 }
 
-/// Half the band of a sample correlation in Fisher's transform at alpha = 1e-3 (two-sided 3.29), n = 20,000; for rank
-/// correlations the variance is 1 + rho^2/2 times as large (D. G. Bonett & T. A. Wright, *Psychometrika* 65 (2000) 23;
-/// measured over 30 seeds at rho = -0.7: standard deviation 1.12 times as large, as this gives). A true value off by
-/// 0.05 lies 0.05/0.0079 = 6 standard deviations away (more, the larger the correlation): power > 0.999.
+/// Half the band in Fisher's transform at alpha = 1e-3; for rank correlations the variance is 1 + rho^2/2 times as large
+/// (D. G. Bonett & T. A. Wright, *Psychometrika* 65 (2000) 23). A value off by 0.05 is 6 standard deviations away.
 fn band(expected: f64) -> f64 {
     3.29 * (1.0 + 0.5 * expected * expected).sqrt() / 141.4
 }
@@ -80,7 +72,6 @@ fn in_band(sample: f64, expected: f64) -> bool {
     (sample.atanh() - expected.atanh()).abs() < band(expected)
 }
 
-/// H0: the rank correlation is the specified one, for any marginal distributions and design.
 #[test]
 fn rank_correlations_are_those_of_the_file() {
     let pair = |r: f64| {
@@ -99,13 +90,11 @@ fn rank_correlations_are_those_of_the_file() {
             assert!(in_band(found, expected), "{kind}: {found} for {expected}");
         }
         assert!(!in_band(found[0], -0.65), "a correlation off by 0.05 is found");
-        // what is not in the block stays independent
         let z = column(&plan, "initial.angular_velocity_rad_s.z");
         assert!(in_band(rank_correlation(&a, &z), 0.0));
     }
 }
 
-/// Mean ranks of equal values.
 fn mid_ranks(values: &[f64]) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -121,8 +110,7 @@ fn discrete(parameters: [&str; 2], rank: f64) -> String {
     format!("{DISCRETE}[[correlate]]\nparameters = {parameters:?}\nrank_correlation = {rank}\n")
 }
 
-/// H0: the rank correlation of discrete values, with mean ranks of equal ones, is the specified one. The formula for
-/// continuous values gives 0.42 in place of 0.6 (band: 0.03).
+/// The formula for continuous values gives 0.42 in place of 0.6 (band: 0.03).
 #[test]
 fn rank_correlations_of_discrete_values_are_those_of_the_file() {
     for (names, rank) in [
@@ -145,7 +133,7 @@ fn rank_correlations_of_discrete_values_are_those_of_the_file() {
     );
 }
 
-/// Law: one number for two, blocks of pairs of parameters, and the square matrix of all say the same, bit for bit.
+/// Law: one number, blocks of pairs of parameters, and the square matrix of all say the same.
 #[test]
 fn blocks_and_numbers_are_the_matrix_that_they_make() {
     let all = plan(
@@ -163,9 +151,8 @@ fn blocks_and_numbers_are_the_matrix_that_they_make() {
         assert_eq!(column(&all, name), column(&blocks, name), "{name}");
     }
     assert_ne!(column(&all, "wheels.w1.radius_m"), column(&plan(""), "wheels.w1.radius_m"));
-    // the text of a plan reads back to the same plan
     assert_eq!(Plan::from_text("t.toml", &blocks.text(), Overrides::default()).expect("legal").hash(), blocks.hash());
-    // covariances of a block are those of normal distributions
+    // covariances are those of normal distributions
     let normal = "[[disperse]]\nparameter = \"initial.position_m.x\"\ndistribution = \"normal\"\nstd = 3\n\
          [[correlate]]\nparameters = [\"initial.angular_velocity_rad_s.z\", \"initial.position_m.x\"]\ncovariance = \
          3.0\n";
@@ -174,8 +161,7 @@ fn blocks_and_numbers_are_the_matrix_that_they_make() {
     assert!(in_band(correlation(&z, &x), 0.5));
 }
 
-/// H0: each value keeps its law inside a block. Kolmogorov-Smirnov, n = 20,000, alpha = 1e-3: sqrt(n) D < 1.949; a
-/// distribution function off by 0.03 somewhere gives 4.2 there, missed with probability < 1e-5.
+/// H0: each value keeps its law inside a block.
 #[test]
 fn correlation_preserves_the_distributions() {
     /// Kolmogorov's constant for alpha = 1e-3: sqrt(-ln(alpha/2)/2).
@@ -196,8 +182,7 @@ fn correlation_preserves_the_distributions() {
     }
 }
 
-/// H0: the covariance of normal values is the one that is asked for. The standard deviation of a sample variance is
-/// sqrt(2/n) = 1% of it; alpha = 1e-3 each.
+/// The standard deviation of a sample variance is sqrt(2/n) = 1% of it; alpha = 1e-3 each.
 #[test]
 fn covariances_are_those_of_the_file() {
     let plan = plan(
@@ -209,7 +194,7 @@ fn covariances_are_those_of_the_file() {
         assert!(in_band(found, expected), "{found} for {expected}");
     }
     let variance = z.iter().map(|z| (z - 31.0).powi(2)).sum::<f64>() / N as f64;
-    // measured: 0.011 of the 0.033 that 3.29 standard deviations are
+    // measured: a third of that
     assert!((variance / 4.0 - 1.0).abs() < 3.29 * (2.0 / N as f64).sqrt());
 }
 
@@ -220,7 +205,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
         1], [1, 1]]\n",
     );
     let (a, b) = (column(&tied, "wheels.w1.density_kg_m3"), column(&tied, "wheels.w2.density_kg_m3"));
-    // the ranks are the same list; measured: no rounding at all
+    // measured: no rounding at all
     assert!((rank_correlation(&a, &b) - 1.0).abs() < 1e-15);
     let matrix = "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 1, 0], [1, 1, \
         1], [0, 1, 1]]\n";
@@ -229,9 +214,8 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     let repaired = plan(&format!("{matrix}nearest_psd = true\n"));
     let [x, y] = ["x", "y"].map(|c| column(&repaired, &format!("initial.angular_velocity_rad_s.{c}")));
     assert!(in_band(correlation(&x, &y), 0.7607), "the nearest matrix of Higham (2002)");
-    // what is used is said: in the plan, whose text reads back to it
     let [replaced] = repaired.dispersions.replaced_correlations() else { panic!("one matrix was replaced") };
-    // half a unit of the last digit that the paper prints; measured: 0.76069
+    // half a unit of the last digit of the paper; measured: 0.76069
     assert!((replaced.used[0][1] - 0.7607).abs() < 5e-5 && replaced.written[0][1] == 1.0);
     assert!(repaired.text().contains("# nearest correlation of the normal scores, which is used: [[1.0, 0.76"));
     assert_eq!(
@@ -240,7 +224,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     );
 }
 
-/// Law: a derived value is its expression of the values as applied, in any order of the tables; in sample 0 too.
+/// Law: a derived value is its expression of the values as applied, in sample 0 too.
 #[test]
 fn derived_values_follow_their_expressions() {
     let plan = plan(
@@ -282,9 +266,8 @@ fn correlation_does_not_touch_other_draws() {
     assert_ne!(column(&alone, "wheels.w1.radius_m"), column(&tied, "wheels.w1.radius_m"));
 }
 
-/// H0: neighbouring samples of one component, and two components of one sample, are uncorrelated. n = 100,000; alpha =
-/// 1e-3 for each of three (|r| < 3.29/sqrt(n) = 0.0104); a true correlation of 0.02 is found with power 0.998 (6.3 -
-/// 3.3 = 3 sigma).
+/// H0: neighbouring samples, and components of one sample, are uncorrelated. alpha = 1e-3 each; a correlation of 0.02 is
+/// found with power 0.998.
 #[test]
 fn components_and_samples_are_independent() {
     const DRAWS: u64 = 100_000;
@@ -295,7 +278,6 @@ fn components_and_samples_are_independent() {
     let size = |a: &[f64], b: &[f64]| correlation(a, b).abs() * (a.len() as f64).sqrt();
     let neighbours = size(&x[1..], &x[..x.len() - 1]);
     assert!([size(&x, &y), size(&y, &z), neighbours].iter().all(|size| *size < CRITICAL));
-    // standard deviations of 0.5 and 1
     let mixed: Vec<f64> = x.iter().zip(&y).map(|(x, y)| y + 0.04 * x).collect();
     assert!(size(&x, &mixed) > CRITICAL, "a correlation of 0.02 is found");
 }

@@ -1,4 +1,4 @@
-//! Designs: evenness against plain random draws, what stays when samples or dispersions are added, golden bits.
+//! Designs: evenness, what stays when samples or dispersions are added, golden bits.
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::sampling::Design;
@@ -26,7 +26,6 @@ const LENGTH: &str =
 const RADIUS: &str =
     "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"pert\"\nmin = 0.2\nmax = 0.3\n";
 
-/// The text of a campaign with one wheel, and what `text` adds.
 fn campaign(text: &str) -> String {
     [HEAD, FUSELAGE, WHEEL1_AT_REST, INITIAL, text].concat()
 }
@@ -43,7 +42,6 @@ fn design(kind: &str) -> String {
     format!("[design]\nkind = {kind:?}\n")
 }
 
-/// Applied values of samples `ids`, as bits, by column name.
 fn draws(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<BTreeMap<String, u64>> {
     let names: Vec<String> =
         plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
@@ -55,42 +53,35 @@ fn value(row: &BTreeMap<String, u64>, name: &str) -> f64 {
     f64::from_bits(row[name])
 }
 
-/// Law: adding a dispersion at the end, moving tables about, taking samples alone or in another order - no bit of the
-/// others changes: for each design as its table says.
+/// Law: company and order of tables and samples change no bit of a draw, but for the order of sequences.
 #[test]
 fn draws_do_not_depend_on_company() {
     for kind in ["random", "latin_hypercube", "sobol", "halton"] {
         let head = design(kind);
         let two = plan(&format!("{head}{RATE}{LENGTH}"));
         let rows = draws(&two, 0..65);
-        // one more, at the end
         let mut more = draws(&plan(&format!("{head}{RATE}{LENGTH}{RADIUS}")), 0..65);
         more.iter_mut().for_each(|row| {
             row.remove("wheels_w1_radius_m");
         });
         assert_eq!(more, rows, "{kind}");
-        // another order: all but the sequences, whose dimensions are counted in the order of the file
+        // the dimensions of sequences are counted in the order of the file
         let moved = draws(&plan(&format!("{head}{LENGTH}{RATE}")), 0..65);
         assert_eq!(moved == rows, ["random", "latin_hypercube"].contains(&kind), "{kind}");
-        // one by one, backwards
         let backward: Vec<_> = (0..65).rev().map(|id| draws(&two, [id]).remove(0)).collect();
         assert!(backward.iter().rev().eq(rows.iter()), "{kind}");
-        // sample 0 is nominal
         assert_eq!(value(&rows[0], "body_parts_fuselage_length_m"), 3.0);
         assert_ne!(rows[1], rows[2]);
-        // and another seed another draw
         let other = planned(&format!("{head}{RATE}{LENGTH}"), Overrides { seed: Some(8), ..Overrides::default() })
             .expect("valid");
         assert_ne!(draws(&other, 1..3), rows[1..3], "{kind}");
     }
-    // a component alone, and any sample
     let ids = || [1, 9, 4095, 1 << 40];
     let [whole, y] =
         ["", ".y"].map(|component| draws(&plan(&RATE.replace("rad_s\"", &format!("rad_s{component}\""))), ids()));
     assert!(y.iter().zip(&whole).all(|(y, all)| y.iter().all(|(name, value)| all[name] == *value)));
 }
 
-/// Law: with more samples the earlier rows stay; a Latin hypercube says why it cannot.
 #[test]
 fn samples_can_be_added() {
     for (kind, more) in [("random", 1000), ("sobol", 1000), ("halton", 1000), ("saltelli", 121)] {
@@ -135,7 +126,6 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
     let rows = draws(&grid, 1..25);
     let distinct: std::collections::BTreeSet<_> = rows.iter().map(|row| format!("{row:?}")).collect();
     assert_eq!(distinct.len(), 24);
-    // two ulps of a length of 3 m; measured: none
     assert!((value(&rows[6], "body_parts_fuselage_length_m") - 2.975).abs() < 1e-15, "the fourth dimension is slowest");
 
     let text = format!("{}quantiles = [0.1, 0.9]\n{RATE}{LENGTH}{RADIUS}", design("one_at_a_time"));
@@ -146,7 +136,6 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
         let moved: Vec<&String> = row.keys().filter(|name| row[*name] != rows[0][*name]).collect();
         assert_eq!(moved.len(), 1, "sample {id}");
     }
-    // the same
     assert!((value(&rows[7], "body_parts_fuselage_length_m") - 2.92).abs() < 1e-15);
     assert!((value(&rows[8], "body_parts_fuselage_length_m") - 3.08).abs() < 1e-15);
     assert_eq!(value(&rows[8], "wheels_w1_radius_m"), 0.25, "the nominal, not the median");
@@ -168,7 +157,6 @@ fn a_table_gives_its_rows() {
     let column = |name: &str| drawn.iter().map(|row| value(row, name)).collect::<Vec<_>>();
     assert_eq!(column("wheels_w1_radius_m"), [0.25, 0.21, 0.22]);
     assert_eq!(column("initial_angular_velocity_x_rad_s"), [0.0, 1.5, -1.0]);
-    // others are drawn beside it, as in the random design
     let mixed =
         read(&format!("{table}parameters = [\"wheels.w1.radius_m\"]\n{LENGTH}")).unwrap_or_else(|e| panic!("{e}"));
     let random = Plan::from_text("t.toml", &campaign(LENGTH), Overrides::default()).expect("valid");
@@ -178,7 +166,6 @@ fn a_table_gives_its_rows() {
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
-/// Slope of ln y against ln x by least squares.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
@@ -188,9 +175,8 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     xy / xx
 }
 
-/// Law: the integration error of a smooth function in six dimensions, prod (1 + (x_i - 1/2)/2) with integral 1, falls
-/// like 1/N or faster with the scrambled sequences and like 1/sqrt(N) with random points (rms over 16 seeds; measured
-/// slopes are printed).
+/// Law: the error of an integral of a smooth function falls like 1/N with scrambled sequences and like 1/sqrt(N) with
+/// random points.
 #[test]
 fn sequences_integrate_smooth_functions_faster() {
     let names: Vec<String> = (0..6).map(|k| format!("x{k}")).collect();
@@ -227,21 +213,17 @@ fn sequences_integrate_smooth_functions_faster() {
         Design::Halton(Replicates::ONE),
     ]
     .map(|design| fall(&design));
-    println!("slope and rms error at 4096: random {random:?}, latin {latin:?}, sobol {sobol:?}, halton {halton:?}");
-    // measured slopes: random -0.47, Sobol -1.35, Halton -0.94; errors: Sobol 1/509 of random, Halton 1/24
+    // measured: random -0.47, Sobol -1.35, Halton -0.94; errors: Sobol 1/509 of random, Halton 1/24
     assert!((random.0 + 0.5).abs() < 0.15, "{random:?}");
     assert!(sobol.0 < -0.95 && halton.0 < -0.85, "{sobol:?} {halton:?}");
     assert!(sobol.1 * 50.0 < random.1 && halton.1 * 20.0 < random.1);
-    // a Latin hypercube takes the sums out of the error, not its rate; measured: 1/4.8 of random
+    // a Latin hypercube takes the sums out of the error; measured: 1/4.8 of random
     assert!(latin.1 * 3.0 < random.1, "{latin:?} {random:?}");
 }
 
-/// Golden: numbers of each design as bits; any change of these is a change of every campaign that used it. The streams
-/// behind the random design are pinned beside them (src/sampling/stream.rs), against a published key stream. From a
-/// second implementation, tests/golden/designs.py.
+/// From a second implementation, tests/golden/designs.py.
 #[test]
 fn numbers_are_pinned() {
-    // names of streams: the second was the name of a parameter once, and its numbers stay
     let names: Vec<String> = ["initial.angular_velocity_rad_s.x", "fuselage.density_kg_m3"].map(str::to_owned).to_vec();
     let mut found = Vec::new();
     for design in [
@@ -308,7 +290,6 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
     ),
 ];
 
-/// Law: a part of a grid is told, with its size.
 #[test]
 fn a_partial_grid_is_told() {
     let grid = |samples: u64| {

@@ -1,8 +1,7 @@
-//! Every number that can be dispersed changes the motion, in both kernels alike, and what is recorded is what was
-//! applied.
+//! Every number that can be dispersed changes the motion, in both kernels alike, and is recorded as applied.
 
 use crate::support::observed::{observed, request};
-use crate::support::runs::{adaptive, everything, propagate, relative, up_to_sign};
+use crate::support::runs::{adaptive, everything, propagate_one, relative, up_to_sign};
 use crate::support::scenes::{Kind, misaligned, random};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Request};
@@ -19,15 +18,13 @@ use spindrift::scene::{
     WheelInput,
 };
 
-/// Horizon, s.
 const HORIZON: f64 = 1.0;
-/// Tolerance of both kernels; a step of Berdoz's form may add it a few hundred times.
+/// A step of Berdoz's form may add it a few hundred times.
 const TOLERANCE: f64 = 1e-11;
-/// Distance of two kernels at this tolerance; measured at most 2e-11.
+/// Measured: 2e-11.
 const AGREED: f64 = 2e-10;
-/// Distance that a change must make: ten times what the kernels may differ by.
 const CHANGED: f64 = 10.0 * AGREED;
-/// Standard deviation of a draw, relative to the nominal, or absolute where that is zero.
+/// Relative to the nominal, or absolute where that is zero.
 const SPREAD: f64 = 1e-3;
 
 fn variants() -> Vec<SceneInput> {
@@ -40,7 +37,6 @@ fn variants() -> Vec<SceneInput> {
     by_moments.body.principal = principal(PrincipalMoments::Inertia([1000.0, 1500.0, 1200.0]));
     let mut by_second = by_moments.clone();
     by_second.body.principal = principal(PrincipalMoments::Second([300.0, 500.0, 900.0]));
-    // by geometry alone
     let plain = random(Kind { products: false, offset: false, ..kind(2) }, 12, HORIZON);
     let tensor = [[3.0, 0.2, -0.1], [0.2, 4.0, 0.3], [-0.1, 0.3, 5.0]];
     let irregular = [
@@ -56,7 +52,6 @@ fn variants() -> Vec<SceneInput> {
     ];
     let mut list = vec![plain, scene(1), scene(2), by_moments, by_second];
     list.extend(irregular.map(|debris| SceneInput { debris: Some(debris), ..scene(1) }));
-    // parts of every shape, one of them given by mass, and a wheel given by mass and inertias
     let mut parts = random(Kind { products: false, offset: false, ..kind(2) }, 13, HORIZON);
     let part = |name, shape, position_m| PartInput {
         name: Name::of(name),
@@ -85,7 +80,6 @@ fn variants() -> Vec<SceneInput> {
     list.push(scene(1).with("environment.body_torque_n_m", &[30.0, -20.0, 10.0]));
     for input in &mut list {
         input.parts[0].attitude = axes;
-        // oblique, so that each component of an axis turns it
         for wheel in &mut input.wheels {
             wheel.axis = wheel.axis.map(|x| 2.0 * x + 0.3);
         }
@@ -113,8 +107,7 @@ fn parameters(variants: &[SceneInput]) -> Vec<(Parameter, Vec<usize>)> {
     found
 }
 
-/// What is known of a run: its states, and the energies in its row (the rotation of a cube does not depend on its
-/// mass).
+/// The states of a run, and the energies in its row.
 struct Motion {
     table: StateTable,
     energies: Vec<f64>,
@@ -124,7 +117,7 @@ fn motion(method: Method, input: &SceneInput) -> Motion {
     let scene = Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]));
     let grid = Grid::uniform(HORIZON, 5);
     let tolerance = if method == Method::Taylor { 1e-16 } else { TOLERANCE };
-    let run = propagate(method, adaptive(tolerance), &grid, std::slice::from_ref(&scene)).remove(0);
+    let run = propagate_one(method, adaptive(tolerance), &grid, &scene);
     assert_eq!(run.outcome.status, Status::Done);
     let groups = [Group::Energies, Group::EnergiesCom].into_iter().collect();
     let request =
@@ -189,7 +182,7 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     for (parameter, places) in parameters(&variants) {
         for component in 0..parameter.width() {
             let name = parameter.component_name(component);
-            // other keys may hide this one: there is a scene in which none does
+        // other keys may hide this one
             let found = places.iter().find_map(|place| {
                 let (scene, recorded) = drawn(parameter, component, &variants[*place]);
                 let taylor = motion(Method::Taylor, &scene);
@@ -210,17 +203,14 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
                 );
             }
             let agreed = distance(&motion(Method::NullSpace, &scene), &taylor);
-            println!("{name:50} moved {moved:8.1e}, kernels apart {agreed:8.1e}");
             assert!(agreed < AGREED, "{name}: {agreed:e}");
             (least, most, count) = (least.min(moved), most.max(agreed), count + 1);
         }
     }
-    // a point has no attitude and no inertia; the end of an arc at which the next one starts is a switch of that one
+    // a point has no attitude and no inertia; where arcs meet there is one switch
     unmoved.retain(|name| !name.starts_with("body.parts.tip."));
-    // air and light act on an orbit alone, which the null-space kernel refuses: tests/accuracy/orbits.rs has their
-    // truth
+    // the null-space kernel refuses orbits: tests/accuracy/orbits.rs has their truth
     unmoved.retain(|name| !name.starts_with("environment."));
     assert_eq!(unmoved, ["actuation.0.switch_off_delay_s"]);
-    println!("{count} components: moved by at least {least:e}; kernels at most {most:e} apart");
     assert!(count > 100, "{count}");
 }

@@ -1,7 +1,4 @@
-//! Distributions of one number: quantiles against a published implementation, and draws against their distribution
-//! functions.
-//!
-//! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is.
+//! Distributions of one number: quantiles against a published implementation, draws against distribution functions.
 
 use crate::support::draws::distance;
 use serde_json::Value;
@@ -39,8 +36,7 @@ fn law(name: &str, p: &[f64]) -> Distribution {
     }
 }
 
-/// Relative difference of two implementations that are both good to a few units in the last place of the number that
-/// they compute; a difference of large numbers (a normal value near its mean) is measured against the law's own width.
+/// Relative; a normal value near its mean is measured against the width of its distribution.
 const AGREEMENT: f64 = 1e-12;
 
 #[test]
@@ -82,8 +78,7 @@ fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
     }
 }
 
-/// Quantiles in 30 digits (mpmath) of beta, gamma, Student's t, Weibull, exponential and truncated normal
-/// distributions, of very skewed shapes and in far tails too.
+/// 30 digits (mpmath).
 #[test]
 fn quantiles_are_those_of_mpmath() {
     let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).expect("JSON");
@@ -98,7 +93,7 @@ fn quantiles_are_those_of_mpmath() {
             made = Some((key.clone(), laws_of(name, &p)));
         }
         let ours: Vec<f64> = made.iter().flat_map(|(_, laws)| laws.iter().map(|law| law.quantile(u))).collect();
-        // the pairs (ours, theirs) that must agree; a median of zero is compared with 1
+        // a median of zero is compared with 1
         let pairs = match name {
             "beta" => vec![(ours[0], value), (-ours[1], number(&row[4]))],
             _ if value == 0.0 => vec![(1.0 + ours[0], 1.0)],
@@ -119,9 +114,8 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::INFINITY)
 }
 
-/// Number of draws and critical value of each Kolmogorov-Smirnov test: alpha = 1e-3 gives sqrt(n) D < 1.949. H0: the
-/// draws follow the law. Power: a distribution function that is off by 0.01 somewhere gives sqrt(n) D = 4.5 there, with
-/// a standard deviation of at most 0.5: missed with probability < 1e-6.
+/// Kolmogorov and Smirnov: alpha = 1e-3 gives sqrt(n) D < 1.949. A distribution function off by 0.01 gives 4.5, with a
+/// standard deviation of at most 0.5.
 const N: usize = 200_000;
 const CRITICAL: f64 = 1.949;
 
@@ -144,9 +138,8 @@ fn draws_follow_their_distributions() {
     assert!(distance(values.iter().copied(), |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
 }
 
-/// H0: each value is drawn with its weight. Chi-square with 3 degrees of freedom, n = 200,000, alpha = 1e-3: critical
-/// 16.27. Power: a weight of 0.4 that is 0.41 instead shifts the statistic by n 0.01^2/0.4 and more = 50 (noncentral),
-/// missed with probability < 1e-3.
+/// H0: each value is drawn with its weight; chi-square with 3 degrees of freedom, alpha = 1e-3. A weight of 0.41 in
+/// place of 0.4 shifts the statistic by 50.
 #[test]
 fn listed_values_come_in_proportion() {
     let counted = |weights: &[f64; 4]| {
@@ -160,15 +153,13 @@ fn listed_values_come_in_proportion() {
     const CRITICAL: f64 = 16.27;
     assert!(counted(&[1.0, 4.0, 2.0, 3.0]) < CRITICAL);
     assert!(counted(&[1.0, 4.1, 2.0, 2.9]) > CRITICAL, "a weight that is off is found");
-    // Bernoulli is a choice of two; and an empirical law without interpolation gives every value its share
     let values = draws(&Distribution::Empirical(EmpiricalQuantile::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
     let twos = values.iter().filter(|x| **x == 2.0).count() as f64;
-    // 3.29 standard errors of a share of one half: two-sided alpha = 1e-3
+    // 3.29 standard errors: alpha = 1e-3
     assert!((twos / N as f64 - 0.5).abs() < 3.29 * 0.5 / (N as f64).sqrt());
 }
 
-/// Law: every quantile rises with u, so that a rank correlation laid between u is one of values, and is finite at both
-/// ends of u.
+/// Law: every quantile rises with u and is finite at both ends.
 #[test]
 fn quantiles_rise() {
     let mut laws: Vec<Distribution> = vec![
@@ -182,7 +173,7 @@ fn quantiles_rise() {
     for (a, b) in [(0.01, 0.01), (0.01, 1e4), (1e4, 0.01), (1e4, 1e4), (1.0, 3.0), (0.5, 0.02)] {
         laws.push(Distribution::Beta(BetaQuantile::new(a, b, -1.0, 2.0)));
     }
-    // of numbers near the largest too, with values all over their range
+    // numbers near the largest
     let extreme = [
         law("log_uniform", &[1e-300, 1e300]),
         law("triangular", &[-1e160, 0.0, 1e160]),

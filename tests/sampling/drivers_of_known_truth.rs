@@ -195,8 +195,7 @@ fn effects_on_an_event_are_seldom_false() {
     }
 }
 
-/// Law: a shift is told by the medians of the runs with the event, then of the others, and by the chance that an input
-/// with it is larger than one without.
+/// Law: a shift is the medians of the runs with and without the event, and the chance that an input with it is larger.
 #[test]
 fn shifts_are_medians_and_chances() {
     let mut random = Uniform::new(5);
@@ -227,8 +226,7 @@ fn shifts_are_medians_and_chances() {
     }
 }
 
-/// Law: where several questions are asked of the same runs, the p-value of one input is that of one question times
-/// their number (C. Bonferroni, 1936), on events and on the spread.
+/// Law: one p-value of several questions is that of one times their number (C. Bonferroni, 1936).
 #[test]
 fn questions_are_counted() {
     let mut random = Uniform::new(6);
@@ -281,8 +279,7 @@ fn events_are_the_violations_of_requirements() {
     assert_eq!(Event::missed(&one, &name, &y, &[true; 300])[0].0.occurs, MISSED);
 }
 
-/// Law: where no limit is missed, the worst runs are the twentieth with the largest values of an outcome that has to
-/// stay below a limit, with the smallest of one that has to stay above.
+/// Law: where no limit is missed, the worst runs are the twentieth nearest to it.
 #[test]
 fn the_worst_runs_are_on_the_side_of_the_limit() {
     let name = Observed::all(&small_plan(""))[0].quantity.name().to_owned();

@@ -1,11 +1,7 @@
-//! What is said of drivers, over a list of causal structures of known truth, designs and numbers of runs.
-//!
-//! Each campaign is put into words as on the screen, unless its design refuses drivers. H0 of each structure, design
-//! and number of runs, at alpha 1e-3 by the binomial distribution: an interval of a share that is said covers the truth
-//! in 95%; what is not a cause is named in 5% of the campaigns; and a cause that explains more than half is named first
-//! in 95% of those in which a test at 1e-4 sees it. No number of runs tells what a cause without a fourth moment
-//! explains; it has to be first where it varies more than the rest in the rows. Seeds are fixed. `cargo test --release
-//! --test sampling -- --ignored drivers_of_all_structures` has all designs and 300 campaigns of each.
+//! What is said of drivers as on the screen, over a list of causal structures of known truth, designs and numbers of
+//! runs. H0, at alpha 1e-3: an interval of a share covers the truth in 95%; what is not a cause is named in 5% of the
+//! campaigns; a cause that explains more than half is first in 95% of those in which a test at 1e-4 sees it, or, without
+//! a fourth moment, where it varies more than the rest.
 
 use spindrift::Overrides;
 use spindrift::Plan;
@@ -20,7 +16,6 @@ use crate::causal_structures::{Structure, structures};
 use crate::false_names::numbers;
 
 const OUTCOME: &str = "energy_body_max_j";
-/// Probability of each of the tests under H0.
 const ALPHA: f64 = 1e-3;
 
 fn plan(structure: &Structure, design: &str, runs: u64) -> Plan {
@@ -66,18 +61,18 @@ fn interval(said: &str, name: &str) -> Option<[f64; 2]> {
     Some([low, high].map(|end| end.parse::<f64>().expect("a number") / 100.0))
 }
 
-/// The count under H0, of `all` cases with the probability `p`, that is passed with the probability [`ALPHA`] at most.
+/// The count of `all` cases with the probability `p` that is passed with the probability [`ALPHA`] at most.
 fn most(all: u64, p: f64) -> u64 {
     (0..all).find(|count| binomial::at_least(count + 1, all, p) <= ALPHA).unwrap_or(all)
 }
 
 #[derive(Default)]
 struct Counts {
-    /// Intervals that were said, and those that miss.
+    /// And those that miss.
     said: [u64; 2],
-    /// Campaigns in which what is no cause is named.
+    /// Campaigns that name what is no cause.
     wrong: u64,
-    /// Campaigns in which a test sees the main cause, and those of them in which it is not first.
+    /// Campaigns in which a test sees the main cause, and those in which it is not first.
     seen: [u64; 2],
 }
 
@@ -107,11 +102,10 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
         let rankings = rankings(&found, OUTCOME, 0.05);
         let mut is_wrong = false;
         for ranking in &rankings {
-            // the shares are those of the outcome; of a yes or no, and of a limit, those of the event
+                // of a yes or no, and of a limit, the shares are those of the event
             let is_event = structure.limit.is_some() || is_yes_or_no(&y);
             let is_of_truth = is_event == matches!(ranking.question, Question::Event(_));
             let said = drivers_text::sentence(&plan, OUTCOME, ranking);
-            // the screen names two
             let mut named = ranking
                 .drivers()
                 .take(2)
@@ -119,7 +113,6 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
             is_wrong |= named.any(|input| !is_cause(input));
             for driver in ranking.drivers().filter(|_| is_of_truth) {
                 let Some(input) = inputs.iter().position(|name| *name == driver.input.input) else { continue };
-                // the share of an event is in its chart
                 let of_chart =
                     || driver.share.filter(|_| driver.effect.is_some()).map(|share| [share.lower, share.upper]);
                 let Some([low, high]) = interval(&said, &said_names[input]).or_else(of_chart) else { continue };
@@ -127,7 +120,6 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
                 counts.said[0] += u64::from(truth.is_finite());
                 counts.said[1] += u64::from(low > truth + 1e-9 || high < truth - 1e-9);
             }
-            // without a fourth moment, what the cause explains in these rows, beside the rest
             let is_main = |main: usize| {
                 let rest: Vec<f64> = y.iter().zip(&values[main]).map(|(y, part)| y - part).collect();
                 !structure.has_tail || square(&values[main]) > square(&rest)
@@ -170,7 +162,6 @@ pub fn hold(all: &[(usize, &Structure)], designs: &[&str], sizes: &[(u64, u64)])
                  {seen} seen, {not_first} not first",
                 structure.name
             );
-            println!("{line}");
             let counts = [said, missed, campaigns, wrong, seen, not_first];
             total.iter_mut().zip(counts).for_each(|(total, count)| *total += count);
             if [0, 2, 4].iter().any(|at| counts[at + 1] > most(counts[*at], 0.05)) {
@@ -178,7 +169,6 @@ pub fn hold(all: &[(usize, &Structure)], designs: &[&str], sizes: &[(u64, u64)])
             }
         }
     }
-    println!("said, miss, campaigns, name no cause, seen, not first: {total:?}");
     assert!(broken.is_empty(), "{broken:#?}");
 }
 

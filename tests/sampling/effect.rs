@@ -63,14 +63,11 @@ fn what_changes_nothing_is_noted() {
     let no_thrust = arc(0.0) + "thrust_scale = 0.0\n";
     let density = "body.parts.fuselage.density_kg_m3";
     let cases = [
-        // a thruster that is never fired, an arc after the end, a switch of nothing
         (UNSEEN, p2, arc(0.0) + &dispersed(p2), arc(0.0) + &dispersed(p3)),
         (UNSEEN, p3, arc(1.01) + &dispersed(p3), arc(0.9) + &dispersed(p3)),
         (UNSEEN, on, dispersed(on), arc(0.5) + &dispersed(on)),
-        // a start that stays that of the run, a scale that takes away what it acts on
         (UNSEEN, on, arc(0.0) + &late, arc(0.1) + &late),
         (UNSEEN, p3, no_thrust.clone() + &dispersed(p3), arc(0.0) + &dispersed(p3)),
-        // a length that is divided out, a key that no requested column shows
         (CONSTANT, "initial.attitude", dispersed("initial.attitude.w"), dispersed(radius)),
         (UNSEEN, "initial.position_m", dispersed("initial.position_m"), dispersed(rates)),
         (UNSEEN, "initial.position_m.z", dispersed("initial.position_m.z"), dispersed(density)),
@@ -80,7 +77,6 @@ fn what_changes_nothing_is_noted() {
             seldom("initial.position_m.x", "value = 0.3\nprobability = 0.2"),
             seldom(radius, "value = 0.3\nprobability = 0.2"),
         ),
-        // distributions and components without width
         (
             CONSTANT,
             radius,
@@ -110,8 +106,7 @@ fn what_changes_nothing_is_noted() {
     }
 }
 
-/// Law: what has an effect in some draws alone, or through a derived parameter or observable, or where other draws move
-/// it, has one.
+/// Law: what has an effect in some draws alone, through a derived parameter, or where other draws move it, has one.
 #[test]
 fn what_acts_in_some_draws_is_not_noted() {
     let tilt = dispersed("thrusters.p3.tilt_rad.1");
@@ -126,7 +121,6 @@ fn what_acts_in_some_draws_is_not_noted() {
     ] {
         assert_eq!(notes(&text), [""; 0], "{text}");
     }
-    // what is never drawn to be physical is not called without effect
     let negative = with("wheels.w1.radius_m", "distribution = \"bernoulli\"\nvalue = -1.0\nprobability = 0.9");
     assert_eq!(notes(&negative), [""; 0]);
 }

@@ -1,6 +1,4 @@
-//! Distributions of directions, attitudes and inertias, through campaign files as users write them.
-//!
-//! Statistical tests state H0, n, alpha and power; seeds are fixed, so their outcome is. All at alpha = 1e-3.
+//! Distributions of directions, attitudes and inertias in campaign files; alpha = 1e-3.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,28 +15,23 @@ const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\ndurati
 const DEBRIS_AND_STATE: &str = "[debris]\nmass_kg = 20.0\nprincipal_second_moments_kg_m2 = [1.0, 2.0, 3.0]\n\
     [initial]\nangular_velocity_rad_s = [1.0, -2.0, 2.0]\nattitude = [0.5, 0.5, -0.5, 0.5]\n";
 
-/// A campaign, and what `text` adds.
 pub fn campaign(text: &str) -> String {
     [HEAD, FUSELAGE, DEBRIS_AND_STATE, text].concat()
 }
 
-/// Draws of every statistical test.
 const N: usize = 100_000;
-/// sqrt(n) D of Kolmogorov and Smirnov: sqrt(-ln(alpha/2)/2). A deviation of a distribution function by 0.01 anywhere
-/// (3.2 of these units) is missed with a probability below 1e-3.
+/// sqrt(n) D of Kolmogorov and Smirnov: sqrt(-ln(alpha/2)/2); a deviation by 0.01 is 3.2 of these.
 const KS: f64 = 1.949;
-/// Quantiles 1 - alpha of chi-square with 3, 5, 9 degrees of freedom (tables of Abramowitz & Stegun, 26.8).
+/// Quantiles 1 - alpha of chi-square with 3, 5, 9 degrees of freedom (Abramowitz & Stegun, 26.8).
 const CHI_3: f64 = 16.266;
 const CHI_5: f64 = 20.515;
 const CHI_9: f64 = 27.877;
 
-/// The plan of [`campaign`] with one dispersion.
 pub fn plan(disperse: &str) -> Plan {
     let text = campaign(&format!("[[disperse]]\n{disperse}"));
     Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What samples 1 to N of a file look like through `seen`.
 fn draws<T>(disperse: &str, seen: impl Fn(&SceneInput) -> T) -> Vec<T> {
     draws::seen(&plan(disperse), 1..=N as u64, |scene, _| seen(scene))
 }
@@ -47,16 +40,16 @@ fn rate(scene: &SceneInput) -> [f64; 3] {
     scene.initial.angular_velocity_rad_s
 }
 
-/// Rayleigh's statistic of isotropy, 3 n |mean|^2, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp,
-/// *Directional Statistics*, 2000, 10.4.1): sees a preferred direction.
+/// Rayleigh's statistic of isotropy, chi-square with 3 degrees of freedom (K. V. Mardia & P. E. Jupp, *Directional
+/// Statistics*, 2000, 10.4.1): sees a preferred direction.
 fn rayleigh(directions: &[[f64; 3]]) -> f64 {
     let n = directions.len() as f64;
     let mean: [f64; 3] = std::array::from_fn(|i| directions.iter().map(|d| d[i]).sum::<f64>() / n);
     3.0 * n * dot(mean, mean)
 }
 
-/// Bingham's statistic of uniformity on the sphere in `P` dimensions, n p (p + 2)/2 (tr T^2 - 1/p) with T the mean of x
-/// x^T, chi-square with (p - 1)(p + 2)/2 degrees of freedom (ibid., 10.7.1): sees a preferred axis, whatever its sign.
+/// Bingham's statistic of uniformity on the sphere in `P` dimensions, chi-square with (p - 1)(p + 2)/2 degrees of
+/// freedom (ibid., 10.7.1): sees a preferred axis, whatever its sign.
 fn bingham<const P: usize>(points: &[[f64; P]]) -> f64 {
     let (n, p) = (points.len() as f64, P as f64);
     let mut square = 0.0;
@@ -79,16 +72,14 @@ fn about(axis: [f64; 3], v: [f64; 3]) -> [f64; 2] {
     [dot(v, z), azimuth.rem_euclid(1.0)]
 }
 
-/// The angular velocity is dispersed.
 pub const RATE: &str = "parameter = \"initial.angular_velocity_rad_s\"\n";
 
-/// H0: directions are uniform on the sphere; the magnitude stays. Power: a law that prefers one direction by a
-/// concentration of 0.03, or one that shifts E[z^2] from 1/3 by 0.005, is missed with a probability below 1e-2.
+/// Power: a concentration of 0.03, or E[z^2] off by 0.005, is missed with a probability below 1e-2.
 #[test]
 fn directions_are_uniform_on_the_sphere() {
     let rates = draws(&format!("{RATE}distribution = \"uniform_direction\"\n"), rate);
     for (row, v) in rates.iter().enumerate() {
-        // rounding of a direction, its factor and the norm: some ulps; measured: two
+        // measured: two ulps
         assert!((norm(*v) / 3.0 - 1.0).abs() < 1e-15 * 8.0, "row {row}: {v:?}");
     }
     let directions: Vec<[f64; 3]> = rates.iter().map(|v| scaled(1.0 / 3.0, *v)).collect();
@@ -100,8 +91,7 @@ fn directions_are_uniform_on_the_sphere() {
     }
 }
 
-/// H0: in a cone about the nominal, or about an axis, the azimuth is uniform and the cosine is uniform: of rates, of
-/// axes of wheels, of directions of thrusters. The length of the nominal vector stays.
+/// H0: azimuth and cosine are uniform in a cone about the nominal or an axis.
 #[test]
 fn cones_are_uniform_in_solid_angle() {
     let thruster = "[[thrusters]]\nname = \"a\"\nposition_m = [1, 0, 0]\ndirection = [0, 3, 4]\n\
@@ -141,8 +131,8 @@ fn cones_are_uniform_in_solid_angle() {
     }
 }
 
-/// H0: von Mises and Fisher's law: P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa)), uniform azimuth, mean
-/// resultant coth(kappa) - 1/kappa, whose estimate has a standard deviation below 1/(kappa sqrt(n)).
+/// H0: P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa)), uniform azimuth, mean resultant coth(kappa) -
+/// 1/kappa, whose estimate has a standard deviation below 1/(kappa sqrt(n)).
 #[test]
 fn von_mises_and_fisher() {
     for kappa in [0.5, 5.0, 400.0] {
@@ -159,10 +149,7 @@ fn von_mises_and_fisher() {
     }
 }
 
-/// H0: angle to the axis, azimuth and magnitude are independent, and each follows its law: of the distribution
-/// functions of all three, each of 4 x 4 x 4 cells has a share of 1/64. Chi-square with 63 degrees of freedom, whose
-/// quantile at 1 - alpha is 103.4. Power: a number that decides two of the three leaves three cells in four empty, a
-/// statistic of some 3 n.
+/// H0: each of 4 x 4 x 4 cells of the distribution functions of angle, azimuth and magnitude has a share of 1/64.
 #[test]
 fn magnitude_azimuth_and_angle_are_apart() {
     const CHI_63: f64 = 103.442;
@@ -191,8 +178,8 @@ fn magnitude_azimuth_and_angle_are_apart() {
     assert!(distance(speeds, |x| x / 2.0) < KS);
 }
 
-/// H0: attitudes are uniform on SO(3): quaternions uniform on the 3-sphere (Bingham), E[C33^2] = 1/3 with variance
-/// 4/45, and the angle, whose cosine is (trace - 1)/2, has the distribution (theta - sin theta)/pi.
+/// H0: quaternions are uniform on the 3-sphere, E[C33^2] = 1/3 with variance 4/45, and the angle has the distribution
+/// (theta - sin theta)/pi.
 #[test]
 fn attitudes_are_uniform_on_so3() {
     let list = draws("parameter = \"initial.attitude\"\ndistribution = \"uniform_attitude\"\n", |s| s.initial.attitude);
@@ -205,7 +192,6 @@ fn attitudes_are_uniform_on_so3() {
     assert!(far < KS, "{far}");
 }
 
-/// The rotation vector from the nominal attitude, in the frame of the body.
 fn error(q: [f64; 4]) -> [f64; 3] {
     let off = hamilton(conjugate([0.5, 0.5, -0.5, 0.5]), q);
     let off = if off[0] < 0.0 { off.map(|x| -x) } else { off };
@@ -215,8 +201,8 @@ fn error(q: [f64; 4]) -> [f64; 3] {
     [share * off[1], share * off[2], share * off[3]]
 }
 
-/// H0: the rotation vector is normal with the covariance written: theta^T P^-1 theta is chi-square with 3 degrees of
-/// freedom, and its mean square and products are P, each within 3.29 standard deviations ((p_ii p_jj + p_ij^2)/n).
+/// H0: theta^T P^-1 theta is chi-square with 3 degrees of freedom, and mean products are P, within 3.29 standard
+/// deviations ((p_ii p_jj + p_ij^2)/n).
 #[test]
 fn attitude_errors_have_their_covariance() {
     let p = [[4e-4, 1e-4, 0.0], [1e-4, 1e-4, -5e-5], [0.0, -5e-5, 2.5e-4]];
@@ -239,26 +225,23 @@ fn attitude_errors_have_their_covariance() {
     assert!(far < KS, "{far}");
 }
 
-/// H0: about an axis the attitude turns by the law of the angle, and about no other.
 #[test]
 fn attitudes_turn_about_an_axis() {
     let law = "parameter = \"initial.attitude\"\ndistribution = \"about_axis\"\naxis = [0, 3, 4]\n\
         angle_rad = { distribution = \"uniform\", min = -1, max = 2 }\n";
     let thetas = draws(law, |s| error(s.initial.attitude));
     for (row, t) in thetas.iter().enumerate() {
-        // angles to 2 rad from products of two quaternions, some dozen roundings; measured: 6.7e-16
+        // measured: 6.7e-16
         assert!(t[0].abs() < 1e-14 && (t[1] * 0.8 - t[2] * 0.6).abs() < 1e-14, "row {row}: {t:?}");
     }
     let far = distance(thetas.iter().map(|t| 0.6 * t[1] + 0.8 * t[2]), |x| (x + 1.0) / 3.0);
     assert!(far < KS, "{far}");
 }
 
-/// Counter-tests: the same statistics reject common mistakes.
 #[test]
 fn usual_mistakes_are_caught() {
     let uniform = draws(&format!("{RATE}distribution = \"uniform\"\nmin = -1\nmax = 1\n"), rate);
-    // components of a cube, normalised: towards its corners. No preferred axis, so second moments are blind; the
-    // component is not
+    // components of a cube: second moments are blind to its corners
     let cube: Vec<f64> = uniform.iter().map(|v| v[2] / norm(*v)).collect();
     // measured: 5.5 KS
     assert!(distance(cube, |x| (1.0 + x) / 2.0) > 3.0 * KS);
@@ -274,7 +257,7 @@ fn usual_mistakes_are_caught() {
         })
         .collect();
     assert!(bingham(&polar) > 100.0 * CHI_5);
-    // uniform Euler angles: E[C33^2] = 1/2, which is 177 standard errors off; measured: 178
+    // uniform Euler angles: E[C33^2] = 1/2; measured: 178 standard errors off
     let mean = uniform.iter().map(|v| libm::cos(PI * v[0]).powi(2)).sum::<f64>() / N as f64;
     assert!((mean - 1.0 / 3.0).abs() > 100.0 * (4.0 / 45.0 / N as f64).sqrt());
     // a quaternion of uniform numbers, normalised; measured: 12.1 KS
@@ -287,7 +270,6 @@ fn usual_mistakes_are_caught() {
     assert!(quaternion > 3.0 * KS, "{quaternion}");
 }
 
-/// How many of the bodies that a file draws are impossible.
 fn impossible(text: &str, count: u64) -> usize {
     let plan = Plan::from_text("test.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     let mut scene = Scene::resolve(&plan.nominal).expect("the nominal scene is physical");
@@ -295,8 +277,7 @@ fn impossible(text: &str, count: u64) -> usize {
     refused.into_iter().filter(|is_refused| *is_refused).count()
 }
 
-/// Law: a million draws by log-Cholesky, and by second moments about the principal axes, make a million possible
-/// bodies, however wide. Counter-test: principal moments that are drawn freely do not.
+/// Counter-test: principal moments that are drawn freely do not.
 #[test]
 fn a_million_bodies_and_none_impossible() {
     let normal = |key: &str, std: f64| {
@@ -321,15 +302,11 @@ fn a_million_bodies_and_none_impossible() {
     let moments = campaign(free)
         .replace("principal_second_moments_kg_m2 = [1.0, 2.0, 3.0]", "principal_moments_kg_m2 = [1.0, 1.5, 2.3]");
     let refused = impossible(&moments, 10_000);
-    println!("free principal moments: {refused} of 10000 impossible");
     // measured: 2415
     assert!(refused > 500, "{refused}");
 }
 
-/// Law: the mean direction follows the axis, in all eight octants and along all coordinate axes. The mean of cos(theta)
-/// of a cone of half-angle a is (1 + cos a)/2, of von Mises-Fisher coth(kappa) - 1/kappa; the mean direction of n draws
-/// is off by less than 5 of its standard deviations, some 0.01. An axis with one component mirrored is off by more
-/// than 1.
+/// Law: the mean cosine of a cone of half-angle a is (1 + cos a)/2, of von Mises-Fisher coth(kappa) - 1/kappa.
 #[test]
 fn mean_directions_follow_the_axis_in_all_octants() {
     const DRAWS: u64 = 4000;
@@ -344,7 +321,6 @@ fn mean_directions_follow_the_axis_in_all_octants() {
     ];
     for axis in axes {
         for (law, cosine) in laws {
-            // the axis as written, and as the nominal vector
             let written = plan(&format!("{RATE}{law}axis = {axis:?}\n"));
             let along =
                 campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
@@ -356,9 +332,8 @@ fn mean_directions_follow_the_axis_in_all_octants() {
                 }
                 let expected = scaled(cosine / norm(axis), axis);
                 let off: f64 = (0..3).map(|i| (mean[i] - expected[i]).powi(2)).sum::<f64>().sqrt();
-                // the mean of 4000 draws is off by sqrt((1 - cosine^2)/4000) in the root mean square: 0.0084 (cone) and
-                // 0.0049. The cone has 0.0058 in either direction across the axis, so that 0.04 is exceeded with a
-                // probability below 1e-10. Measured: 0.006
+                // the cone has 0.0058 in either direction across the axis: exceeded with a probability below 1e-10.
+                // Measured: 0.006
                 assert!(off < 0.04, "{law} about {axis:?}: mean {mean:?}, expected {expected:?}");
             }
         }

@@ -1,8 +1,5 @@
-//! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number
-//! of runs that an undecided one names decides.
-//!
-//! Seeds are fixed. H0 of each: a bound misses with at most 5%; one-sided, alpha = 1e-4. `--nocapture` prints the rates
-//! that docs/results.md lists.
+//! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number of
+//! runs that is named decides. H0: a bound misses with at most 5%; alpha = 1e-4. docs/results.md has the rates.
 
 use crate::support::scenes::Uniform;
 use spindrift::math::normal;
@@ -12,7 +9,6 @@ use spindrift::statistics::mean::{bounded_mean_bounds, mean_bounds};
 use spindrift::statistics::moments::Moments;
 
 const ALPHA: f64 = 1e-4;
-/// The risk of a bound.
 const RISK: f64 = 0.05;
 
 fn may_miss(count: u32, campaigns: u32) -> bool {
@@ -31,7 +27,7 @@ fn exponential(random: &mut Uniform) -> f64 {
     -libm::log(random.uniform())
 }
 
-/// Ordinary spread with a rare event on top: name, a number of it, its mean, the probability of the event.
+/// Ordinary spread with a rare event: name, a number of it, mean, probability of the event.
 type Tailed = (&'static str, fn(&mut Uniform) -> f64, f64, f64);
 
 const TAILED: [Tailed; 3] = [
@@ -50,12 +46,11 @@ const TAILED: [Tailed; 3] = [
     ("10 in 5%", |random| f64::from(u8::from(random.uniform() < 0.05)) * 10.0 + normal_number(random), 0.5, 0.05),
 ];
 
-/// So many of such events in the runs of a campaign are not rare (`RARE` of the program).
+/// Of such events in a campaign (`RARE` of the program).
 const RARE: f64 = 10.0;
 
-/// Law: an upper bound of a mean without bounds of the values misses as seldom as stated where a campaign has ten of
-/// the rare events or more on average. The counter-test: where it has one or fewer it misses far more often, which is
-/// why a decision says what it assumes.
+/// Law: an upper bound of a mean without bounds of the values misses as stated from ten rare events on; with one or
+/// fewer it misses far more often.
 #[test]
 fn rare_events_are_what_a_mean_assumes() {
     for (index, (name, draw, mean, probability)) in TAILED.into_iter().enumerate() {
@@ -68,7 +63,6 @@ fn rare_events_are_what_a_mean_assumes() {
                 misses += u32::from(mean_bounds(&Moments::of_block(&values), 1.0 - RISK)[1] < mean);
             }
             let events = f64::from(runs) * probability;
-            println!("{name}: {runs} runs, {events} events: passes wrongly in {:.1}%", 100.0 * rate(misses, campaigns));
             if events >= RARE {
                 assert!(may_miss(misses, campaigns), "{name} {runs}: {misses} of {campaigns}");
             } else if events <= 1.0 {
@@ -78,23 +72,20 @@ fn rare_events_are_what_a_mean_assumes() {
     }
 }
 
-/// A uniform number with the mean 0 and the standard deviation 1.
 fn flat(random: &mut Uniform) -> f64 {
     3.0_f64.sqrt() * (2.0 * random.uniform() - 1.0)
 }
 
-/// The longest exponential number of those that are cut off.
 const LONGEST: f64 = 10.0;
 
 fn cut(random: &mut Uniform) -> f64 {
     -libm::log1p(-random.uniform() * (1.0 - libm::exp(-LONGEST)))
 }
 
-/// The same with bounds: flat spread in place of normal, exponential numbers cut off at [`LONGEST`]; name, a number of
-/// it, its mean, its bounds.
+/// Name, a number of it, mean, bounds.
 type Bounded = (&'static str, fn(&mut Uniform) -> f64, f64, [f64; 2]);
 
-/// The mean of exponential numbers below [`LONGEST`]: 1 - 10/(e^10 - 1).
+/// 1 - 10/(e^10 - 1).
 const MEAN_BELOW: f64 = 0.999_545_980_089_903;
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
@@ -121,9 +112,8 @@ const BOUNDED: [Bounded; 5] = [
     ("half 0, half 1", |random| f64::from(u8::from(random.uniform() < 0.5)), 0.5, [0.0, 1.0]),
 ];
 
-/// Law: with bounds of the values both bounds of the mean miss as seldom as stated, whatever the tail and however few
-/// runs; a limit at a quarter of the range above the mean passes with 1,000 runs. The counter-test: without the bounds
-/// the same numbers pass wrongly.
+/// Law: with bounds of the values both bounds of the mean miss as stated, whatever the tail; a limit at a quarter of the
+/// range above the mean passes with 1,000 runs. Without the bounds the same numbers pass wrongly.
 #[test]
 fn bounded_means_miss_as_seldom_as_stated() {
     let mut worst: f64 = 0.0;
@@ -144,12 +134,7 @@ fn bounded_means_miss_as_seldom_as_stated() {
                 passes += u32::from(bounded_mean_gate(&moments, range, clear, 1.0 - RISK).decision == Decision::Pass);
                 free += u32::from(mean_bounds(&moments, 1.0 - RISK)[1] < mean);
             }
-            println!(
-                "{name}, {runs} runs: bounds miss {misses:?} of {campaigns}, without bounds {free}; a clear one passes \
-                in {passes}"
-            );
             assert!(misses.iter().all(|count| may_miss(*count, campaigns)), "{name} {runs}: {misses:?}");
-            // what docs/results.md says of these campaigns
             assert!(misses.iter().all(|count| *count <= u32::from(campaigns == 2000)), "{name} {runs}: {misses:?}");
             assert!(runs < 1000 || passes == campaigns, "{name}: {passes}");
             worst = worst.max(rate(free, campaigns));
@@ -158,8 +143,7 @@ fn bounded_means_miss_as_seldom_as_stated() {
     assert!(worst > 0.3, "the counter-test: {worst}");
 }
 
-/// Whether a campaign of the number of runs that an undecided one names decides; `None` where that one is decided, or
-/// names no number up to [`MOST`].
+/// Whether a campaign of the runs named decides; `None` where the first is decided, or names no number up to [`MOST`].
 fn followed(
     gate: impl Fn(&[f64]) -> Decision,
     draw: fn(&mut Uniform) -> f64,
@@ -173,14 +157,10 @@ fn followed(
 
 const MOST: u64 = 30_000;
 
-/// Law: of campaigns of the number of runs that an undecided one names, about half decide or more: nine of ten would if
-/// the truth were what was seen (the test beside this one), and what was seen is off by its error. A larger spread in
-/// that number, the upper bound of the standard deviation, made it 68% where it is 53%: it is the distance to the limit
-/// that is uncertain.
+/// Law: of campaigns of the number of runs that is named, half decide or more: what was seen is off by its error.
 #[test]
 fn half_of_those_that_follow_the_number_of_runs_decide() {
     const FOLLOWED: u32 = 200;
-    // 0.42 is 0.5 less 2.3 standard errors
     const LEAST: f64 = 0.42;
     let mean_at = |limit: f64| {
         move |values: &[f64]| mean_gate(&Moments::of_block(values), GateLimit::AtMost(limit), 0.95).decision
@@ -195,7 +175,6 @@ fn half_of_those_that_follow_the_number_of_runs_decide() {
         let mut random = Uniform::new(seed);
         let found: Vec<bool> = (0..4 * FOLLOWED).filter_map(|_| one(&mut random)).take(FOLLOWED as usize).collect();
         let decided = rate(found.iter().filter(|decided| **decided).count() as u32, found.len() as u32);
-        println!("{what}: {:.0}% of {} decide", 100.0 * decided, found.len());
         assert!(found.len() > 50 && decided >= LEAST, "{what}: {decided}");
     };
     for (index, runs) in [20_u64, 100].into_iter().enumerate() {

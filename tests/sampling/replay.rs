@@ -1,5 +1,4 @@
-//! What is recorded is what is used: the recorded values of a sample, written into a campaign file as its nominal
-//! scene, give the same scene and the same columns, bit for bit.
+//! The recorded values of a sample, written into a campaign file, give the same scene and columns, bit for bit.
 
 use crate::support::plans::files;
 use spindrift::campaign::{Overrides, Plan, SceneDraws, draw};
@@ -7,9 +6,7 @@ use spindrift::ensemble::SingleRun;
 use spindrift::math::Isa;
 use spindrift::sampling::{Design, SampleId};
 
-/// Samples of each campaign that are written and read again.
 const SAMPLES: u64 = 24;
-/// Of these, samples that are run.
 const RUN: u64 = 3;
 
 fn written_again(plan: &Plan, sample: SampleId) -> Plan {
@@ -42,7 +39,6 @@ fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
             if sample.0 <= RUN && plan.law.is_none() {
                 let row = |plan, sample| {
                     let run = SingleRun::new(plan, sample, again.grid.clone(), isa).expect("a physical sample");
-                    // the nominal run of the written file is this sample itself
                     let columns = run.request.columns();
                     let compared =
                         columns.iter().map(|column| !column.quantity.name().starts_with("attitude_from_nominal"));

@@ -11,13 +11,11 @@ fn names() -> Vec<String> {
     (0..DIMENSIONS).map(|dimension| format!("x{dimension}")).collect()
 }
 
-/// The designs with so many replicates.
 fn designs(replicates: u64) -> [Design; 3] {
     let replicates = Replicates::of(replicates).expect("a number of replicates");
     [Design::LatinHypercube(replicates), Design::Sobol(replicates), Design::Halton(replicates)]
 }
 
-/// The numbers of the samples 1 ... `points`, sample by sample.
 fn numbers(design: &Design, seed: u64, points: u64) -> Vec<[f64; DIMENSIONS]> {
     let names = names();
     let mut source =
@@ -31,7 +29,6 @@ fn numbers(design: &Design, seed: u64, points: u64) -> Vec<[f64; DIMENSIONS]> {
     found
 }
 
-/// The numbers of each replicate of `count` samples each, in their order.
 fn replicates(design: &Design, seed: u64, count: u64) -> Vec<Vec<[f64; DIMENSIONS]>> {
     let mut found = vec![Vec::new(); design.replicates() as usize];
     for (index, numbers) in numbers(design, seed, count * design.replicates()).into_iter().enumerate() {
@@ -41,7 +38,6 @@ fn replicates(design: &Design, seed: u64, count: u64) -> Vec<Vec<[f64; DIMENSION
     found
 }
 
-/// Whether in each dimension one of the points is in each of as many equal intervals.
 fn is_stratified(points: &[[f64; DIMENSIONS]], dimensions: usize) -> bool {
     (0..dimensions).all(|dimension| {
         let mut counts = vec![0; points.len()];
@@ -50,9 +46,8 @@ fn is_stratified(points: &[[f64; DIMENSIONS]], dimensions: usize) -> bool {
     })
 }
 
-/// Law: each replicate is by itself a design of its kind: a hypercube, a net (in each dimension, and in the boxes of
-/// the first two), a sequence in base 2. Counter-test: all of them together, and points of several replicates mixed,
-/// are none.
+/// Law: each replicate is a hypercube, a net, a sequence; all together, and points of several replicates mixed, are
+/// none.
 #[test]
 fn each_replicate_is_a_design_of_its_kind() {
     let [latin, sobol, halton] = designs(16);
@@ -77,7 +72,6 @@ fn each_replicate_is_a_design_of_its_kind() {
             assert_eq!(counts, [1; 64], "boxes of 2^{wide} columns");
         }
     }
-    // the third dimension of a Halton sequence has base 5
     for replicate in replicates(&halton, 3, 125) {
         let mut counts = [0; 125];
         replicate.iter().for_each(|point| counts[(point[2] * 125.0) as usize] += 1);
@@ -85,8 +79,7 @@ fn each_replicate_is_a_design_of_its_kind() {
     }
 }
 
-/// Law: with one replicate no bit changes, and with more of them more samples leave the earlier ones as they are where
-/// the design does.
+/// Law: one replicate changes no bit, and more samples leave earlier ones where the design does.
 #[test]
 fn one_replicate_is_the_design() {
     for (one, many) in designs(1).into_iter().zip(designs(4)) {
@@ -112,23 +105,19 @@ fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
     (mean, (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt())
 }
 
-/// Means over replicates of a smooth function with mean 1: the product over dimensions of 1 + (x - 1/2).
+/// Of the product over dimensions of 1 + (x - 1/2).
 fn means(design: &Design) -> Vec<f64> {
     let function = |point: &[f64; DIMENSIONS]| point.iter().map(|x| 0.5 + x).product::<f64>();
     let mean = |points: &Vec<[f64; DIMENSIONS]>| points.iter().map(function).sum::<f64>() / points.len() as f64;
     replicates(design, 3, 64).iter().map(mean).collect()
 }
 
-/// Law: replicates are independent and without bias, and their means vary less than those of as many random samples.
-///
-/// H0: the means of 256 replicates of 64 samples are independent with mean 1. Two statistics of each design are within
-/// 3.9 standard errors (alpha = 1e-4 each): the mean of the means, and the correlation of neighbours (standard error
-/// 1/16). Seed 3. Power: a bias of a third of the spread of the means is 5 standard errors; replicates that share half
+/// Law: replicates are independent and without bias, and their means vary less than those of random samples: the mean of
+/// 256 means and the correlation of neighbours are within 3.9 standard errors (alpha = 1e-4).
 /// of their scrambling correlate by 0.5, which is 8.
 #[test]
 fn means_of_replicates_are_independent_and_vary_little() {
     const COUNT: u64 = 256;
-    /// Quantile of the normal distribution at 1 - 0.5e-4.
     const ERRORS: f64 = 3.9;
     let random = numbers(&Design::Random(()), 3, 64 * COUNT);
     let random: Vec<f64> = random
@@ -142,10 +131,9 @@ fn means_of_replicates_are_independent_and_vary_little() {
         let root = (COUNT as f64).sqrt();
         let pairs = means.iter().zip(&means[1..]).map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>();
         let correlation = pairs / (deviation * deviation * (COUNT as f64 - 1.0));
-        println!("{}: {mean:.5} +- {deviation:.5} (random {of_random:.5}), neighbours {correlation:.3}", design.name());
         assert!((mean - 1.0).abs() < ERRORS * deviation / root, "{}: {mean} {deviation}", design.name());
         assert!(correlation.abs() < ERRORS / root, "{}: {correlation}", design.name());
-        // the spread of random means has a relative error of 4%; measured ratios are printed
+        // the spread of random means has a relative error of 4%
         assert!(deviation < 0.5 * of_random, "{}: {deviation} {of_random}", design.name());
     }
 }

@@ -1,5 +1,4 @@
-//! What the numbers of a design have in common: which of them a block of Saltelli's replaces together, and which digits
-//! Halton's have.
+//! Which numbers a block of Saltelli's replaces together, and which digits Halton's have.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -18,8 +17,7 @@ fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
     (draws::applied(&plan, 1..plan.samples), columns)
 }
 
-/// Law: of the members of a block, that of a distribution has all numbers of this distribution from the last, and all
-/// others from the first, for every distribution.
+/// Law: of the members of a block, that of a distribution has all its numbers from the last, and others from the first.
 #[test]
 fn saltelli_replaces_the_numbers_of_one_distribution_together() {
     const BLOCKS: usize = 8;
@@ -36,7 +34,6 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
     for (name, table) in distribution_tables() {
         let radius = "parameter = \"wheels.w1.radius_m\"";
         let factors = match name {
-            // has no random number
             "offset" => 2,
             _ if table.contains(radius) => 5,
             _ => 3,
@@ -45,7 +42,6 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
         let head = head.replace("samples = 10\n", &format!("samples = {}\n", 1 + BLOCKS * (factors + 2)));
         let (rows, columns) = draws(&scratch.0, &format!("{head}{first}{table}{last}[design]\nkind = \"saltelli\"\n"));
         assert_eq!(rows.len(), BLOCKS * (factors + 2));
-        // the columns are those of the first table, of the distribution, and of the last one
         let factor = |column: usize| match column {
             0 => 0,
             _ if column == columns.len() - 1 => factors - 1,
@@ -68,7 +64,6 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
                 }
             }
         }
-        // the law is not one of constants: of a few values A and B may have the same in every block
         let has_few = ["offset", "bernoulli", "choice"].contains(&name);
         assert!(replaced.len() == columns.len() || has_few, "{name}: {replaced:?}");
         names.insert(name);
@@ -85,9 +80,8 @@ fn digits(mut point: u64, base: u64, count: usize) -> Vec<u64> {
     (0..count).map(|_| digit()).collect()
 }
 
-/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), but for a
-/// permutation of the values of each digit, the same for all n and another for each digit and dimension (A. B. Owen,
-/// 2017).
+/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), with a permutation of
+/// the values of each digit and dimension (A. B. Owen, 2017).
 #[test]
 fn halton_permutes_the_digits_of_the_radical_inverse() {
     const PRIMES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
@@ -101,7 +95,6 @@ fn halton_permutes_the_digits_of_the_radical_inverse() {
     assert_eq!((rows.len(), columns.len()), (4096, PRIMES.len()));
     let mut found = BTreeSet::new();
     for (dimension, base) in PRIMES.into_iter().enumerate() {
-        // digits that a product with a power of the base gives exactly
         let count = (0..).take_while(|k| base.pow(*k) <= 1 << 26).count() - 1;
         let mut images = vec![BTreeMap::new(); count];
         for (point, row) in rows.iter().enumerate() {
@@ -116,13 +109,11 @@ fn halton_permutes_the_digits_of_the_radical_inverse() {
         for (place, images) in images.into_iter().enumerate() {
             let values: BTreeSet<u64> = images.values().copied().collect();
             assert_eq!(values.len(), images.len(), "two values of digit {place} in base {base} have one image");
-            // of 23! permutations and more: no two are the same, and none is the identity
             if base >= 23 && images.len() as u64 == base {
                 assert!(images.iter().any(|(digit, image)| digit != image), "digit {place} in base {base}");
                 assert!(found.insert(images.into_iter().take(23).collect::<Vec<_>>()), "digit {place} in base {base}");
             }
         }
     }
-    // two digits of four bases
     assert_eq!(found.len(), 8);
 }

@@ -1,6 +1,5 @@
 //! Parts of campaign files, to be put together: Berdoz's spacecraft, table by table.
 
-/// The fuselage.
 pub const FUSELAGE: &str = "\
 [[body.parts]]
 name = \"fuselage\"
@@ -27,16 +26,12 @@ macro_rules! wheel {
     };
 }
 
-/// Wheel 1, at rest.
 pub const WHEEL1_AT_REST: &str = wheel!("w1", "[0, 1, 0]", "[0, 0, 1]");
 
-/// Wheel 2, at rest.
 pub const WHEEL2_AT_REST: &str = wheel!("w2", "[0, 0, 1]", "[0, 0, 2]");
 
-/// Wheel 1, with its initial rate.
 pub const WHEEL1: &str = concat!(wheel!("w1", "[0, 1, 0]", "[0, 0, 1]"), "rate_rad_s = 314.1592653589793\n");
 
-/// Wheel 2, with its initial rate.
 pub const WHEEL2: &str = concat!(wheel!("w2", "[0, 0, 1]", "[0, 0, 2]"), "rate_rad_s = 157.07963267948966\n");
 
 /// The thrusters p1, p2 and p3, each a table of its own, so that keys may follow.
@@ -46,14 +41,13 @@ pub const THRUSTERS: [&str; 3] = [
     "[[thrusters]]\nname = \"p3\"\nposition_m = [0, 0.5, 3]\ndirection = [0, 0, -1]\n",
 ];
 
-/// The debris.
 pub const DEBRIS: &str = "\
 [debris]
 side_m = 0.2
 density_kg_m3 = 2700.0
 ";
 
-/// The initial state of the spacecraft: the last table of a scene, so that [`DEBRIS_STATE`] may follow.
+/// The last table of a scene, so that [`DEBRIS_STATE`] may follow.
 pub const SPACECRAFT_STATE: &str = "\
 [initial]
 position_m = [0, 0, 0]
@@ -62,7 +56,6 @@ attitude = [1, 0, 0, 0]
 angular_velocity_rad_s = [0, 3.141592653589793, 31.41592653589793]
 ";
 
-/// The initial state of the debris.
 pub const DEBRIS_STATE: &str = "\
 debris_position_m = [0, 0, 0]
 debris_velocity_m_s = [10, 0, 0]
@@ -70,7 +63,6 @@ debris_attitude = [1, 0, 0, 0]
 debris_relative_angular_velocity_rad_s = [100, 0, 0]
 ";
 
-/// A spin that differs from sample to sample.
 pub const SPIN_DISPERSION: &str = "\
 [[disperse]]
 parameter = \"initial.angular_velocity_rad_s\"
@@ -78,7 +70,7 @@ distribution = \"normal\"
 std = [0.5, 0.5, 1.5]
 ";
 
-/// A small body, to whose inertia diag(30, 36, 24) kg m^2 its wheels add nothing.
+/// The wheels add nothing to its inertia diag(30, 36, 24) kg m^2.
 pub const SMALL_BODY: &str = "[body]\nmass_kg = 100\ncenter_of_mass_m = [0, 0, 0]\n\
     inertia_kg_m2 = [[30, 0, 0], [0, 36, 0], [0, 0, 24]]\nincludes_wheels = true\n";
 

@@ -1,30 +1,22 @@
-//! The table of accuracy claims: a test measures and checks a claim, and `docs/accuracy.md` is written from the same
-//! call.
-//!
-//! A claim is a regime in words, a bound, and what was measured. In the document it is one row of the table of its
-//! section: [`hold`] fails where the measured number exceeds the bound, and where the document lacks the claim, states
-//! another bound or another measured number. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead: nothing in
-//! the tables is typed by hand.
+//! The table of accuracy claims: [`hold`] fails where the measured number exceeds the bound, and where `docs/accuracy.md`
+//! states another one. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// If this variable is set, rows of the document are written and not compared.
 pub const WRITE: &str = "SPINDRIFT_WRITE_ACCURACY";
 
 /// Tests of one program run in parallel; the document is one file.
 static DOCUMENT: Mutex<()> = Mutex::new(());
 
-/// The head of every table.
 const HEAD: [&str; 2] = ["| regime | bound | measured | margin |", "| --- | --- | --- | --- |"];
 
 pub fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy.md")
 }
 
-/// The measured number that the document states and a fresh one differ by at most this factor. Rows are the same on
-/// every machine; two digits are printed (a factor of 1.05), and the tests' own statistics use elementary functions of
-/// the platform.
+/// Largest factor between the number of the document and a fresh one: two digits are printed, and tests use elementary
+/// functions of the platform.
 const FRESH: f64 = 1.1;
 
 fn is_outdated(row: &str, measured: f64) -> bool {

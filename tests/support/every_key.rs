@@ -1,6 +1,5 @@
 //! A campaign file with every table, and with tables of every distribution and design.
 
-/// A valid file with every table that a file can have.
 pub const EVERY_TABLE: &str = include_str!("every_table.toml");
 
 pub fn distributions() -> Vec<(&'static str, String)> {
@@ -40,8 +39,7 @@ pub fn without_draws() -> String {
     [&EVERY_TABLE[..at("[design]")], &EVERY_TABLE[at("[bands]")..]].concat()
 }
 
-/// A valid table of each distribution and each way to say its numbers, for [`without_draws`] and a table `data.csv`
-/// with columns a and b.
+/// A table of each distribution and each way to say its numbers, with a table `data.csv` of columns a and b.
 pub fn distribution_tables() -> Vec<(&'static str, String)> {
     let of = |parameter: &str, name: &'static str, keys: &str| {
         let target = if parameter.is_empty() { String::new() } else { format!("parameter = {parameter:?}\n") };
@@ -176,8 +174,7 @@ fn on_orbit(keys: &str) -> String {
     )
 }
 
-/// Files with a control loop each: every estimator, modulation, sensor, law, target and maneuver, with each of the keys
-/// that they declare.
+/// Loops of every estimator, modulation, sensor, law, target and maneuver, with their keys.
 pub fn every_loop() -> Vec<String> {
     let base = every_table_of_loops();
     let sensors_of = |estimator: &spindrift::control::estimators::EstimatorKind| {

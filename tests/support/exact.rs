@@ -10,7 +10,6 @@ use spindrift::scene::Scene;
 
 use super::runs::{Run, blocks, propagate_on};
 
-/// Scenes, and the reference solution of their rotation at the times of a grid.
 pub struct Exact {
     pub scenes: Vec<Scene>,
     pub grid: Grid,

@@ -12,8 +12,8 @@ use super::runs::Run;
 /// Control period, s.
 pub const PERIOD: f64 = 0.25;
 
-/// A proportional-derivative law that turns the body to the identity attitude: torque on the body -k q_v - d omega,
-/// with the sign of the shorter way; wheels are braked, and P1 pushes while the body is slow.
+/// Torque on the body -k q_v - d omega, with the sign of the shorter way; wheels are braked, and P1 pushes while the
+/// body is slow.
 #[derive(Clone, Copy, Debug)]
 pub struct ProportionalDerivative {
     /// N m.
@@ -50,7 +50,6 @@ pub fn law(scene: &Scene) -> ZeroOrderHold<ProportionalDerivative> {
     )
 }
 
-/// A run with the arcs that it flew.
 #[derive(Clone, Debug)]
 pub struct Flight {
     pub run: Run,

@@ -5,42 +5,32 @@ use std::path::Path;
 use serde_json::Value;
 use spindrift::scene::{ActuationInput, DebrisInput, InitialInput, SceneInput, ThrusterInput};
 
-/// A scene, and the truth at some times.
 pub struct Golden {
-    /// The scene as written.
     pub scene: SceneInput,
-    /// The truth, ascending in time, the first at zero.
+    /// Ascending in time, the first at zero.
     pub truth: Vec<ReferenceSolution>,
 }
 
 /// The true state at one time; SI, frames as in [`InitialInput`].
 #[derive(Clone, Debug)]
 pub struct ReferenceSolution {
-    /// Time, s.
     pub time: f64,
-    /// Position of p in F_e.
     pub r_po_e: [f64; 3],
-    /// Velocity of p in F_e.
     pub v_po_e: [f64; 3],
-    /// Attitude of the fuselage; the sign is free.
+    /// The sign is free.
     pub q_es: [f64; 4],
-    /// omega^se in F_s.
     pub omega_se_s: [f64; 3],
-    /// alpha, beta, unwrapped.
+    /// Unwrapped.
     pub wheel_angles: [f64; 2],
-    /// alpha-dot, beta-dot.
     pub wheel_rates: [f64; 2],
     /// Kinetic energies of fuselage, W1, W2 and debris in F_e, J.
     pub energies: [f64; 4],
     /// Angular momentum of the spacecraft about c in F_e.
     pub momentum_c_e: [f64; 3],
-    /// Position of the debris's centre in F_e.
     pub r_gdo_e: [f64; 3],
-    /// Velocity of the debris's centre in F_e.
     pub v_gdo_e: [f64; 3],
-    /// Attitude of the debris, F_d -> F_e; the sign is free.
+    /// The sign is free.
     pub q_ed: [f64; 4],
-    /// omega^de in F_d.
     pub omega_de_d: [f64; 3],
 }
 

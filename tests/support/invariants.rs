@@ -7,17 +7,14 @@ use spindrift::run::{StateField, StateTable};
 use spindrift::scene::mass::Wheel;
 use spindrift::scene::{Scene, WheelMode};
 
-/// What a free spacecraft conserves, at one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariants {
-    /// Kinetic energy about c, J; where the speed of wheels is held minus the work of their motors: half omega . K
-    /// omega, with K the inertia that rotates with the fuselage.
+    /// Kinetic energy about c, J, minus the work of motors that hold a speed.
     pub energy: DoubleDouble,
-    /// Magnitude of the angular momentum about c from the rates alone, N m s.
+    /// From the rates alone, N m s.
     pub momentum: DoubleDouble,
-    /// The angular momentum about c in F_e, N m s, by the unit quaternion along the attitude.
+    /// About c in F_e, N m s, by the unit quaternion along the attitude.
     pub momentum_e: [DoubleDouble; 3],
-    /// Norm of the attitude quaternion.
     pub norm: DoubleDouble,
 }
 

@@ -10,7 +10,6 @@ use spindrift::observables::{Groups, LawColumns, Observer, Request};
 use spindrift::run::{Grid, Outcome, StateTable};
 use spindrift::scene::{Actuated, Scene};
 
-/// Names of the wheels of any scene.
 const NAMES: [&str; 8] = ["w1", "w2", "w3", "w4", "w5", "w6", "w7", "w8"];
 
 pub fn request(groups: Groups, wheels: usize, debris: bool, actuated: bool, constrained: bool) -> Request {

@@ -25,7 +25,6 @@ pub fn near_rounding(model: ForceModel) -> Vec<(Method, Control)> {
     able.map(|method| (method, control(method))).collect()
 }
 
-/// A body of the principal moments `moments` (kg m^2) in the orbit `orbit` under the gravity gradient.
 pub fn body(moments: [f64; 3], orbit: OrbitInput) -> SceneInput {
     let [x, y, z] = moments;
     let inertia = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
@@ -76,8 +75,8 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     inputs(count, seed, rates).into_iter().map(plates).map(resolved).collect()
 }
 
-/// The same as [`tumbling`] without a gravity gradient, with a residual dipole in the Earth's field (IGRF for even
-/// numbers, a dipole for the others), and two torque rods that are commanded anew at random times until `duration` s.
+/// [`tumbling`] with a residual dipole in the field (IGRF for even numbers, a dipole for others) in place of a gravity
+/// gradient, and two torque rods commanded at random times until `duration` s.
 pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Scene> {
     let mut u = Uniform::new(seed + 2);
     let magnetic = |(k, mut input): (usize, SceneInput)| {
@@ -103,8 +102,7 @@ pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Sc
     inputs(count, seed, rates).into_iter().enumerate().map(magnetic).collect()
 }
 
-/// The satellite of `drag_tumble.toml` between 400 and 500 km, where the table of densities has kinks, on orbits with
-/// shadow, that tumbles with 0.01 to 2 deg/s.
+/// The satellite of `drag_tumble.toml` between 400 and 500 km, where densities have kinks, with 0.01 to 2 deg/s.
 pub fn in_thin_air(count: u64, seed: u64) -> Vec<Scene> {
     let mut u = Uniform::new(seed);
     let plate = |name: &str, area: f64, normal: [f64; 3], center_m: [f64; 3]| PlateInput {

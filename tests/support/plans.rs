@@ -34,11 +34,9 @@ pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
 pub const SOMETIMES_IMPOSSIBLE: &str =
     "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n";
 
-/// The rows of a campaign, in the order of samples.
 pub struct Table {
     names: Vec<String>,
     pub statuses: Vec<Status>,
-    /// Column by column.
     values: Vec<Vec<f64>>,
 }
 
@@ -47,10 +45,8 @@ impl Table {
         self.names.iter().position(|known| *known == name).map(|place| self.values[place].as_slice())
     }
 
-    /// The same.
-    ///
     /// # Panics
-    /// Where there is no such column.
+    /// Without such a column.
     pub fn column(&self, name: &str) -> &[f64] {
         self.find(name).unwrap_or_else(|| panic!("no column {name} in {:?}", self.names))
     }
@@ -60,7 +56,6 @@ impl Table {
     }
 }
 
-/// Keeps what is seen of each row.
 struct Seen<S, T>(S, Mutex<Vec<(u64, T)>>);
 
 impl<T: Send, S: Fn(&Rows, usize) -> T + Sync> Sink for Seen<S, T> {
@@ -86,7 +81,7 @@ pub fn seen<T: Send>(
     seen
 }
 
-/// A row as bits: status, dispersed values, observables.
+/// Status, dispersed values, observables.
 pub type RowBits = (Status, Vec<u64>);
 
 pub fn row_bits(rows: &Rows, row: usize) -> RowBits {

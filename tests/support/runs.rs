@@ -8,14 +8,13 @@ use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
 use spindrift::run::{Grid, Outcome, StateField, StateFields, StateTable};
 use spindrift::scene::Scene;
 
-/// The states of one run and how it ended.
 #[derive(Clone, Debug)]
 pub struct Run {
     pub table: StateTable,
     pub outcome: Outcome,
 }
 
-/// Everything that is the same bits where a run is the same: outcome, then the table column by column.
+/// Outcome, then the table column by column.
 pub type Bits = Vec<u64>;
 
 impl Run {
@@ -55,25 +54,21 @@ pub fn blocks(list: impl IntoIterator<Item = StateField>) -> StateFields {
     list.into_iter().fold(StateFields::NONE, StateFields::with)
 }
 
-/// All blocks that `method` can fill: only `null_space` integrates the DCM, has constraints, and computes energies from
-/// its own states.
+/// All blocks that `method` can fill.
 pub fn everything(method: Method) -> StateFields {
     let constrained =
         |block: &StateField| matches!(block, StateField::Dcm | StateField::Residuals | StateField::KineticEnergies);
     blocks(StateField::ALL.into_iter().filter(|block| method == Method::NullSpace || !constrained(block)))
 }
 
-/// The control of an adaptive method, as `tolerance = ...` in a campaign file.
 pub const fn adaptive(tolerance: f64) -> Control {
     Control { tolerance: Tolerance { relative: tolerance, absolute: tolerance }, step: None, max_steps: 10_000_000 }
 }
 
-/// The control of a method with a fixed step, s.
 pub const fn fixed(step: f64) -> Control {
     Control { step: Some(step), ..adaptive(1e-10) }
 }
 
-/// Every method with a setting at which it is quick.
 pub const METHODS: [(Method, Control); 7] = [
     (Method::Auto, adaptive(1e-12)),
     (Method::Taylor, adaptive(1e-12)),
@@ -100,6 +95,10 @@ pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> V
 pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]) -> Vec<Run> {
     let plan = PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0]);
     propagate_on(Isa::best(), &plan, scenes)
+}
+
+pub fn propagate_one(method: Method, control: Control, grid: &Grid, scene: &Scene) -> Run {
+    propagate(method, control, grid, std::slice::from_ref(scene)).remove(0)
 }
 
 pub fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {

@@ -4,7 +4,6 @@ use spindrift::scene::{
     ActuationInput, DebrisInput, InitialInput, PartShape, Scene, SceneInput, ThrusterInput, WheelInput, WheelMode,
 };
 
-/// What a random scene has beyond a bare fuselage.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
     pub wheels: [bool; 2],
@@ -58,7 +57,6 @@ impl Uniform {
     }
 }
 
-/// The names of the wheels of random scenes.
 pub const WHEELS: [&str; 2] = ["w1", "w2"];
 
 pub fn place_of(input: &SceneInput, wheel: usize) -> Option<usize> {
@@ -100,7 +98,7 @@ pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
         ThrusterInput::named("p2", [0.0, -thruster_offset_m, length_m], [0.0, 0.0, -1.0]),
         ThrusterInput::named("p3", [0.0, thruster_offset_m, length_m], [0.0, 0.0, -1.0]),
     ];
-    // a wheel that is left out below has its numbers drawn too, so that all other numbers do not depend on it
+    // a wheel that is left out has its numbers drawn too
     for wheel in &mut input.wheels {
         wheel.radius_m = Some(u.between(0.05, 0.3));
         wheel.length_m = Some(u.between(0.02, 0.2));
@@ -164,8 +162,7 @@ pub fn speed_held(mut input: SceneInput, held: [bool; 2]) -> SceneInput {
     input
 }
 
-/// `input` with wheels that stand off the axis s3 by up to 0.2 m, and axes and thrusters that are tilted by up to 0.3
-/// rad each way.
+/// With wheels off the axis s3 by up to 0.2 m, and axes and thrusters tilted by up to 0.3 rad each way.
 pub fn misaligned(mut input: SceneInput, seed: u64) -> SceneInput {
     let mut u = Uniform::new(!seed);
     for wheel in &mut input.wheels {
@@ -197,8 +194,7 @@ pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
 /// Numbers of wheels of [`many_wheels`].
 pub const COUNTS: [usize; 6] = [0, 1, 2, 3, 4, 8];
 
-/// The random scene number `k` of spacecraft with `count` wheels at any place, about any axis, that are free,
-/// speed-held or locked, and up to sixteen thrusters at any place in any direction.
+/// `count` wheels at any place, free, speed-held or locked, and up to sixteen thrusters.
 pub fn many_wheels(count: usize, k: u64, forced: bool, horizon: f64) -> SceneInput {
     let bare = Kind { wheels: [false; 2], debris: 0, products: k % 2 == 1, offset: k % 3 == 1, forced: false };
     let mut input = random(bare, 9000 + k, horizon);

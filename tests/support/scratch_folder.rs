@@ -14,9 +14,8 @@ use spindrift::storage::rows_reader::RowsReader;
 
 use super::parquet_tables;
 
-/// The file system in memory of Linux: waiting for a disk is half of the time of the tests.
+/// Waiting for a disk is half of the time of the tests.
 const IN_MEMORY: &str = "/dev/shm";
-/// Bytes that have to be free there; some containers give it no more than 64 MB.
 const ENOUGH: u64 = 2 << 30;
 
 fn base() -> PathBuf {
@@ -64,7 +63,11 @@ impl ScratchFolder {
     }
 
     pub fn prints_wide(&self, arguments: &str, code: i32) -> String {
-        self.outputs(self.command(arguments).env("COLUMNS", "1000"), code)
+        self.prints_at(arguments, code, 1000)
+    }
+
+    pub fn prints_at(&self, arguments: &str, code: i32, width: usize) -> String {
+        self.outputs(self.command(arguments).env("COLUMNS", width.to_string()), code)
     }
 
     pub fn says(&self, command: &str, campaign: &str, arguments: &str, code: i32) -> String {
@@ -87,7 +90,6 @@ impl ScratchFolder {
         files
     }
 
-    /// A reader of the rows of `result`, and of their bands.
     pub fn reader(&self, result: &str) -> RowsReader {
         let names = |folder: &str| {
             let entries = fs::read_dir(self.path(result).join(folder)).into_iter().flatten();
@@ -115,6 +117,11 @@ impl ScratchFolder {
     pub fn table(&self, file: &str) -> RecordBatch {
         batches(&self.0.join(file)).swap_remove(0)
     }
+}
+
+pub fn assert_fits(said: &str, lines: usize, width: usize) {
+    assert!(said.lines().count() <= lines, "{} lines:\n{said}", said.lines().count());
+    assert!(said.lines().all(|line| line.chars().count() <= width), "{said}");
 }
 
 pub fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {

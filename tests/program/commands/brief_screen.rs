@@ -1,16 +1,15 @@
-//! One screen for a campaign: its question first, its verdict last, and between them what fits 24 lines of 80
-//! characters.
+//! One screen of 24 lines of 80 characters for a campaign: its question first, its verdict last.
 
 use std::path::Path;
 use std::process::Command;
 
 use crate::small_campaign::{campaign, folder, mixed_failures};
-use crate::support::scratch_folder::{ScratchFolder, column, ended};
+use crate::support::scratch_folder::{ScratchFolder, assert_fits, column, ended};
 
-fn said(scratch: &ScratchFolder, command: &mut Command, width: usize, code: i32) -> (String, String) {
-    let output = command.current_dir(&scratch.0).env("COLUMNS", width.to_string()).output().expect("the program runs");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let (out, err) = (text(&output.stdout), text(&output.stderr));
+/// What a command prints on a terminal of 80 characters: alone, and with its messages.
+fn said(scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, String) {
+    let output = command.current_dir(&scratch.0).env("COLUMNS", "80").output().expect("the program runs");
+    let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     assert_eq!(output.status.code(), Some(code), "{command:?}\n{out}{err}");
     (out.clone(), out + &err)
 }
@@ -29,11 +28,10 @@ fn a_campaign_fits_a_screen() {
         let file = shipped.join(format!("{name}.toml"));
         let run = |options: &[&str]| {
             let mut command = scratch.command("campaign");
-            said(&scratch, command.arg(&file).args(["--samples", "200"]).args(options), 80, code)
+            said(&scratch, command.arg(&file).args(["--samples", "200"]).args(options), code)
         };
         let (out, all) = run(&[]);
-        assert!(all.lines().count() <= 24, "{name}: {} lines\n{all}", all.lines().count());
-        assert!(all.lines().all(|line| line.chars().count() <= 80), "{name}:\n{all}");
+        assert_fits(&all, 24, 80);
         assert!(out.starts_with(question), "{name}:\n{out}");
 
         let summary = scratch.summary(&format!("results/{name}"));
@@ -47,10 +45,10 @@ fn a_campaign_fits_a_screen() {
         assert_eq!(out.lines().last(), Some(format!("{verdict} -> {page}").as_str()), "{out}");
         assert!(scratch.path(&page).is_file());
 
-        // every requirement has a line with its word, and what nobody asked for has none
-        let words = out
-            .lines()
-            .filter(|line| ["PASS", "FAIL", "UNDECIDED"].iter().any(|word| line.trim_start().starts_with(word)));
+        // every requirement has a line with its word, and no other column has one
+        let is_verdict =
+            |line: &&str| ["PASS", "FAIL", "UNDECIDED"].iter().any(|word| line.trim_start().starts_with(word));
+        let words = out.lines().filter(is_verdict);
         assert_eq!(words.count(), list.len(), "{out}");
         for (name, words) in
             [("omega_se_s_x_", "angular velocity about s1"), ("energy_error_max", "maximum energy error")]
@@ -72,7 +70,7 @@ fn brackets_have_their_own_confidence() {
     let required =
         "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = 1e9\nconfidence = 0.8\n";
     scratch.file("c.toml", &(campaign() + required + "[statistics]\nconfidence = 0.9\n"));
-    let (out, _) = said(&scratch, &mut scratch.command("campaign c.toml --samples 60 --out r"), 120, 0);
+    let out = scratch.prints_at("campaign c.toml --samples 60 --out r", 0, 120);
     assert!(out.contains("requirement, with 80% confidence") && out.contains("found [90%]"), "{out}");
     assert!(!out.contains("[80%]"), "{out}");
 }
@@ -80,12 +78,10 @@ fn brackets_have_their_own_confidence() {
 #[test]
 fn the_last_line_is_the_verdict_and_the_page() {
     let scratch = folder("last-line");
-    scratch.file(
-        "mixed.toml",
-        &(mixed_failures() + "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.01\nat_most = 1e9\n"),
-    );
+    let require = "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.01\nat_most = 1e9\n";
+    scratch.file("mixed.toml", &(mixed_failures() + require));
     let last = |arguments: &str, code: i32| {
-        let (out, _) = said(&scratch, &mut scratch.command(arguments), 80, code);
+        let (out, _) = said(&scratch, &mut scratch.command(arguments), code);
         out.lines().last().unwrap_or_default().to_owned()
     };
     let made = last("campaign mixed.toml --out r", 1);
@@ -130,8 +126,7 @@ fn colour_adds_only_itself() {
     assert!(!refused.contains("\x1b[31mred"), "{refused:?}");
 }
 
-/// Law: where nearly every run or every run is lost, and of three runs, of the nominal run alone and without a
-/// requirement, one screen is enough.
+/// Law: one screen is enough when nearly every or every run is lost, of three runs, and of the nominal run alone.
 #[test]
 fn the_worst_campaigns_fit_a_screen() {
     let scratch = ScratchFolder::new("worst-screens");
@@ -139,7 +134,7 @@ fn the_worst_campaigns_fit_a_screen() {
     let run = |name: &str, options: &str, code: i32| {
         let mut command = scratch.command("campaign");
         let command = command.arg(shipped.join(format!("{name}.toml"))).args(options.split_whitespace());
-        let (out, _) = said(&scratch, command, 80, code);
+        let (out, _) = said(&scratch, command, code);
         let is_fit = |line: &str| line.chars().count() <= 80 || line.contains(": spindrift simulate ");
         assert!(out.lines().count() <= 24 && out.lines().all(is_fit), "{options}: {}\n{out}", out.lines().count());
         assert!(out.lines().last().is_some_and(|line| line.contains(" -> ")), "{out}");
@@ -151,20 +146,15 @@ fn the_worst_campaigns_fit_a_screen() {
     assert!((40..59).contains(&lost), "{lost}");
     let words = out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains(&format!("NOT COMPUTED: {lost} of 59 dispersed runs")), "{out}");
-    assert!(
-        words.contains(&format!("{lost} step_limit: ")) && words.contains("to fix: increase integrator.max_steps"),
-        "{out}"
-    );
+    let is_said =
+        words.contains(&format!("{lost} step_limit: ")) && words.contains("to fix: increase integrator.max_steps");
+    assert!(is_said, "{out}");
     let count = words.split([' ', ';', ',', ')', '(']).filter(|word| *word == lost.to_string()).count();
     assert!(count <= 3 && !words.contains("not computed"), "{count} times {lost}:\n{out}");
 
     let out = run("spin_sweep", "--samples 50 --set integrator.max_steps=3 --out all --no-report", 1);
-    assert!(
-        out.contains("NOT COMPUTED: 49 of 49 dispersed runs")
-            && !out.contains("driver")
-            && !out.contains("no statistics"),
-        "{out}"
-    );
+    let is_said = !["driver", "no statistics"].iter().any(|word| out.contains(word));
+    assert!(is_said && out.contains("NOT COMPUTED: 49 of 49 dispersed runs"), "{out}");
     let out = run("net_launch", "--samples 3 --out three --no-report", 5);
     assert!(out.contains("6 UNDECIDED"), "{out}");
     let out = run("net_launch", "--samples 1 --out one --no-report", 5);
@@ -190,7 +180,7 @@ fn every_screen_fits_its_width() {
         ("check small.toml --set colour=1", 2),
         ("columns nonsense", 2),
     ] {
-        let (_, all) = said(&scratch, &mut scratch.command(command), 80, code);
+        let (_, all) = said(&scratch, &mut scratch.command(command), code);
         let is_fit = |line: &str| line.chars().count() <= 80 || line.trim_start().starts_with("spindrift ");
         assert!(all.lines().all(is_fit), "{command}:\n{all}");
         let digits = |word: &str| word.chars().filter(char::is_ascii_digit).count();
@@ -203,17 +193,12 @@ fn every_screen_fits_its_width() {
 #[cfg(target_os = "linux")]
 fn messages_are_wrapped_on_a_terminal() {
     let scratch = folder("wrapped-messages");
-    scratch.file(
-        "bad.toml",
-        &campaign()
-            .replace("seed = 7", "seed = -7   # a comment that is longer than sixty letters of a line, as it is here"),
-    );
+    let comment = "seed = -7   # a comment that is longer than sixty letters of a line, as it is here";
+    scratch.file("bad.toml", &campaign().replace("seed = 7", comment));
     let arguments = "check bad.toml --set colour=1";
     let piped = scratch.prints(arguments, 2);
-    assert!(
-        piped.lines().any(|line| line.contains("colour = 1: not a key of a campaign file (") && line.len() > 200),
-        "{piped}"
-    );
+    let is_long = |line: &str| line.contains("colour = 1: not a key of a campaign file (") && line.len() > 200;
+    assert!(piped.lines().any(is_long), "{piped}");
     let program = env!("CARGO_BIN_EXE_spindrift");
     let mut command = Command::new("script");
     command.args(["-qec", &format!("stty cols 60; '{program}' {arguments} --color never"), "/dev/null"]);

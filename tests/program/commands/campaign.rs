@@ -24,10 +24,8 @@ fn printed_commands_are_quoted() {
 fn a_campaign_runs_once_and_then_says_so() {
     let scratch = folder("once");
     let said = scratch.prints("campaign small.toml", 0);
-    assert!(
-        said.contains("small: 600 runs (1 nominal) computed in ") && said.contains("maximum energy error"),
-        "{said}"
-    );
+    let is_said = said.contains("small: 600 runs (1 nominal) computed in ") && said.contains("maximum energy error");
+    assert!(is_said, "{said}");
     let parts = scratch.parts("results/small");
     let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["part-000000.parquet", "part-000001.parquet", "part-000002.parquet"]);
@@ -37,7 +35,6 @@ fn a_campaign_runs_once_and_then_says_so() {
     assert!(said.contains("already complete"), "{said}");
     assert_eq!(scratch.parts("results/small"), parts, "nothing was touched");
 
-    // every sample once, in order
     let ids = column(&scratch.rows("results/small"), "sample_id");
     assert_eq!(ids, (0..600).map(f64::from).collect::<Vec<f64>>());
 }
@@ -78,7 +75,6 @@ fn what_is_not_a_result_is_left_alone() {
     scratch.file("thesis/summary.json", r#"{"of": "chapter 1"}"#);
     scratch.prints("campaign small.toml --out thesis --overwrite", 4);
     assert_eq!(fs::read_dir(scratch.path("thesis")).unwrap().count(), 2);
-    // a file where the folder should be
     scratch.file("notes", "precious");
     scratch.prints("campaign small.toml --out notes", 4);
     assert_eq!(scratch.text("notes"), "precious");
@@ -120,8 +116,7 @@ fn instruction_sets_do_not_change_a_byte() {
     run("small", "abacus", 2);
 }
 
-/// Law: a build without object stores refuses an address, with the command that builds one that has them, and takes it
-/// for no folder.
+/// Law: a build without object stores refuses an address, with the command that builds one that has them.
 #[cfg(not(feature = "cloud"))]
 #[test]
 fn addresses_need_a_build_with_stores() {

@@ -5,30 +5,26 @@ use spindrift::control::outcome::columns::OutcomeColumns;
 use spindrift::observables::{Group, table};
 
 use crate::small_campaign::folder;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, assert_fits};
 
 #[test]
 fn every_column_is_shown() {
     let scratch = folder("all-columns");
     let wide = |arguments: &str| scratch.prints_wide(arguments, 0);
     let both = wide("columns --verbose");
-    // those of control loops are the last
     let (all, of_loops) = both.split_once("\ncontrol loop\n").expect("columns of loops");
     assert_eq!(of_loops.lines().count(), OutcomeColumns::of_all_loops().len());
-    let mut group = "";
-    let mut shown = 0;
+    let (mut group, mut shown) = ("", 0);
     for line in all.lines().filter(|line| !line.is_empty()) {
-        match line.strip_prefix("  ") {
-            None => group = line,
-            Some(entry) => {
-                let name = entry.split_whitespace().next().unwrap();
-                let column = table::all().find(|column| column.quantity.name() == name).expect(name);
-                assert_eq!(column.group.name(), group, "{name}");
-                let is_explained = entry.contains(column.quantity.meaning()) && entry.contains(column.quantity.unit());
-                assert!(is_explained, "{entry}");
-                shown += 1;
-            }
-        }
+        let Some(entry) = line.strip_prefix("  ") else {
+            group = line;
+            continue;
+        };
+        let name = entry.split_whitespace().next().unwrap();
+        let column = table::all().find(|column| column.quantity.name() == name).expect(name);
+        assert_eq!(column.group.name(), group, "{name}");
+        assert!(entry.contains(column.quantity.meaning()) && entry.contains(column.quantity.unit()), "{entry}");
+        shown += 1;
     }
     assert_eq!(shown, table::all().count());
     let exchange = wide("columns exchange");
@@ -36,7 +32,6 @@ fn every_column_is_shown() {
     assert_eq!(exchange.lines().count(), 1 + of_group);
     let refused = scratch.prints("columns exchagne", 2);
     assert!(refused.contains("did you mean exchange?"), "{refused}");
-    // a word finds the columns that have it in name, unit or meaning, and no others
     let word = wide("columns TILTS");
     let has = |text: &str| text.to_lowercase().contains("tilts");
     let meant = table::all().map(|column| column.quantity.clone());
@@ -44,16 +39,13 @@ fn every_column_is_shown() {
     assert!(meant > 2 && word.lines().filter(|line| line.starts_with("  ")).count() == meant, "{word}");
 }
 
-/// Law: without a word the groups are listed, each with the number of its columns, which `columns GROUP` lists, and
-/// what they add up to.
+/// Law: without a word the groups are listed, each with the number of its columns, and their sum.
 #[test]
 fn groups_are_listed_with_their_columns() {
     let scratch = folder("groups");
     for of in ["", " --campaign small.toml"] {
-        let narrow =
-            |arguments: &str| scratch.outputs(scratch.command(&format!("{arguments}{of}")).env("COLUMNS", "80"), 0);
-        let said = narrow("columns");
-        assert!(said.lines().count() <= 24 && said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        let said = scratch.prints_at(&format!("columns{of}"), 0, 80);
+        assert_fits(&said, 24, 80);
         let all = scratch.prints_wide(&format!("columns --verbose{of}"), 0);
         let mut titles = Vec::new();
         let mut counts = Vec::new();
@@ -70,10 +62,8 @@ fn groups_are_listed_with_their_columns() {
             let about = line.trim_start().strip_prefix(title).expect("a title").trim_start();
             assert!(about.starts_with(&format!("{count}  ")) && about.len() > 10, "{line}");
         }
-        assert!(
-            titles.len() > 8 && said.contains(&format!("{} columns in all", counts.iter().sum::<usize>())),
-            "{said}"
-        );
+        let sum = format!("{} columns in all", counts.iter().sum::<usize>());
+        assert!(titles.len() > 8 && said.contains(&sum), "{said}");
         for command in said.lines().filter_map(|line| line.trim_start().strip_prefix("spindrift ")) {
             let (command, _) = command.split_once("  ").unwrap_or((command, ""));
             if of.is_empty() || !command.contains("pointing") {
@@ -87,20 +77,19 @@ fn groups_are_listed_with_their_columns() {
 fn a_new_file_runs() {
     let scratch = ScratchFolder::new("new-file");
     scratch.prints("new mine.toml", 0);
-    let text = std::fs::read_to_string(scratch.path("mine.toml")).unwrap();
+    let text = scratch.text("mine.toml");
     assert!(text.contains("name = \"mine\""), "{text}");
     let said = scratch.prints("campaign mine.toml --out r", 0);
     assert!(said.contains("PASS"), "{said}");
     scratch.prints("new mine.toml", 4);
-    assert_eq!(std::fs::read_to_string(scratch.path("mine.toml")).unwrap(), text);
-    // the same campaign again says how it ended, and writes the verdicts where they are asked for
+    assert_eq!(scratch.text("mine.toml"), text);
     let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);
     assert!(again.contains("PASS") && again.contains("r/report.html"), "{again}");
-    let verdicts = std::fs::read_to_string(scratch.path("v.xml")).unwrap();
+    let verdicts = scratch.text("v.xml");
     assert!(verdicts.contains("testcase") && !verdicts.contains("<failure"), "{verdicts}");
     std::fs::remove_file(scratch.path("v.xml")).unwrap();
     scratch.prints("finish r --junit v.xml", 0);
-    assert_eq!(std::fs::read_to_string(scratch.path("v.xml")).unwrap(), verdicts);
+    assert_eq!(scratch.text("v.xml"), verdicts);
 }
 
 #[test]
@@ -121,9 +110,8 @@ fn the_columns_of_a_campaign_are_those_of_its_rows() {
 #[test]
 fn columns_of_loops_are_found() {
     let scratch = ScratchFolder::new("loop-columns");
-    let mut command = scratch.command("columns pointing");
-    let said = scratch.outputs(command.env("COLUMNS", "80"), 0);
-    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    let said = scratch.prints_at("columns pointing", 0, 80);
+    assert_fits(&said, usize::MAX, 80);
     let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
     for (name, need) in [
         ("pointing_error_final_rad", "(needs a phase with a target)"),
@@ -164,7 +152,7 @@ fn columns_of_loops_are_found() {
             assert!(is_there, "{name}: {} needs {need:?}", quantity.name());
         }
     }
-    // what a module declares is in tests/determinism/flight_code_interface.rs
+    // columns of a module: tests/determinism/flight_code_interface.rs
     let of_modules = known.iter().filter(|(quantity, _)| quantity.name().contains("<telemetry>")).count();
     assert_eq!(seen.len() + of_modules, known.len(), "net_launch has all of them but those of rods: {seen:?}");
 }

@@ -29,7 +29,7 @@ fn results_are_compared() {
     let said = scratch.prints_wide("compare a d", 0);
     let is_said = says_key(&said, ["campaign.seed", "7", "8"]);
     assert!(is_said && said.contains("compared as independent samples"), "{said}");
-    // a hundredth of the spread is less than chance makes of 599 runs
+    // a hundredth of the spread is less than chance
     scratch.prints("compare a d --tolerance 0.01", 3);
 
     // fewer samples of the same draws are pairs too
@@ -38,7 +38,7 @@ fn results_are_compared() {
     let is_said = says_key(&said, ["campaign.samples", "600", "300"]);
     assert!(is_said && said.contains("299 samples drawn alike"), "{said}");
 
-    // chosen samples are paired with the samples of the same numbers, whichever rows these are
+    // chosen samples are paired by their numbers, whichever rows these are
     scratch.file("chosen.toml", &campaign().replace("[campaign]", "[campaign]\nonly = [7, 8, 11, 250]"));
     scratch.prints("campaign chosen.toml --out f", 0);
     for (results, pairs) in [("a f", 4), ("f a", 4), ("f e", 4), ("f f", 4)] {
@@ -57,8 +57,7 @@ fn says_key(said: &str, words: [&str; 3]) -> bool {
     said.lines().any(|line| line.split_whitespace().eq(words))
 }
 
-/// Law: a share of ok runs that is shifted by more than the tolerance is beyond it, whichever result has more of them,
-/// also where the runs that are ok are the same.
+/// Law: a shift of the share of ok runs beyond the tolerance is seen, whichever result has more of them.
 #[test]
 fn failures_alone_are_a_shift() {
     let scratch = folder("compare-failures");
@@ -76,8 +75,7 @@ fn failures_alone_are_a_shift() {
     }
 }
 
-/// An observable whose truth is known: the initial rate about x, which is normal about its nominal value with a
-/// standard deviation of 0.5.
+/// An observable of known truth: the initial rate about x, normal with a standard deviation of 0.5.
 const RATE: &str = r#"
 [[observable]]
 name = "rate"
@@ -170,8 +168,8 @@ fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
     assert!(checked > 50 && changed > 20, "{checked} {changed}");
 }
 
-/// Law: two campaigns that drew the same samples about other nominal values are compared pair by pair, and that every
-/// run moved by a fiftieth of the standard deviation is found, with its true size.
+/// Law: campaigns that drew the same samples about other nominal values are compared in pairs, which find a shift of a
+/// fiftieth of the standard deviation with its true size.
 #[test]
 fn planted_shifts_are_found_by_pairs() {
     let scratch = folder("compare-planted");
@@ -184,7 +182,7 @@ fn planted_shifts_are_found_by_pairs() {
     let number = |key: &str| rate[key].as_f64().expect("a number");
     // rounding of a difference of numbers of order one
     assert!((number("mean_shift") - 0.01).abs() < 1e-15 && number("adjusted_p_value_moved") < 1e-9, "{rate}");
-    // through no limit go so many of 599 that the distribution is seen to move
+    // few runs pass through a limit, so the distribution is not seen to move
     assert_eq!(
         (&rate["is_moved"], &rate["is_shifted"], &rate["is_required"], &rate["differing_pairs"]),
         (&1.into(), &0.into(), &1.into(), &599.into())
@@ -198,7 +196,7 @@ fn planted_shifts_are_found_by_pairs() {
     assert_eq!((&independent["pairs"], &rate["is_shifted"]), (&0.into(), &0.into()));
     assert!((rate["mean_shift"].as_f64().expect("a number") - 0.01).abs() < 4.0 * 0.029, "{rate}");
 
-    // a verdict that gets worse ends with 3, with or without a tolerance that is kept; one that gets better does not
+    // a verdict that gets worse ends with 3, whatever the tolerance
     for (results, tolerance, mark, code) in [
         (format!("{base} {far}"), "", "WORSE", 3),
         (format!("{base} {far}"), " --tolerance 1e9", "WORSE", 3),
@@ -235,21 +233,16 @@ fn comparisons_are_files() {
     let compared = compared(&scratch, &base, &moved);
     scratch.prints(&format!("compare {base} {moved} --out c.parquet"), 0);
     let (rows, table) = (compared["observables"].as_array().expect("rows"), scratch.table("c.parquet"));
-    assert_eq!(
-        (rows.len(), table.num_rows()),
-        (scratch.table(&format!("{base}/statistics.parquet")).num_rows(), rows.len())
-    );
+    let statistics = scratch.table(&format!("{base}/statistics.parquet")).num_rows();
+    assert_eq!((rows.len(), table.num_rows()), (statistics, statistics));
     let names = table.column_by_name("observable").expect("names").as_string::<i32>();
     for name in
         ["adjusted_p_value", "mean_shift", "mean_first", "mean_second", "standard_deviation_second", "p95_first"]
     {
         for (row, value) in floats(&table, name).into_iter().enumerate() {
             assert_eq!(names.value(row), rows[row]["observable"]);
-            assert_eq!(
-                rows[row][name].as_f64().map(f64::to_bits),
-                Some(value).filter(|x| !x.is_nan()).map(f64::to_bits),
-                "{name}"
-            );
+            let known = Some(value).filter(|x| !x.is_nan());
+            assert_eq!(rows[row][name].as_f64().map(f64::to_bits), known.map(f64::to_bits), "{name}");
         }
     }
     let keys: Vec<&str> =

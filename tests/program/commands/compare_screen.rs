@@ -1,10 +1,10 @@
-//! The screen of `spindrift compare`: its numbers are those of rows and file, in the units of people.
+//! The screen of `spindrift compare` has the numbers of rows and file.
 
 use serde_json::Value;
 
 use crate::commands::screen_numbers::{numbers, template};
 use crate::small_campaign::{RADIANS, campaign_without_debris, folder, mixed_failures};
-use crate::support::scratch_folder::{ScratchFolder, column, ended};
+use crate::support::scratch_folder::{ScratchFolder, assert_fits, column, ended};
 
 fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
     sides.map(|side| {
@@ -13,7 +13,6 @@ fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
     })
 }
 
-/// Degrees in a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
 #[test]
@@ -38,14 +37,13 @@ fn a_comparison_fits_a_screen() {
     for (places, code, mark) in [([0, 1], 3, "WORSE"), ([1, 0], 0, "BETTER")] {
         let [before, after] = places.map(|place| ["slow", "fast"][place]);
         let of = places.map(|place| &rates[place][..]);
-        let mut command = scratch.command(&format!("compare {before} {after} --out c.json"));
-        let said = scratch.outputs(command.env("COLUMNS", "80"), code);
-        assert!(said.lines().count() <= 24 && said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        let said = scratch.prints_at(&format!("compare {before} {after} --out c.json"), code, 80);
+        assert_fits(&said, 24, 80);
         for (line, name) in said.lines().zip([before, after]) {
             assert!(line.ends_with(&format!(" {name}, 599 of 599 runs ok")), "{line}");
         }
         let row = |begin: &str| said.lines().find(|line| line.trim_start().starts_with(begin)).expect(begin);
-        // too long for a line with its verdicts, which stand below it
+        // the verdicts stand below a long line
         let mut lines =
             said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end <= 2000 deg/s in 90%"));
         let verdict = lines.nth(1).expect("the verdicts");
@@ -56,9 +54,8 @@ fn a_comparison_fits_a_screen() {
             assert!((found - share(values)).abs() < 0.06, "{verdict}: {}", share(values));
         }
         let key = row("initial.angular_velocity_rad_s");
-        // 10 pi rad/s and 36 rad/s, as people say them
+        // 10 pi rad/s and 36 rad/s
         assert!(key.contains(" 1800] deg/s") && key.contains(" 2062.6] deg/s"), "{key}");
-        // where a name of another one is long, the numbers stand below it
         let mut outcome = said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end, deg/s"));
         let outcome = &outcome.by_ref().take(2).collect::<Vec<_>>().join(" ");
         let (_, found) = template(outcome.split_once("deg/s").expect("a unit").1);
@@ -76,10 +73,8 @@ fn a_comparison_fits_a_screen() {
         assert_eq!(numbers(&words, "# of # columns are shifted"), [shifted, observables.len() as f64], "{said}");
         assert!(words.contains("compared sample by sample: 599 samples drawn alike"), "{said}");
         let last = said.lines().last().expect("lines");
-        assert_eq!(
-            last,
-            if code == 3 { "FAIL: 1 verdict is worse than before" } else { "PASS: 1 verdict is better, none is worse" }
-        );
+        let verdict = ["PASS: 1 verdict is better, none is worse", "FAIL: 1 verdict is worse than before"];
+        assert_eq!(last, verdict[usize::from(code == 3)]);
     }
 }
 
@@ -93,8 +88,8 @@ fn the_screen_is_the_file() {
         for side in [first, second] {
             scratch.prints(&format!("campaign {side}.toml --out {side} --no-report --overwrite"), 1);
         }
-        let mut command = scratch.command(&format!("compare {first} {second} --verbose --tolerance 0.01 --out c.json"));
-        let said = scratch.outputs(command.env("COLUMNS", "250"), 3);
+        let command = format!("compare {first} {second} --verbose --tolerance 0.01 --out c.json");
+        let said = scratch.prints_at(&command, 3, 250);
         let found: Value = serde_json::from_str(&scratch.text("c.json")).expect("JSON");
         let [of_first, of_second] = runs(&scratch, [first, second]);
         for (name, known) in [(first, of_first), (second, of_second)] {
@@ -114,7 +109,7 @@ fn the_screen_is_the_file() {
             let text = line.trim_start();
             let name = text.split([' ', ',']).next().expect("a name");
             let one = observables.iter().find(|one| one["observable"] == name).unwrap_or_else(|| panic!("{name}"));
-            // angles and rates in degrees, wheel speeds in turns a minute, all else in its own unit
+            // angles and rates in degrees, wheel speeds in turns a minute
             let unit = text.strip_prefix(name).and_then(|rest| rest.strip_prefix(", "));
             let unit = unit.and_then(|rest| rest.split("  ").next()).unwrap_or("");
             let size = match (one["unit"].as_str().expect("a unit"), unit) {
@@ -130,7 +125,6 @@ fn the_screen_is_the_file() {
             let keys = ["mean_first", "mean_shift", "mean_shift_lower", "mean_shift_upper"];
             let mut known: Vec<f64> = keys.into_iter().filter_map(|key| Some(size * one[key].as_f64()?)).collect();
             known.extend([p, "largest_shift"].into_iter().filter_map(|key| one[key].as_f64()));
-            // a unit may have a number
             let after = text.strip_prefix(&format!("{name}, {unit}")).unwrap_or(text);
             let found = template(after).1;
             // a shift has the digits that its interval supports
@@ -147,9 +141,7 @@ fn the_screen_is_the_file() {
             assert!(line.contains(if is_moved { "moved," } else { word }), "{line}");
         }
         assert!(rows.len() > 10, "{said}");
-        let mut narrow = scratch.command(&format!("compare {first} {second} --verbose"));
-        let narrow = scratch.outputs(narrow.env("COLUMNS", "80"), 0);
-        assert!(narrow.lines().all(|line| line.chars().count() <= 80), "{narrow}");
+        assert_fits(&scratch.prints_at(&format!("compare {first} {second} --verbose"), 0, 80), usize::MAX, 80);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::small_campaign::folder;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::scratch_folder::{ScratchFolder, assert_fits};
 
 const LIMITED: &str = "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = ";
 
@@ -14,8 +14,7 @@ fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
     std::thread::sleep(std::time::Duration::from_millis(1100));
 }
 
-/// Law: each finished result below the folder has a row, on the screen and on the page, with the verdicts and runs of
-/// its summary and a link to its page.
+/// Law: each finished result below the folder has a row on screen and page, with its verdicts, runs and a link.
 #[test]
 fn every_result_has_a_row() {
     let scratch = folder("index");
@@ -26,9 +25,8 @@ fn every_result_has_a_row() {
     scratch.prints("campaign c.toml --samples 20 --out all/broken", 3);
     scratch.file("all/broken/summary.json", "{}");
     let before = scratch.parts("all/a new");
-    let mut command = scratch.command("index all");
-    let said = scratch.outputs(command.env("COLUMNS", "80"), 0);
-    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    let said = scratch.prints_at("index all", 0, 80);
+    assert_fits(&said, usize::MAX, 80);
     assert_eq!(said.lines().last(), Some("3 results -> all/index.html"), "{said}");
     let at = |text: &str| said.find(text).unwrap_or_else(|| panic!("no {text} in\n{said}"));
     assert!(at("a new") < at("z old") && at("z old") < at("deep/er/other"), "{said}");
@@ -56,12 +54,10 @@ fn every_result_has_a_row() {
     assert!(page.contains("<li>half: not finished"), "{page}");
     assert_eq!(scratch.parts("all/a new"), before);
 
-    // how numbers are shown is no change, and a page of the same twice says so
     scratch.prints("campaign c.toml --samples 20 --set display.units=[\"deg\"] --out all/shown", 3);
     let said = scratch.prints_wide("index all", 0);
     assert!(said.contains("the same campaign, version and verdicts") && !said.contains("display"), "{said}");
 
-    // a result is no place for the page
     assert!(scratch.prints("index all/half", 2).contains("is itself a result"));
     fs::create_dir(scratch.path("empty")).unwrap();
     assert!(scratch.prints("index empty", 2).contains("there is no result"));

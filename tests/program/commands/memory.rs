@@ -53,7 +53,7 @@ fn sample_holds_no_draws() {
     assert!(scratch.text("said.txt").contains("of 499999 draws"));
     let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
     assert!(written < few + 40_000, "kB: {written}");
-    // a figure shows the first 100,000 samples, 2e6 numbers of some 100 bytes; all of them would take 1 GB
+    // the figure shows the first 100,000 samples; all 2e6 numbers would take 1 GB
     let plotted = peak(&scratch, &format!("sample {small} --samples 500000 --plot s.html"));
     assert!(plotted < few + 400_000, "kB: {plotted}");
     assert!(scratch.text("s.html").contains("first "));
@@ -91,7 +91,7 @@ fn table_with_texts(path: &Path, rows: usize) {
     let schema = "message m { required double x; required binary text (UTF8); }";
     let schema = std::sync::Arc::new(parquet::schema::parser::parse_message_type(schema).unwrap());
     let zstd = parquet::basic::Compression::ZSTD(parquet::basic::ZstdLevel::default());
-    // without a dictionary: one page, which is decompressed as a whole
+    // without a dictionary: one page, decompressed as a whole
     let properties = parquet::file::properties::WriterProperties::builder().set_compression(zstd);
     let properties = properties.set_dictionary_enabled(false).build();
     let file = fs::File::create(path).unwrap();
@@ -109,8 +109,7 @@ fn table_with_texts(path: &Path, rows: usize) {
     writer.close().unwrap();
 }
 
-/// Address space of a command on a small file, kB: a header of 20 MB is refused in 60,000; the command took 600,000
-/// when it kept all of it.
+/// Address space of a command on a small file, kB.
 const LIMIT_KB: u64 = 150_000;
 
 #[test]
@@ -124,7 +123,7 @@ fn small_files_take_little_memory() {
             = \"{column}\"\n"
         );
         fs::write(scratch.0.join("draw.toml"), format!("{}{draw}", &text[..at])).unwrap();
-        // of so short a command Linux says no peak: it gets no more than a limit
+        // Linux shows no peak of so short a command
         let limited =
             format!("ulimit -v {LIMIT_KB}; exec {} sample draw.toml --samples 10", env!("CARGO_BIN_EXE_spindrift"));
         scratch.outputs(Command::new("sh").args(["-c", &limited]), code)
@@ -142,12 +141,10 @@ fn small_files_take_little_memory() {
     }
 }
 
-/// Most memory of a thread for each observation point, bytes, as the estimate of a campaign has it, and what audits add
-/// to it.
+/// Memory of a thread for each observation point, bytes, in the estimate of a campaign, and the addition of audits.
 const POINT: [u64; 2] = [8500, 7500];
 
-/// Law: the memory of observation points is at most what the estimate says, and at least a fifth of it, under thrust,
-/// with the default groups and with all.
+/// Law: observation points take at most their estimated memory, and at least a fifth of it.
 #[test]
 fn memory_of_points_is_what_is_estimated() {
     let scratch = ScratchFolder::new("points");
@@ -175,8 +172,7 @@ fn memory_of_points_is_what_is_estimated() {
     {
         let text = of(method, groups, more);
         let stated = POINT[0] + if more.is_empty() { 0 } else { POINT[1] };
-        // three batches of eight lanes; an audit takes a hundred times as long as a run, and the null-space method runs
-        // one by one
+        // three batches of eight lanes; an audit takes a hundred times as long, and null-space runs are not batched
         let samples = if more.is_empty() && method == "auto" { 17 } else { 3 };
         let measure = |command: usize| {
             let points: u64 = [20_001, 70_001][command];
@@ -186,7 +182,6 @@ fn memory_of_points_is_what_is_estimated() {
         let each = |[few, many]: &[u64; 2]| many.saturating_sub(*few) * 1024 / 50_000;
         let is_stated = |each: u64| each <= stated && 5 * each >= stated;
         let each = each(&peaks(measure, |peaks| is_stated(each(peaks))));
-        println!("{method} {more:?}: {each} bytes a point, stated {stated}");
         assert!(is_stated(each), "{method} {more:?}: {each} bytes a point, stated {stated}");
     }
 }

@@ -1,4 +1,4 @@
-//! `spindrift precision` from outside: errors follow tolerances and steps, times are times, files are whole.
+//! `spindrift precision`: errors follow tolerances and steps, times are times, files are whole.
 
 use std::time::Instant;
 
@@ -6,7 +6,7 @@ use crate::page::numbers::Found;
 use crate::support::scratch_folder::{ScratchFolder, batches, floats};
 use arrow_array::cast::AsArray;
 
-/// A tolerance 1e4 smaller, or a step four times smaller at order four, reduces the error at least by this factor.
+/// Factor by which a tolerance 1e4 smaller, or a step four times smaller at order four, reduces the error at least.
 /// Measured: 8.5e-3 with the step (1/256 by the order), 1.1e-4 with the tolerance.
 const LESS: f64 = 0.01;
 
@@ -19,19 +19,15 @@ fn errors_follow_the_settings() {
     let wall = start.elapsed().as_secs_f64();
     assert!(said.contains("3 samples") && said.contains("us/run"), "{said}");
     let table = scratch.table("p/precision.parquet");
-    // the screen has the numbers of the file, under their heads
     let head = said.lines().position(|line| line.starts_with("method ")).expect("heads");
     let heads: Vec<&str> = said.lines().nth(head).expect("heads").split_whitespace().collect();
-    // notes stand below their row
     let lines = said.lines().skip(head + 1).filter(|line| !line.starts_with(' '));
     for (row, line) in lines.take(table.num_rows()).enumerate() {
         let words: Vec<&str> = line.split_whitespace().collect();
         let number = |name: &str| floats(&table, name)[row];
+        let settings = [number("tolerance"), number("step_s")];
         for (head, known) in [
-            (
-                "setting",
-                [number("tolerance"), number("step_s")].into_iter().find(|value| !value.is_nan()).expect("one"),
-            ),
+            ("setting", settings.into_iter().find(|value| !value.is_nan()).expect("one")),
             ("us/run", 1e6 * number("cpu_s")),
             ("runs/s", 1.0 / number("cpu_s")),
             ("steps", number("steps_mean")),
@@ -42,7 +38,6 @@ fn errors_follow_the_settings() {
         ] {
             let place = heads.iter().position(|other| *other == head).expect(head);
             let found: f64 = words[place].trim_end_matches('s').parse().expect("a number");
-            // two digits of errors, whole steps, three digits of times
             let rounding = if head == "steps" { 0.5 } else { 0.0 };
             assert!((found - known).abs() <= 0.051 * known.abs() + rounding, "{head} {found} for {known}: {line}");
         }
@@ -58,7 +53,7 @@ fn errors_follow_the_settings() {
         }
     }
     for (row, cpu) in floats(&table, "cpu_s").into_iter().enumerate() {
-        // one thread: a run cannot have taken longer than the whole command
+        // one thread: no run takes longer than the command
         assert!(cpu > 0.0 && cpu < wall, "row {row}: {cpu} s of {wall} s");
     }
     let (tolerances, steps) = (floats(&table, "tolerance"), floats(&table, "step_s"));

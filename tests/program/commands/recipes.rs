@@ -1,7 +1,6 @@
 //! The Python recipes of `docs/results.md`, run as they stand there.
 //!
-//! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe whose packages it does not have is skipped,
-//! and said so.
+//! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe without its packages is skipped.
 
 use std::path::Path;
 use std::process::Command;
@@ -12,7 +11,6 @@ use spindrift::storage::bands_file;
 
 use crate::support::scratch_folder::ScratchFolder;
 
-/// The variable with the interpreter.
 const PYTHON: &str = "SPINDRIFT_PYTHON";
 
 fn recipes() -> Vec<String> {

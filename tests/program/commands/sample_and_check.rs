@@ -1,14 +1,15 @@
-//! `spindrift sample`, `check`, and what all commands share: bad input, a closed pipe.
+//! `spindrift sample`, `check`, and the errors that all commands share.
 
+use std::path::Path;
 use std::process::Stdio;
 
 use serde_json::Value;
 use spindrift::campaign::{Overrides, Plan};
 
-use crate::page::numbers::Found;
+use crate::page::numbers::{Found, quantile};
 use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
 use crate::support::campaigns::SPIN_DISPERSION;
-use crate::support::scratch_folder::floats;
+use crate::support::scratch_folder::{assert_fits, floats};
 
 #[test]
 fn sample_draws_the_rows_of_the_campaign() {
@@ -28,7 +29,7 @@ fn sample_draws_the_rows_of_the_campaign() {
     let parquet = &scratch.table("s.parquet");
     scratch.prints("campaign thin.toml --out r", 1);
     let rows = scratch.rows("r");
-    // the last columns are the mass properties of what was drawn
+    // the last columns are mass properties
     assert_eq!(names[names.len() - 7..][..2], ["mass_kg", "center_of_mass_x_m"]);
     for name in &names[2..names.len() - 7] {
         let run: Vec<u64> = rows.iter().flat_map(|batch| floats(batch, name)).map(f64::to_bits).collect();
@@ -44,7 +45,7 @@ fn sample_draws_the_rows_of_the_campaign() {
     let shown = Found::shown_on(&scratch.text("s.html"));
     assert!(shown.iter().any(|(title, _)| title.starts_with("Rank correlation")), "{shown:?}");
     let statuses: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
-    // one sample, in all digits; in `simulate` as people read numbers, in the unit of the screen
+    // one sample in all digits; rounded in `simulate`, in the unit of the screen
     let sample = (1..600).find(|row| statuses[*row] != "invalid_sample").unwrap();
     let line = text.lines().nth(sample + 1).unwrap().split(',').nth(2).unwrap();
     let value: f64 = line.parse().unwrap();
@@ -60,9 +61,8 @@ fn sample_draws_the_rows_of_the_campaign() {
         let found: f64 = words[1].parse().expect("a number");
         assert!((found / (value * factor) - 1.0).abs() < 1e-5, "{found} of {value}");
     }
-    assert!(
-        scratch.prints(&format!("sample thin.toml --sample {sample}"), 0).contains("principal_moment_largest_kg_m2")
-    );
+    let said = scratch.prints(&format!("sample thin.toml --sample {sample}"), 0);
+    assert!(said.contains("principal_moment_largest_kg_m2"), "{said}");
     scratch.prints("sample thin.toml --sample 600", 2);
     scratch.prints("sample thin.toml --out s.txt", 2);
     scratch.prints("sample thin.toml --samples 0", 2);
@@ -82,7 +82,7 @@ fn check_has_no_line_about_what_is_not_there() {
         let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
         assert_eq!(line, None, "{said}");
     }
-    // a thruster that is there, and whose command acts in no run: it is not computed, and neither is its work
+    // a thruster whose command acts in no run has no work
     let thruster = "[[thrusters]]\nname = \"p1\"\nposition_m = [0.1, 0, 0]\ndirection = [0, 0, 1]\n";
     let arc = |keys: &str| format!("{bare}{thruster}[[actuation]]\nend_s = 9\nthrust_n = {{ p1 = 1.0 }}\n{keys}\n");
     let says_work = |keys: &str| {
@@ -96,8 +96,7 @@ fn check_has_no_line_about_what_is_not_there() {
     assert!(!says_work("start_s = 2"));
 }
 
-/// Law: below the components of a dispersed rate, attitude or alignment error are the percentiles of its magnitude,
-/// which are those of the drawn values.
+/// Law: below a dispersed rate, attitude or alignment error are the percentiles of the magnitudes drawn.
 #[test]
 fn check_shows_magnitudes_and_implausible_numbers() {
     let scratch = folder("check-magnitudes");
@@ -112,7 +111,6 @@ fn check_shows_magnitudes_and_implausible_numbers() {
             .position(|line| line.trim_start().starts_with(name))
             .unwrap_or_else(|| panic!("{name} in:\n{said}"));
         let text = said.lines().nth(line).unwrap().trim_start().strip_prefix(name).unwrap();
-        // the unit comes first
         let numbers: Vec<f64> = text.split_whitespace().skip(1).map_while(|word| word.parse().ok()).collect();
         (line, numbers)
     };
@@ -120,30 +118,17 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     let (below, rates) = row("|initial.angular_velocity_rad_s|");
     assert_eq!(below, above + 1, "{said}");
     scratch.prints("sample more.toml --out drawn.csv", 0);
-    let table = scratch.text("drawn.csv");
-    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    let place = ["x", "y", "z"].map(|axis| {
-        let name = format!("initial_angular_velocity_{axis}_rad_s");
-        names.iter().position(|other| *other == name).unwrap_or_else(|| panic!("{name} in {names:?}"))
-    });
-    let mut sizes: Vec<f64> = Vec::new();
-    for line in table.lines().skip(2) {
-        let cells: Vec<&str> = line.split(',').collect();
-        sizes.push(place.iter().map(|index| cells[*index].parse::<f64>().unwrap().powi(2)).sum::<f64>().sqrt());
-    }
-    sizes.sort_by(f64::total_cmp);
-    // 599 draws, the quantile of type 7
-    assert_eq!(sizes.len(), 599);
+    scratch.prints("sample more.toml --out drawn.parquet", 0);
+    let table = scratch.table("drawn.parquet");
+    let axes = ["x", "y", "z"].map(|axis| floats(&table, &format!("initial_angular_velocity_{axis}_rad_s")));
+    let size = |row: usize| axes.iter().map(|axis| axis[row].powi(2)).sum::<f64>().sqrt();
+    let sizes: Vec<f64> = (1..600).map(size).collect();
     for (p, shown) in [0.01, 0.5, 0.99].into_iter().zip(&rates[1..]) {
-        let rank: f64 = p * 598.0;
-        let (below, part) = (rank as usize, rank.fract());
-        let expected = sizes[below] + part * (sizes[below + 1] - sizes[below]);
-        // four digits are shown
+        let expected = quantile(&sizes, p);
         assert!((shown / expected - 1.0).abs() < 1e-3, "{shown} {expected}");
     }
     let (_, angles) = row("initial.attitude, angle from nominal");
-    // std 0.1 rad about each of three axes: the length has the quantiles 0.1 times 0.339, 1.538, 3.368 of the chi
-    // distribution with three degrees of freedom; those of 599 draws are within a fifth
+    // three deviations of 0.1 rad: quantiles of the chi distribution with three degrees of freedom, within a fifth
     for (shown, chi) in angles[1..].iter().zip([0.0339, 0.1538, 0.3368]) {
         assert!(angles[0] == 0.0 && (0.5..1.3).contains(&(shown / chi)), "{angles:?}");
     }
@@ -153,36 +138,28 @@ fn check_shows_magnitudes_and_implausible_numbers() {
     assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");
 }
 
-/// Law: of every shipped campaign `check` takes at most 48 lines of 80 characters, says every dispersed parameter once,
-/// and how to see the rest.
+/// Law: `check` of a shipped campaign takes at most 48 lines of 80 characters and has every dispersed parameter.
 #[test]
 fn check_fits_a_screen() {
     let scratch = folder("check-screen");
-    let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
     for name in ["net_launch", "spin_sweep", "slew_closed", "pyramid", "nadir_pointing", "correlated"] {
-        let file = shipped.join(format!("{name}.toml"));
-        let mut command = scratch.command("check");
-        let said = scratch.outputs(command.arg(&file).env("COLUMNS", "80"), 0);
-        assert!(said.lines().count() <= 48, "{name}: {}\n{said}", said.lines().count());
-        assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("campaigns/{name}.toml"));
+        let said = scratch.prints_at(&format!("check {}", file.display()), 0, 80);
+        assert_fits(&said, 48, 80);
         assert!(said.lines().take(4).any(|line| line.starts_with(&format!("{name}: "))), "{said}");
         assert!(said.lines().last().is_some_and(|line| line.starts_with("--verbose: ")), "{said}");
         let plan = Plan::load(&file, Overrides::default()).expect("valid");
-        let mut seen = Vec::new();
-        for column in plan.dispersions.columns() {
+        let mut columns = plan.dispersions.columns().iter().peekable();
+        assert!(columns.peek().is_some(), "{name}");
+        for column in columns {
             let parameter = column.parameter.name();
-            let is_of = |line: &&str| {
-                line.trim_start().split([' ', ',']).next().is_some_and(|word| {
-                    word == parameter
-                        || word
-                            .strip_prefix(&parameter)
-                            .is_some_and(|rest| rest.starts_with('.') && rest.matches('.').count() == 1)
-                })
+            let is_of = |line: &str| {
+                let word = line.trim_start().split([' ', ',']).next().unwrap_or_default();
+                let rest = word.strip_prefix(&parameter);
+                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.') && rest.matches('.').count() == 1)
             };
-            assert!(said.lines().any(|line| is_of(&line)), "{parameter} in:\n{said}");
-            seen.push(parameter);
+            assert!(said.lines().any(is_of), "{parameter} in:\n{said}");
         }
-        assert!(!seen.is_empty(), "{name}");
     }
 }
 
@@ -227,8 +204,7 @@ fn a_closed_pipe_is_no_panic() {
     }
 }
 
-/// Law: of two files with the same name, the one in the current folder is meant and not the one in `campaigns`, for
-/// every command.
+/// Law: of two files with the same name, each command takes the one in the current folder, not that in `campaigns`.
 #[test]
 fn a_file_of_the_current_folder_comes_first() {
     let scratch = folder("find");
@@ -257,14 +233,17 @@ fn a_file_of_the_current_folder_comes_first() {
 #[test]
 fn a_figure_of_samples_is_without_the_nominal_one() {
     let scratch = folder("drawn-nominal");
-    let drawn = "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s.x\"\ndistribution = \"uniform\"\nmin = \
-        1.0\nmax = 2.0\n\
-                 [[disperse]]\nparameter = \"initial.angular_velocity_rad_s.y\"\ndistribution = \"uniform\"\nmin = \
-                 1.0\nmax = 2.0\n";
+    let rate = |axis: &str| {
+        format!(
+            "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s.{axis}\"\ndistribution = \"uniform\"\n\
+             min = 1.0\nmax = 2.0\n"
+        )
+    };
+    let drawn = rate("x") + &rate("y");
     let scene = campaign_without_debris();
     for (name, nominal) in [("near", "[-20.0, -30.0, 31.0]"), ("far", "[-2000.0, -500.0, 31.0]")] {
-        let text = scene.replace("[0, 3.141592653589793, 31.41592653589793]", nominal).replace(SPIN_DISPERSION, drawn);
-        assert!(text.contains(nominal) && text.contains(drawn));
+        let text = scene.replace("[0, 3.141592653589793, 31.41592653589793]", nominal).replace(SPIN_DISPERSION, &drawn);
+        assert!(text.contains(nominal) && text.contains(&drawn));
         scratch.file(&format!("{name}.toml"), &text);
     }
     let figure = |name: &str, options: &str| {
@@ -290,8 +269,7 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
     }
 }
 
-/// Law: the torque of a thruster that `check --verbose` shows is r x F about the centre of mass, by hand from the
-/// numbers of the file.
+/// Law: the torque of a thruster in `check --verbose` is r x F about the centre of mass.
 #[test]
 fn torques_of_thrusters_have_their_sign() {
     let scratch = folder("torques");

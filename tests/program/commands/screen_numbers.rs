@@ -1,4 +1,4 @@
-//! Every number in a sentence of the screen is counted again: from rows, files, tables and the summary.
+//! Every number in a sentence of the screen, counted again.
 
 use std::path::PathBuf;
 
@@ -41,7 +41,6 @@ pub(crate) fn numbers(said: &str, pattern: &str) -> Vec<f64> {
 
 pub(crate) fn says(said: &str, pattern: &str, expected: &[f64]) {
     let found = numbers(said, pattern);
-    // the ends of an interval are rounded outward to three digits
     let digits = if pattern.contains("[#") {
         1.01e-2
     } else if pattern.contains('%') {
@@ -53,7 +52,6 @@ pub(crate) fn says(said: &str, pattern: &str, expected: &[f64]) {
         let digits = if expected.fract() == 0.0 { 6e-4 } else { digits };
         (found - expected).abs() <= digits * expected.abs()
     };
-    // an estimate and its interval have digits to the tenth of its half width
     let ends = pattern.find("[#, #]").map(|at| pattern[..at].matches('#').count());
     let half = ends.map_or(0.0, |at| 0.05 * (expected[at + 1] - expected[at]).abs());
     let of_interval = |place: usize| ends.is_some_and(|at| (at.saturating_sub(1)..at + 2).contains(&place));
@@ -84,7 +82,6 @@ fn a_check_estimates_what_is_made() {
     assert_eq!(found[..2], [columns, scratch.parts("r").len() as f64]);
     let written = contents(&scratch.path("r")).values().map(Vec::len).sum::<usize>() as f64 / 1e6;
     assert!((0.67..1.5).contains(&(found[2] / written)), "{} MB for {written}", found[2]);
-    // the program itself has 30 MB
     assert!((30.0..300.0).contains(&found[3]), "{said}");
     let [milliseconds, samples, cores, seconds] =
         numbers(&said, "# ms per run on one core; # samples on # cores: about # s")[..]
@@ -92,7 +89,6 @@ fn a_check_estimates_what_is_made() {
         panic!("{said}")
     };
     assert_eq!(samples, 600.0);
-    // three digits each
     assert!((seconds * cores * 1e3 / samples - milliseconds).abs() < 1.1e-2 * milliseconds, "{said}");
     let found =
         numbers(&said, "audit of # of the samples, from # audits: # ms each; about # audits on # cores: # s more");
@@ -113,19 +109,10 @@ fn other_commands_count_what_is_there() {
     assert!(parts.len() > 1 && failed > 100.0);
     let (count, all) = (parts.len() as f64, parts.iter().map(rows).sum::<f64>());
     let size = std::fs::metadata(scratch.path("r/report.html")).expect("a page").len() as f64;
+    let compared = "# parts, # rows: checksums compared; # parts with # rows";
     for (command, code, pattern, known) in [
-        (
-            "verify r --fraction 1",
-            0,
-            "# parts, # rows: checksums compared; # parts with # rows",
-            vec![count, all, count, all],
-        ),
-        (
-            "verify r --fraction 0",
-            0,
-            "# parts, # rows: checksums compared; # parts with # rows",
-            vec![count, all, 0.0, 0.0],
-        ),
+        ("verify r --fraction 1", 0, compared, vec![count, all, count, all]),
+        ("verify r --fraction 0", 0, compared, vec![count, all, 0.0, 0.0]),
         ("campaign c.toml --out r", 1, "already complete in r (# samples, # of them failed)", vec![all, failed]),
         ("campaign c.toml --samples 300 --out u", 1, "small: # of # runs", vec![300.0 - of_300, 300.0]),
         ("campaign c.toml --out u", 1, "small: # samples already there, # to run", vec![256.0, all - 256.0]),
@@ -137,7 +124,6 @@ fn other_commands_count_what_is_there() {
     }
     let shown = numbers(&scratch.prints("report r", 0), "r/report.html (# kB)")[0];
     assert!((shown - size / 1e3).abs() < 0.051, "{shown} kB of {size} bytes");
-    // the samples of shards are those of their parts
     scratch.prints("campaign c.toml --out t --shard 1/2", 0);
     let first: f64 = scratch.part_files("t").iter().map(rows).sum();
     let said = scratch.prints("campaign c.toml --out t --shard 2/2", 0);

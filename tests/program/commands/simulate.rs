@@ -1,10 +1,8 @@
-//! `spindrift simulate` from outside: one run as table, file and plot.
-
-use std::process::Command;
+//! `spindrift simulate`: one run as table, file and plot.
 
 use crate::page::numbers::Found;
 use crate::small_campaign::folder;
-use crate::support::scratch_folder::floats;
+use crate::support::scratch_folder::{assert_fits, floats};
 
 #[test]
 fn simulate_shows_the_run_behind_the_row() {
@@ -47,7 +45,6 @@ fn simulate_writes_the_promised_columns() {
     assert!(text.starts_with(expected), "{}", text.lines().next().unwrap());
     assert_eq!(text.lines().count(), 12);
 
-    // the same numbers in both formats: CSV loses no bit
     scratch.prints("simulate small.toml --out s.parquet", 0);
     let batch = &scratch.table("s.parquet");
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
@@ -60,7 +57,6 @@ fn simulate_writes_the_promised_columns() {
         }
     }
     assert!(long > 100, "some numbers need all seventeen digits: {long}");
-    // the point p starts where the file says, although the states are those of the centre of mass
     let start = |name: &str| floats(batch, name)[0];
     assert_eq!([start("r_po_e_x_m"), start("r_po_e_y_m"), start("r_po_e_z_m")], [0.0; 3]);
     assert_eq!([start("v_po_e_x_m_s"), start("v_po_e_y_m_s"), start("v_po_e_z_m_s")], [10.0, 0.0, 0.0]);
@@ -85,8 +81,7 @@ fn the_end_of_a_mission_is_said() {
     }
 }
 
-/// Law: the velocity of p is the derivative of its position (central differences, error h^2/6 times the third
-/// derivative).
+/// Law: the velocity of p is the derivative of its position: central differences, whose error is h^2/6 r'''.
 #[test]
 fn the_velocity_of_p_is_the_derivative_of_its_position() {
     let scratch = folder("derivative");
@@ -132,7 +127,6 @@ fn plots_and_tables_are_made() {
         assert!(shown.contains(title), "{title}: {shown}");
     }
     assert!(shown.contains("Energy transfer"), "its wheels turn");
-    // without wheels nothing is transferred, and debris is no reason for that panel
     let rigid = scratch.text("small.toml");
     let wheels = rigid.find("[[wheels]]").unwrap();
     let after = wheels + rigid[wheels..].find("\n[debris]").unwrap();
@@ -140,7 +134,6 @@ fn plots_and_tables_are_made() {
     scratch.prints("simulate rigid.toml --plot rigid.html", 0);
     let shown = titles(&scratch.text("rigid.html"));
     assert!(shown.contains("Kinetic energy of the debris") && !shown.contains("Energy transfer"), "{shown}");
-    // an SVG is asked for, and a page is written in its place, which is said
     let said = scratch.prints("simulate small.toml --plot q.svg --times 0,0.1,0.2", 0);
     assert!(said.contains("q.html") && scratch.path("q.html").exists() && !scratch.path("q.svg").exists(), "{said}");
     scratch.prints("simulate small.toml --plot p.pdf", 2);
@@ -175,18 +168,13 @@ fn a_table_with_many_wheels_fits() {
     let scratch = folder("eight");
     scratch.file("eight.toml", &eight_wheels());
     let mut counts = Vec::new();
-    for (asked, width) in [(None, 100), (Some("80"), 80), (Some("140"), 140), (Some("wide"), 100)] {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_spindrift"));
-        program.args(["simulate", "eight.toml"]).current_dir(&scratch.0).env_remove("COLUMNS");
-        program.envs(asked.map(|asked| ("COLUMNS", asked)));
-        let output = program.output().unwrap();
+    for (columns, width) in [(None, 100), (Some("80"), 80), (Some("140"), 140), (Some("wide"), 100)] {
+        let mut program = scratch.command("simulate eight.toml");
+        let output = program.env_remove("COLUMNS").envs(columns.map(|width| ("COLUMNS", width))).output().unwrap();
         let [table, notes] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
         assert_eq!(table.lines().count(), 13, "{table}"); // two lines of headers and the points
-        for line in table.lines() {
-            assert!(line.chars().count() <= width, "{} letters: {line}", line.chars().count());
-        }
-        let is_fit = notes.lines().all(|line| line.chars().count() <= width);
-        assert!(is_fit || !matches!(asked, Some("80" | "140")), "{notes}");
+        assert_fits(&table, 13, width);
+        assert_fits(&notes, 99, if ["80", "140"].map(Some).contains(&columns) { width } else { usize::MAX });
         let notes = notes.split_whitespace().collect::<Vec<_>>().join(" ");
         let headers = table.lines().next().unwrap();
         let shown = (0..8).filter(|k| headers.contains(&format!("rate...r_{k}"))).count();

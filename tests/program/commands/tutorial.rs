@@ -1,20 +1,18 @@
-//! `docs/tutorial.md`, done as it stands: its files are written, its commands run, what it says that they print is what
-//! they print, and its pictures are those that they make.
+//! `docs/tutorial.md`, done as it stands: its files are written, its commands run, and their output compared.
 
 use std::path::Path;
 
 use crate::support::scratch_folder::ScratchFolder;
 
-/// One step of the document.
 #[derive(Debug, PartialEq)]
 enum Step<'d> {
-    /// Text that is added to a file of this name.
+    /// Text added to a file.
     Write { file: &'d str, text: String },
-    /// A line for a shell, and the exit code that the document states.
+    /// A line for a shell, with its exit code.
     Run { command: &'d str, code: i32 },
-    /// Lines that the commands before print, in this order; `...` stands for lines that are left out.
+    /// Lines that the commands before print in this order; `...` stands for omitted lines.
     Prints(Vec<&'d str>),
-    /// A figure that the commands before write, and the picture in the document.
+    /// A figure that the commands before write, and its picture.
     Picture { figure: &'d str, picture: &'d str },
 }
 
@@ -50,19 +48,16 @@ fn steps(document: &str) -> Vec<Step<'_>> {
 }
 
 fn missing<'d>(printed: &str, expected: &[&'d str]) -> Option<&'d str> {
-    let mut rest = printed.lines();
-    let mut is_free = true;
+    let (mut rest, mut is_free) = (printed.lines(), true);
     for line in expected {
-        if *line == "..." {
-            is_free = true;
-            continue;
+        if *line != "..." {
+            let is_found = |printed: &str| printed.starts_with(line);
+            let found = if is_free { rest.any(is_found) } else { rest.next().is_some_and(is_found) };
+            if !found {
+                return Some(line);
+            }
         }
-        let is_found = |printed: &str| printed.starts_with(line);
-        let found = if is_free { rest.any(is_found) } else { rest.next().is_some_and(is_found) };
-        if !found {
-            return Some(line);
-        }
-        is_free = false;
+        is_free = *line == "...";
     }
     None
 }
@@ -96,11 +91,7 @@ fn the_tutorial_does_what_it_says() {
         }
     }
     assert!(counts[..3].iter().zip([5, 6, 5]).all(|(count, least)| *count >= least), "{counts:?} steps were done");
-    // a picture that is not of a command is a photograph of the page, which a browser makes
+    // other pictures are photographs of the page by a browser
     let pictures = document.lines().filter(|line| line.starts_with("![") && !line.ends_with(".png)")).count();
-    assert!(
-        counts[3] == pictures && pictures >= 3,
-        "{} of {pictures} pictures are marked with their figure",
-        counts[3]
-    );
+    assert!(counts[3] == pictures && pictures >= 3, "{} of {pictures} pictures have a figure", counts[3]);
 }

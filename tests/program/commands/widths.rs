@@ -4,11 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::small_campaign::folder;
 
-/// Names and other words without a space can be longer than a narrow line.
 const LONGEST_WORD: usize = 60;
 
-/// Law: at every width each number that a command shows in wide lines is there, whole, and a longer line is a single
-/// word.
+/// Law: at every width each number of the wide output is there, whole, and a longer line is a single word.
 #[test]
 fn numbers_stand_whole_at_every_width() {
     let scratch = folder("widths");
@@ -21,10 +19,7 @@ fn numbers_stand_whole_at_every_width() {
         text.split_whitespace().filter(is_number).map(str::to_owned).collect()
     };
     for command in ["sample small.toml", "compare r1 r2 --verbose", "index .", "columns nutation"] {
-        let at = |width: usize| {
-            let mut program = scratch.command(command);
-            scratch.outputs(program.env("COLUMNS", width.to_string()), 0)
-        };
+        let at = |width: usize| scratch.prints_at(command, 0, width);
         let all = numbers(&at(1000));
         for width in (40..=200).step_by(16) {
             let text = at(width);

@@ -1,4 +1,4 @@
-//! Which columns a row has: skipped groups, padding and the instruction set change no bit of the others.
+//! Columns of a row: skipped groups, padding and the instruction set change no bit of others.
 
 use crate::observables::observed_tables::{
     Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
@@ -7,7 +7,7 @@ use spindrift::dynamics::effects::{Effect, ForceModel};
 use spindrift::math::Isa;
 use spindrift::math::vector::dcm_from_quaternion;
 use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
-use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
+use spindrift::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::scene::{Epoch, FieldModel, Orbit};
 
 #[test]
@@ -31,14 +31,14 @@ fn padding_leaves_no_trace() {
     }
 }
 
-/// Law: the fraction is the swing over the largest total about the centre of mass, also where the total changes (under
-/// thrust), and net is the last minus the first value, also where the first is not the smallest.
+/// Law: the fraction is the swing over the largest total about the centre of mass, and net is the last minus the first
+/// value, where these are not the extremes.
 #[test]
 fn fraction_and_net_are_relative_to_the_right_points() {
     let (_, mut scene) = table1();
     scene.mass.debris = None;
     let grid = Grid::uniform(6.0, 61);
-    // the spin slows down, then grows beyond its initial value: first, smallest, last and largest differ
+    // first, smallest, last and largest spin differ
     let spin = |t: f64| 3.0 - 1.5 * libm::sin(t);
     let table =
         motion_table(&grid, &|t| (rotation([0.0, 0.0, 1.0], t), [0.0, 0.0, spin(t)], [10.0, 20.0 + t], [0.0; 3]));
@@ -101,7 +101,6 @@ fn every_column_of_every_kind_of_scene_has_a_value() {
             }
         }
     }
-    // a column of wheels is there for each of the two
     let of_two = |column: &Column| if column.is_of_wheel() { 2 } else { 1 };
     let count: usize = spindrift::observables::table::all().map(of_two).sum();
     assert_eq!(seen.len(), count, "every column is of some kind of scene");
@@ -115,17 +114,11 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
     let mut observer = Observer::new(request, &grid);
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
-    // numbers of an earlier run remain in the table, and none of them may be used
+    // numbers of an earlier run must not be used
     observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut row);
     table.set(StateField::Rate, 3, [f64::NAN; 3]);
-    let failed = Outcome {
-        status: Status::NonFinite,
-        time: 1.5,
-        points: 4,
-        effort: StepStatistics { steps: 7, rejected: 1, evaluations: 50 },
-        local_errors: LocalErrors::default(),
-        debris_errors: spindrift::run::LocalErrors::NONE,
-    };
+    let effort = StepStatistics { steps: 7, rejected: 1, evaluations: 50 };
+    let failed = Outcome { status: Status::NonFinite, effort, ..done(4, 1.5) };
     observer.observe(Isa::best(), &scene, &table, &failed, &mut row);
     let truth = &golden.truth[2];
     for (column, value) in columns.iter().zip(&row) {
@@ -134,22 +127,15 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
             "time_final_s" => assert_eq!(*value, truth.time),
             "omega_se_s_y_final_rad_s" => assert_eq!(*value, truth.omega_se_s[1]),
             "steps" => assert_eq!(*value, 7.0),
-            _ => assert_eq!(
-                value.is_finite(),
-                matches!(column.group, Group::FinalState | Group::StepStatistics | Group::MassProperties),
-                "{}",
-                column.quantity.name()
-            ),
+            name => {
+                let is_known =
+                    matches!(column.group, Group::FinalState | Group::StepStatistics | Group::MassProperties);
+                assert_eq!(value.is_finite(), is_known, "{name}");
+            }
         }
     }
-    let invalid = Outcome {
-        status: Status::InvalidSample,
-        time: 0.0,
-        points: 0,
-        effort: StepStatistics::default(),
-        local_errors: LocalErrors::default(),
-        debris_errors: spindrift::run::LocalErrors::NONE,
-    };
+    let effort = StepStatistics::default();
+    let invalid = Outcome { status: Status::InvalidSample, effort, ..done(0, 0.0) };
     observer.observe(Isa::best(), &scene, &table, &invalid, &mut row);
     for (column, value) in columns.iter().zip(&row) {
         let is_known = matches!(column.group, Group::StepStatistics | Group::MassProperties);

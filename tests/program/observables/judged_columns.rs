@@ -1,4 +1,4 @@
-//! Columns that judge a run by a limit: on both sides of it.
+//! Columns that judge a run by a limit, on both sides of it.
 
 use spindrift::campaign::{Overrides, Plan};
 
@@ -59,6 +59,5 @@ fn the_limit_of_conditioning_has_two_sides() {
         }
     }
     // measured: 8.5e-4 and 1.1e-3
-    println!("below {below:e}, above {above:e}");
     assert!(below > 0.5e-3 && above < 2e-3, "{below:e} {above:e}");
 }

@@ -1,15 +1,14 @@
-//! The group `mass_properties`: mass, centre of mass and principal moments of every sample, as dispersed.
+//! Mass, centre of mass and principal moments of every sample, as dispersed.
 
 use spindrift::campaign::{Overrides, Plan, draw};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
-use spindrift::math::Isa;
 use spindrift::observables::Group;
 use spindrift::sampling::SampleId;
 use spindrift::scene::MassProperties;
 
 use crate::small_campaign::{NEGATIVE_WALLS, campaign};
+use crate::support::plans::rows;
 
-/// A density, a position of a wheel, and walls: a third of these is not physical.
+/// A third of the walls of [`plan`] is not physical.
 const DISPERSED: &str = r#"
 [[disperse]]
 parameter = "body.parts.fuselage.density_kg_m3"
@@ -30,27 +29,23 @@ fn plan() -> Plan {
     Plan { groups: vec![Group::MassProperties], ..plan.unwrap() }
 }
 
-/// Law: the columns are the mass properties of the scene of the sample, with principal moments in ascending order that
-/// keep trace and determinant of the inertia.
+/// Law: the columns are the mass properties of the drawn scene, with ascending principal moments that keep trace and
+/// determinant of the inertia.
 #[test]
 fn columns_are_those_of_the_scene() {
     let plan = plan();
-    let ensemble = Ensemble::new(&plan, Isa::best());
-    let mut rows: Rows = ensemble.rows(SAMPLES);
-    let part = Part { id: PartId(0), first: SampleId(0), count: SAMPLES };
-    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
-    let names: Vec<String> =
-        ensemble.request().columns().iter().map(|column| column.quantity.name().to_owned()).collect();
-    assert_eq!(names.len(), 7, "{names:?}");
-    // the check values of Berdoz's model, without dispersions
-    let nominal: Vec<f64> = (4..7).map(|index| rows.observable(index)[0]).collect();
-    for (value, expected) in nominal.into_iter().zip([1687.2800329075988, 3054.590970145349, 3055.375141124116]) {
+    let table = rows(&plan);
+    let columns: Vec<_> = table.columns().collect();
+    assert_eq!(columns.len(), 7);
+    // Berdoz's model without dispersions
+    let nominal = columns[4..].iter().map(|(_, column)| column[0]);
+    for (value, expected) in nominal.zip([1687.2800329075988, 3054.590970145349, 3055.375141124116]) {
         assert!((value / expected - 1.0).abs() < 1e-15, "{value} {expected}");
     }
     assert!(!Group::DEFAULT.contains(&Group::MassProperties), "only where a file names it");
     let (mut valid, mut masses) = (0, Vec::new());
     for row in 0..SAMPLES {
-        let value = |name: &str| rows.observable(names.iter().position(|known| known == name).unwrap())[row];
+        let value = |name: &str| table.column(name)[row];
         let moments = ["smallest", "middle", "largest"].map(|which| value(&format!("principal_moment_{which}_kg_m2")));
         let Ok(scene) = draw(&plan, SampleId(row as u64)) else {
             assert!(value("mass_kg").is_nan() && moments.iter().all(|moment| moment.is_nan()));
@@ -96,8 +91,7 @@ fn assert_same(found: &MassProperties, mass: f64, center: [f64; 3], inertia: [[f
 
 type Matrix = nalgebra::Matrix3<f64>;
 
-/// Errors of a distribution of mass as a file has them, one alone and all together: logarithms of scales along the
-/// axes, and shears.
+/// Errors of a distribution of mass, one alone and all together: logarithms of scales along the axes, and shears.
 const ERRORS: [([f64; 3], [f64; 3]); 8] = [
     ([0.2, 0.0, 0.0], [0.0; 3]),
     ([0.0, -0.1, 0.0], [0.0; 3]),
@@ -141,8 +135,8 @@ fn mass_errors_move_point_masses() {
     }
 }
 
-/// Law: where mass, centre and inertia of the body include its wheels, the whole has them as written, with the errors
-/// of the body as written too, whichever wheels turn, are held or are locked.
+/// Law: a body that includes its wheels has mass, centre and inertia as written, with the errors of the body, whichever
+/// wheels are free, held or locked.
 #[test]
 fn what_includes_the_wheels_is_the_whole() {
     const MASS: f64 = 500.0;
@@ -153,7 +147,7 @@ fn what_includes_the_wheels_is_the_whole() {
     let modes = ["free", "speed_held", "locked"];
     for errors in ERRORS {
         let (scale_log, shear) = errors;
-        // k A S A^T of the second moments S, and the inertia that follows from them
+        // k A S A^T of the second moments S, and its inertia
         let inertia = Matrix::from_fn(|i, j| INERTIA[i][j]);
         let second = Matrix::identity() * (0.5 * inertia.trace()) - inertia;
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| moved(errors, axis));

@@ -1,4 +1,4 @@
-//! The group `motion`: motions in closed form give their angles, rates, speeds and momenta.
+//! Angles, rates, speeds and momenta of motions in closed form.
 
 use std::collections::HashMap;
 
@@ -13,10 +13,10 @@ use crate::observables::observed_tables::{done, motion_table, request, rotation}
 use crate::support::golden::Golden;
 use crate::support::observed::observed;
 
-/// Some roundings of numbers of size one; angles near zero and half a turn are as exact.
+/// Roundings of numbers of size one.
 const ROUNDING: f64 = 4e-15;
 
-/// Attitude, omega, wheel rates, position of c, position of the debris at a time.
+/// Attitude, omega, wheel rates, positions of c and of the debris.
 type State = ([f64; 4], [f64; 3], [f64; 2], [f64; 3], [f64; 3]);
 
 fn grid() -> Grid {
@@ -64,8 +64,7 @@ fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{found:e} {expected:e}");
 }
 
-/// Law: s3 is at the angle atan2(|H across s3|, H along s3) from H. The extremes are those of the formula, also where
-/// wheels change H.
+/// Law: s3 is at the angle atan2(|H across s3|, H along s3) from H, with extremes also where wheels change H.
 #[test]
 fn rates_nutation_and_wheels() {
     let mut scene = scene();
@@ -73,7 +72,7 @@ fn rates_nutation_and_wheels() {
     for (wheel, axis) in scene.mass.wheels.iter_mut().zip([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
         (wheel.axis, wheel.axial) = (axis, 0.25);
     }
-    // wheel 2, along s3, is slower and slower; wheel 1 turns backwards, fastest in the middle
+    // wheel 2 slows down; wheel 1 turns backwards, fastest in the middle
     let rates = |t: f64| [-40.0 + 10.0 * (t - 1.0).abs(), 100.0 - 30.0 * t];
     let motion = |t: f64| -> State {
         let omega = [0.3 * libm::cos(t), 0.0, 2.0];
@@ -82,12 +81,10 @@ fn rates_nutation_and_wheels() {
     let found = row(&scene, None, &motion);
     near(found["angular_rate_max_rad_s"], (0.09_f64 + 4.0).sqrt());
     near(found["angular_rate_final_rad_s"], ((0.3 * libm::cos(2.0)).powi(2) + 4.0).sqrt());
-    // a turn by t about a fixed axis
     near(found["attitude_from_initial_max_rad"], 2.0);
     near(found["attitude_from_initial_final_rad"], 2.0);
     near(found["speed_w1_max_rad_s"], 40.0);
     near(found["speed_w2_max_rad_s"], 100.0);
-    // the rate about s2 is zero, and about s3 two
     near(found["momentum_w1_max_n_m_s"], 0.25 * 40.0);
     near(found["momentum_w2_max_n_m_s"], 0.25 * 102.0);
     let angles: Vec<f64> = grid()
@@ -120,12 +117,10 @@ fn attitudes_are_compared_with_the_nominal_run() {
         let found = row(&scene, Some(&nominal), &turned);
         near(found["attitude_from_nominal_max_rad"], angle);
         near(found["attitude_from_nominal_final_rad"], 0.75 * angle);
-        // a quaternion and its negative are one attitude
         let negative = |t: f64| state(turned(t).0.map(|x| -x));
         near(row(&scene, Some(&nominal), &negative)["attitude_from_nominal_max_rad"], angle);
     }
     near(row(&scene, Some(&nominal), &nominal_motion)["attitude_from_nominal_max_rad"], 0.0);
-    // unknown where there is no nominal run, or where it did not reach the points
     assert!(row(&scene, None, &nominal_motion)["attitude_from_nominal_max_rad"].is_nan());
     let short = NominalAttitude::of(&table(&nominal_motion), &outcome(20));
     assert!(row(&scene, Some(&short), &nominal_motion)["attitude_from_nominal_final_rad"].is_nan());
@@ -138,7 +133,6 @@ fn the_debris_is_seen_at_its_angle() {
         let angle = |t: f64| 0.25 + 0.5 * t;
         let motion = |t: f64| -> State {
             let own = [3.0, -2.0, t].map(|x| x * distance);
-            // the attitude turns about e3, so that s3 is e3
             let (sine, cosine) = libm::sincos(angle(t));
             let debris = [own[0] + distance * sine * 0.6, own[1] - distance * sine * 0.8, own[2] + distance * cosine];
             (rotation([0.0, 0.0, 1.0], 0.7 * t), [0.0; 3], [0.0; 2], own, debris)

@@ -1,4 +1,4 @@
-//! State tables of known motions, and the rows that an observer makes of them.
+//! State tables of known motions, and their observed rows.
 
 use std::collections::HashMap;
 
@@ -11,11 +11,10 @@ use spindrift::observables::{Groups, Observer, Request};
 use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
 use spindrift::scene::Scene;
 
-/// Energies and momenta of states that are rounded to f64: a few roundings of the state, doubled by squares, and some
-/// dozens of operations. Measured: 3.5e-16.
+/// A few roundings of a state, doubled by squares, and dozens of operations. Measured: 3.5e-16.
 pub const ROUNDING: f64 = 3e-15;
 
-/// A state that is written to a table: (time; q_es, omega, wheel rates, v_c).
+/// q_es, omega, wheel rates and v_c at a time.
 pub type Motion<'a> = &'a dyn Fn(f64) -> ([f64; 4], [f64; 3], [f64; 2], [f64; 3]);
 
 pub fn table1() -> (Golden, Scene) {

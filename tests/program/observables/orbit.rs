@@ -1,15 +1,13 @@
-//! The group `orbit`: distance, angle of s3 from nadir, and torque of the gravity gradient, against closed forms.
+//! Distance, nadir angle and gravity-gradient torque against closed forms.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
-use spindrift::math::Isa;
 use spindrift::observables::Group;
-use spindrift::sampling::SampleId;
 
-/// Of the Earth, as `orbit.mu_m3_s2` where a file does not say, m^3/s^2.
+use crate::support::plans::rows;
+
 const MU: f64 = 3.986004418e14;
 const AXIS: f64 = 7e6;
 
@@ -21,13 +19,7 @@ fn row(more: &str, duration: f64, points: usize, of_body: &str) -> HashMap<Strin
          [orbit]\nsemi_major_axis_m = {AXIS:?}\n{more}"
     );
     let plan = Plan::from_text("orbit", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-    let ensemble = Ensemble::new(&plan, Isa::best());
-    let mut rows: Rows = ensemble.rows(1);
-    let part = Part { id: PartId(0), first: SampleId(0), count: 1 };
-    ensemble.worker().run(part, &mut rows, Supervision::progress(&|_| {}));
-    let columns = ensemble.request().columns();
-    let names = columns.iter().map(|column| column.quantity.name().to_owned());
-    names.enumerate().map(|(index, name)| (name, rows.observable(index)[0])).collect()
+    rows(&plan).columns().map(|(name, column)| (name.to_owned(), column[0])).collect()
 }
 
 /// s3 along -e1: a turn of -90 degrees about e2.
@@ -59,7 +51,7 @@ fn a_body_at_rest_is_left_by_nadir() {
     }
 }
 
-/// Law: a body that is turned by t about a principal axis has the torque 3 mu/(2 r^3) |J3 - J1| sin 2t.
+/// Law: a body turned by t about a principal axis has the torque 3 mu/(2 r^3) |J3 - J1| sin 2t.
 #[test]
 fn the_torque_is_that_of_the_textbook() {
     for turned in [0.2_f64, PI / 4.0, 1.2, 3.0] {
@@ -79,8 +71,7 @@ fn the_torque_is_that_of_the_textbook() {
     }
 }
 
-/// Law: the field is that of the package (`magnetic_field::tests`, here over the pole) and the torque of a dipole
-/// across it the product of both.
+/// Law: the field is that of the package, and the torque of a dipole across it their product.
 #[test]
 fn a_dipole_is_turned_by_the_field() {
     // `pyIGRF14` at the first instant of 2025 on the e1 axis, in F_e: see tests/accuracy/magnetic_torque.rs

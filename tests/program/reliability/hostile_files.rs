@@ -277,10 +277,7 @@ fn escapes_in_arguments_are_shown_as_text() {
         assert!(!said.contains(is_obeyed), "{arguments:?}: {said:?}");
         assert!(said.contains("\\u{1b}[2J\\u{9b}1m\\u{202e}x"), "{arguments:?}: {said}");
     }
-    assert!(
-        scratch.prints("--help", 0).contains("Exit codes:") && scratch.prints("--version", 0).starts_with("spindrift ")
-    );
-    scratch.prints("", 2);
+    assert!(scratch.prints("--version", 0).starts_with("spindrift "));
 }
 
 /// Law: a file that may not grow is an error with code 4; without the limit the same command gives the same bytes.
