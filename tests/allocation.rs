@@ -5,21 +5,12 @@
 
 mod support;
 
+use crate::support::prelude::*;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::hint::black_box;
 
 use spindrift::analysis::fold::RunningFold;
-use spindrift::campaign::Plan;
-use spindrift::dynamics::actuation::Laws;
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
-use spindrift::math::Isa;
-use spindrift::observables::Group;
-use spindrift::ode::Integrator;
-use spindrift::propagation::{Method, PropagationSettings};
-use spindrift::run::Grid;
-use spindrift::sampling::SampleId;
-use spindrift::scene::{Actuated, Scene};
 use spindrift::storage::part_sink::{CountRows, PartFiles};
 use support::feedback::law;
 use support::plans::shipped;

@@ -1,18 +1,10 @@
 //! Accuracy claims for states, against the reference solution in double-double.
 
-use crate::support::claims::hold;
 use crate::support::exact::distance;
-use crate::support::golden::Golden;
 use crate::support::invariants::Invariants;
-use crate::support::runs::{Run, adaptive, blocks, propagate_on};
-use crate::support::scenes::{Kind, keep_wheels, random, set_wheel_rates};
+use crate::support::prelude::*;
+use crate::support::scenes::keep_wheels;
 use rayon::prelude::*;
-use spindrift::math::Isa;
-use spindrift::math::vector::norm;
-use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
-use spindrift::propagation::{Method, PropagationSettings};
-use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::{DebrisInput, Scene, SceneInput, WheelMode};
 
 const SECTION: &str = "accuracy_claims";
 const TOLERANCE: f64 = 1e-16;

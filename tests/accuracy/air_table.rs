@@ -3,12 +3,8 @@
 use crate::support::exact::distance;
 use crate::support::exact::solved;
 use crate::support::orbits::in_thin_air;
-use crate::support::runs::{adaptive, blocks, propagate, propagate_one};
-use spindrift::dynamics::effects::ForceModel;
+use crate::support::prelude::*;
 use spindrift::dynamics::environment::air::AirTable;
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{EnvironmentInput, Scene};
 
 fn methods() -> impl Iterator<Item = Method> {
     let model = ForceModel::of(&in_thin_air(1, 3)[0]);

@@ -1,12 +1,7 @@
 //! Runs that start at rest, hardly move, or stop obey the law of [`super::error_estimate`], for every method.
 
 use super::error_estimate::{Family, Found, Measured, breaches, found, settings};
-use crate::support::runs::{adaptive, fixed};
-use crate::support::scenes::Uniform;
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, Status};
-use spindrift::scene::{ActuationInput, Scene, SceneInput, ThrusterInput, WheelInput};
+use crate::support::prelude::*;
 
 const DURATION: f64 = 20.0;
 const FAST: f64 = 60.0;

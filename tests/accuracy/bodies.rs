@@ -1,14 +1,7 @@
 //! Bodies and actuators of files: refused draws, tensors, and errors of actuators.
 
-use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
-use crate::support::draws;
-use crate::support::runs::{Run, adaptive, fixed, propagate};
-use crate::support::scenes::{Kind, random};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::math::vector::{difference, norm};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{DebrisInput, Scene};
+use crate::support::campaigns::THRUSTERS;
+use crate::support::prelude::*;
 
 fn plan(debris: &str, rest: &str) -> Result<Plan, String> {
     let text = format!(

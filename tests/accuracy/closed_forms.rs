@@ -1,17 +1,9 @@
 //! Published motions against every method at its smallest tolerance: free asymmetric bodies by Jacobi's elliptic
 //! functions (`tests/golden/free_bodies.json`), symmetric tops and axial rotors by uniform rotations.
 
-use crate::support::claims::hold;
-use crate::support::golden::Golden;
-use crate::support::plans::shipped;
-use crate::support::runs::{adaptive, blocks, propagate_on};
-use serde_json::Value;
+use crate::support::prelude::*;
+use spindrift::math::Real;
 use spindrift::math::double_double::DoubleDouble;
-use spindrift::math::vector::{hamilton, norm};
-use spindrift::math::{Isa, Real};
-use spindrift::propagation::{Method, PropagationSettings};
-use spindrift::run::{Grid, StateField, StateTable, Status};
-use spindrift::scene::{Scene, SceneInput, WheelInput, WheelMode};
 
 const SECTION: &str = "closed_forms";
 const TOLERANCE: f64 = 1e-16;

@@ -1,18 +1,10 @@
 //! Air and light that move the spacecraft (`environment.coupled`).
 
-use crate::support::orbits::{MU, body, circle, near_rounding, plated};
-use crate::support::runs::{adaptive, everything, propagate, propagate_one};
-use spindrift::dynamics::effects::ForceModel;
+use crate::support::orbits::circle;
+use crate::support::prelude::*;
 use spindrift::dynamics::environment::EARTH_RATE;
 use spindrift::dynamics::environment::sun::sun;
-use spindrift::math::Isa;
-use spindrift::math::vector::{cross, difference, dot, norm, product, scaled, sum};
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::propagation::{Method, RotationError, rotation_errors};
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{
-    EnvironmentInput, Epoch, Name, Offset, Offsets, Orbit, OrbitInput, PlateInput, Scene, SceneInput,
-};
+use spindrift::scene::{Offset, Offsets, Orbit};
 
 const DURATION: f64 = 6_000.0;
 /// A plate through the centre of mass, so that nothing turns the body.

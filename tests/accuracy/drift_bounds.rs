@@ -9,18 +9,8 @@
 //! A kernel that changes these distributions on purpose writes the baseline again:
 //! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test accuracy drift_bounds`.
 
-use crate::support::claims::hold;
-use crate::support::plans::{rows, shipped};
-use serde_json::{Value, json};
-use spindrift::campaign::Plan;
-use spindrift::ensemble::{Ensemble, SingleRun};
-use spindrift::math::Isa;
-use spindrift::observables::Observer;
-use spindrift::ode::{Integrator, Tolerance};
-use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
-use spindrift::run::{Grid, Status};
-use spindrift::sampling::SampleId;
-use spindrift::scene::Scene;
+use crate::support::prelude::*;
+use serde_json::json;
 
 const SECTION: &str = "drift_bounds";
 const WRITE: &str = "SPINDRIFT_WRITE_BASELINE";

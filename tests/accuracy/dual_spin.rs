@@ -5,10 +5,7 @@
 //! below both A and B, else a hyperbola of growth omega sqrt((A - K)(K - B)/(A B)). Source: P. C. Hughes, *Spacecraft
 //! Attitude Dynamics*, 1986, section 6.2.
 
-use crate::support::plans::{rows, shipped};
-use spindrift::campaign::SceneDraws;
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
+use crate::support::prelude::*;
 
 /// K of the campaign, kg m^2: K3 = 100, h = 5 N m s, omega = 0.5 rad/s.
 const BOUNDARY: f64 = 110.0;

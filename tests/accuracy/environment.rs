@@ -1,10 +1,6 @@
 //! A constant torque of the environment in closed form, by every method.
 
-use crate::support::runs::{Run, adaptive, fixed, propagate_one};
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{Scene, SceneInput};
+use crate::support::prelude::*;
 
 /// Methods with their largest relative distances. Measured: 6.6e-15, 6.6e-15, 5.8e-13, 1.1e-11, 5.5e-15, 1.1e-8, 5.9e-11.
 const METHODS: [(Method, Control, f64); 7] = [

@@ -5,25 +5,15 @@
 //! test, fixed seeds); a coverage of 75% is rejected for 24 runs with a power of 73%. The count of all settings of a
 //! method is at least 95%. Beyond a tenth an error is bounded and covered by any estimate above a twentieth.
 
-use crate::support::draws;
 use crate::support::exact::solved;
-use crate::support::observed::request;
-use crate::support::orbits::{in_thin_air, magnetic, plated, tumbling};
+use crate::support::orbits::{in_thin_air, magnetic, tumbling};
 use crate::support::plans;
-use crate::support::runs::{adaptive, fixed};
-use crate::support::scenes::{Kind, Uniform, mixed, of_most_wheels, random, set_wheel_rates, speed_held};
+use crate::support::prelude::*;
+use crate::support::scenes::{of_most_wheels, speed_held};
 use rayon::prelude::*;
-use spindrift::dynamics::effects::ForceModel;
-use spindrift::math::Isa;
 use spindrift::math::symmetric::principal_axes;
-use spindrift::observables::{Group, Observer};
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
-use spindrift::propagation::{
-    CompletedRun, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
-};
-use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, Status};
-use spindrift::scene::Scene;
+use spindrift::propagation::debris_rotation_errors;
+use spindrift::run::LocalErrors;
 use spindrift::statistics::binomial::at_most;
 
 /// Chance of rejecting a setting with 95% coverage: there are about two hundred settings.

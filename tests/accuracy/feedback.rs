@@ -1,14 +1,7 @@
 //! Every method and the double-double solution fly the same sampled-data loop.
 
 use crate::support::feedback::{Flight, fly, law};
-use crate::support::runs::{adaptive, everything, fixed};
-use crate::support::scenes::mixed;
-use spindrift::math::Isa;
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::propagation::{Method, PropagationSettings};
-use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::{Actuated, Scene};
+use crate::support::prelude::*;
 
 /// Some control periods and quarter turns of the slowest scene, s.
 const HORIZON: f64 = 3.1;

@@ -1,17 +1,8 @@
 //! Every method against golden truth of 25 digits from a 40-digit Taylor solution.
 
-use std::collections::BTreeMap;
+use crate::support::prelude::*;
 
-use crate::support::golden::Golden;
-use crate::support::observed::{observed, request};
-use crate::support::runs::{Run, adaptive, base_point, fixed, propagate_one, relative, up_to_sign};
-use spindrift::math::Isa;
-use spindrift::math::vector::{difference, norm};
-use spindrift::observables::{Groups, Series};
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::Scene;
+use crate::support::runs::base_point;
 
 /// The largest error of each kind, relative to the truth (at least to one in its unit); of energies relative to the
 /// body's own and to the total.

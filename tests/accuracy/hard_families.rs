@@ -4,13 +4,8 @@
 //! `null_space`, whose steps follow the wheels, is left out.
 
 use super::error_estimate::{Family, Found, Measured, breaches, of_families};
-use crate::support::orbits::{MU, body};
-use crate::support::scenes::Uniform;
-use spindrift::propagation::Method;
-use spindrift::run::Grid;
-use spindrift::scene::{
-    BodyInput, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput, PlateInput, Scene, SceneInput, WheelInput,
-};
+use crate::support::prelude::*;
+use spindrift::scene::BodyInput;
 
 /// A family: its name, duration in s, points, and scene number `k`.
 type Regime = (&'static str, f64, usize, fn(u64, &mut Uniform) -> SceneInput);

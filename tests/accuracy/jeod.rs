@@ -1,16 +1,7 @@
 //! NASA's JEOD: free rotation, pulses of torque and force on the space station, and the gravity gradient on a circle and
 //! an ellipse, over eight hours of a two-body orbit.
 
-use crate::support::orbits::{body, near_rounding};
-use crate::support::runs::{adaptive, everything, propagate, propagate_one};
-use serde_json::Value;
-use spindrift::dynamics::effects::ForceModel;
-use spindrift::math::Isa;
-use spindrift::math::vector::{dcm_from_quaternion, difference, norm, sum};
-use spindrift::propagation::Method;
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::run::{Grid, StateField, StateTable};
-use spindrift::scene::{ActuationInput, Name, OrbitInput, Scene, SceneInput, ThrusterInput};
+use crate::support::prelude::*;
 
 pub struct JeodRun {
     name: String,
@@ -130,8 +121,6 @@ fn nasa_jeod_runs() {
                 entries.fold(0.0, f64::max),
             ]
         };
-        let shown = |[m, rate, angle]: [f64; 3]| format!("{m:.1e} m, {rate:.1e} rad/s, {angle:.1e} rad");
-        let theirs = from(&exact, jeod.position, jeod.rates[1], jeod.dcm);
         let c_es = dcm_from_quaternion(exact.at(StateField::Attitude, 480));
         let transposed = core::array::from_fn(|i| core::array::from_fn(|j| c_es[j][i]));
         for (method, control) in near_rounding(ForceModel::of(&scene)) {

@@ -1,11 +1,7 @@
 //! The torque of a residual magnetic dipole by every method, against SciPy with the field of another package.
 
-use crate::support::runs::{adaptive, fixed, propagate};
-use spindrift::math::vector::{difference, norm};
-use spindrift::ode::Integrator;
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{Actuation, Arc, EnvironmentInput, Epoch, FieldModel, OrbitInput, Scene, SceneInput, TorqueRod};
+use crate::support::prelude::*;
+use spindrift::scene::{Arc, TorqueRod};
 
 fn scene(model: FieldModel) -> Scene {
     let orbit = OrbitInput {

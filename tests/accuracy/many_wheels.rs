@@ -1,20 +1,12 @@
 //! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters.
 
+use crate::support::prelude::*;
 use rayon::prelude::*;
 
-use crate::support::observed::{observed, request};
-use crate::support::runs::{
-    Run, adaptive, base_point, everything, fixed, propagate_one, relative, relative_field, up_to_sign,
-};
+use crate::support::runs::{base_point, relative_field};
 use crate::support::scenes::{COUNTS, many_wheels};
-use spindrift::math::Isa;
-use spindrift::math::vector::norm;
-use spindrift::observables::{Groups, Request};
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::Method;
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE as TRUTH_TOLERANCE};
-use spindrift::run::{Grid, Outcome, StateField, StateTable, Status};
-use spindrift::scene::{Actuated, Arc, DebrisInput, Scene, SceneInput, WheelMode};
+use spindrift::propagation::taylor::reference_solution::TOLERANCE as TRUTH_TOLERANCE;
+use spindrift::scene::Arc;
 
 const HORIZON: f64 = 1.0;
 const TOLERANCE: f64 = 1e-11;

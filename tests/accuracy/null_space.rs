@@ -2,13 +2,12 @@
 
 use crate::null_space_matrices as matrices;
 use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, State, with_printed_sign};
-use crate::support::golden::Golden;
+use crate::support::prelude::*;
 use crate::support::scenes::keep_wheels;
 use nalgebra::{Matrix3, SVector, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use spindrift::dynamics::null_space::{residuals, sigma};
-use spindrift::scene::{Actuation, DebrisInput, Scene};
 
 /// Rates of random scenes, relative to the size of their terms: roundings. Measured: 7.7e-16.
 const RATE_TOLERANCE: f64 = 7e-15;

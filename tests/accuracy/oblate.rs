@@ -1,14 +1,7 @@
 //! Orbits about a flattened body (`orbit.j2`).
 
-use crate::support::orbits::{MU, body, circle, near_rounding, plated};
-use crate::support::runs::{Run, adaptive, everything, propagate, propagate_one};
-use spindrift::dynamics::effects::ForceModel;
-use spindrift::math::Isa;
-use spindrift::math::vector::{cross, difference, dot, norm};
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::propagation::{Method, RotationError, rotation_errors};
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{DebrisInput, OrbitInput, Scene, SceneInput};
+use crate::support::orbits::circle;
+use crate::support::prelude::*;
 
 const J2: f64 = 1.08262668e-3;
 const RADIUS: f64 = 6_378_137.0;

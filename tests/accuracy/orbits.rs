@@ -2,22 +2,15 @@
 
 use super::jeod::jeod_runs;
 use crate::support::exact::solved;
-use crate::support::orbits::{MU, body, circle, leaving, near_rounding, plated, tumbling};
-use crate::support::runs::{Run, adaptive, everything, fixed, propagate, propagate_on, propagate_one};
+use crate::support::orbits::{circle, leaving, tumbling};
+use crate::support::prelude::*;
 use spindrift::dynamics::effects::within_arcs::Motion;
-use spindrift::dynamics::effects::{ChangingEffects, Effect, ForceModel};
+use spindrift::dynamics::effects::{ChangingEffects, Effect};
 use spindrift::dynamics::gravity::Gravity;
 use spindrift::dynamics::orbit::KeplerOrbit;
 use spindrift::dynamics::orbit_state::OrbitState;
-use spindrift::math::Isa;
-use spindrift::math::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled, transposed_product};
-use spindrift::ode::Control;
-use spindrift::propagation::taylor::reference_solution::ReferenceSolution;
-use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{
-    Actuation, Arc, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput, PlateInput, Scene, SceneInput, TorqueRod,
-};
+use spindrift::math::vector::transposed_product;
+use spindrift::scene::{Arc, TorqueRod};
 
 fn methods() -> Vec<(Method, Control)> {
     near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))

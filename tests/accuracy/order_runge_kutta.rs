@@ -1,8 +1,8 @@
 //! Runge-Kutta methods converge with their order and tolerance, at the steps and between them.
 
+use crate::support::prelude::*;
 use crate::textbook::*;
-use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4, Tolerance};
-use spindrift::run::{Grid, Status};
+use spindrift::ode::{Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 
 const HORIZON: f64 = 10.0;
 const FREQUENCY: f64 = 2.0;

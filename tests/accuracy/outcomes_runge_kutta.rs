@@ -1,10 +1,8 @@
 //! Ends of runs: done, step limit, step floor, not finite; arcs and observation points are met exactly.
 
-use crate::support::runs::{adaptive, fixed, propagate};
-use crate::support::scenes::mixed;
+use crate::support::prelude::*;
 use crate::textbook::*;
-use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4};
-use spindrift::run::{Grid, Outcome, Status};
+use spindrift::ode::{Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 
 const ROUND_OFF: f64 = 1e-14;
 

@@ -1,15 +1,7 @@
 //! Periodic propagation: its cost, its agreement with plain Taylor integration, and special periods.
 
-use crate::support::golden::Golden;
-use crate::support::observed::{observed, request};
-use crate::support::runs::{Run, adaptive, propagate, rotation_distance};
-use crate::support::scenes::{Kind, Uniform, mixed, random, set_wheel_rates};
-use spindrift::math::Isa;
-use spindrift::math::vector::norm;
-use spindrift::observables::Groups;
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField, StateTable, Status};
-use spindrift::scene::{Scene, SceneInput};
+use crate::support::prelude::*;
+use crate::support::runs::rotation_distance;
 
 const TOLERANCE: f64 = 1e-16;
 const POINTS: usize = 101;

@@ -1,14 +1,9 @@
 //! The reference solution in double-double, against 40 digits and conservation laws.
 
-use crate::support::golden::Golden;
+use crate::support::prelude::*;
+use spindrift::math::Real;
 use spindrift::math::double_double::DoubleDouble;
-use spindrift::math::vector::{
-    constant, constant_matrix, dcm_from_quaternion, difference, dot, norm, product, scaled, sum,
-};
-use spindrift::math::{Isa, Real};
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::run::{Grid, StateField, StateFields};
-use spindrift::scene::Scene;
+use spindrift::math::vector::{constant, constant_matrix};
 
 fn everything() -> StateFields {
     let constraints = [StateField::Dcm, StateField::Residuals];

@@ -1,13 +1,7 @@
 //! Spacecraft and debris beside an orbit, against two Kepler orbits in 60 digits and the equation of motion.
 
-use crate::support::orbits::{MU, body, leaving, near_rounding};
-use crate::support::runs::{everything, propagate_one};
-use spindrift::dynamics::effects::ForceModel;
-use spindrift::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
-use spindrift::propagation::Method;
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::{ActuationInput, DebrisInput, EnvironmentInput, OrbitInput, Scene, SceneInput, ThrusterInput};
+use crate::support::orbits::leaving;
+use crate::support::prelude::*;
 
 fn ellipse() -> OrbitInput {
     let (position_m, velocity_m_s) = (Some([7e6, 1e6, -2e5]), Some([100.0, 7100.0, 2900.0]));

@@ -1,15 +1,8 @@
 //! Figures 3 to 5 of Berdoz, *Final Report - ADR Spacecraft*: the kinetic energy of its own 62-state form with
 //! Dormand-Prince 5(4), against an independent run over two seconds, observed at 201 points.
 
-use crate::support::golden::Golden;
-use crate::support::observed::{observed, request};
-use crate::support::runs::{adaptive, propagate_one};
-use spindrift::math::Isa;
-use spindrift::observables::Groups;
-use spindrift::ode::Control;
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StepStatistics};
-use spindrift::scene::Scene;
+use crate::support::prelude::*;
+use spindrift::run::StepStatistics;
 
 const HORIZON: f64 = 2.0;
 const POINTS: usize = 201;
@@ -43,7 +36,7 @@ fn largest(values: &[f64]) -> f64 {
 #[test]
 fn the_error_of_the_energy_follows_the_tolerance() {
     let errors = [(1e-6, 6.2e-7), (1e-8, 6.6e-9)].map(|(tolerance, expected)| {
-        let (all, effort) = figures(adaptive(tolerance));
+        let (all, _) = figures(adaptive(tolerance));
         let error = largest(&series(&all, "energy_error"));
         // eleven times the measured: Berdoz controlled the root mean square of a step's error
         assert!(error < expected, "{error:e} at {tolerance:e}");

@@ -5,16 +5,9 @@
 //! the log-log slope of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n = 64,
 //! two-sided alpha = 0.0027).
 
-use crate::support::claims::hold;
 use crate::support::invariants::Invariants;
-use crate::support::runs::{adaptive, blocks, propagate_on};
-use crate::support::scenes::mixed;
+use crate::support::prelude::*;
 use rayon::prelude::*;
-use spindrift::math::Isa;
-use spindrift::ode::Control;
-use spindrift::propagation::{Method, PropagationSettings};
-use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::Scene;
 
 const SECTION: &str = "round_off";
 const TOLERANCE: f64 = 1e-16;

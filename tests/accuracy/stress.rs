@@ -1,17 +1,8 @@
 //! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes beyond campaign files.
 
-use crate::support::claims::hold;
-use crate::support::golden::Golden;
-use crate::support::plans::{Table, rows, shipped};
-use crate::support::runs::{Run, adaptive, blocks, propagate_on};
-use crate::support::scenes::set_wheel_rates;
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::math::Isa;
+use crate::support::plans::Table;
+use crate::support::prelude::*;
 use spindrift::observables::accuracy::INACCURATE_STATE;
-use spindrift::ode::{Integrator, Tolerance};
-use spindrift::propagation::{Method, PropagationSettings};
-use spindrift::run::{Grid, StateField, Status};
-use spindrift::scene::{ActuationInput, DebrisInput, Scene, SceneInput};
 
 const SECTION: &str = "stress";
 const SMALL: u64 = 48;

@@ -1,13 +1,7 @@
 //! Promises of a tolerance, a step and a direction of time.
 
-use crate::support::claims::hold;
 use crate::support::exact::Exact;
-use crate::support::runs::{Run, adaptive, fixed, relative, up_to_sign};
-use crate::support::scenes::mixed;
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::scene::Scene;
+use crate::support::prelude::*;
 
 const SECTION: &str = "tolerance";
 

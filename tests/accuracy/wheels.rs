@@ -1,18 +1,8 @@
 //! Wheels whose motors hold their speed, and wheels with misaligned axes and offset centres.
 
-use crate::support::campaigns::FUSELAGE;
-use crate::support::golden::Golden;
-use crate::support::runs::{adaptive, propagate, propagate_one, rotation_distance};
-use crate::support::scenes::{Kind, keep_wheels, misaligned, random, speed_held};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::math::vector::{difference, norm};
-use spindrift::ode::Integrator;
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
-use spindrift::scene::{Actuated, ActuationInput, Scene, SceneInput, WheelMode};
+use crate::support::prelude::*;
+use crate::support::runs::rotation_distance;
+use crate::support::scenes::{keep_wheels, misaligned, speed_held};
 
 const HORIZON: f64 = 1.0;
 const TAYLOR: f64 = 1e-16;

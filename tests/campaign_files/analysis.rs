@@ -1,10 +1,10 @@
 //! The tables that say what is made of the rows; no row depends on them.
 
 use crate::refusals::good;
+use crate::support::prelude::*;
 use spindrift::campaign::requirement::{BandSubject, Subject};
 use spindrift::campaign::stop::When;
-use spindrift::campaign::{Analysis, Display, Overrides, Plan, Requirement, Statement};
-use spindrift::statistics::gate::GateLimit;
+use spindrift::campaign::{Analysis, Display, Requirement, Statement};
 
 fn plan(more: &str) -> Plan {
     Plan::from_text("good.toml", &(good() + more), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))

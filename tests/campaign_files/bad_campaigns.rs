@@ -1,5 +1,5 @@
 use crate::refusals::good;
-use spindrift::campaign::{CampaignError, Overrides, Plan};
+use crate::support::prelude::*;
 
 fn errors(text: &str) -> CampaignError {
     match Plan::from_text("bad.toml", text, Overrides::default()) {

@@ -1,10 +1,6 @@
 //! Hundreds of invalid files, made by one change of a valid one.
 
-use std::time::Instant;
-
-use spindrift::campaign::{Overrides, Plan};
-
-use crate::support::every_key::EVERY_TABLE;
+use crate::support::prelude::*;
 
 /// Values that hardly any key takes; each key gets three.
 const VALUES: [&str; 18] = [

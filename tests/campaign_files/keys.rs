@@ -1,18 +1,13 @@
 //! Each key of a file changes the plan, reads back, and changes the hash of the rows exactly where it changes rows. A key
 //! that no file here has fails the tests.
 
-use std::collections::BTreeSet;
-use std::path::Path;
+use crate::support::prelude::*;
 
 use spindrift::campaign::parameter::lacking;
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::propagation::Method;
-use spindrift::scene::Parameter;
 use spindrift::scene::parameter::Shape;
 use toml::Value;
 
-use crate::support::every_key::{EVERY_TABLE, distribution_tables, every_loop, every_scene, without_draws};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::every_key::{distribution_tables, every_loop, every_scene, without_draws};
 
 const NOTHING: &str = "qqzzqqzz";
 

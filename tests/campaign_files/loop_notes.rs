@@ -1,4 +1,4 @@
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::prelude::*;
 
 use super::loops::{LOOP, plan};
 

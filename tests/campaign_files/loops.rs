@@ -1,9 +1,7 @@
 //! Control loops in campaign files: what is refused, and how a phase or a sensor is addressed.
 
-use spindrift::campaign::{CampaignError, Overrides, Plan};
+use crate::support::prelude::*;
 use spindrift::control::observes::Observes;
-
-use crate::support::scratch_folder::ScratchFolder;
 
 pub const LOOP: &str = include_str!("loop.toml");
 

@@ -1,11 +1,8 @@
 //! Every key and name, misspelt by one edit, gets the right suggestion.
 
-use std::collections::BTreeSet;
+use crate::support::prelude::*;
 
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::scene::Parameter;
-
-use crate::support::every_key::{EVERY_TABLE, distributions};
+use crate::support::every_key::distributions;
 
 const NOTHING: &str = "qqzzqqzz";
 

@@ -1,9 +1,7 @@
 //! Each end of a range is accepted, and the next number beyond it refused by its key.
 
-use std::f64::consts::PI;
+use crate::support::prelude::*;
 
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::scene::Parameter;
 use spindrift::scene::schema::Limit;
 
 use crate::support::every_key::every_scene;

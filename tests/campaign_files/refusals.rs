@@ -1,8 +1,9 @@
-use spindrift::campaign::{CampaignError, Overrides, Plan, Problem};
+use crate::support::prelude::*;
+use spindrift::campaign::Problem;
 
 use crate::loops::LOOP;
 use crate::spacecraft::NEWCOMER;
-use crate::support::campaigns::{DEBRIS, FUSELAGE, WHEEL1, WHEEL1_AT_REST};
+use crate::support::campaigns::DEBRIS;
 
 const CASES: &str = include_str!("refusals.txt");
 

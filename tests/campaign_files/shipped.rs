@@ -1,11 +1,7 @@
 //! Campaign files: the shipped ones, defaults, and the plan as text.
 
-use crate::support::every_key::EVERY_TABLE;
-use spindrift::campaign::{Overrides, Plan, Retention};
-use spindrift::observables::Group;
-use spindrift::propagation::Method;
-use spindrift::scene::Scene;
-use std::path::Path;
+use crate::support::prelude::*;
+use spindrift::campaign::Retention;
 
 fn shipped() -> Vec<std::path::PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");

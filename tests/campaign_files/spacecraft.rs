@@ -1,8 +1,4 @@
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
+use crate::support::prelude::*;
 
 /// By mass and tensor, one wheel, a thruster with an alignment error, a spin in degrees per second.
 pub const NEWCOMER: &str = r#"[campaign]

@@ -1,6 +1,6 @@
 //! Units in values, against a table of their own.
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::prelude::*;
 
 const FILE: &str = r#"[campaign]
 name = "units"
@@ -98,7 +98,7 @@ fn units_have_their_sizes() {
             for number in [1.0, 0.3, 7e3] {
                 let written =
                     plan(&file(si, &format!("\"{number} {unit}\""))).unwrap_or_else(|error| panic!("{error}"));
-        // three roundings: of the size here, of the product, and of the program's quotient
+                // three roundings: of the size here, of the product, and of the program's quotient
                 let near = |steps: i32| {
                     let exact = number * size;
                     let value =

@@ -1,8 +1,6 @@
 //! Variants of a campaign without copies: `--set`, and `extends`.
 
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::prelude::*;
 
 fn shipped() -> String {
     std::fs::read_to_string("campaigns/spin_sweep.toml").unwrap()

@@ -1,24 +1,12 @@
 //! Bands are the quantiles over time of the runs, and depend on nothing but the plan.
 
-use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
-use std::sync::Mutex;
+use crate::support::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Bands, Ensemble, Parts, Rows, SingleRun, Sink, Supervision, run};
-use spindrift::math::Isa;
-use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::{Group, Observer, Series};
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
+use spindrift::ensemble::Bands;
 use spindrift::statistics::deviation::RELATIVE_ERROR;
-use spindrift::statistics::gate::GateLimit;
-use spindrift::statistics::quantile::quantile;
 use spindrift::storage::bands_file::{self, BandsFile};
 use spindrift::storage::disk::folder;
-
-use crate::support::scratch_folder::ScratchFolder;
 
 const SAMPLES: u64 = 700;
 

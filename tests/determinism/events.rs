@@ -1,14 +1,11 @@
 //! Events: times at which quantities of a run cross values.
 
-use std::f64::consts::PI;
+use crate::support::prelude::*;
 
 use super::extremes::extreme;
 use super::whole_rows::{
     SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows, single,
 };
-use spindrift::campaign::Plan;
-use spindrift::math::Isa;
-use spindrift::propagation::Method;
 
 fn free(method: &str, points: usize, more: &str) -> Plan {
     plan(&(free_body(method, points, 30.0) + more))

@@ -1,11 +1,7 @@
 //! Extremes between observation points, against closed forms and many points.
 
 use super::whole_rows::{SPREAD, column, event, free_body, near_rounding, plan, precession, rows, single};
-use spindrift::campaign::Plan;
-use spindrift::math::Isa;
-use spindrift::observables::Series;
-use spindrift::propagation::Method;
-use spindrift::run::StateField;
+use crate::support::prelude::*;
 
 fn free(method: &str, points: usize, middle: f64, more: &str) -> Plan {
     plan(&(free_body(method, points, middle) + more))

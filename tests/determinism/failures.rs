@@ -1,10 +1,6 @@
 //! Devices that fail during a run: the motion before and after, and the columns of the failure.
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, SingleRun, Supervision};
-use spindrift::math::Isa;
-use spindrift::run::{StateField, StateTable};
-use spindrift::sampling::SampleId;
+use crate::support::prelude::*;
 
 /// A body with four wheels in a pyramid under a memoryless law with perfect knowledge.
 const HELD: &str = r#"[campaign]

@@ -1,16 +1,12 @@
 //! Runs under laws: bits do not depend on company, order, instruction set or threads, and the record of arcs replays.
 
 use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law};
-use crate::support::observed::request;
-use crate::support::runs::{Bits, METHODS, everything};
-use crate::support::scenes::{WHEELS, many_wheels, mixed};
-use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
-use spindrift::math::Isa;
-use spindrift::observables::{FlownRun, Groups, Observer};
-use spindrift::ode::Control;
-use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
-use spindrift::run::Grid;
-use spindrift::scene::{Actuated, Arc, Scene, WheelMode};
+use crate::support::prelude::*;
+use crate::support::runs::{Bits, METHODS};
+use crate::support::scenes::{WHEELS, many_wheels};
+use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState, ZeroOrderHold};
+use spindrift::observables::FlownRun;
+use spindrift::scene::Arc;
 
 const HORIZON: f64 = 3.1;
 

@@ -1,23 +1,18 @@
 //! Flight code in WebAssembly modules has the rows of the built-in law of the same operations.
 
-use std::path::PathBuf;
+use crate::support::prelude::*;
 
 use super::assembled_module::{Assembled, INPUT, NOTHING, OUTPUT, constant, copied, list, section, size};
 use super::whole_rows::{bits, column, own_rows, rows};
-use crate::support::scratch_folder::{ScratchFolder, contents};
 use sha2::{Digest, Sha256};
-use spindrift::campaign::{Overrides, Plan};
 use spindrift::control::estimate::Estimate;
 use spindrift::control::failure::Failure;
 use spindrift::control::flight_code::{self, FlightCode, MOST_BYTES};
 use spindrift::control::laws::{KnownBody, LawInput, LawSettings};
 use spindrift::control::sensor_spec::Readings;
-use spindrift::math::Isa;
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
 use spindrift::scene::DeclaredTable;
 use spindrift::storage::claim::Shard;
-use spindrift::workflow::{Campaign, Quiet, Results, Session, Verification, verify};
+use spindrift::workflow::{Verification, verify};
 
 pub const CAMPAIGN: &str = include_str!("../../examples/flight_code/flight_code.toml");
 const BUILT: [&str; 2] = ["mrp_feedback_c.wasm", "mrp_feedback_rust.wasm"];

@@ -1,16 +1,11 @@
 //! Modules of flight code at random, loaded and flown as campaigns are.
 
-use std::collections::BTreeMap;
+use crate::support::prelude::*;
 
 use super::assembled_module::section;
 use super::flight_code::{CAMPAIGN, without_own_keys};
 use super::whole_rows::{bits, rows};
-use crate::support::scenes::Uniform;
-use crate::support::scratch_folder::ScratchFolder;
 use rustix::time::{ClockId, clock_gettime};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::math::Isa;
-use spindrift::run::Status;
 
 const SEED: u64 = 20_261_126;
 const MODULES: u64 = 250;

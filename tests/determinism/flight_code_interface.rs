@@ -3,10 +3,7 @@
 use super::assembled_module::{Assembled, INPUT, MEASURED, REPORTED, constant, copied};
 use super::flight_code::{plan_in, with};
 use super::whole_rows::{column, names, rows, single};
-use crate::support::scratch_folder::ScratchFolder;
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
+use crate::support::prelude::*;
 
 fn module(sensors: &'static str, telemetry: &'static str, step: &[u8]) -> Assembled {
     let mut module = Assembled::with_step(step);

@@ -1,15 +1,11 @@
 //! The bits of a run do not depend on other runs, order, lane or instruction set.
 
 use crate::support::orbits::tumbling;
-use crate::support::runs::{Bits, METHODS, Run, adaptive, control_of, everything, hash, propagate_on};
-use crate::support::scenes::{many_wheels, mixed, mixed_kind};
+use crate::support::prelude::*;
+use crate::support::runs::{Bits, METHODS, control_of, hash};
+use crate::support::scenes::{many_wheels, mixed_kind};
 use rayon::prelude::*;
-use spindrift::dynamics::effects::ForceModel;
-use spindrift::math::Isa;
-use spindrift::ode::{Control, Integrator};
-use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
-use spindrift::run::{Grid, LocalErrors, StateField};
-use spindrift::scene::Scene;
+use spindrift::run::LocalErrors;
 
 const HORIZON: f64 = 6.0;
 

@@ -1,11 +1,10 @@
 //! Lane i of eight equals the scalar run bit for bit, whatever runs are in other lanes or came before.
 
+use crate::support::prelude::*;
 use std::collections::HashSet;
 
 use crate::textbook::*;
-use spindrift::math::Isa;
-use spindrift::ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4, Tolerance};
-use spindrift::run::{Grid, Status};
+use spindrift::ode::{Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 
 const HORIZON: f64 = 6.0;
 

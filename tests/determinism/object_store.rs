@@ -1,12 +1,10 @@
 //! Results in an object store: the bytes of a folder, whatever stops a process; nothing is replaced, and nothing that is
 //! not whole looks whole. `.ci/cloud` starts the server ([`super::store_proxy`]).
 
-use std::process::{Command, Stdio};
+use crate::support::prelude::*;
 
 use super::store_bench::{Bench, HEAD, HEAD_OBJECT, KEY, SECRET, SUCCESS, assert_whole, direct};
 use super::store_proxy::{Fate, Message, Proxy};
-use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
-use crate::support::scratch_folder::contents;
 
 /// Law: a store has the files of a folder, each put if absent; every command on another machine finds them there, and
 /// the campaign puts nothing again.

@@ -1,14 +1,7 @@
 //! A panic of the program is the end of one run.
 
-use crate::support::plans::shipped;
-use spindrift::campaign::SceneDraws;
-use spindrift::dynamics::actuation::Laws;
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, Supervision};
-use spindrift::math::Isa;
+use crate::support::prelude::*;
 use spindrift::propagation::{CompletionCallback, Engine};
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
-use spindrift::scene::Scene;
 
 /// An engine that panics at spins above [`TOO_FAST`], before the last run of a batch ends.
 struct Fragile(Box<dyn Engine>);

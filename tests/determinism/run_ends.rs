@@ -3,11 +3,7 @@
 use super::whole_rows::{
     SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows, single,
 };
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, Status};
-use spindrift::sampling::SampleId;
+use crate::support::prelude::*;
 
 const ENDS: &str = "ends_run = true\n";
 

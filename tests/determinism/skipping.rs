@@ -1,15 +1,9 @@
 //! The absence of a group changes no bit of the others.
 
-use crate::support::observed::request;
-use crate::support::runs::{Bits, adaptive, blocks, control_of, everything, propagate_on};
-use crate::support::scenes::{WHEELS, mixed};
+use crate::support::prelude::*;
+use crate::support::runs::{Bits, control_of};
+use crate::support::scenes::WHEELS;
 use rayon::prelude::*;
-use spindrift::math::Isa;
-use spindrift::observables::{Group, Groups, Observer};
-use spindrift::ode::Integrator;
-use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
-use spindrift::run::{Grid, StateField, StateFields};
-use spindrift::scene::Scene;
 
 const HORIZON: f64 = 6.0;
 

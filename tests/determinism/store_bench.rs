@@ -1,11 +1,8 @@
 //! The campaign of the tests of object stores, and its machines.
 
-use std::collections::BTreeMap;
-use std::process::{Command, Stdio};
+use crate::support::prelude::*;
 
 use super::store_proxy::{Proxy, asked, objects, server};
-use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, WHEEL1, WHEEL2};
-use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Three parts from a table, with bands and two retained runs.
 pub const HEAD: &str = r#"

@@ -1,10 +1,9 @@
 //! The S3 server of the tests, and a proxy that counts requests, answers itself, loses answers, or kills a process.
 
-use std::collections::BTreeMap;
+use crate::support::prelude::*;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::process::{Child, Command};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, MutexGuard, PoisonError};
 
 /// The variable with the server's address, as `127.0.0.1:5000`.
 const SERVER: &str = "SPINDRIFT_S3";

@@ -1,11 +1,6 @@
 //! Runs that reach the surface of the central body, at the time of Kepler's equation.
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::math::vector::{cross, dot, norm};
-use spindrift::run::{StateField, Status};
-use spindrift::sampling::SampleId;
+use crate::support::prelude::*;
 
 use super::whole_rows::event;
 

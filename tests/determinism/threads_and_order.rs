@@ -1,14 +1,10 @@
 //! A row is a function of plan and sample, not of threads, parts or order.
 
-use std::num::NonZeroUsize;
+use crate::support::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::support::plans::{RowBits, SOMETIMES_IMPOSSIBLE, row_bits, seen, shipped_with};
-use spindrift::campaign::Plan;
-use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, RunError, Sink, Supervision, run};
-use spindrift::math::Isa;
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
+use spindrift::ensemble::RunError;
 
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
     shipped_with(name, Some(samples), if with_failures { SOMETIMES_IMPOSSIBLE } else { "" })

@@ -4,15 +4,9 @@
 //! A renamed column is renamed there by hand. Any other difference is a defect, unless CHANGELOG.md records its decision;
 //! then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+use crate::support::prelude::*;
 
 use crate::support::plans::files;
-use crate::support::scratch_folder::ScratchFolder;
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, RecordBatch};
 use arrow_schema::DataType;
 use rayon::prelude::*;
 

@@ -1,11 +1,7 @@
 //! Plans of a test, and their rows column by column.
 
 use crate::support::plans::{RowBits, row_bits};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Part, PartId, Rows, SingleRun, Supervision};
-use spindrift::math::Isa;
-use spindrift::propagation::Method;
-use spindrift::sampling::SampleId;
+use crate::support::prelude::*;
 
 pub const SPREAD: &str =
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";

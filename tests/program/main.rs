@@ -13,3 +13,16 @@ mod reliability;
 mod results;
 mod small_campaign;
 mod views;
+
+mod prelude {
+    pub(crate) use crate::{
+        commands::screen_numbers::says,
+        loops::{
+            closed_loops::plan,
+            flown_loop::{FlownLoop, changed, rotation_vector, without_filters},
+        },
+        page::numbers::{Found, degrees, found, motion},
+        small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures},
+        support::prelude::*,
+    };
+}

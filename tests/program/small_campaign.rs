@@ -1,9 +1,8 @@
 //! The campaign that the tests of the commands run, in a folder of its own.
 
-use std::fs;
+use crate::prelude::*;
 
-use crate::support::campaigns::{DEBRIS, DEBRIS_STATE, FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::support::campaigns::{DEBRIS, DEBRIS_STATE};
 
 /// Six hundred samples are three parts.
 const HEAD: &str = r#"

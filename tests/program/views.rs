@@ -1,15 +1,8 @@
 //! Screens and pages as approved by a reader: `tests/golden/views`. A view that changes on purpose is written again with
 //! `SPINDRIFT_WRITE_VIEWS=1`, and its difference is read before it is committed.
 
+use crate::prelude::*;
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
-
-use serde_json::Value;
-
-use crate::page::numbers::Found;
-use crate::small_campaign::{campaign, folder, mixed_failures};
-use crate::support::scratch_folder::ScratchFolder;
 
 const WRITE: &str = "SPINDRIFT_WRITE_VIEWS";
 

@@ -1,7 +1,6 @@
 //! The layers of the architecture, checked on the source line by line; the compiler, clippy and `cargo deny` hold others.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use crate::support::prelude::*;
 
 const LAYERS: [(&str, u32); 20] = [
     ("math", 0),

@@ -1,14 +1,11 @@
 //! README and `docs/`: every name is documented, every campaign file is valid, and every command exists.
 
-use std::path::{Path, PathBuf};
+use crate::support::prelude::*;
 
 use clap::{CommandFactory, Parser};
-use spindrift::campaign::{Overrides, Plan, find};
+use spindrift::campaign::find;
 use spindrift::cli::arguments::{Arguments, Command};
 use spindrift::ensemble::plausibility::implausible;
-use spindrift::propagation::Method;
-use spindrift::run::Status;
-use spindrift::scene::Scene;
 
 const README_LINES: usize = 200;
 

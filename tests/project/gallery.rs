@@ -1,7 +1,4 @@
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::prelude::*;
 
 const LARGEST: u64 = 600_000;
 

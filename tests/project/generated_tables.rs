@@ -2,25 +2,22 @@
 //!
 //! `SPINDRIFT_WRITE_DOCS=1 cargo test --release --test project` writes them again.
 
-use std::collections::{BTreeMap, BTreeSet};
+use crate::support::prelude::*;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 
 use spindrift::campaign::scene::TABLES;
-use spindrift::campaign::{Overrides, Plan, draws, failure_tables, settings};
-use spindrift::dynamics::effects::{Effect, ForceModel};
+use spindrift::campaign::{draws, failure_tables, settings};
+use spindrift::dynamics::effects::Effect;
 use spindrift::ensemble::plausibility::looked::digits;
 use spindrift::ensemble::plausibility::{rule::Limit, rules::RULES};
-use spindrift::ensemble::{Ensemble, SingleRun};
-use spindrift::math::Isa;
 use spindrift::observables::band_series::band_series;
 use spindrift::observables::request::wheel_names;
-use spindrift::observables::{Group, Groups, LawColumns, LawSeries, Request, table};
+use spindrift::observables::{LawColumns, LawSeries, table};
+use spindrift::sampling::DistributionKind;
 use spindrift::sampling::keys::{Kind, Presence, Rule};
-use spindrift::sampling::{Design, DistributionKind, SampleId};
+use spindrift::scene::LawParameter;
 use spindrift::scene::schema;
 use spindrift::scene::table::Table;
-use spindrift::scene::{Actuated, LawParameter, SceneInput};
 use spindrift::storage::rows_file::{columns, parameter_columns};
 use spindrift::storage::timeseries::time_series;
 use spindrift::table::Column;

@@ -1,7 +1,6 @@
 //! The words of the glossary in ARCHITECTURE.md: what they replace is nowhere where a user reads.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::support::prelude::*;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()

@@ -1,14 +1,9 @@
 //! Errors of single arcs of the schedule do what another command would do, bit for bit, and to that arc only.
 
-use spindrift::campaign::{Overrides, Plan, SceneDraws};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
-use spindrift::scene::{Arc, Scene, SceneInput};
+use crate::support::prelude::*;
+use spindrift::scene::Arc;
 
 use crate::effect::{dispersed, plan_over};
-use crate::support::runs::{Run, adaptive, propagate};
-use crate::support::scenes::{Kind, Uniform, random};
 
 const HORIZON: f64 = 4.0;
 const CASES: u64 = 40;

@@ -1,13 +1,12 @@
 //! Intervals cover, gates err and sketches are off as stated: 10,000 small campaigns of known distributions. H0: the
 //! probability is what is stated; three standard errors, alpha = 0.0027 (0.0013 one-sided).
 
-use crate::support::scenes::Uniform;
+use crate::support::prelude::*;
 use spindrift::math::normal;
 use spindrift::statistics::binomial::{self, Decision, POWER};
-use spindrift::statistics::gate::{Gate, GateLimit, failing_at, failing_together, fraction_gate, mean_gate};
+use spindrift::statistics::gate::{Gate, failing_at, failing_together, fraction_gate, mean_gate};
 use spindrift::statistics::looks::{Goal, adjusted, decision, looks};
-use spindrift::statistics::moments::Moments;
-use spindrift::statistics::quantile::{Ranks, coverage, interval_ranks, quantile};
+use spindrift::statistics::quantile::{Ranks, coverage, interval_ranks};
 use spindrift::statistics::sketch::{RELATIVE_ERROR, Sketch};
 
 const CAMPAIGNS: u32 = 10_000;

@@ -1,14 +1,13 @@
 //! Bounds of means, of standard deviations and of replicated designs miss as seldom as stated, and decide. One-sided,
 //! alpha = 1e-4. Counter-test: Student's bounds miss several times as often.
 
-use crate::support::scenes::Uniform;
+use crate::support::prelude::*;
 use spindrift::math::normal;
 use spindrift::sampling::design::replicates::Sequence;
 use spindrift::sampling::design::sobol::Sobol;
 use spindrift::statistics::binomial::{self, Decision};
-use spindrift::statistics::gate::{GateLimit, mean_gate};
+use spindrift::statistics::gate::mean_gate;
 use spindrift::statistics::mean::{deviation_bounds, mean_bounds, one_sided};
-use spindrift::statistics::moments::Moments;
 use spindrift::statistics::replicates::{self, Step, fraction_bounds, quantile_interval};
 
 const ALPHA: f64 = 1e-4;
@@ -104,7 +103,6 @@ fn bounds_of_means(all: Campaigns) {
                 wrong[0] += u32::from(at_limit == Decision::Pass);
                 wrong[1] += u32::from(at_limit == Decision::Fail);
             }
-            let shown = |counts: [[u32; 2]; 3]| counts.map(|pair| pair.map(|count| percent(count, campaigns)));
             for (place, confidence) in CONFIDENCES.into_iter().enumerate() {
                 for missed in misses[place] {
                     assert!(

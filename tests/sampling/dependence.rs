@@ -1,9 +1,9 @@
 //! Correlated and derived parameters: the applied values have the dependence of the file.
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::prelude::*;
 use spindrift::math::normal::probability;
 
-use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST, WHEEL2_AT_REST};
+use crate::support::campaigns::WHEEL2_AT_REST;
 use crate::support::draws::{self, correlation};
 
 const HEAD: &str = r#"

@@ -1,13 +1,8 @@
 //! Designs: evenness, what stays when samples or dispersions are added, golden bits.
 
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::sampling::Design;
+use crate::support::prelude::*;
 use spindrift::sampling::design::replicates::Replicates;
 use spindrift::sampling::design::{Dimensions, PointSource, Points};
-use std::collections::BTreeMap;
-
-use crate::support::campaigns::{FUSELAGE, WHEEL1_AT_REST};
-use crate::support::draws;
 
 const HEAD: &str = r#"
 [campaign]

@@ -1,22 +1,12 @@
 //! Every number that can be dispersed changes the motion, in both kernels alike, and is recorded as applied.
 
-use crate::support::observed::{observed, request};
-use crate::support::runs::{adaptive, everything, propagate_one, relative, up_to_sign};
-use crate::support::scenes::{Kind, misaligned, random};
-use spindrift::math::Isa;
-use spindrift::observables::{Group, Request};
-use spindrift::propagation::Method;
-use spindrift::run::{Grid, StateField, StateTable, Status};
+use crate::support::prelude::*;
+use crate::support::scenes::misaligned;
 use spindrift::sampling::Written;
 use spindrift::sampling::dispersions::Draws;
-use spindrift::sampling::{
-    Design, Dispersion, DispersionError, Dispersions, DistributionKind, SampleId, WrittenDistribution,
-};
+use spindrift::sampling::{Dispersion, DispersionError, Dispersions, DistributionKind, WrittenDistribution};
 use spindrift::scene::parameter::Shape as ParameterShape;
-use spindrift::scene::{
-    DebrisInput, Name, Parameter, PartInput, PartShape, PrincipalInertia, PrincipalMoments, Scene, SceneInput,
-    WheelInput,
-};
+use spindrift::scene::{PartInput, PartShape, PrincipalInertia, PrincipalMoments};
 
 const HORIZON: f64 = 1.0;
 /// A step of Berdoz's form may add it a few hundred times.
@@ -182,7 +172,7 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     for (parameter, places) in parameters(&variants) {
         for component in 0..parameter.width() {
             let name = parameter.component_name(component);
-        // other keys may hide this one
+            // other keys may hide this one
             let found = places.iter().find_map(|place| {
                 let (scene, recorded) = drawn(parameter, component, &variants[*place]);
                 let taylor = motion(Method::Taylor, &scene);

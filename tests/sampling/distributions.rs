@@ -1,7 +1,7 @@
 //! Distributions of one number: quantiles against a published implementation, draws against distribution functions.
 
 use crate::support::draws::distance;
-use serde_json::Value;
+use crate::support::prelude::*;
 use spindrift::sampling::distribution::Quantile;
 use spindrift::sampling::distribution::beta::BetaQuantile;
 use spindrift::sampling::distribution::choice::ChoiceQuantile;
@@ -18,7 +18,7 @@ use spindrift::sampling::distribution::triangular::TriangularQuantile;
 use spindrift::sampling::distribution::truncated_normal::TruncatedNormalQuantile;
 use spindrift::sampling::distribution::uniform::UniformQuantile;
 use spindrift::sampling::distribution::weibull::WeibullQuantile;
-use spindrift::sampling::{Distribution, SampleId, Stream};
+use spindrift::sampling::{Distribution, Stream};
 
 fn law(name: &str, p: &[f64]) -> Distribution {
     match name {

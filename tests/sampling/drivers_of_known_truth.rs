@@ -1,5 +1,6 @@
 //! Tests of the rankings on runs whose causes are known.
 
+use crate::support::prelude::*;
 use spindrift::analysis::drivers::{Question, rankings};
 use spindrift::analysis::effects::{Dependence, Direction, TestedInput, on_event, on_spread};
 use spindrift::analysis::event::{Event, Occurs};
@@ -9,8 +10,6 @@ use spindrift::analysis::sensitivity::Prepared;
 use spindrift::statistics::contingency::Occurrence;
 use spindrift::statistics::correlation::ascending_order;
 use spindrift::{Overrides, Plan};
-
-use crate::support::scenes::Uniform;
 
 const ALPHA: f64 = 0.05;
 const MISSED: Occurs = Occurs::Missed { requirement: 0, is_only: true };

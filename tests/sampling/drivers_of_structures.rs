@@ -102,7 +102,7 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
         let rankings = rankings(&found, OUTCOME, 0.05);
         let mut is_wrong = false;
         for ranking in &rankings {
-                // of a yes or no, and of a limit, the shares are those of the event
+            // of a yes or no, and of a limit, the shares are those of the event
             let is_event = structure.limit.is_some() || is_yes_or_no(&y);
             let is_of_truth = is_event == matches!(ranking.question, Question::Event(_));
             let said = drivers_text::sentence(&plan, OUTCOME, ranking);

@@ -1,10 +1,9 @@
 //! What may be dispersed: every key that the scene has.
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::prelude::*;
 use spindrift::ensemble::influence;
-use spindrift::math::Isa;
 
-use crate::support::campaigns::{FUSELAGE, THRUSTERS, WHEEL1_AT_REST};
+use crate::support::campaigns::THRUSTERS;
 
 const HEAD: &str = r#"
 [campaign]

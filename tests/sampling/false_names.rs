@@ -1,8 +1,8 @@
 //! How often an input that does nothing is named as a driver, design by design.
 
+use crate::support::prelude::*;
 use spindrift::analysis::effects::{TestedInput, on_spread};
 use spindrift::math::normal::quantile;
-use spindrift::sampling::Design;
 use spindrift::sampling::design::replicates::Replicates;
 use spindrift::sampling::design::{Dimensions, PointSource, Points};
 use spindrift::statistics::correlation::ascending_order;

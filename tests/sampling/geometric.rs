@@ -1,13 +1,8 @@
 //! Distributions of directions, attitudes and inertias in campaign files; alpha = 1e-3.
 
-use std::f64::consts::{PI, TAU};
+use crate::support::prelude::*;
+use std::f64::consts::TAU;
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::math::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled};
-use spindrift::sampling::SampleId;
-use spindrift::scene::{Scene, SceneInput};
-
-use crate::support::campaigns::{FUSELAGE, WHEEL1};
 use crate::support::draws::{self, distance};
 
 const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n";

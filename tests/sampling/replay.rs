@@ -1,10 +1,8 @@
 //! The recorded values of a sample, written into a campaign file, give the same scene and columns, bit for bit.
 
 use crate::support::plans::files;
-use spindrift::campaign::{Overrides, Plan, SceneDraws, draw};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::sampling::{Design, SampleId};
+use crate::support::prelude::*;
+use spindrift::campaign::draw;
 
 const SAMPLES: u64 = 24;
 const RUN: u64 = 3;

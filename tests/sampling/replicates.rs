@@ -1,9 +1,8 @@
 //! Replicates of a design: each is a design of its kind, and independent of the others.
 
-use spindrift::campaign::{CampaignError, Overrides, Plan};
+use crate::support::prelude::*;
 use spindrift::sampling::design::replicates::Replicates;
 use spindrift::sampling::design::{BLOCK, Dimensions, PointSource, Points};
-use spindrift::sampling::{Design, SampleId};
 
 const DIMENSIONS: usize = 4;
 

@@ -1,14 +1,10 @@
 //! Which numbers a block of Saltelli's replaces together, and which digits Halton's have.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use crate::support::prelude::*;
 
-use spindrift::campaign::{Overrides, Plan};
 use spindrift::sampling::DistributionKind;
 
-use crate::support::draws;
 use crate::support::every_key::{distribution_tables, without_draws};
-use crate::support::scratch_folder::ScratchFolder;
 
 fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
     let plan = Plan::from_text_in(folder, "structure.toml", text, Overrides::default());

@@ -13,6 +13,7 @@ pub mod observed;
 pub mod orbits;
 pub mod parquet_tables;
 pub mod plans;
+pub mod prelude;
 pub mod runs;
 pub mod scenes;
 pub mod scratch_folder;

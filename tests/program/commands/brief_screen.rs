@@ -1,10 +1,6 @@
 //! One screen of 24 lines of 80 characters for a campaign: its question first, its verdict last.
 
-use std::path::Path;
-use std::process::Command;
-
-use crate::small_campaign::{campaign, folder, mixed_failures};
-use crate::support::scratch_folder::{ScratchFolder, assert_fits, column, ended};
+use crate::prelude::*;
 
 /// What a command prints on a terminal of 80 characters: alone, and with its messages.
 fn said(scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, String) {

@@ -1,9 +1,7 @@
 //! `spindrift campaign` from outside: files, exit codes, what it never overwrites.
 
-use std::fs::{self, File};
-
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::column;
+use crate::prelude::*;
+use std::fs;
 
 #[test]
 fn printed_commands_are_quoted() {

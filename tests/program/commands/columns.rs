@@ -1,11 +1,8 @@
 //! `spindrift columns` from outside: names, units and meanings, of all campaigns and of one.
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::prelude::*;
 use spindrift::control::outcome::columns::OutcomeColumns;
-use spindrift::observables::{Group, table};
-
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::{ScratchFolder, assert_fits};
+use spindrift::observables::table;
 
 #[test]
 fn every_column_is_shown() {

@@ -1,11 +1,7 @@
 //! `spindrift compare`: equal results, results of other methods, seeds and plans.
 
-use arrow_array::cast::AsArray;
-use serde_json::Value;
+use crate::prelude::*;
 use spindrift::statistics::two_sample::kolmogorov_smirnov;
-
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures};
-use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
 
 #[test]
 fn results_are_compared() {

@@ -1,10 +1,9 @@
 //! The screen of `spindrift compare` has the numbers of rows and file.
 
-use serde_json::Value;
+use crate::prelude::*;
 
 use crate::commands::screen_numbers::{numbers, template};
-use crate::small_campaign::{RADIANS, campaign_without_debris, folder, mixed_failures};
-use crate::support::scratch_folder::{ScratchFolder, assert_fits, column, ended};
+use crate::small_campaign::RADIANS;
 
 fn runs(scratch: &ScratchFolder, sides: [&str; 2]) -> [[f64; 2]; 2] {
     sides.map(|side| {

@@ -1,8 +1,6 @@
 //! The exit code of every way in which a campaign ends, and which comes first.
 
-use std::fs;
-
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
+use crate::prelude::*;
 
 fn require(statement: &str, limit: &str) -> String {
     format!("[[require]]\nobservable = \"energy_error_max\"\n{statement}\n{limit}\n")

@@ -1,9 +1,6 @@
 //! `spindrift index`: all results below a folder.
 
-use std::fs;
-
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::{ScratchFolder, assert_fits};
+use crate::prelude::*;
 
 const LIMITED: &str = "[[require]]\nobservable = \"rate_w1_final_rad_s\"\nfraction = 0.5\nat_most = ";
 

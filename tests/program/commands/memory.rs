@@ -1,14 +1,8 @@
 //! Memory of commands: the peak that Linux reports.
 #![cfg(target_os = "linux")]
 
+use crate::prelude::*;
 use std::cell::Cell;
-use std::fs;
-use std::path::Path;
-use std::process::Command;
-use std::time::Duration;
-
-use crate::support::scratch_folder::ScratchFolder;
-use spindrift::observables::Group;
 
 fn peak(scratch: &ScratchFolder, arguments: &str) -> u64 {
     let program = env!("CARGO_BIN_EXE_spindrift");

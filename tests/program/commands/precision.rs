@@ -1,10 +1,6 @@
 //! `spindrift precision`: errors follow tolerances and steps, times are times, files are whole.
 
-use std::time::Instant;
-
-use crate::page::numbers::Found;
-use crate::support::scratch_folder::{ScratchFolder, batches, floats};
-use arrow_array::cast::AsArray;
+use crate::prelude::*;
 
 /// Factor by which a tolerance 1e4 smaller, or a step four times smaller at order four, reduces the error at least.
 /// Measured: 8.5e-3 with the step (1/256 by the order), 1.1e-4 with the tolerance.

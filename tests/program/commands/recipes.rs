@@ -2,14 +2,9 @@
 //!
 //! `SPINDRIFT_PYTHON` names the interpreter (default: `python3`); a recipe without its packages is skipped.
 
-use std::path::Path;
-use std::process::Command;
+use crate::prelude::*;
 
-use spindrift::run::Status;
-use spindrift::statistics::quantile::quantile;
 use spindrift::storage::bands_file;
-
-use crate::support::scratch_folder::ScratchFolder;
 
 const PYTHON: &str = "SPINDRIFT_PYTHON";
 

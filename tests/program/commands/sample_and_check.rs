@@ -1,15 +1,8 @@
 //! `spindrift sample`, `check`, and the errors that all commands share.
 
-use std::path::Path;
-use std::process::Stdio;
+use crate::prelude::*;
 
-use serde_json::Value;
-use spindrift::campaign::{Overrides, Plan};
-
-use crate::page::numbers::{Found, quantile};
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder};
-use crate::support::campaigns::SPIN_DISPERSION;
-use crate::support::scratch_folder::{assert_fits, floats};
+use crate::page::numbers::quantile;
 
 #[test]
 fn sample_draws_the_rows_of_the_campaign() {

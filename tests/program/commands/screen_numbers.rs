@@ -1,11 +1,9 @@
 //! Every number in a sentence of the screen, counted again.
 
-use std::path::PathBuf;
+use crate::prelude::*;
 
 use crate::page::numbers::failing;
 use crate::reliability::failing_store::contents;
-use crate::small_campaign::mixed_failures;
-use crate::support::scratch_folder::{ScratchFolder, batches, ended};
 
 pub(crate) fn template(line: &str) -> (String, Vec<f64>) {
     let (mut text, mut numbers) = (String::new(), Vec::new());

@@ -1,8 +1,6 @@
 //! `spindrift simulate`: one run as table, file and plot.
 
-use crate::page::numbers::Found;
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::{assert_fits, floats};
+use crate::prelude::*;
 
 #[test]
 fn simulate_shows_the_run_behind_the_row() {

@@ -1,8 +1,6 @@
 //! `docs/tutorial.md`, done as it stands: its files are written, its commands run, and their output compared.
 
-use std::path::Path;
-
-use crate::support::scratch_folder::ScratchFolder;
+use crate::prelude::*;
 
 #[derive(Debug, PartialEq)]
 enum Step<'d> {

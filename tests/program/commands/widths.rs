@@ -1,8 +1,6 @@
 //! Tables of the commands at every width of a terminal.
 
-use std::collections::BTreeSet;
-
-use crate::small_campaign::folder;
+use crate::prelude::*;
 
 const LONGEST_WORD: usize = 60;
 

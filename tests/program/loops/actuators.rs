@@ -1,9 +1,10 @@
 //! Torques of wheels and thrusts of thrusters under the commands of a control loop.
 
+use crate::prelude::*;
 use nalgebra::{Matrix3, Vector3};
-use spindrift::scene::{Arc, Scene, WheelModel};
+use spindrift::scene::{Arc, WheelModel};
 
-use crate::loops::flown_loop::{FlownLoop, SAME_TIME, State, changed};
+use crate::loops::flown_loop::{SAME_TIME, State};
 
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");

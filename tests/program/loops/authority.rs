@@ -1,9 +1,8 @@
 //! Loops whose law or allocation decides the outcome.
 
-use crate::loops::closed_loops::{plan, run};
+use crate::loops::closed_loops::run;
+use crate::prelude::*;
 use crate::support::campaigns::SMALL_BODY;
-use crate::support::scratch_folder::ScratchFolder;
-use spindrift::run::StateField;
 
 fn stop(count: usize, more: &str) -> String {
     let names: Vec<String> = (0..count).map(|index| format!("\"t{index}\"")).collect();

@@ -1,7 +1,7 @@
 //! Runs of control loops with every kind of sensor, estimator, actuator and end, for `columns`.
 
 use crate::loops::actuators::limited_slew;
-use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
+use crate::prelude::*;
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");

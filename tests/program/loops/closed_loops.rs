@@ -1,12 +1,8 @@
 //! Control loops of campaign files: arcs flown are the run, loops follow linear theory, missions end with a reason.
 
+use crate::prelude::*;
 use std::fmt::Write as _;
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::run::{Grid, StateField, Status};
-use spindrift::sampling::SampleId;
 use spindrift::scene::Arc;
 
 use crate::support::campaigns::{SMALL_BODY, small_wheel};

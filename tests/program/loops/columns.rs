@@ -1,17 +1,15 @@
 //! Every column of a control loop, recomputed from true states, arcs and estimates.
 
-use std::collections::{BTreeMap, BTreeSet};
+use crate::prelude::*;
 
 use spindrift::control::guidance::phase::Maneuver;
 use spindrift::control::guidance::target::Target;
 use spindrift::dynamics::environment::sun::sun;
-use spindrift::math::vector::{
-    conjugate, cross, difference, dot, hamilton, norm, product, quaternion_from_dcm, scaled, sum,
-};
+use spindrift::math::vector::quaternion_from_dcm;
 
 use crate::loops::actuators::driven_wheels;
 use crate::loops::cases::{Case, cases};
-use crate::loops::flown_loop::{FlownLoop, State, angle_between, rotation_vector};
+use crate::loops::flown_loop::{State, angle_between};
 
 /// Rounding of sums over a run, relative to one: thousands of arcs with 1.1e-16 each are 1e-12.
 const AGREED: f64 = 1e-11;

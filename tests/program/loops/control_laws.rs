@@ -1,31 +1,16 @@
 //! A stored campaign under a control law of a program's own.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::num::NonZeroUsize;
-use std::path::Path;
+use crate::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use spindrift::campaign::{Overrides, Plan};
 use spindrift::control::{ControlLaw, LawContext};
 use spindrift::dynamics::actuation::{Actuation, BodyState, WheelState};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
-use spindrift::scene::Actuated;
 use spindrift::storage::claim::Shard;
-use spindrift::workflow::{
-    Campaign, CampaignOutcome, Finished, Outputs, Quiet, Results, Session, Verification, Watch, WorkflowError, finish,
-    verify,
-};
+use spindrift::workflow::{CampaignOutcome, Finished, Outputs, Verification, Watch, WorkflowError, finish, verify};
 
 #[path = "../../../examples/control_campaign.rs"]
 #[expect(dead_code, reason = "the example runs in tests/project")]
 mod example;
-
-use crate::small_campaign::campaign_without_debris;
-use crate::support::scratch_folder::{ScratchFolder, contents};
 
 fn campaign<'a>(session: Session<'a>, root: &Path) -> Campaign<'a> {
     example::campaign(session).samples(600).audit(0.02).store(root)

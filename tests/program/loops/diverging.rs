@@ -1,12 +1,9 @@
 //! Unstable loops end early, with their gains and the limit.
 
+use crate::prelude::*;
 use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw};
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
-use spindrift::workflow::{Campaign, Quiet, Session};
 
-use crate::loops::closed_loops::{plan, run, small_craft};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::loops::closed_loops::{run, small_craft};
 
 const PERIOD: f64 = 0.25;
 

@@ -1,15 +1,10 @@
 //! A run of a control loop with its true states at every control tick and at the start of every arc.
 
-use spindrift::campaign::Plan;
+use crate::prelude::*;
 use spindrift::control::spec::LoopSpec;
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::math::vector::{conjugate, dcm_from_quaternion, dot};
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
 use spindrift::scene::Arc;
 
-use crate::loops::closed_loops::{plan, run, without};
+use crate::loops::closed_loops::{run, without};
 
 /// Times closer than this, s, are one: rounding of k T.
 pub const SAME_TIME: f64 = 1e-9;

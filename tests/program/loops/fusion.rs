@@ -1,13 +1,8 @@
 //! Several attitude sensors in one loop lower the error of the filter by the sum of their informations.
 
-use spindrift::campaign::Plan;
+use crate::prelude::*;
 use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::dynamics::orbit::KeplerOrbit;
-use spindrift::math::vector::{dot, norm, scaled};
-use spindrift::scene::Scene;
-
-use crate::loops::closed_loops::plan;
-use crate::support::plans::rows;
 
 const AT_REST: &str = r#"
 [campaign]

@@ -1,11 +1,6 @@
 //! Flight software does not know the numbers that a run has drawn.
 
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
-use spindrift::scene::{Parameter, Scene};
-
-use crate::loops::closed_loops::plan;
-use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
+use crate::prelude::*;
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 

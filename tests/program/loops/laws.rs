@@ -1,13 +1,12 @@
 //! The formulas of the attitude laws, in a loop.
 
+use crate::prelude::*;
 use std::fmt::Write as _;
 
 use spindrift::control::laws::KINDS;
-use spindrift::math::vector::{
-    conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, norm, product, scaled, sum, transposed_product,
-};
+use spindrift::math::vector::transposed_product;
 
-use crate::loops::flown_loop::{FlownLoop, angle_between, rotation_vector};
+use crate::loops::flown_loop::angle_between;
 
 /// Rounding relative to the sum of the magnitudes of the terms of a law: tens of operations with 1.1e-16 each.
 const AGREED: f64 = 1e-14;

@@ -1,8 +1,6 @@
 //! Maneuvers of control loops: impulses on their way, and transfers that follow one another.
 
-use spindrift::math::vector::{difference, dot, norm};
-
-use crate::loops::flown_loop::{FlownLoop, changed, without_filters};
+use crate::prelude::*;
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 

@@ -1,7 +1,6 @@
 //! The ends of missions on screen, summary and page, against the rows.
 
-use crate::commands::screen_numbers::says;
-use crate::support::scratch_folder::{ScratchFolder, column, ended};
+use crate::prelude::*;
 use spindrift::statistics::binomial::interval;
 
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");

@@ -1,12 +1,8 @@
 //! Motors of a loop with failures and a schedule.
 
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::observables::Series;
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
+use crate::prelude::*;
 
-use crate::loops::closed_loops::{plan, value};
+use crate::loops::closed_loops::value;
 
 const PERIOD: f64 = 0.5;
 const GAIN: f64 = 0.1;

@@ -1,6 +1,6 @@
 //! The share of the variance due to noise within control loops, from `report --noise`.
 
-use crate::page::numbers::{Found, found};
+use crate::prelude::*;
 use crate::support::campaigns::{SMALL_BODY, small_wheel};
 
 fn noisy() -> String {

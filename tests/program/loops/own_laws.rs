@@ -1,12 +1,11 @@
 //! A program's own attitude law in the phases of a control loop.
 
+use crate::prelude::*;
 use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
 use spindrift::control::vector::{cross, difference, product, scaled, sum};
 use spindrift::scene::LawParameter;
 use spindrift::scene::schema::Limit;
-use spindrift::workflow::{Campaign, Quiet, Results, Session, WorkflowError};
-
-use crate::support::scratch_folder::ScratchFolder;
+use spindrift::workflow::WorkflowError;
 
 /// B. Wie's quaternion feedback: u = -K (2 w^2 e + 2 zeta w omega_st) + omega x H - K (omega x omega_te).
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! Ends of phases and failures of missions, recomputed from estimates and measurements.
 
-use spindrift::math::vector::norm;
+use crate::prelude::*;
 
 use crate::loops::actuators::{driven_wheels, limited_slew};
-use crate::loops::flown_loop::{FlownLoop, SAME_TIME, changed, without_filters};
+use crate::loops::flown_loop::SAME_TIME;
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");

@@ -1,13 +1,11 @@
 //! Every sensor in a loop delivers its measurement of the true state `latency_s` before, with its fixed errors.
 
+use crate::prelude::*;
 use spindrift::control::sensors::KINDS;
 use spindrift::dynamics::magnetic_field::MagneticField;
-use spindrift::math::vector::{
-    conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, norm, product, scaled, sum, transposed_product,
-};
-use spindrift::scene::Scene;
+use spindrift::math::vector::transposed_product;
 
-use crate::loops::flown_loop::{FlownLoop, State, changed, rotation_vector, without_filters};
+use crate::loops::flown_loop::State;
 
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
 

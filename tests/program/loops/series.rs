@@ -1,13 +1,7 @@
 //! Recorded quantities of a control loop over time.
 
-use crate::loops::closed_loops::{NET_LAUNCH, SLEW_CLOSED, plan};
-use crate::loops::flown_loop::rotation_vector;
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::math::vector::{conjugate, hamilton, norm};
-use spindrift::observables::Series;
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
+use crate::loops::closed_loops::{NET_LAUNCH, SLEW_CLOSED};
+use crate::prelude::*;
 
 /// Ticks of `slew_closed.toml` before its end, where there is one more.
 const PERIOD: f64 = 0.25;

@@ -1,13 +1,9 @@
 //! The ticks of a control loop: in a table over time, at the end of a run, and on every grid.
 
+use crate::prelude::*;
 use std::fmt::Write as _;
 
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
-
-use crate::loops::closed_loops::{SLEW_CLOSED, plan, run, small_craft, value};
+use crate::loops::closed_loops::{SLEW_CLOSED, run, small_craft, value};
 
 fn shown(run: &SingleRun, name: &str) -> Vec<f64> {
     let place = run.telemetry.quantities.iter().position(|quantity| quantity.name() == name);

@@ -1,7 +1,7 @@
 //! Torque rods in a loop: dipoles of the laws within their limits, and the motion under m x B.
 
+use crate::prelude::*;
 use spindrift::dynamics::magnetic_field::MagneticField;
-use spindrift::math::vector::{cross, difference, dot, norm, scaled, sum};
 
 use super::closed_loops::value;
 use super::flown_loop::{FlownLoop, State};

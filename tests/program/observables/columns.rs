@@ -3,12 +3,11 @@
 use crate::observables::observed_tables::{
     Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
 };
-use spindrift::dynamics::effects::{Effect, ForceModel};
-use spindrift::math::Isa;
-use spindrift::math::vector::dcm_from_quaternion;
-use spindrift::observables::{Column, Group, Groups, Observer, Request, Series};
-use spindrift::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
-use spindrift::scene::{Epoch, FieldModel, Orbit};
+use crate::prelude::*;
+use spindrift::dynamics::effects::Effect;
+use spindrift::observables::Column;
+use spindrift::run::StepStatistics;
+use spindrift::scene::Orbit;
 
 #[test]
 fn padding_leaves_no_trace() {

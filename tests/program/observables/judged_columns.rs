@@ -1,8 +1,8 @@
 //! Columns that judge a run by a limit, on both sides of it.
 
-use spindrift::campaign::{Overrides, Plan};
+use crate::prelude::*;
 
-use crate::support::plans::{Table, rows};
+use crate::support::plans::Table;
 
 fn table(text: &str) -> Table {
     rows(&Plan::from_text("judged.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}")))

@@ -1,12 +1,8 @@
 //! Mass, centre of mass and principal moments of every sample, as dispersed.
 
-use spindrift::campaign::{Overrides, Plan, draw};
-use spindrift::observables::Group;
-use spindrift::sampling::SampleId;
+use crate::prelude::*;
+use spindrift::campaign::draw;
 use spindrift::scene::MassProperties;
-
-use crate::small_campaign::{NEGATIVE_WALLS, campaign};
-use crate::support::plans::rows;
 
 /// A third of the walls of [`plan`] is not physical.
 const DISPERSED: &str = r#"

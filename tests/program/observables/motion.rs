@@ -1,17 +1,8 @@
 //! Angles, rates, speeds and momenta of motions in closed form.
 
-use std::collections::HashMap;
-
-use spindrift::math::Isa;
-use spindrift::math::vector::hamilton;
-use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::{Group, Groups};
-use spindrift::run::{Grid, Outcome, StateField, StateTable};
-use spindrift::scene::Scene;
+use crate::prelude::*;
 
 use crate::observables::observed_tables::{done, motion_table, request, rotation};
-use crate::support::golden::Golden;
-use crate::support::observed::observed;
 
 /// Roundings of numbers of size one.
 const ROUNDING: f64 = 4e-15;

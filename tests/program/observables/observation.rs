@@ -1,8 +1,7 @@
 //! Observables of motions that are known without integration.
 
 use crate::observables::observed_tables::{ROUNDING, close, free_row, motion_table, rotation, table1};
-use spindrift::math::vector::hamilton;
-use spindrift::run::Grid;
+use crate::prelude::*;
 
 /// A symmetric top whose spin axis nutates: body rate (w cos kt, w sin kt, n) with k = n (J3 - J1) / J1.
 #[test]

@@ -1,15 +1,9 @@
 //! State tables of known motions, and their observed rows.
 
-use std::collections::HashMap;
+use crate::prelude::*;
 
-use crate::support::golden::Golden;
 use crate::support::observed;
-use spindrift::math::Isa;
-use spindrift::math::vector::{cross, dcm_from_quaternion, product, sum};
-use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::{Groups, Observer, Request};
-use spindrift::run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics};
-use spindrift::scene::Scene;
+use spindrift::run::{LocalErrors, StepStatistics};
 
 /// A few roundings of a state, doubled by squares, and dozens of operations. Measured: 3.5e-16.
 pub const ROUNDING: f64 = 3e-15;

@@ -1,12 +1,6 @@
 //! Distance, nadir angle and gravity-gradient torque against closed forms.
 
-use std::collections::HashMap;
-use std::f64::consts::PI;
-
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::observables::Group;
-
-use crate::support::plans::rows;
+use crate::prelude::*;
 
 const MU: f64 = 3.986004418e14;
 const AXIS: f64 = 7e6;

@@ -1,10 +1,8 @@
 //! Every answer and every run of the list of worst runs against summary and rows, in the unit that is shown.
 
-use std::collections::BTreeSet;
+use crate::prelude::*;
 
-use serde_json::Value;
-
-use crate::page::numbers::{Found, degrees, failing, found, motion, read_number};
+use crate::page::numbers::{failing, read_number};
 use crate::small_campaign::RADIANS;
 
 pub(crate) fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {

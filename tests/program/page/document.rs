@@ -1,10 +1,6 @@
 //! `report.html`: small, self-contained, safe against the text of the file, and complete without runs that are ok.
 
-use serde_json::Value;
-
-use crate::page::numbers::Found;
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::prelude::*;
 
 /// Largest page in bytes, whatever the number of runs: `../docs/results.md`.
 const LARGEST: usize = 2_000_000;

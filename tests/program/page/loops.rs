@@ -1,18 +1,12 @@
 //! The figures over time on the page of a control loop, against file, rows and telemetry.
 
+use crate::prelude::*;
 use arrow_array::cast::AsArray as _;
-use serde_json::Value;
 
 use crate::commands::screen_numbers;
 use crate::page::answers::between;
-use crate::page::numbers::{self, Found};
+use crate::page::numbers;
 use crate::small_campaign::RADIANS;
-use crate::support::scratch_folder::{ScratchFolder, column, floats};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::run::Grid;
-use spindrift::sampling::SampleId;
 
 const SAMPLES: usize = 60;
 const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");

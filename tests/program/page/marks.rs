@@ -1,6 +1,6 @@
 //! Intervals around curves, the motion of the replay, correlations and their directions on the page.
 
-use crate::page::numbers::{Found, found, motion};
+use crate::prelude::*;
 
 /// Ranks from 0; equal values do not occur.
 fn ranks(values: &[f64]) -> Vec<f64> {

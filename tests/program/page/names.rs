@@ -1,13 +1,6 @@
 //! Names of quantities on the page: unique words in customary units; technical names are in tooltips and commands.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
-
-use serde_json::Value;
-
-use crate::page::numbers::Found;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::prelude::*;
 
 /// Names of frames and symbols are no technical names.
 const SYMBOLS: [&str; 10] = ["F_s", "F_e", "F_d", "F_o", "C_es", "q_es", "omega_se", "A_d", "H_s", "n_d"];

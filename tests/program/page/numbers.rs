@@ -1,14 +1,12 @@
 //! The numbers of the page, of the screen and of JUnit against the rows: every figure is computed here by another way.
 
+use crate::prelude::*;
 use std::io::Read as _;
 
 use base64::Engine as _;
-use serde_json::Value;
 
 use crate::commands::screen_numbers::junit_counts;
-use crate::small_campaign::{campaign, mixed_failures};
-use crate::support::scratch_folder::{self, ScratchFolder, batches, ended};
-use spindrift::workflow::{Quiet, Results, Session};
+use crate::support::scratch_folder;
 
 const MORE: &str = r#"
 [audit]

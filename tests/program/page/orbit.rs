@@ -1,18 +1,9 @@
 //! The orbit on the page: arrows of the replay, ground track and quantities over time, against states and closed forms.
 
-use std::f64::consts::{PI, TAU};
-use std::fs;
+use crate::prelude::*;
+use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use serde_json::Value;
-
-use crate::page::numbers::{Found, degrees, found, motion};
-use crate::support::scratch_folder::floats;
-use spindrift::ensemble::SingleRun;
-use spindrift::math::Isa;
-use spindrift::observables::{Group, Series};
-use spindrift::run::{Grid, StateField};
-use spindrift::sampling::SampleId;
 use spindrift::{Overrides, Plan};
 
 const AXIS: f64 = 6_828e3;

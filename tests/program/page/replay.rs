@@ -1,14 +1,7 @@
 //! The replay of the page against `simulate` and the rows.
 
-use std::fs;
+use crate::prelude::*;
 use std::sync::LazyLock;
-
-use crate::page::numbers::{Found, found};
-use crate::small_campaign::campaign;
-use crate::support::scratch_folder::{ScratchFolder, floats};
-use spindrift::run::StateField;
-use spindrift::sampling::SampleId;
-use spindrift::workflow::{Quiet, Results, Session};
 
 static MISSIONS: LazyLock<Found> = LazyLock::new(|| {
     let text =

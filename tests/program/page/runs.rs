@@ -1,11 +1,8 @@
 //! Single runs, the nominal run, inputs and axes on page and screen, against the rows.
 
-use serde_json::Value;
+use crate::prelude::*;
 
-use crate::commands::screen_numbers::says;
-use crate::page::numbers::{Found, degrees, found, motion, read_number};
-use crate::small_campaign::mixed_failures;
-use crate::support::scratch_folder::ScratchFolder;
+use crate::page::numbers::read_number;
 
 fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-300), "{what}: {found} for {expected}");

@@ -1,12 +1,9 @@
 //! Every series of every figure of outcomes, errors, inputs and quantities over time, against rows and summary.
 
-use std::collections::BTreeMap;
+use crate::prelude::*;
 
-use serde_json::Value;
-
-use crate::commands::screen_numbers::says;
 use crate::page::answers::same;
-use crate::page::numbers::{Found, degrees, failing, found, motion, quantile};
+use crate::page::numbers::{failing, quantile};
 
 fn scale(axis: &Value) -> f64 {
     if axis["unit"].as_str().expect("a unit").starts_with("deg") { degrees(1.0) } else { 1.0 }

@@ -1,12 +1,10 @@
 //! Altered results with every checksum made right again, and unfinished ones: output follows from the rows, and
 //! whatever was not compared is named.
 
-use std::fs;
+use crate::prelude::*;
 
 use crate::reliability::failing_store::contents;
 use crate::reliability::false_rows::alter;
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
 
 /// A campaign with every kind of file, an incomplete last part, and a requirement that fails.
 pub fn everything(scratch: &ScratchFolder, result: &str, seed: u64) {

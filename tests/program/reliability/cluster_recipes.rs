@@ -1,12 +1,8 @@
 //! The commands of docs/cluster.md that a cluster runs with an index, with other paths of program and result.
 
-use std::fs;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use crate::prelude::*;
 
 use crate::reliability::interrupted::send;
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::{ScratchFolder, contents};
 
 const DOCUMENT: &str = include_str!("../../../docs/cluster.md");
 const SHARDS: usize = 8;

@@ -1,12 +1,10 @@
 //! Whatever happens to a file that follows from the rows is found, and the file is made again.
 
-use std::fs;
-use std::time::{Duration, Instant};
+use crate::prelude::*;
 
 use crate::reliability::altered_results::everything;
 use crate::reliability::failing_store::contents;
 use crate::reliability::interrupted::{is_ignored, send, start};
-use crate::small_campaign::{campaign, folder};
 
 /// Law: any file that is flipped in a bit, cut off, emptied, deleted or replaced is named by `verify` and refused by the
 /// commands that read it; each repairing command makes the same bytes again.

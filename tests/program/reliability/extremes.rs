@@ -1,8 +1,7 @@
 //! Extremes of numbers are refused with a message or answered with a status, and never cause a panic.
 
-use std::fs;
+use crate::prelude::*;
 
-use crate::small_campaign::{campaign, folder};
 use crate::support::plans::files;
 use arrow_array::Array as _;
 use arrow_array::cast::AsArray as _;

@@ -1,18 +1,15 @@
 //! [`Failing`]: a folder in which the k-th operation fails, and a small dataset made in it.
 
-use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
+use crate::prelude::*;
+use std::fs::{self, TryLockError};
 use std::io;
-use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use spindrift::storage::disk::folder;
 use spindrift::storage::identity::{RowsMetadata, sealed, sha256};
 use spindrift::storage::store::{Entry, Store};
-use spindrift::workflow::{Campaign, Outputs, Quiet, Session, WorkflowError as Failure};
+use spindrift::workflow::{Outputs, WorkflowError as Failure};
 
-use crate::small_campaign::campaign_without_debris;
 pub use crate::support::scratch_folder::contents;
 
 /// The number of parts of a dataset, each checked to be whole with its bands.

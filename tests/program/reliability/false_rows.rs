@@ -1,14 +1,11 @@
 //! Files of other rows with right seals and checksums, and results that have lost the identity of their rows.
 
-use std::collections::BTreeMap;
-use std::fs;
+use crate::prelude::*;
 
 use spindrift::storage::dataset::{FileRecord, Manifest};
 use spindrift::storage::identity::{seal, sha256};
 
 use crate::reliability::interrupted::assert_same;
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Writes files of the result `r`, each with its checksum in the manifest, which is sealed again.
 pub fn alter(scratch: &ScratchFolder, files: &[(&str, &[u8])]) {

@@ -1,11 +1,10 @@
 //! A fault at the k-th file operation, for every k (SQLite's method).
 
-use std::collections::BTreeMap;
+use crate::prelude::*;
+use std::io;
 use std::sync::Arc;
-use std::{fs, io};
 
 use crate::reliability::failing_store::{Fault, Making, Plot, contents, made, reason, whole_parts};
-use crate::support::scratch_folder::ScratchFolder;
 
 /// Three parts.
 const SAMPLES: u64 = 520;

@@ -1,11 +1,6 @@
 //! Hostile input and output files: no endless reads or waits, and no input or foreign file is overwritten.
 
-use std::fs;
-use std::process::Command;
-
-use crate::small_campaign::{campaign, folder};
-use crate::support::campaigns::FUSELAGE;
-use crate::support::scratch_folder::{ScratchFolder, contents};
+use crate::prelude::*;
 
 /// A campaign whose samples are the rows of `table.csv`.
 fn table_campaign(scratch: &ScratchFolder) {

@@ -1,12 +1,8 @@
 //! Campaigns that are killed, stopped, divided, damaged or extended have the bytes of one uninterrupted process.
 
-use std::fs;
-use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use crate::prelude::*;
 
 use crate::reliability::failing_store::whole_parts;
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, contents};
 
 /// Kills of the short version.
 const KILLS: u32 = 100;

@@ -4,14 +4,9 @@
 //! A library (`power_loss.c`, compiled here and loaded before libc) keeps what is flushed and ends the process before
 //! the chosen call; the test restores what was kept.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use crate::prelude::*;
 
 use crate::reliability::failing_store::contents;
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::ScratchFolder;
 
 /// Calls between failures of power in the short version.
 const STEP: usize = 7;

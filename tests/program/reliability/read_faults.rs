@@ -1,18 +1,15 @@
 //! A fault at the k-th read of a dataset, for every k and command: an unreadable file is an error with its name and
 //! cause, and never taken for a damaged one.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 use std::sync::Arc;
 
 use spindrift::workflow::compared::compared;
 use spindrift::workflow::finishing::finish as finished;
 use spindrift::workflow::page::remade;
-use spindrift::workflow::{Outputs, Results, Verification, WorkflowError as Failure, verify as verified};
+use spindrift::workflow::{Outputs, Verification, WorkflowError as Failure, verify as verified};
 
 use crate::reliability::failing_store::{Fault, Making, Operation, Plot, contents, made, on, reason};
-use crate::support::scratch_folder::ScratchFolder;
 
 type Files = BTreeMap<String, Vec<u8>>;
 

@@ -1,13 +1,10 @@
 //! Results that take the place of others: links, neighbours, and every interruption.
 
-use std::collections::BTreeSet;
-use std::path::Path;
-use std::{fs, io};
+use crate::prelude::*;
+use std::io;
 
 use crate::reliability::failing_store::{Fault, Making, Plot, made, reason, whole_parts};
 use crate::reliability::interrupted::{assert_same, start};
-use crate::small_campaign::folder;
-use crate::support::scratch_folder::{ScratchFolder, contents};
 
 fn entries(folder: &Path) -> BTreeSet<String> {
     fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()

@@ -1,12 +1,9 @@
 //! Processes that begin in one folder at the same instant, with locks and without, make one result or are refused.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use crate::prelude::*;
+use std::process::Output;
 
 use crate::reliability::interrupted::assert_same;
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::ScratchFolder;
 
 const ROUNDS: u32 = 10;
 const MANY_ROUNDS: u32 = 200;

@@ -1,9 +1,8 @@
 //! The impossible is refused with numbers before anything is written, and the long needs `--yes`.
 
-use std::fs;
+use crate::prelude::*;
 
 use crate::reliability::failing_store::contents;
-use crate::small_campaign::{campaign, campaign_without_debris, folder};
 
 /// Law: counts beyond any disk and memory are refused at once with rows, bytes and time.
 #[test]

@@ -1,10 +1,6 @@
 //! Files in the folder of a result that are not part of it are named and left alone.
 
-use std::fs;
-use std::path::PathBuf;
-
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, contents};
+use crate::prelude::*;
 
 const STRAYS: [&str; 6] = [
     "notes.txt",

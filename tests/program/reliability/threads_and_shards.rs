@@ -1,10 +1,8 @@
 //! A dataset has the same bytes whatever the number of threads and shards.
 
-use std::fs;
+use crate::prelude::*;
 
 use crate::results::statistics::MORE;
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::contents;
 
 const THREADS: [u32; 4] = [1, 2, 3, 7];
 const SHARDS: [u32; 3] = [1, 4, 13];

@@ -1,16 +1,9 @@
 //! Null, never NaN: what is no finite number is absent in every file of a result, so that the maximum and the mean of a
 //! column are numbers.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 
-use arrow_array::Array;
-use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
 use arrow_schema::DataType;
-
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::batches;
 
 fn tables(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

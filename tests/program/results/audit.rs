@@ -1,22 +1,10 @@
 //! Audited campaigns: which samples are audited, the errors found, and that no other column changes.
 
-use std::collections::BTreeMap;
-use std::fs;
+use crate::prelude::*;
 
-use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
-use crate::support::plans::{RowBits, row_bits, seen, shipped};
-use crate::support::scratch_folder::{ScratchFolder, column, floats};
-use serde_json::Value;
-use spindrift::campaign::{Overrides, Plan};
+use crate::support::plans::{RowBits, row_bits, seen};
 use spindrift::ensemble::audit::{AuditValue, Selection};
-use spindrift::ensemble::{Audit, Auditor, Ensemble, Rows};
-use spindrift::math::Isa;
-use spindrift::ode::Tolerance;
-use spindrift::propagation::Method;
-use spindrift::run::Grid;
-use spindrift::sampling::SampleId;
-use spindrift::scene::{DebrisInput, Scene, SceneInput};
-use spindrift::statistics::quantile::quantile;
+use spindrift::ensemble::{Audit, Auditor};
 
 fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
     Plan { audit_fraction: fraction, ..shipped(name, Some(samples)) }

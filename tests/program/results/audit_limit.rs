@@ -1,18 +1,9 @@
 //! The limit of the work of an audit, and progress within a part.
 
-use std::num::NonZeroUsize;
-use std::sync::Mutex;
+use crate::prelude::*;
 
-use arrow_array::Array;
-use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Auditor, Ensemble, NoAudit, Parts, Rows, Sink, Supervision, run};
-use spindrift::math::Isa;
-use spindrift::scene::Scene;
+use spindrift::ensemble::{Auditor, NoAudit};
 use spindrift::storage::rows_file::AUDIT_REASON;
-
-use crate::small_campaign::{campaign, folder};
 
 fn with_debris_rate(rate: f64) -> String {
     let text = campaign().replace("samples = 600", "samples = 6");

@@ -1,10 +1,7 @@
 //! Requirements over time, at each time and at all times.
 
-use serde_json::Value;
+use crate::prelude::*;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
-
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, floats};
 
 /// Dispersed samples: all but the nominal one.
 const RUNS: usize = 599;

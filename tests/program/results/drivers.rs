@@ -1,7 +1,6 @@
 //! What a campaign says drives its outcomes, on the screen, on the cards and in the charts, against its rows.
 
-use crate::page::numbers::found;
-use crate::support::scratch_folder::column;
+use crate::prelude::*;
 
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 

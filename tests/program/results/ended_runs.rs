@@ -1,6 +1,6 @@
 //! Results of runs that events end: extended, verified, repaired and audited.
 
-use crate::support::scratch_folder::ScratchFolder;
+use crate::prelude::*;
 
 /// A free body that tips over, most of the runs before their minute is over.
 const TIPPING: &str = r#"[campaign]

@@ -1,12 +1,8 @@
 //! `campaign --only-failed-of`: the samples that failed, under another plan.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use crate::prelude::*;
 
-use arrow_array::RecordBatch;
-
-use crate::small_campaign::{NEGATIVE_WALLS, campaign_without_debris, folder, mixed_failures, table};
-use crate::support::scratch_folder::{ScratchFolder, column, contents, ended};
+use crate::small_campaign::table;
 
 fn limited(max_steps: u64) -> String {
     let from = "method = \"auto\"\ntolerance = 1e-10";

@@ -1,11 +1,8 @@
 //! Runs that are not `ok`: garbage is not `ok`, every such row says why, and so do the screen and `simulate`.
 
-use arrow_array::cast::AsArray;
-use arrow_array::{Array, RecordBatch};
+use crate::prelude::*;
 
 use crate::commands::screen_numbers::junit_counts;
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, mixed_failures};
-use crate::support::scratch_folder::{column, ended, floats};
 
 fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
     let statuses = batch.column_by_name("status").expect("a status").as_string::<i32>();

@@ -1,9 +1,7 @@
 //! Campaigns that lose runs, or whose audits fail.
 
-use serde_json::Value;
+use crate::prelude::*;
 
-use crate::commands::screen_numbers::says;
-use crate::support::scratch_folder::{ScratchFolder, column, ended};
 use spindrift::statistics::binomial::interval;
 
 const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");

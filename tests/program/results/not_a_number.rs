@@ -1,8 +1,6 @@
 //! Campaigns whose expressions are not a number: what is null, what is undecided, and what `check` says of it.
 
-use arrow_array::{Array, RecordBatch};
-
-use crate::support::scratch_folder::ScratchFolder;
+use crate::prelude::*;
 
 const TEXT: &str = r#"[campaign]
 name = "not_a_number"

@@ -1,10 +1,6 @@
 //! How many runs would decide a requirement that is undecided, and at which confidence one that fails alone would.
 
-use serde_json::Value;
-
-use crate::commands::screen_numbers::says;
-use crate::small_campaign::{campaign_without_debris, folder};
-use crate::support::scratch_folder::column;
+use crate::prelude::*;
 
 /// Law: half the distance between estimate and limit takes four times as many runs, of means and fractions, of
 /// independent samples and of replicates.

@@ -1,21 +1,13 @@
 //! What the files of a result say: statistics, units, parts, compression, and the identity of the plan, each against a
 //! source of its own.
 
-use std::collections::BTreeMap;
-use std::fs::File;
+use crate::prelude::*;
 
-use arrow_array::cast::AsArray;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use serde_json::Value;
 use sha2::{Digest, Sha256};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::Ensemble;
-use spindrift::math::Isa;
 
-use crate::support::campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL2};
 use crate::support::parquet_tables::schema;
-use crate::support::scratch_folder::{ScratchFolder, batches, column, ended};
 
 /// Spins differ from sample to sample, and some 7% of the runs need more steps than they may take.
 const HEAD: &str = r#"

@@ -1,20 +1,13 @@
 //! Retained runs: which they are follows from the rows, and their files are those of `simulate`.
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::num::NonZeroUsize;
+use crate::prelude::*;
 
-use arrow_array::cast::AsArray;
-use arrow_array::types::Int64Type;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::analysis::accumulator::of_files;
 use spindrift::analysis::trajectories::{Retained, file_name};
-use spindrift::campaign::{Overrides, Plan};
-use spindrift::sampling::SampleId;
 use spindrift::storage::rows_reader::{RowsError, RowsReader};
 
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder, table};
-use crate::support::scratch_folder::{ScratchFolder, column, ended, floats};
+use crate::small_campaign::table;
 
 fn file(retain: &str) -> String {
     let few_steps = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 17");

@@ -1,7 +1,6 @@
 //! A campaign whose runs end at events, from outside.
 
-use crate::page::numbers::Found;
-use crate::support::scratch_folder::{ScratchFolder, floats};
+use crate::prelude::*;
 
 const ENDS: &str = r#"[campaign]
 name = "ends"

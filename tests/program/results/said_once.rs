@@ -1,14 +1,7 @@
 //! What a campaign has found is said once: screen, long screen, `summary.json`, JUnit and page have the same sentences,
 //! numbers and names.
 
-use std::fs;
-use std::path::Path;
-
-use serde_json::Value;
-
-use crate::page::numbers::Found;
-use crate::small_campaign::{campaign_without_debris, folder, mixed_failures};
-use crate::support::scratch_folder::ScratchFolder;
+use crate::prelude::*;
 
 /// The text of a page without markup.
 fn untagged(page: &str) -> String {

@@ -1,16 +1,10 @@
 //! `statistics.parquet` and `sensitivity.parquet` are those of the files of rows, and the same bytes for any number of
 //! threads.
 
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, RecordBatch};
+use crate::prelude::*;
 
-use spindrift::statistics::moments::Moments;
 use spindrift::statistics::quantile::{Ranks, interval_ranks};
 use spindrift::statistics::replicates::mean_bounds;
-
-use crate::small_campaign::{NEGATIVE_WALLS, campaign, folder};
-use crate::support::scratch_folder::{column, ended};
 
 pub const MORE: &str = r#"
 [[observable]]

@@ -1,13 +1,10 @@
 //! Campaigns that stop when they are precise enough.
 
-use std::fs;
+use crate::prelude::*;
 
-use serde_json::Value;
 use spindrift::statistics::binomial::at_most;
 
-use crate::commands::screen_numbers::{junit_counts, numbers, says};
-use crate::small_campaign::{campaign, folder};
-use crate::support::scratch_folder::{ScratchFolder, column, ended};
+use crate::commands::screen_numbers::{junit_counts, numbers};
 
 /// The campaign of 300 samples with `[stop]`: the median of the energy transfer of wheel 1 to within `half_width` J,
 /// with at most 2,400 samples.
