@@ -9,7 +9,7 @@ fn plan(debris: &str, rest: &str) -> Result<Plan, String> {
          [debris]\n{debris}\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\n{rest}\n",
         THRUSTERS.concat()
     );
-    Plan::from_text("bodies.toml", &text, Overrides::default()).map_err(|e| e.to_string())
+    parsed(&text).map_err(|e| e.to_string())
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn critical(n: usize) -> f64 {
 }
 
 fn golden() -> std::path::PathBuf {
-    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/drift_bounds.json")
+    root().join("tests/golden/drift_bounds.json")
 }
 
 fn key(campaign: &str, method: Method, column: &str) -> String {

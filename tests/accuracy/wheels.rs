@@ -117,7 +117,7 @@ const HELD_WHEEL: &str = "[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m 
 
 #[test]
 fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
-    let plan = |text: &str| Plan::from_text("held.toml", text, Overrides::default());
+    let plan = |text: &str| parsed(text);
     let file = [HEAD, FUSELAGE, HELD_WHEEL].concat();
     let held = plan(&file).expect("a legal campaign");
     let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).expect("a physical scene");

@@ -7,7 +7,7 @@ use spindrift::campaign::stop::When;
 use spindrift::campaign::{Analysis, Display, Requirement, Statement};
 
 fn plan(more: &str) -> Plan {
-    Plan::from_text("good.toml", &(good() + more), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    planned(&(good() + more))
 }
 
 const FULL: &str = r#"
@@ -69,7 +69,7 @@ fn every_key_is_read_and_written() {
     let stop = stop.as_ref().expect("a goal");
     let When::Precise { goal, .. } = &stop.when else { panic!("{stop:?}") };
     assert_eq!((goal.half_width, goal.confidence, stop.max_samples), (1e-12, 0.95, 5000));
-    let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    let again = planned(&plan.text());
     assert_eq!((&again, again.text()), (&plan, plan.text()));
 }
 
@@ -98,7 +98,7 @@ fn units_that_are_written_come_back() {
     let std =
         plan.text().lines().rfind(|line| line.starts_with("std = ")).and_then(|line| line[6..].parse::<f64>().ok());
     assert!((std.expect("a standard deviation") - core::f64::consts::PI / 3.0).abs() < 1e-15);
-    let again = Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    let again = planned(&plan.text());
     assert_eq!((&again, again.text()), (&plan, plan.text()));
     let other = self::plan(&text.replace("arcsec", "deg"));
     assert_eq!((other.row_hash(), other.hash() == plan.hash()), (plan.row_hash(), false));

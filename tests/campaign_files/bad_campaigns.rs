@@ -2,7 +2,7 @@ use crate::refusals::good;
 use crate::support::prelude::*;
 
 fn errors(text: &str) -> CampaignError {
-    match Plan::from_text("bad.toml", text, Overrides::default()) {
+    match parsed(text) {
         Ok(_) => panic!("accepted:\n{text}"),
         Err(error) => error,
     }

@@ -22,7 +22,7 @@ const USUAL: &str = include_str!("usual.toml");
 const ORBIT: &str = include_str!("orbit.toml");
 
 fn plan(text: &str) -> Plan {
-    Plan::from_text("x.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    planned(text)
 }
 
 const CASES: &str = include_str!("implausible.txt");
@@ -70,7 +70,7 @@ fn each_rule_has_a_file_that_breaks_it() {
 #[test]
 fn shipped_campaigns_have_the_notes_that_are_true() {
     let (mut files, mut clean, mut false_notes) = (0, 0, Vec::new());
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns")).expect("a folder") {
+    for entry in std::fs::read_dir(root().join("campaigns")).expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.extension().is_some_and(|extension| extension == "toml") {
             let found = implausible(&Plan::load(&path, Overrides::default()).unwrap_or_else(|error| panic!("{error}")));

@@ -47,7 +47,7 @@ fn keys_without_effect_are_not_in_the_plan() {
     assert_eq!(plan(&removed).hash(), tried.hash());
     assert!(plan(&tried.text()).notes().is_empty());
     let misspelt = LOOP.replacen("initial_attitude_sigma_rad", "initial_attitude_sigma", 1);
-    assert!(Plan::from_text("loop.toml", &misspelt, Overrides::default()).is_err());
+    assert!(parsed(&misspelt).is_err());
 }
 
 /// Law: a key of `[environment]` without effect is noted and changes nothing; a dispersion on it is refused.
@@ -69,7 +69,7 @@ fn keys_of_effects_that_do_not_act_change_nothing() {
         if key != "shadow" {
             let table = format!("[[disperse]]\nparameter = \"environment.{key}\"\ndistribution = \"normal\"\n");
             let dispersed = format!("{text}\n{table}relative_std = 0.1\n");
-            let error = Plan::from_text("loop.toml", &dispersed, Overrides::default()).expect_err(key);
+            let error = parsed(&dispersed).expect_err(key);
             assert!(error.to_string().contains(setting), "{error}");
         }
     }

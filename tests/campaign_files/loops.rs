@@ -255,7 +255,7 @@ fn a_dated_orbit_has_one_sun() {
 
 #[test]
 fn torque_rods_need_a_field_and_a_loop() {
-    let rods = include_str!("../../campaigns/detumble_magnetic.toml");
+    let rods = DETUMBLE_MAGNETIC;
     for (line, said) in [
         (
             "magnetic_field = \"dipole\"\nmagnetic_dipole_a_m2 = [0.01, -0.01, 0.02]\n",

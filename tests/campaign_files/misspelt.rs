@@ -7,7 +7,7 @@ use crate::support::every_key::distributions;
 const NOTHING: &str = "qqzzqqzz";
 
 fn error(text: &str) -> CampaignError {
-    Plan::from_text("bad.toml", text, Overrides::default()).expect_err(text)
+    parsed(text).expect_err(text)
 }
 
 fn edits(word: &str) -> BTreeSet<String> {
@@ -83,7 +83,7 @@ fn tables() -> Vec<(String, [String; 2])> {
 
 #[test]
 fn every_misspelt_key_gets_its_suggestion() {
-    if let Err(error) = Plan::from_text("good.toml", EVERY_TABLE, Overrides::default()) {
+    if let Err(error) = parsed(EVERY_TABLE) {
         panic!("{error}");
     }
     let (mut wrong, mut tried, mut keys) = (Vec::new(), 0, BTreeSet::new());
@@ -148,7 +148,7 @@ fn every_misspelt_name_gets_its_suggestion() {
 #[test]
 fn every_misspelt_parameter_and_observable_gets_its_suggestion() {
     let base = EVERY_TABLE.replace("groups = [\"effort\", \"energy_conservation\"]\n", "");
-    let plan = Plan::from_text("good.toml", &base, Overrides::default()).expect("good");
+    let plan = planned(&base);
     let parameters: Vec<String> = Parameter::all(&plan.nominal).map(|parameter| parameter.name()).collect();
     let columns = plan.request().columns();
     let observables: Vec<String> = columns.iter().map(|column| column.quantity.name().to_owned()).collect();
@@ -206,7 +206,7 @@ fn a_key_in_another_unit_gets_its_value_with_the_unit() {
         ("radius_m = 0.1", "radius_mm = 500", "radius_m = 0.5"),
     ] {
         let base = on_an_orbit("");
-        assert!(base.contains(right) && Plan::from_text("good.toml", &base, Overrides::default()).is_ok(), "{right}");
+        assert!(base.contains(right) && parsed(&base).is_ok(), "{right}");
         let text = base.replacen(right, wrong, 1);
         let error = error(&text);
         let advice = error.problems.iter().find(|problem| problem.is_unknown);
@@ -214,7 +214,7 @@ fn a_key_in_another_unit_gets_its_value_with_the_unit() {
             .and_then(|problem| problem.remedy.strip_prefix("write "))
             .unwrap_or_else(|| panic!("{wrong}: {error}"));
         let written = wrong.lines().next_back().unwrap_or_default();
-        let plan = Plan::from_text("good.toml", &text.replacen(written, advice, 1), Overrides::default());
+        let plan = parsed(&text.replacen(written, advice, 1));
         let plan = plan.unwrap_or_else(|error| panic!("{advice}: {error}"));
         assert!(plan.text().contains(si), "{wrong}: {advice}: {}", plan.text());
     }

@@ -9,7 +9,7 @@ use crate::support::every_key::every_scene;
 const TINY: f64 = 5e-324;
 
 fn read(text: &str) -> Result<Plan, CampaignError> {
-    Plan::from_text("ranges.toml", text, Overrides::default())
+    parsed(text)
 }
 
 fn is_refused(text: &str, key: &str) -> bool {

@@ -158,7 +158,7 @@ fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
             let (name, more) = name.split_once(" + ").unwrap_or((name, ""));
             base = match name {
                 "campaign" => good() + &more.replace("\\n", "\n"),
-                "launch" => include_str!("../../campaigns/net_launch.toml").to_owned(),
+                "launch" => NET_LAUNCH.to_owned(),
                 "direct" => DIRECT.to_owned(),
                 "parts" => PARTS.to_owned(),
                 "orbit" => ORBIT.to_owned(),

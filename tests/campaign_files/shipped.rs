@@ -4,7 +4,7 @@ use crate::support::prelude::*;
 use spindrift::campaign::Retention;
 
 fn shipped() -> Vec<std::path::PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let folder = root().join("campaigns");
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .expect("a folder of campaigns")
         .map(|entry| entry.expect("an entry").path())
@@ -32,7 +32,7 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
 /// Law: what the header of `net_launch.toml` promises is a requirement with that limit.
 #[test]
 fn a_launch_is_judged_by_what_its_file_promises() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/net_launch.toml");
+    let file = root().join("campaigns/net_launch.toml");
     let text = std::fs::read_to_string(&file).expect("readable");
     let header = text.split("\n\n").next().expect("a header").replace("\n#  ", "");
     let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
@@ -74,7 +74,7 @@ fn a_plan_reads_back_from_its_text() {
 fn numbers_are_what_they_are_and_not_how_they_are_written() {
     let plan = |from: &str, to: &str| {
         assert!(EVERY_TABLE.contains(from), "{from}");
-        Plan::from_text("x.toml", &EVERY_TABLE.replacen(from, to, 1), Overrides::default()).expect("valid")
+        planned(&EVERY_TABLE.replacen(from, to, 1))
     };
     let hash = plan("[campaign]", "[campaign]").hash();
     let (thickness, position) = ("wall_thickness_m = 0.03", "position_m = [0, 0, 1.5]");
@@ -88,7 +88,7 @@ fn numbers_are_what_they_are_and_not_how_they_are_written() {
 fn omitted_keys_have_defaults() {
     let text = "[campaign]\nname = \"small\"\nsamples = 1\nseed = 0\nduration_s = 2\n[body]\nmass_kg = 10\n\
                 inertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n[initial]\nangular_velocity_rad_s = [0, 0, 1]\n";
-    let plan = Plan::from_text("small.toml", text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    let plan = planned(text);
     assert_eq!((plan.method, plan.grid.points(), plan.grid.duration()), (Method::Auto, 101, 2.0));
     assert_eq!(plan.groups, Group::DEFAULT);
     assert_eq!(plan.nominal.initial.attitude, [1.0, 0.0, 0.0, 0.0]);
@@ -99,6 +99,6 @@ fn omitted_keys_have_defaults() {
     assert_eq!((mass.total, mass.center), (10.0, [0.0; 3]));
     assert!(plan.dispersions.columns().is_empty());
     assert_eq!((plan.band_points, &plan.retention), (33, &Retention::None));
-    let few = Plan::from_text("small.toml", &format!("{text}[observe]\npoints = 5\n"), Overrides::default());
+    let few = parsed(&format!("{text}[observe]\npoints = 5\n"));
     assert_eq!(few.unwrap_or_else(|e| panic!("{e}")).band_points, 5, "no more than the grid has");
 }

@@ -27,7 +27,7 @@ angular_velocity_rad_s = [0, 0, "5 deg/s"]
 "#;
 
 fn read(text: &str) -> Result<Plan, CampaignError> {
-    Plan::from_text("bad.toml", text, Overrides::default())
+    parsed(text)
 }
 
 fn plan(text: &str) -> Plan {

@@ -84,7 +84,7 @@ fn file(unit: &str, value: &str) -> String {
 
 #[test]
 fn units_have_their_sizes() {
-    let plan = |text: &str| Plan::from_text("units.toml", text, Overrides::default());
+    let plan = |text: &str| parsed(text);
     for (si, units) in TABLE {
         let error = plan(&file(si, "\"1 furlong\"")).expect_err("no unit").to_string();
         let listed = error.split_once("one with a unit (").and_then(|(_, rest)| rest.split(')').next());

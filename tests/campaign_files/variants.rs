@@ -14,7 +14,7 @@ fn set(text: &str, settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
 #[test]
 fn what_is_set_is_as_if_it_were_written() {
     let text = shipped();
-    let written = |plan: &Plan| Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap();
+    let written = |plan: &Plan| planned(&plan.text());
     let plain = set(&text, &[]).unwrap();
     let plan =
         set(&text, &[("campaign.duration_s", "20"), ("wheels.w1.rate_rad_s", "600 rpm"), ("audit.fraction", "0.25")])

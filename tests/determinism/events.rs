@@ -157,7 +157,7 @@ fn events_extremes_and_ends_are_bits_of_their_row() {
 
 #[test]
 fn quantities_of_loops_cross_at_ticks() {
-    let shipped = include_str!("../../campaigns/slew_closed.toml");
+    let shipped = SLEW_CLOSED;
     let events = event("settled", "pointing_error_rad", 0.01, "direction = \"falling\"\nwhich = \"stays\"")
         + &event("turned", "pointing_error_rad", 0.5, "direction = \"falling\"");
     let of = |points: usize| {

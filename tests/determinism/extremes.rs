@@ -107,7 +107,7 @@ fn extremes_are_those_of_many_points() {
 
 #[test]
 fn extremes_of_loops_are_at_ticks() {
-    let shipped = include_str!("../../campaigns/slew_closed.toml");
+    let shipped = SLEW_CLOSED;
     let more = event("turned", "pointing_error_rad", 0.5, "direction = \"falling\"")
         + &extreme("error_max_rad", "pointing_error_rad", "after = \"turned\"\ndelay_s = 30")
         + &extreme("later_max_rad", "pointing_error_rad", "after = \"turned\"\ndelay_s = 60");

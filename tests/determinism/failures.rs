@@ -61,7 +61,7 @@ fn held() -> String {
 }
 
 fn plan(text: &str) -> Plan {
-    Plan::from_text("failure.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    planned(text)
 }
 
 fn run(text: &str, sample: u64) -> SingleRun {
@@ -249,7 +249,7 @@ fn the_row_says_what_has_failed() {
 
 #[test]
 fn loops_fly_on_without_a_sensor() {
-    let shipped = include_str!("../../campaigns/slew_closed.toml");
+    let shipped = SLEW_CLOSED;
     let healthy = value(&run(shipped, 2), "pointing_error_final_rad");
     let of = |failure: &str| {
         let text = format!("{shipped}\n[[failure]]\nname = \"sensor\"\nat_s = 100.0\n{failure}\n");
@@ -273,7 +273,7 @@ fn loops_fly_on_without_a_sensor() {
 /// Law: a dead torque rod has the scale zero, and a stuck one is a part of the residual dipole.
 #[test]
 fn a_torque_rod_fails() {
-    let shipped = include_str!("../../campaigns/detumble_magnetic.toml").replace("110 min", "30 min");
+    let shipped = DETUMBLE_MAGNETIC.replace("110 min", "30 min");
     let healthy = run(&shipped, 0);
     let failed = |at: f64, dipole: f64| {
         let keys = format!("name = \"rod\"\ntorque_rod = \"mx\"\nat_s = {at:?}\ndipole_a_m2 = {dipole:?}\n");

@@ -18,7 +18,7 @@ pub const CAMPAIGN: &str = include_str!("../../examples/flight_code/flight_code.
 const BUILT: [&str; 2] = ["mrp_feedback_c.wasm", "mrp_feedback_rust.wasm"];
 
 fn example(file: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/flight_code").join(file)
+    root().join("examples/flight_code").join(file)
 }
 
 const LATER: &str = "gyro_feedback.wasm";

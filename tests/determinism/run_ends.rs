@@ -92,7 +92,7 @@ fn single_runs_end_where_their_rows_do() {
 /// Law: a control loop ends at the tick of the crossing with the columns of a campaign of that duration.
 #[test]
 fn loops_end_as_in_a_campaign_of_that_duration() {
-    let shipped = include_str!("../../campaigns/slew_closed.toml").replace("points = 181", "points = 721");
+    let shipped = SLEW_CLOSED.replace("points = 181", "points = 721");
     let ends = plan(
         &(shipped.clone() + &event("turned", "pointing_error_rad", 0.3, "direction = \"falling\"\nends_run = true")),
     );

@@ -22,7 +22,7 @@ fn braking(burn: f64, integrator: &str, points: usize, duration: f64) -> String 
 const TAYLOR: &str = "method = \"taylor\"";
 
 fn flown(text: &str) -> SingleRun {
-    let plan = Plan::from_text("d", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = planned(text);
     SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("a physical scene")
 }
 

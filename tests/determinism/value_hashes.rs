@@ -141,7 +141,7 @@ fn differences(
 
 #[test]
 fn shipped_campaigns_keep_their_bits() {
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/value_hashes.json");
+    let golden = root().join("tests/golden/value_hashes.json");
     let scratch = ScratchFolder::new("value-hashes");
     let now: BTreeMap<String, Found> = files()
         .par_iter()

@@ -23,7 +23,7 @@ pub fn precession() -> (f64, f64) {
 }
 
 pub fn plan(text: &str) -> Plan {
-    Plan::from_text("rows.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    planned(text)
 }
 
 pub fn near_rounding(method: Method) -> String {

@@ -22,7 +22,7 @@ mod prelude {
             flown_loop::{FlownLoop, changed, rotation_vector, without_filters},
         },
         page::numbers::{Found, degrees, found, motion},
-        small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures},
+        small_campaign::{NEGATIVE_WALLS, campaign, campaign_without_debris, folder, mixed_failures, sized},
         support::prelude::*,
     };
 }

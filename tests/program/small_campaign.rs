@@ -34,6 +34,10 @@ pub fn campaign() -> String {
     [HEAD, RADIANS, FUSELAGE, WHEEL1, WHEEL2, DEBRIS, SPACECRAFT_STATE, DEBRIS_STATE, SPIN_DISPERSION].concat()
 }
 
+pub fn sized(samples: u64) -> String {
+    campaign().replace("samples = 600", &format!("samples = {samples}"))
+}
+
 pub fn campaign_without_debris() -> String {
     [HEAD, RADIANS, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
 }

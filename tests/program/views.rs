@@ -108,7 +108,7 @@ fn steady(text: &str, scratch: &ScratchFolder) -> String {
 
 /// Compares a view with the approved one, or writes it.
 fn approved(name: &str, view: &str, different: &mut Vec<String>) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/views").join(format!("{name}.txt"));
+    let path = root().join("tests/golden/views").join(format!("{name}.txt"));
     let before = fs::read_to_string(&path).unwrap_or_default();
     if before == view {
         return;
@@ -131,7 +131,7 @@ fn what_a_reader_sees_was_approved() {
     let scratch = folder("views");
     scratch.file("mixed.toml", &mixed_failures());
     scratch.file("base.toml", &campaign());
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let shipped = root().join("campaigns");
     let of = |name: &str| shipped.join(name).to_string_lossy().into_owned();
     let mut different = Vec::new();
     for (name, file, options, code) in [

@@ -86,7 +86,7 @@ fn sources() -> Vec<Source> {
 const CRATES_OF_THE_PROJECT: [&str; 3] = ["src", "crates/kernels/src", "crates/python/src"];
 
 fn sources_in(folder: &str) -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let root = root().join(folder);
     let mut list = Vec::new();
     read(&root, &root, &mut list);
     list
@@ -239,7 +239,7 @@ const WIDTH: usize = 120;
 /// Law: no line is longer; rustfmt leaves comments, texts and macros alone.
 #[test]
 fn no_line_is_too_long() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = root();
     let mut long = Vec::new();
     let mut open: Vec<PathBuf> =
         ["benches", "crates", "examples", "fuzz", "src", "tests"].map(|name| root.join(name)).into();

@@ -194,7 +194,7 @@ fn the_complete_example_raises_no_note() {
     let document = text(&root().join("docs/campaign-files.md"));
     let example = blocks(&document).into_iter().find(|block| block.language == "toml").expect("an example").text;
     let notes = |text: &str| {
-        let plan = Plan::from_text("example.toml", text, Overrides::default()).expect("a plan");
+        let plan = planned(text);
         [plan.notes(), implausible(&plan)].concat()
     };
     assert_eq!(notes(&example), Vec::<String>::new());

@@ -52,7 +52,7 @@ fn complaint(row: &Row, bytes: u64) -> Option<String> {
 
 #[test]
 fn no_crate_grows_unseen() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = root();
     let rows = rows(&std::fs::read_to_string(root.join("ARCHITECTURE.md")).expect("a document"));
     let mut expected: Vec<PathBuf> = vec!["src".into(), "tests".into()];
     let crates = std::fs::read_dir(root.join("crates")).expect("crates").map(|entry| entry.expect("a crate"));

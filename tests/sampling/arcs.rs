@@ -191,8 +191,7 @@ fn errors_are_drawn_recorded_and_written() {
         dispersed("actuation.trim.switch_on_delay_s"),
     );
     let plan = plan(&text).unwrap_or_else(|error| panic!("{error}"));
-    let again =
-        Plan::from_text("plan.toml", &plan.text(), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let again = planned(&plan.text());
     assert_eq!((&again, again.text()), (&plan, plan.text()));
     assert_ne!(plan.hash(), ideal.hash());
     let columns = plan.dispersions.columns();

@@ -41,7 +41,7 @@ fn campaign(text: &str) -> String {
 }
 
 fn plan(text: &str) -> Plan {
-    Plan::from_text("test.toml", &campaign(text), Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
+    planned(&campaign(text))
 }
 
 const N: usize = 20_000;
@@ -125,7 +125,7 @@ fn rank_correlations_of_discrete_values_are_those_of_the_file() {
         assert!(!in_band(found, 0.9 * rank), "a tenth less is found");
     }
     let text = campaign(&discrete(["body.parts.fuselage.density_kg_m3", "wheels.w2.radius_m"], 0.8));
-    let refused = Plan::from_text("t.toml", &text, Overrides::default()).expect_err("more than can be reached");
+    let refused = parsed(&text).expect_err("more than can be reached");
     let said = refused.to_string();
     assert!(
         said.contains("correlate[0].rank_correlation = 0.8: must be from -0.6") && said.contains("discrete"),
@@ -151,7 +151,7 @@ fn blocks_and_numbers_are_the_matrix_that_they_make() {
         assert_eq!(column(&all, name), column(&blocks, name), "{name}");
     }
     assert_ne!(column(&all, "wheels.w1.radius_m"), column(&plan(""), "wheels.w1.radius_m"));
-    assert_eq!(Plan::from_text("t.toml", &blocks.text(), Overrides::default()).expect("legal").hash(), blocks.hash());
+    assert_eq!(planned(&blocks.text()).hash(), blocks.hash());
     // covariances are those of normal distributions
     let normal = "[[disperse]]\nparameter = \"initial.position_m.x\"\ndistribution = \"normal\"\nstd = 3\n\
          [[correlate]]\nparameters = [\"initial.angular_velocity_rad_s.z\", \"initial.position_m.x\"]\ncovariance = \
@@ -209,7 +209,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     assert!((rank_correlation(&a, &b) - 1.0).abs() < 1e-15);
     let matrix = "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 1, 0], [1, 1, \
         1], [0, 1, 1]]\n";
-    let refused = Plan::from_text("t.toml", &campaign(matrix), Overrides::default()).expect_err("refused").to_string();
+    let refused = parsed(&campaign(matrix)).expect_err("refused").to_string();
     assert!(refused.contains("smallest eigenvalue") && refused.contains("-0.414214"), "{refused}");
     let repaired = plan(&format!("{matrix}nearest_psd = true\n"));
     let [x, y] = ["x", "y"].map(|c| column(&repaired, &format!("initial.angular_velocity_rad_s.{c}")));
@@ -218,10 +218,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     // half a unit of the last digit of the paper; measured: 0.76069
     assert!((replaced.used[0][1] - 0.7607).abs() < 5e-5 && replaced.written[0][1] == 1.0);
     assert!(repaired.text().contains("# nearest correlation of the normal scores, which is used: [[1.0, 0.76"));
-    assert_eq!(
-        Plan::from_text("t.toml", &repaired.text(), Overrides::default()).expect("legal").hash(),
-        repaired.hash()
-    );
+    assert_eq!(planned(&repaired.text()).hash(), repaired.hash());
 }
 
 /// Law: a derived value is its expression of the values as applied, in sample 0 too.

@@ -114,7 +114,7 @@ fn a_latin_hypercube_has_one_value_in_each_stratum() {
 #[test]
 fn a_grid_and_one_at_a_time_have_their_own_size() {
     let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
-    let read = |text: &str| Plan::from_text("t.toml", &without_samples(text), Overrides::default());
+    let read = |text: &str| parsed(&without_samples(text));
     let grid =
         read(&format!("{}levels = [3, 1, 2, 4]\n{RATE}{LENGTH}", design("grid"))).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(grid.samples, 25);
@@ -154,7 +154,7 @@ fn a_table_gives_its_rows() {
     assert_eq!(column("initial_angular_velocity_x_rad_s"), [0.0, 1.5, -1.0]);
     let mixed =
         read(&format!("{table}parameters = [\"wheels.w1.radius_m\"]\n{LENGTH}")).unwrap_or_else(|e| panic!("{e}"));
-    let random = Plan::from_text("t.toml", &campaign(LENGTH), Overrides::default()).expect("valid");
+    let random = self::plan(LENGTH);
     for (mixed, random) in draws(&mixed, 0..3).iter().zip(draws(&random, 0..3)) {
         assert_eq!(mixed["body_parts_fuselage_length_m"], random["body_parts_fuselage_length_m"]);
     }

@@ -1,6 +1,7 @@
 //! Tests of the rankings on runs whose causes are known.
 
 use crate::support::prelude::*;
+use spindrift::Plan;
 use spindrift::analysis::drivers::{Question, rankings};
 use spindrift::analysis::effects::{Dependence, Direction, TestedInput, on_event, on_spread};
 use spindrift::analysis::event::{Event, Occurs};
@@ -9,7 +10,6 @@ use spindrift::analysis::observed::Observed;
 use spindrift::analysis::sensitivity::Prepared;
 use spindrift::statistics::contingency::Occurrence;
 use spindrift::statistics::correlation::ascending_order;
-use spindrift::{Overrides, Plan};
 
 const ALPHA: f64 = 0.05;
 const MISSED: Occurs = Occurs::Missed { requirement: 0, is_only: true };
@@ -26,7 +26,7 @@ fn small_plan(line: &str) -> Plan {
         disperse("x"),
         disperse("y")
     );
-    Plan::from_text("small.toml", &text, Overrides::default()).expect("a plan")
+    planned(&text)
 }
 
 fn plan(has_limit: bool) -> (Plan, String) {

@@ -3,7 +3,7 @@
 //! campaigns; a cause that explains more than half is first in 95% of those in which a test at 1e-4 sees it, or, without
 //! a fourth moment, where it varies more than the rest.
 
-use spindrift::Overrides;
+use crate::support::plans::planned;
 use spindrift::Plan;
 use spindrift::analysis::drivers::{Question, rankings};
 use spindrift::analysis::sensitivity::Prepared;
@@ -39,7 +39,7 @@ fn plan(structure: &Structure, design: &str, runs: u64) -> Plan {
         disperse("x"),
         disperse("y")
     );
-    Plan::from_text("structure.toml", &text, Overrides::default()).expect("a plan")
+    planned(&text)
 }
 
 const DESIGNS: [&str; 4] = ["random", "latin_hypercube", "sobol", "halton"];

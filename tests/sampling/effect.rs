@@ -25,7 +25,7 @@ fn plan(text: &str) -> Result<Plan, String> {
 pub fn plan_over(duration_s: f64, text: &str) -> Result<Plan, String> {
     let head = HEAD.replace("DURATION", &format!("{duration_s:?}"));
     let scene = [&head, FUSELAGE, WHEEL1_AT_REST, &THRUSTERS.concat(), INITIAL].concat();
-    Plan::from_text("test.toml", &format!("{scene}{text}"), Overrides::default()).map_err(|error| error.to_string())
+    parsed(&format!("{scene}{text}")).map_err(|error| error.to_string())
 }
 
 pub fn dispersed(parameter: &str) -> String {
@@ -154,7 +154,7 @@ fn what_a_plan_alone_says_is_noted() {
     ] {
         let head = HEAD.replace("DURATION", "1.0").replace("[\"energy_conservation\"]", groups);
         let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL].concat();
-        let plan = Plan::from_text("test.toml", &text, Overrides::default()).expect("legal");
+        let plan = planned(&text);
         assert_eq!(has(plan, "none can end as inaccurate"), is_blind, "{groups}");
     }
 }

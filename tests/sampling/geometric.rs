@@ -24,7 +24,7 @@ const CHI_9: f64 = 27.877;
 
 pub fn plan(disperse: &str) -> Plan {
     let text = campaign(&format!("[[disperse]]\n{disperse}"));
-    Plan::from_text("test.toml", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    planned(&text)
 }
 
 fn draws<T>(disperse: &str, seen: impl Fn(&SceneInput) -> T) -> Vec<T> {
@@ -266,7 +266,7 @@ fn usual_mistakes_are_caught() {
 }
 
 fn impossible(text: &str, count: u64) -> usize {
-    let plan = Plan::from_text("test.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = planned(text);
     let mut scene = Scene::resolve(&plan.nominal).expect("the nominal scene is physical");
     let refused = draws::seen(&plan, 1..=count, |input, _| scene.resolve_into(input).is_err());
     refused.into_iter().filter(|is_refused| *is_refused).count()
@@ -319,7 +319,7 @@ fn mean_directions_follow_the_axis_in_all_octants() {
             let written = plan(&format!("{RATE}{law}axis = {axis:?}\n"));
             let along =
                 campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
-            let nominal = Plan::from_text("test.toml", &along, Overrides::default());
+            let nominal = parsed(&along);
             for plan in [written, nominal.unwrap_or_else(|error| panic!("{error}"))] {
                 let mut mean = [0.0; 3];
                 for v in draws::seen(&plan, 1..=DRAWS, |scene, _| rate(scene)) {

@@ -80,3 +80,8 @@ pub fn small_wheel(name: &str, axis: [u8; 3]) -> String {
         0.01\ntransverse_inertia_kg_m2 = 0.006\n"
     )
 }
+
+pub const NET_LAUNCH: &str = include_str!("../../campaigns/net_launch.toml");
+pub const SLEW_CLOSED: &str = include_str!("../../campaigns/slew_closed.toml");
+pub const DETUMBLE: &str = include_str!("../../campaigns/detumble.toml");
+pub const DETUMBLE_MAGNETIC: &str = include_str!("../../campaigns/detumble_magnetic.toml");

@@ -5,14 +5,26 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use spindrift::campaign::{Overrides, Plan};
+use spindrift::campaign::{CampaignError, Overrides, Plan};
 use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
 
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+pub fn parsed(text: &str) -> Result<Plan, CampaignError> {
+    Plan::from_text("c.toml", text, Overrides::default())
+}
+
+pub fn planned(text: &str) -> Plan {
+    parsed(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
 pub fn files() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let folder = root().join("campaigns");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     files.sort();
@@ -24,7 +36,7 @@ pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
 }
 
 pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let folder = root().join("campaigns");
     let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a shipped campaign") + tables;
     let overrides = Overrides { samples, ..Overrides::default() };
     Plan::from_text_in(&folder, name, &text, overrides).unwrap_or_else(|error| panic!("{error}"))

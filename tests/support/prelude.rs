@@ -2,14 +2,17 @@
 #![allow(unused_imports)] // each program uses a part
 
 pub use super::{
-    campaigns::{FUSELAGE, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1, WHEEL1_AT_REST, WHEEL2},
+    campaigns::{
+        DETUMBLE, DETUMBLE_MAGNETIC, FUSELAGE, NET_LAUNCH, SLEW_CLOSED, SPACECRAFT_STATE, SPIN_DISPERSION, WHEEL1,
+        WHEEL1_AT_REST, WHEEL2,
+    },
     claims::hold,
     draws,
     every_key::EVERY_TABLE,
     golden::Golden,
     observed::{observed, request},
     orbits::{MU, body, near_rounding, plated},
-    plans::{rows, shipped},
+    plans::{parsed, planned, root, rows, shipped},
     runs::{Run, adaptive, blocks, everything, fixed, propagate, propagate_on, propagate_one, relative, up_to_sign},
     scenes::{Kind, Uniform, mixed, random, set_wheel_rates},
     scratch_folder::{ScratchFolder, assert_fits, batches, column, contents, ended, floats},

@@ -62,6 +62,19 @@ impl ScratchFolder {
         self.outputs(&mut self.command(arguments), code)
     }
 
+    pub fn small(&self, options: &str, code: i32) -> String {
+        self.prints(&format!("campaign small.toml {options}"), code)
+    }
+
+    pub fn shows(&self, arguments: &str, code: i32, words: &str) {
+        let said = self.prints(arguments, code);
+        assert!(said.contains(words), "{said}");
+    }
+
+    pub fn small_shows(&self, options: &str, code: i32, words: &str) {
+        self.shows(&format!("campaign small.toml {options}"), code, words);
+    }
+
     pub fn prints_wide(&self, arguments: &str, code: i32) -> String {
         self.prints_at(arguments, code, 1000)
     }

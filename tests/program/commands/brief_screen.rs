@@ -13,7 +13,7 @@ fn said(scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, S
 #[test]
 fn a_campaign_fits_a_screen() {
     let scratch = ScratchFolder::new("brief-screen");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let shipped = root().join("campaigns");
     for (name, code, question) in [
         ("spin_sweep", 0, "How large are the conservation errors of a run, "),
         ("net_launch", 5, "How likely is the spacecraft to reach the state "),
@@ -126,7 +126,7 @@ fn colour_adds_only_itself() {
 #[test]
 fn the_worst_campaigns_fit_a_screen() {
     let scratch = ScratchFolder::new("worst-screens");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let shipped = root().join("campaigns");
     let run = |name: &str, options: &str, code: i32| {
         let mut command = scratch.command("campaign");
         let command = command.arg(shipped.join(format!("{name}.toml"))).args(options.split_whitespace());

@@ -21,7 +21,7 @@ fn printed_commands_are_quoted() {
 #[test]
 fn a_campaign_runs_once_and_then_says_so() {
     let scratch = folder("once");
-    let said = scratch.prints("campaign small.toml", 0);
+    let said = scratch.small("", 0);
     let is_said = said.contains("small: 600 runs (1 nominal) computed in ") && said.contains("maximum energy error");
     assert!(is_said, "{said}");
     let parts = scratch.parts("results/small");
@@ -29,8 +29,7 @@ fn a_campaign_runs_once_and_then_says_so() {
     assert_eq!(names, ["part-000000.parquet", "part-000001.parquet", "part-000002.parquet"]);
     assert_eq!(scratch.summary("results/small")["statuses"]["ok"], 600);
 
-    let said = scratch.prints("campaign small.toml", 0);
-    assert!(said.contains("already complete"), "{said}");
+    scratch.small_shows("", 0, "already complete");
     assert_eq!(scratch.parts("results/small"), parts, "nothing was touched");
 
     let ids = column(&scratch.rows("results/small"), "sample_id");
@@ -40,7 +39,7 @@ fn a_campaign_runs_once_and_then_says_so() {
 #[test]
 fn the_kept_plan_reproduces_the_result() {
     let scratch = folder("plan");
-    scratch.prints("campaign small.toml --samples 300 --seed 11", 0);
+    scratch.small("--samples 300 --seed 11", 0);
     scratch.prints("campaign results/small/plan.toml --out again", 0);
     assert_eq!(scratch.parts("results/small"), scratch.parts("again"));
 }
@@ -48,17 +47,16 @@ fn the_kept_plan_reproduces_the_result() {
 #[test]
 fn another_plan_never_replaces_a_result_without_being_told() {
     let scratch = folder("overwrite");
-    scratch.prints("campaign small.toml --samples 300 --shard 1/2 --out half", 0);
-    let said = scratch.prints("campaign small.toml --samples 300 --seed 9 --out half", 4);
-    assert!(said.contains("unfinished result of another plan"), "{said}");
-    scratch.prints("campaign small.toml --samples 300", 0);
+    scratch.small("--samples 300 --shard 1/2 --out half", 0);
+    scratch.small_shows("--samples 300 --seed 9 --out half", 4, "unfinished result of another plan");
+    scratch.small("--samples 300", 0);
     let before = scratch.parts("results/small");
-    let said = scratch.prints("campaign small.toml --samples 300 --seed 8", 4);
+    let said = scratch.small("--samples 300 --seed 8", 4);
     assert!(said.contains("another plan") && said.contains("--overwrite"), "{said}");
     assert_eq!(scratch.parts("results/small"), before);
-    scratch.prints("campaign small.toml --samples 20 --seed 8 --overwrite", 0);
+    scratch.small("--samples 20 --seed 8 --overwrite", 0);
     assert_eq!(scratch.parts("results/small").len(), 1, "parts of the old result are gone");
-    scratch.prints("campaign small.toml --samples 20 --seed 8", 0);
+    scratch.small("--samples 20 --seed 8", 0);
 }
 
 #[test]
@@ -67,14 +65,13 @@ fn what_is_not_a_result_is_left_alone() {
     fs::create_dir(scratch.path("thesis")).unwrap();
     scratch.file("thesis/chapter1.tex", "precious");
     for flags in ["", "--overwrite"] {
-        let said = scratch.prints(&format!("campaign small.toml --out thesis {flags}"), 4);
-        assert!(said.contains("not part of a result of spindrift"), "{said}");
+        scratch.small_shows(&format!("--out thesis {flags}"), 4, "not part of a result of spindrift");
     }
     scratch.file("thesis/summary.json", r#"{"of": "chapter 1"}"#);
-    scratch.prints("campaign small.toml --out thesis --overwrite", 4);
+    scratch.small("--out thesis --overwrite", 4);
     assert_eq!(fs::read_dir(scratch.path("thesis")).unwrap().count(), 2);
     scratch.file("notes", "precious");
-    scratch.prints("campaign small.toml --out notes", 4);
+    scratch.small("--out notes", 4);
     assert_eq!(scratch.text("notes"), "precious");
 }
 
@@ -85,16 +82,15 @@ fn a_folder_in_use_is_refused() {
     fs::create_dir(scratch.path("out")).unwrap();
     let held = File::open(scratch.path("out")).unwrap();
     held.lock().unwrap();
-    let said = scratch.prints("campaign small.toml --samples 3 --out out", 4);
-    assert!(said.contains("another process"), "{said}");
+    scratch.small_shows("--samples 3 --out out", 4, "another process");
     drop(held);
-    scratch.prints("campaign small.toml --samples 3 --out out", 0);
+    scratch.small("--samples 3 --out out", 0);
 }
 
 #[test]
 fn instruction_sets_do_not_change_a_byte() {
     let scratch = folder("isa");
-    let loops = include_str!("../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
+    let loops = NET_LAUNCH.replace("duration_s = 2400.0", "duration_s = 60.0");
     std::fs::write(scratch.path("loop.toml"), loops).unwrap();
     let run = |file: &str, isa: &str, code: i32| {
         let arguments = format!("campaign {file}.toml --samples 20 --out {file}-{isa}");
@@ -125,6 +121,6 @@ fn addresses_need_a_build_with_stores() {
         let said = scratch.prints(&format!("{command} s3://bucket/x {out}"), 2);
         assert!(said.contains("s3://bucket/x: this build") && said.contains("--features cloud"), "{said}");
     }
-    assert!(scratch.prints("campaign small.toml --out gs://bucket/x", 2).contains("gs://bucket/x: must be a folder"));
+    assert!(scratch.small("--out gs://bucket/x", 2).contains("gs://bucket/x: must be a folder"));
     assert_eq!(scratch.0.read_dir().unwrap().count(), before);
 }

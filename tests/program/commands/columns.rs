@@ -76,8 +76,7 @@ fn a_new_file_runs() {
     scratch.prints("new mine.toml", 0);
     let text = scratch.text("mine.toml");
     assert!(text.contains("name = \"mine\""), "{text}");
-    let said = scratch.prints("campaign mine.toml --out r", 0);
-    assert!(said.contains("PASS"), "{said}");
+    scratch.shows("campaign mine.toml --out r", 0, "PASS");
     scratch.prints("new mine.toml", 4);
     assert_eq!(scratch.text("mine.toml"), text);
     let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);
@@ -92,7 +91,7 @@ fn a_new_file_runs() {
 #[test]
 fn the_columns_of_a_campaign_are_those_of_its_rows() {
     let scratch = folder("own-columns");
-    scratch.prints("campaign small.toml --samples 10 --audit 1 --out r", 0);
+    scratch.small("--samples 10 --audit 1 --out r", 0);
     let rows = &scratch.table("r/runs/part-000000.parquet");
     let names: Vec<String> = rows.schema().fields().iter().map(|field| field.name().clone()).collect();
     let text = scratch.prints_wide("columns --campaign small.toml --verbose", 0);

@@ -6,8 +6,8 @@ use spindrift::statistics::two_sample::kolmogorov_smirnov;
 #[test]
 fn results_are_compared() {
     let scratch = folder("compare");
-    scratch.prints("campaign small.toml --out a", 0);
-    scratch.prints("campaign small.toml --out b --threads 1", 0);
+    scratch.small("--out a", 0);
+    scratch.small("--out b --threads 1", 0);
     let said = scratch.prints_wide("compare a b --tolerance 0", 0);
     for words in ["the plans are the same", "599 samples drawn alike", "have the same statistics", "PASS: no shift"] {
         assert!(said.contains(words), "{words}: {said}");
@@ -21,7 +21,7 @@ fn results_are_compared() {
     assert!(said.contains("599 samples drawn alike") && said.contains("FAIL: a shift is beyond 0.0"), "{said}");
     assert!(said.contains("steps "), "other methods take other steps: {said}");
 
-    scratch.prints("campaign small.toml --seed 8 --out d", 0);
+    scratch.small("--seed 8 --out d", 0);
     let said = scratch.prints_wide("compare a d", 0);
     let is_said = says_key(&said, ["campaign.seed", "7", "8"]);
     assert!(is_said && said.contains("compared as independent samples"), "{said}");
@@ -29,7 +29,7 @@ fn results_are_compared() {
     scratch.prints("compare a d --tolerance 0.01", 3);
 
     // fewer samples of the same draws are pairs too
-    scratch.prints("campaign small.toml --samples 300 --out e", 0);
+    scratch.small("--samples 300 --out e", 0);
     let said = scratch.prints_wide("compare a e", 0);
     let is_said = says_key(&said, ["campaign.samples", "600", "300"]);
     assert!(is_said && said.contains("299 samples drawn alike"), "{said}");
@@ -45,8 +45,7 @@ fn results_are_compared() {
     scratch.prints("compare a nothing", 2);
     scratch.prints("compare a b --tolerance -1", 2);
     std::fs::write(scratch.path("b/runs/part-000001.parquet"), "damaged").expect("written");
-    let said = scratch.prints("compare a b", 4);
-    assert!(said.contains("part-000001.parquet"), "{said}");
+    scratch.shows("compare a b", 4, "part-000001.parquet");
 }
 
 fn says_key(said: &str, words: [&str; 3]) -> bool {
@@ -254,7 +253,7 @@ fn comparisons_are_files() {
 #[test]
 fn verdicts_and_scales_are_those_of_their_result() {
     let scratch = folder("compare-sides");
-    scratch.prints("campaign small.toml --out plain --no-report", 0);
+    scratch.small("--out plain --no-report", 0);
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
     scratch.file("wide.toml", &(campaign().replace("std = [0.5, 0.5, 1.5]", "std = [1.0, 1.0, 3.0]") + require));
     scratch.prints("campaign wide.toml --out wide --no-report", 3);
@@ -286,9 +285,9 @@ fn a_stopped_campaign_is_paired_in_all_its_samples() {
     let scratch = folder("compare-stopped");
     let stop = "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples \
         = 800\n";
-    scratch.file("stop.toml", &(campaign().replace("samples = 600", "samples = 100") + stop));
+    scratch.file("stop.toml", &(sized(100) + stop));
     scratch.prints("campaign stop.toml --out stopped --no-report", 5);
-    scratch.prints("campaign small.toml --out plain --no-report", 0);
+    scratch.small("--out plain --no-report", 0);
     for (first, second, pairs) in [("stopped", "plain", 599), ("plain", "stopped", 599), ("stopped", "stopped", 799)] {
         assert_eq!(compared(&scratch, first, second)["pairs"], pairs, "{first} {second}");
     }

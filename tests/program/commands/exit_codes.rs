@@ -63,7 +63,7 @@ fn a_missing_result_is_bad_input() {
     let scratch = folder("no-result");
     fs::create_dir(scratch.path("empty")).expect("a folder");
     scratch.file("file", "no result");
-    scratch.prints("campaign small.toml --samples 20 --out there", 0);
+    scratch.small("--samples 20 --out there", 0);
     for missing in ["absent", "empty", "file"] {
         for command in [
             format!("verify {missing}"),
@@ -83,7 +83,7 @@ fn a_missing_result_is_bad_input() {
     for command in ["verify there", "report there", "finish there", "compare there there"] {
         scratch.prints(command, 0);
     }
-    scratch.prints("campaign small.toml --only-failed-of there --out again", 0);
+    scratch.small("--only-failed-of there --out again", 0);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn what_is_in_the_way_is_named() {
     let scratch = folder("in-the-way");
     scratch.file("file", "precious");
     fs::create_dir_all(scratch.path("all/index.html")).expect("a folder");
-    scratch.prints("campaign small.toml --samples 20 --out all/one", 0);
+    scratch.small("--samples 20 --out all/one", 0);
     for (command, said) in [
         ("new file", "is there already, and is not replaced"),
         ("new all", "is a folder"),
@@ -114,7 +114,7 @@ fn what_is_in_the_way_is_named() {
 #[test]
 fn one_is_singular_on_screens() {
     let scratch = folder("one-of-all");
-    let one = campaign().replace("samples = 600", "samples = 1");
+    let one = sized(1);
     scratch.file("one.toml", &(one + &require("quantile = 0.95", "at_most = 1e-9")));
     for (command, code) in [
         ("check one.toml", 0),

@@ -38,7 +38,7 @@ fn peaks<const N: usize>(measure: impl Fn(usize) -> u64, holds: impl Fn(&[u64; N
 #[test]
 fn sample_holds_no_draws() {
     let scratch = ScratchFolder::new("stream");
-    let small = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/attitude.toml");
+    let small = root().join("campaigns/attitude.toml");
     let small = small.display();
     let draw = |samples: u64| peak(&scratch, &format!("sample {small} --samples {samples}"));
     let is_flat = |[few, many]: &[u64; 2]| *many < few + 8_000;
@@ -56,7 +56,7 @@ fn sample_holds_no_draws() {
 #[test]
 fn a_campaign_holds_no_rows() {
     let scratch = ScratchFolder::new("flat");
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml")).unwrap();
+    let text = fs::read_to_string(root().join("campaigns/spin_sweep.toml")).unwrap();
     assert!(text.contains("points = ") && !text.contains("[bands]"));
     fs::write(scratch.0.join("flat.toml"), text).unwrap();
     let of = |samples: u64| {
@@ -109,7 +109,7 @@ const LIMIT_KB: u64 = 150_000;
 #[test]
 fn small_files_take_little_memory() {
     let scratch = ScratchFolder::new("bombs");
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/spin_sweep.toml")).unwrap();
+    let text = fs::read_to_string(root().join("campaigns/spin_sweep.toml")).unwrap();
     let at = text.find("[[disperse]]").unwrap();
     let says = |file: &str, column: &str, code: i32| {
         let draw = format!(
@@ -142,7 +142,7 @@ const POINT: [u64; 2] = [8500, 7500];
 #[test]
 fn memory_of_points_is_what_is_estimated() {
     let scratch = ScratchFolder::new("points");
-    let burn = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns/burn.toml")).unwrap();
+    let burn = fs::read_to_string(root().join("campaigns/burn.toml")).unwrap();
     let of = |method: &str, groups: &[Group], more: &str| {
         let mut text = String::new();
         let nominal = burn.lines().take_while(|line| !line.starts_with("[[disperse]]"));

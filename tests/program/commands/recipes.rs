@@ -9,7 +9,7 @@ use spindrift::storage::bands_file;
 const PYTHON: &str = "SPINDRIFT_PYTHON";
 
 fn recipes() -> Vec<String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results.md");
+    let path = root().join("docs/results.md");
     let text = std::fs::read_to_string(path).unwrap();
     let section = text.split("\n## ").find(|section| section.starts_with("Recipes")).expect("a section of recipes");
     let blocks = section.split("```python\n").skip(1);
@@ -74,7 +74,7 @@ fn the_summary_has_the_keys_of_its_document() {
     scratch.says("campaign", "spin_sweep.toml", "--samples 300 --audit 0.02", 0);
     let written = std::fs::read_to_string(scratch.path("results/spin_sweep/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&written).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/results.md");
+    let path = root().join("docs/results.md");
     let document = std::fs::read_to_string(path).unwrap();
     let section = document.split("\n### ").find(|section| section.starts_with("summary.json")).expect("a section");
     let section = section.split("\n## ").next().unwrap_or_default();

@@ -54,8 +54,7 @@ fn sample_draws_the_rows_of_the_campaign() {
         let found: f64 = words[1].parse().expect("a number");
         assert!((found / (value * factor) - 1.0).abs() < 1e-5, "{found} of {value}");
     }
-    let said = scratch.prints(&format!("sample thin.toml --sample {sample}"), 0);
-    assert!(said.contains("principal_moment_largest_kg_m2"), "{said}");
+    scratch.shows(&format!("sample thin.toml --sample {sample}"), 0, "principal_moment_largest_kg_m2");
     scratch.prints("sample thin.toml --sample 600", 2);
     scratch.prints("sample thin.toml --out s.txt", 2);
     scratch.prints("sample thin.toml --samples 0", 2);
@@ -136,7 +135,7 @@ fn check_shows_magnitudes_and_implausible_numbers() {
 fn check_fits_a_screen() {
     let scratch = folder("check-screen");
     for name in ["net_launch", "spin_sweep", "slew_closed", "pyramid", "nadir_pointing", "correlated"] {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("campaigns/{name}.toml"));
+        let file = root().join(format!("campaigns/{name}.toml"));
         let said = scratch.prints_at(&format!("check {}", file.display()), 0, 80);
         assert_fits(&said, 48, 80);
         assert!(said.lines().take(4).any(|line| line.starts_with(&format!("{name}: "))), "{said}");
@@ -164,11 +163,10 @@ fn bad_input_ends_with_code_2_and_says_everything() {
     for command in ["campaign", "check", "simulate"] {
         let said = scratch.prints(&format!("{command} bad.toml"), 2);
         assert!(said.contains("bad.toml:5") && said.contains("sead") && said.contains("outer_radius_m"), "{said}");
-        let said = scratch.prints(&format!("{command} missing"), 2);
-        assert!(said.contains("campaigns/missing.toml"), "{said}");
+        scratch.shows(&format!("{command} missing"), 2, "campaigns/missing.toml");
     }
-    scratch.prints("campaign small.toml --samples 0", 2);
-    scratch.prints("campaign small.toml --threads 0", 2);
+    scratch.small("--samples 0", 2);
+    scratch.small("--threads 0", 2);
     let cores = std::thread::available_parallelism().unwrap().get();
     let many = 4 * cores + 1;
     for command in ["campaign small.toml", "finish r", "verify r", "compare r r", "report r"] {
@@ -177,7 +175,7 @@ fn bad_input_ends_with_code_2_and_says_everything() {
             format!("must be a whole number from 1 to {}: 4 for each core that this process has ({cores})", 4 * cores);
         assert!(said.contains(&allowed), "{command}: {said}");
     }
-    scratch.prints("campaign small.toml --samples many", 2);
+    scratch.small("--samples many", 2);
     scratch.prints("", 2);
     assert!(!scratch.path("results").exists(), "nothing is written for bad input");
     assert!(scratch.prints("--help", 0).contains("Exit codes"));

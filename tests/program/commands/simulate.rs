@@ -5,7 +5,7 @@ use crate::prelude::*;
 #[test]
 fn simulate_shows_the_run_behind_the_row() {
     let scratch = folder("sample");
-    scratch.prints("campaign small.toml", 0);
+    scratch.small("", 0);
     for sample in [0, 1, 255, 256, 599] {
         scratch.prints(&format!("simulate small.toml --sample {sample} --out s.parquet"), 0);
         let run = &scratch.table("s.parquet");
@@ -98,8 +98,11 @@ fn the_velocity_of_p_is_the_derivative_of_its_position() {
 #[test]
 fn times_may_come_in_any_order_and_lie_beyond_the_duration() {
     let scratch = folder("times");
-    let said = scratch.prints("simulate small.toml --times 2.5,0.5,0.5,1 --out a.csv", 0);
-    assert!(said.contains("--times: 2.5 s is after the end of the runs of small (1.0 s)"), "{said}");
+    scratch.shows(
+        "simulate small.toml --times 2.5,0.5,0.5,1 --out a.csv",
+        0,
+        "--times: 2.5 s is after the end of the runs of small (1.0 s)",
+    );
     scratch.prints("simulate small.toml --times 0.5,1,2.5 --out b.csv", 0);
     let said = scratch.prints("simulate small.toml --times 0.5,1", 0);
     assert!(!said.contains("after the end"), "{said}");

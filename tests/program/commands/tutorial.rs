@@ -62,7 +62,7 @@ fn missing<'d>(printed: &str, expected: &[&'d str]) -> Option<&'d str> {
 
 #[test]
 fn the_tutorial_does_what_it_says() {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let docs = root().join("docs");
     let document = std::fs::read_to_string(docs.join("tutorial.md")).unwrap();
     let scratch = ScratchFolder::new("tutorial");
     let (mut printed, mut counts) = (String::new(), [0; 4]);

@@ -9,7 +9,7 @@ const LONGEST_WORD: usize = 60;
 fn numbers_stand_whole_at_every_width() {
     let scratch = folder("widths");
     for seed in [1, 2] {
-        scratch.prints(&format!("campaign small.toml --samples 40 --no-report --seed {seed} --out r{seed}"), 0);
+        scratch.small(&format!("--samples 40 --no-report --seed {seed} --out r{seed}"), 0);
     }
     let numbers = |text: &str| -> BTreeSet<String> {
         let is_number =

@@ -6,9 +6,6 @@ use spindrift::scene::{Arc, WheelModel};
 
 use crate::loops::flown_loop::{SAME_TIME, State};
 
-const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
-const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
-
 /// Rounding of the torques and thrusts of an arc: about ten operations on rates of tens of rad/s over arcs of ms.
 const AGREED: f64 = 1e-12;
 

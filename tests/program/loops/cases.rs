@@ -3,9 +3,6 @@
 use crate::loops::actuators::limited_slew;
 use crate::prelude::*;
 
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
-const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
 const POINT_AT_DEBRIS: &str = include_str!("../../../campaigns/point_at_debris.toml");
 
 /// A run, the reason of its end, and the run that goes on, in which the estimates of the last tick are recorded.

@@ -7,12 +7,8 @@ use spindrift::scene::Arc;
 
 use crate::support::campaigns::{SMALL_BODY, small_wheel};
 
-pub const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-pub(crate) const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
-const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
-
 pub(crate) fn plan(text: &str) -> Plan {
-    Plan::from_text("loop.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    planned(text)
 }
 
 pub(crate) fn run(plan: &Plan, sample: u64) -> SingleRun {
@@ -161,7 +157,7 @@ fn hostile_loops_end() {
 #[test]
 fn what_acts_in_a_loop_alone_is_refused() {
     let open = without(NET_LAUNCH, &["[control]", "[[guidance]]", "[[disperse]]", "[[require]]"]);
-    let error = Plan::from_text("loop.toml", &open, Overrides::default()).expect_err("no loop").to_string();
+    let error = parsed(&open).expect_err("no loop").to_string();
     for key in ["sensors", "wheels.w1.torque_limit_n_m", "thrusters.p3.max_thrust_n"] {
         assert!(error.lines().any(|line| line.contains(key) && line.contains("without [control]")), "{key}: {error}");
     }

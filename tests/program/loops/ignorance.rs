@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-
 /// `net_launch.toml` without phases and draws, with one phase that turns to an attitude and stops the motion `along_s3`,
 /// m/s.
 fn braking(estimator: &str, along_s3: f64) -> String {
@@ -79,7 +77,7 @@ fn commands_do_not_depend_on_what_is_drawn() {
             }
             let dispersed = text.clone() + &offset(&name, 1e-3);
             // a draw that makes no physical scene is left out
-            if Plan::from_text("loop.toml", &dispersed, Overrides::default()).is_err() {
+            if parsed(&dispersed).is_err() {
                 continue;
             }
             let (found, is_drawn) = first_commands(&dispersed);

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-
 /// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters whose commands act after `delay` seconds.
 fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> FlownLoop {
     let head = &NET_LAUNCH[..NET_LAUNCH.find("[[guidance]]").expect("phases")];

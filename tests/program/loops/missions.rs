@@ -3,8 +3,6 @@
 use crate::prelude::*;
 use spindrift::statistics::binomial::interval;
 
-const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
-
 #[test]
 fn ends_are_those_of_the_rows() {
     let scratch = ScratchFolder::new("missions");

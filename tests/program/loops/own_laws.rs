@@ -49,12 +49,10 @@ static OWN: LawKind = LawKind {
     },
 };
 
-const SLEW: &str = include_str!("../../../campaigns/slew_closed.toml");
-
 fn with_own_law() -> String {
     let mut found = String::new();
     let mut is_own = false;
-    for line in SLEW.lines() {
+    for line in SLEW_CLOSED.lines() {
         is_own = if line.starts_with('[') { false } else { is_own || line == "law = \"quaternion_feedback\"" };
         let line = match line.split_once(" = ") {
             Some(("law", "\"quaternion_feedback\"")) => "law = \"own_feedback\"".to_owned(),
@@ -63,7 +61,7 @@ fn with_own_law() -> String {
         };
         found += &(line + "\n");
     }
-    assert_ne!(found, SLEW);
+    assert_ne!(found, SLEW_CLOSED);
     found
 }
 
@@ -81,7 +79,7 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
         let of = |name: &str| results.column(name).unwrap().into_iter().map(f64::to_bits).collect::<Vec<_>>();
         columns.iter().map(|column| (column.quantity.name().to_owned(), of(column.quantity.name()))).collect::<Vec<_>>()
     };
-    let built_in = run(SLEW, session, "built_in");
+    let built_in = run(SLEW_CLOSED, session, "built_in");
     let text = with_own_law();
     let found = run(&text, own, "own");
     assert!(found.len() > 40);

@@ -5,9 +5,6 @@ use crate::prelude::*;
 use crate::loops::actuators::{driven_wheels, limited_slew};
 use crate::loops::flown_loop::SAME_TIME;
 
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
-
 fn changes(flown: &FlownLoop) -> Vec<(f64, usize)> {
     let phases = flown.told("phase");
     let began = |tick: &usize| *tick == 0 || phases[*tick] != phases[tick - 1];

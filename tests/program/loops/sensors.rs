@@ -7,8 +7,6 @@ use spindrift::math::vector::transposed_product;
 
 use crate::loops::flown_loop::State;
 
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-
 /// Rounding of tens of metres and rad/s (an ulp of 40 is 7e-15) of states between steps.
 const AGREED: f64 = 1e-12;
 

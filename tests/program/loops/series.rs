@@ -1,6 +1,5 @@
 //! Recorded quantities of a control loop over time.
 
-use crate::loops::closed_loops::{NET_LAUNCH, SLEW_CLOSED};
 use crate::prelude::*;
 
 /// Ticks of `slew_closed.toml` before its end, where there is one more.

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use std::fmt::Write as _;
 
-use crate::loops::closed_loops::{SLEW_CLOSED, run, small_craft, value};
+use crate::loops::closed_loops::{run, small_craft, value};
 
 fn shown(run: &SingleRun, name: &str) -> Vec<f64> {
     let place = run.telemetry.quantities.iter().position(|quantity| quantity.name() == name);

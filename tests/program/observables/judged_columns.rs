@@ -5,7 +5,7 @@ use crate::prelude::*;
 use crate::support::plans::Table;
 
 fn table(text: &str) -> Table {
-    rows(&Plan::from_text("judged.toml", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}")))
+    rows(&planned(text))
 }
 
 fn coaxial(second: f64) -> Table {

@@ -9,9 +9,6 @@ use crate::page::numbers;
 use crate::small_campaign::RADIANS;
 
 const SAMPLES: usize = 60;
-const NET_LAUNCH: &str = include_str!("../../../campaigns/net_launch.toml");
-const SLEW_CLOSED: &str = include_str!("../../../campaigns/slew_closed.toml");
-const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
 const WHEEL_FAILURE: &str = include_str!("../../../campaigns/wheel_failure.toml");
 const SPIN_SWEEP: &str = include_str!("../../../campaigns/spin_sweep.toml");
 

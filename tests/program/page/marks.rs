@@ -138,7 +138,7 @@ fn the_dominant_frequency_is_that_of_the_peak() {
 /// Law: the energy of a body over time reaches the largest value of its row, within its points.
 #[test]
 fn energies_are_of_their_bodies() {
-    let found = found("energies", &crate::small_campaign::campaign().replace("samples = 600", "samples = 60"));
+    let found = found("energies", &crate::small_campaign::sized(60));
     for body in ["body", "w1", "w2"] {
         let largest = found.all(&[&format!("energy_{body}_max_j")])[0][0];
         let curve = found.array(&found.mark(&format!("energy_{body}_j"), "nominal run")["y"]);

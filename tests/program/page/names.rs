@@ -47,7 +47,7 @@ fn names_of(figure: &Value) -> Vec<String> {
 #[test]
 fn shown_names_are_words_and_unique() {
     let scratch = ScratchFolder::new("page-names");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let folder = root().join("campaigns");
     let mut seen = 0;
     for entry in fs::read_dir(&folder).expect("campaigns") {
         let path = entry.expect("an entry").path();

@@ -152,8 +152,7 @@ const GROUPS: &str = "groups = [\"energy_conservation\", \"momentum_conservation
     \"motion\", \"energies_com\", \"exchange\"]";
 
 pub(crate) fn motion() -> String {
-    campaign().replace("samples = 600", "samples = 300").replace("points = 11", &format!("points = 11\n{GROUPS}"))
-        + MORE
+    sized(300).replace("points = 11", &format!("points = 11\n{GROUPS}")) + MORE
 }
 
 /// Of these runs some end well, some are not accurate and some are not physical; all requirements are missed.

@@ -4,8 +4,6 @@ use crate::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use spindrift::{Overrides, Plan};
-
 const AXIS: f64 = 6_828e3;
 const INCLINATION: f64 = 51.6;
 const DURATION: f64 = 12_000.0;
@@ -113,7 +111,7 @@ fn arrows_point_where_the_run_has_them() {
 }
 
 fn observed(sample: u64, times: &[f64]) -> SingleRun {
-    let plan = Plan::from_text("c", &text(), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = planned(&text());
     let grid = Grid::at(times.to_vec());
     SingleRun::with_series(&plan, SampleId(sample), grid, Isa::best(), &[Group::Orbit, Group::Attitude]).expect("a run")
 }

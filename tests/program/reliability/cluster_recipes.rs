@@ -23,7 +23,7 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
         ("AWS_BATCH_JOB_ARRAY_INDEX", between("{\"command\": [\"sh\", \"-c\", \"", "\"]}")),
     ];
     let scratch = folder("cluster-recipes");
-    scratch.prints("campaign small.toml --samples 9000 --out one", 0);
+    scratch.small("--samples 9000 --out one", 0);
     let one = contents(&scratch.path("one"));
     let parts = one.keys().filter(|name| name.starts_with("runs/part-")).count();
     assert!(parts >= SHARDS, "{parts} parts: a shard has none");
@@ -81,7 +81,7 @@ fn the_slurm_array_makes_the_bytes_of_one_process() {
     let scratch = folder("slurm-recipe");
     let script = slurm_script(&scratch, 9000);
     assert!(script.contains("--signal=B:USR1@60 --requeue"), "{script}");
-    scratch.prints("campaign small.toml --samples 9000 --out one", 0);
+    scratch.small("--samples 9000 --out one", 0);
     for task in [2, 1, 1] {
         assert_eq!(slurm_task(&scratch, task, 0).wait().expect("ended").code(), Some(0), "task {task}");
     }

@@ -86,7 +86,7 @@ fn a_page_that_is_made_again_is_listed() {
 #[test]
 fn rows_with_a_flipped_bit_are_not_read() {
     let scratch = folder("derived-flips");
-    scratch.prints("campaign small.toml --samples 300 --out r", 0);
+    scratch.small("--samples 300 --out r", 0);
     let path = scratch.path("r/runs/part-000001.parquet");
     let whole = fs::read(&path).unwrap();
     let page = fs::read(scratch.path("r/report.html")).unwrap();
@@ -105,10 +105,10 @@ fn rows_with_a_flipped_bit_are_not_read() {
 #[test]
 fn an_unfinished_extension_has_no_summary() {
     let scratch = folder("derived-summary");
-    scratch.prints("campaign small.toml --samples 300 --no-report --out r", 0);
-    scratch.prints("campaign small.toml --samples 900 --no-report --shard 1/2 --out r", 0);
+    scratch.small("--samples 300 --no-report --out r", 0);
+    scratch.small("--samples 900 --no-report --shard 1/2 --out r", 0);
     assert!(!scratch.path("r/summary.json").exists());
-    scratch.prints("campaign small.toml --samples 900 --no-report --out r", 0);
+    scratch.small("--samples 900 --no-report --out r", 0);
     assert_eq!((&scratch.summary("r")["finished"], &scratch.summary("r")["samples"]), (&true.into(), &900.into()));
 }
 
@@ -156,7 +156,7 @@ fn a_repair_that_is_stopped_continues() {
 #[test]
 fn a_lost_manifest_is_made_again() {
     let scratch = folder("derived-manifest");
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out r", 0);
     let root = scratch.path("r");
     let whole = contents(&root);
     for damaged in [None, Some("runs/part-000001.parquet"), Some("bands/part-000002.parquet")] {
@@ -183,10 +183,9 @@ fn a_lost_manifest_is_made_again() {
 #[test]
 fn unlisted_files_are_left_alone() {
     let scratch = folder("derived-foreign");
-    scratch.prints("campaign small.toml --no-report --out r", 0);
+    scratch.small("--no-report --out r", 0);
     scratch.file("r/report.html", "another page");
-    let said = scratch.prints("verify r", 0);
-    assert!(said.contains("report.html: not part of the result"), "{said}");
+    scratch.shows("verify r", 0, "report.html: not part of the result");
     assert_eq!(scratch.text("r/report.html"), "another page");
 }
 

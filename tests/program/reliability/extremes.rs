@@ -60,7 +60,7 @@ fn extremes_are_refused_or_answered() {
     let (mut refused, mut answered) = (0, 0);
     let changes = CHANGES.iter().flat_map(|(key, old, values)| values.iter().map(move |new| (key, old, new)));
     for (key, old, to) in changes {
-        let (good, from) = (campaign().replace("samples = 600", "samples = 5"), format!("{key}{old}"));
+        let (good, from) = (sized(5), format!("{key}{old}"));
         assert!(good.contains(&from), "{from}");
         let limit = if to.contains("max_steps") { "[observe]" } else { "max_steps = 3000\n[observe]" };
         let text = good.replacen(&from, &format!("{key}{to}"), 1).replace("[observe]", limit);
@@ -103,8 +103,7 @@ fn what_is_out_of_reach_ends_at_once() {
     let scratch = folder("out-of-reach");
     for (from, to) in LONG {
         // `auto` finds the period of such rates
-        let text =
-            campaign().replace("samples = 600", "samples = 3").replace("\"auto\"", "\"taylor\"").replacen(from, to, 1);
+        let text = sized(3).replace("\"auto\"", "\"taylor\"").replacen(from, to, 1);
         scratch.file("long.toml", &text);
         let said = scratch.prints_wide("check long.toml", 0);
         let (_, why) =
@@ -138,7 +137,7 @@ fn what_is_out_of_reach_ends_at_once() {
 #[test]
 fn outliers_end_alone() {
     let scratch = folder("outliers");
-    let text = campaign().replace("samples = 600", "samples = 40");
+    let text = sized(40);
     let at = text.find("[[disperse]]").unwrap();
     let radius = "[[disperse]]\nparameter = \"wheels.w1.radius_m\"\ndistribution = \"empirical\"\nfile = \
         \"radii.csv\"\ncolumn = \"x\"\n";

@@ -24,7 +24,7 @@ pub fn alter(scratch: &ScratchFolder, files: &[(&str, &[u8])]) {
 fn two_seeds(name: &str, samples: u64) -> ScratchFolder {
     let scratch = folder(name);
     for (result, seed) in [("r", 7), ("other", 8)] {
-        scratch.prints(&format!("campaign small.toml --samples {samples} --seed {seed} --no-report --out {result}"), 0);
+        scratch.small(&format!("--samples {samples} --seed {seed} --no-report --out {result}"), 0);
     }
     scratch
 }
@@ -94,8 +94,7 @@ fn a_damaged_head_adopts_no_other_plan() {
         if index % 2 == 1 {
             ["r/manifest.json", "r/_SUCCESS"].into_iter().for_each(|name| fs::remove_file(scratch.path(name)).unwrap());
         }
-        let said = scratch.prints("campaign small.toml --samples 300 --seed 8 --no-report --out r", 4);
-        assert!(said.contains("seed"), "{said}");
+        scratch.small_shows("--samples 300 --seed 8 --no-report --out r", 4, "seed");
         assert!(scratch.prints("verify r", 4).contains("dataset.json"));
         let repairs =
             ["verify r --repair", "campaign small.toml --samples 300 --no-report --out r", "finish r --no-report"];
@@ -109,10 +108,9 @@ fn a_damaged_head_adopts_no_other_plan() {
 fn shards_of_two_plans_are_not_merged() {
     let scratch = folder("false-shards");
     for (result, seed, shard) in [("r", 7, "1/2"), ("other", 8, "2/2")] {
-        scratch.prints(&format!("campaign small.toml --seed {seed} --shard {shard} --out {result}"), 0);
+        scratch.small(&format!("--seed {seed} --shard {shard} --out {result}"), 0);
     }
-    let said = scratch.prints("campaign small.toml --seed 8 --shard 2/2 --out r", 4);
-    assert!(said.contains("campaign.seed: 7 there, 8 here"), "{said}");
+    scratch.small_shows("--seed 8 --shard 2/2 --out r", 4, "campaign.seed: 7 there, 8 here");
     for folder in ["runs", "bands"] {
         let name = format!("{folder}/part-000001.parquet");
         fs::copy(scratch.path("other").join(&name), scratch.path("r").join(&name)).unwrap();
@@ -121,8 +119,8 @@ fn shards_of_two_plans_are_not_merged() {
         let said = scratch.prints(command, 4);
         assert!(said.contains("runs/part-000001.parquet: has the rows of another plan (seed 8"), "{command}: {said}");
     }
-    scratch.prints("campaign small.toml --no-report --out r", 0);
-    scratch.prints("campaign small.toml --no-report --out whole", 0);
+    scratch.small("--no-report --out r", 0);
+    scratch.small("--no-report --out whole", 0);
     assert_same(&scratch, "r", "whole");
 }
 

@@ -84,8 +84,7 @@ fn a_result_has_its_data() {
     // counter-test: a copy that has changed is not taken for the file
     let copy = fs::read_dir(scratch.path("campaigns/moved/data")).unwrap().next().unwrap().unwrap().path();
     fs::write(copy, "wheels.w1.radius_m\n0.25\n0.26\n0.25\n").unwrap();
-    let said = scratch.prints("simulate campaigns/moved/plan.toml --sample 1", 2);
-    assert!(said.contains("must be the SHA-256 of the file"), "{said}");
+    scratch.shows("simulate campaigns/moved/plan.toml --sample 1", 2, "must be the SHA-256 of the file");
 }
 
 /// Law: a command never writes to a file that it reads, whatever name leads to it.
@@ -131,13 +130,11 @@ fn a_result_takes_no_other_files() {
     for (option, path) in
         [("--junit", "r/verdicts.xml"), ("--figures", "r/figures"), ("--figures", "campaigns/../r/a/b")]
     {
-        let said = scratch.prints(&format!("campaign small.toml --out r {option} {path}"), 2);
-        assert!(said.contains("must be outside of the result in `r`"), "{said}");
+        scratch.small_shows(&format!("--out r {option} {path}"), 2, "must be outside of the result in `r`");
     }
     assert!(!scratch.path("r").exists());
-    scratch.prints("campaign small.toml --samples 3 --out r --junit verdicts.xml --figures figures", 0);
-    let said = scratch.prints("report r --figures r/figures", 2);
-    assert!(said.contains("must be outside of the result in `r`"), "{said}");
+    scratch.small("--samples 3 --out r --junit verdicts.xml --figures figures", 0);
+    scratch.shows("report r --figures r/figures", 2, "must be outside of the result in `r`");
 }
 
 /// Law: planted links are not followed, and another program's folder is refused.
@@ -152,26 +149,23 @@ fn planted_links_are_not_followed() {
     symlink("precious/file", scratch.path("s.csv")).unwrap();
     scratch.prints("sample small.toml --samples 3 --out s.csv", 0);
     assert!(fs::symlink_metadata(scratch.path("s.csv")).unwrap().is_file());
-    scratch.prints("campaign small.toml --samples 3 --out r", 0);
+    scratch.small("--samples 3 --out r", 0);
     fs::remove_file(scratch.path("r/summary.json")).unwrap();
     symlink("../precious/file", scratch.path("r/summary.json")).unwrap();
-    let said = scratch.prints("campaign small.toml --samples 3 --out r", 4);
-    assert!(said.contains("`r` contains `summary.json`, which is not part of a result"), "{said}");
+    scratch.small_shows("--samples 3 --out r", 4, "`r` contains `summary.json`, which is not part of a result");
     fs::remove_file(scratch.path("r/summary.json")).unwrap();
     fs::rename(scratch.path("r/runs"), scratch.path("runs")).unwrap();
     symlink("../precious", scratch.path("r/runs")).unwrap();
-    let said = scratch.prints("campaign small.toml --samples 3 --out r --overwrite", 4);
-    assert!(said.contains("`r` contains `runs`, which is not part of a result"), "{said}");
+    scratch.small_shows("--samples 3 --out r --overwrite", 4, "`r` contains `runs`, which is not part of a result");
     fs::create_dir_all(scratch.path("new/runs")).unwrap();
     for name in ["dataset.json.tmp", "plan.toml.tmp", "runs/part-000000.parquet.tmp"] {
         symlink(scratch.path("precious/file"), scratch.path("new").join(name)).unwrap();
     }
-    let said = scratch.prints("campaign small.toml --samples 3 --out new", 4);
-    assert!(said.contains("not part of a result"), "{said}");
+    scratch.small_shows("--samples 3 --out new", 4, "not part of a result");
     fs::create_dir(scratch.path("l")).unwrap();
     symlink("../runs", scratch.path("l/runs")).unwrap();
     let before = contents(&scratch.path("runs"));
-    scratch.prints("campaign small.toml --samples 3 --seed 5 --out l", 4);
+    scratch.small("--samples 3 --seed 5 --out l", 4);
     assert!(contents(&scratch.path("runs")) == before);
     assert_eq!(scratch.text("precious/file"), "precious");
     assert_eq!(fs::read_dir(scratch.path("precious")).unwrap().count(), 1);
@@ -232,7 +226,7 @@ fn too_many_files_of_numbers_are_refused() {
 #[test]
 fn threads_that_do_not_start_are_no_input_error() {
     let scratch = folder("no-threads");
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out r", 0);
     // stacks that are larger than the addresses of a process
     let command = |arguments: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
@@ -280,7 +274,7 @@ fn escapes_in_arguments_are_shown_as_text() {
 #[test]
 fn a_limit_of_file_sizes_is_an_error() {
     let scratch = folder("file-limit");
-    scratch.prints("campaign small.toml --out whole", 0);
+    scratch.small("--out whole", 0);
     let limited = |arguments: &str, code: i32| {
         // blocks of 512 bytes
         let line = format!("ulimit -f 8; exec '{}' {arguments}", env!("CARGO_BIN_EXE_spindrift"));
@@ -295,7 +289,7 @@ fn a_limit_of_file_sizes_is_an_error() {
         let said = limited(arguments, 4);
         assert!(said.contains("File too large"), "{arguments}: {said}");
     }
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out r", 0);
     assert!(contents(&scratch.path("r")) == contents(&scratch.path("whole")));
     // counter-test: what fits is written
     limited("check small.toml", 0);

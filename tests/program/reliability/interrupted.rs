@@ -72,24 +72,21 @@ fn a_thousand_kills() {
 #[test]
 fn a_finished_campaign_is_extended() {
     let scratch = folder("extend");
-    scratch.prints("campaign small.toml --samples 900 --out grown", 0);
+    scratch.small("--samples 900 --out grown", 0);
     let before = scratch.parts("grown");
-    let said = scratch.prints("campaign small.toml --samples 2000 --out grown", 0);
-    assert!(said.contains("768 samples already there, 1232 to run"), "{said}");
+    scratch.small_shows("--samples 2000 --out grown", 0, "768 samples already there, 1232 to run");
     assert_eq!(scratch.parts("grown")[..3], before[..3], "whole parts stay");
-    scratch.prints("campaign small.toml --samples 2000 --out whole", 0);
+    scratch.small("--samples 2000 --out whole", 0);
     assert_same(&scratch, "grown", "whole");
-    let said = scratch.prints("verify grown --fraction 1", 0);
-    assert!(said.contains("files made of plan and rows again and compared: sound"), "{said}");
-    let said = scratch.prints("campaign small.toml --samples 100 --out grown", 4);
-    assert!(said.contains("2000 rows"), "{said}");
+    scratch.shows("verify grown --fraction 1", 0, "files made of plan and rows again and compared: sound");
+    scratch.small_shows("--samples 100 --out grown", 4, "2000 rows");
 }
 
 /// Law: a change that leaves the rows alone changes no part; verdicts and names are made again without a run.
 #[test]
 fn other_questions_of_the_same_rows_run_nothing() {
     let scratch = folder("questions");
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out r", 0);
     let before = scratch.parts("r");
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
     scratch.file("strict.toml", &format!("{}{require}", campaign().replace("\"small\"", "\"strict\"")));
@@ -104,8 +101,8 @@ fn other_questions_of_the_same_rows_run_nothing() {
 #[test]
 fn a_damaged_manifest_is_recovered() {
     let scratch = folder("manifest");
-    scratch.prints("campaign small.toml --out whole", 0);
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out whole", 0);
+    scratch.small("--out r", 0);
     let text = scratch.text("whole/manifest.json");
     let lines = text.lines().count();
     for line in 0..=lines {
@@ -118,7 +115,7 @@ fn a_damaged_manifest_is_recovered() {
         if line == lines {
             fs::remove_file(scratch.path("r/manifest.json")).unwrap();
         }
-        let said = scratch.prints("campaign small.toml --out r", 0);
+        let said = scratch.small("--out r", 0);
         assert_eq!(said.matches("manifest.json:").count(), 1, "{said}");
         assert_same(&scratch, "r", "whole");
     }
@@ -128,18 +125,16 @@ fn a_damaged_manifest_is_recovered() {
 #[test]
 fn fewer_samples_than_before() {
     let scratch = folder("fewer");
-    scratch.prints("campaign small.toml --out whole", 0);
+    scratch.small("--out whole", 0);
     let without = |result: &str, part: u32| {
         fs::remove_file(scratch.path(&format!("{result}/runs/part-{part:06}.parquet"))).unwrap();
     };
-    let longer =
-        |result: &str| scratch.prints(&format!("campaign small.toml --samples 1100 --shard 1/1 --out {result}"), 0);
+    let longer = |result: &str| scratch.small(&format!("--samples 1100 --shard 1/1 --out {result}"), 0);
     longer("r");
     [1, 2, 4].into_iter().for_each(|part| without("r", part));
-    let said = scratch.prints("campaign small.toml --out r", 4);
-    assert!(said.contains("1024 rows of this plan, more than its 600 samples"), "{said}");
+    scratch.small_shows("--out r", 4, "1024 rows of this plan, more than its 600 samples");
     without("r", 3);
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out r", 0);
     assert_same(&scratch, "r", "whole");
 }
 
@@ -147,8 +142,8 @@ fn fewer_samples_than_before() {
 #[test]
 fn the_old_result_stays_until_the_new_one_is_complete() {
     let scratch = folder("replace");
-    scratch.prints("campaign small.toml --out r", 0);
-    scratch.prints("campaign small.toml --out whole --seed 9", 0);
+    scratch.small("--out r", 0);
+    scratch.small("--out whole --seed 9", 0);
     let old = contents(&scratch.path("r"));
     let mut child = start(&scratch, &format!("campaign small.toml --seed 9 --overwrite --out r --samples {SAMPLES}"));
     let staged = |entry: fs::DirEntry| {
@@ -163,7 +158,7 @@ fn the_old_result_stays_until_the_new_one_is_complete() {
     if !child.wait().unwrap().success() {
         assert!(contents(&scratch.path("r")) == old, "the old result is as it was");
     }
-    scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 0);
+    scratch.small("--seed 9 --overwrite --out r", 0);
     assert_same(&scratch, "r", "whole");
     let beside = fs::read_dir(&scratch.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     assert_eq!(beside.filter(|name| name.starts_with('.')).collect::<Vec<_>>(), [""; 0]);

@@ -13,7 +13,7 @@ const STEP: usize = 7;
 
 /// The library; `None` where there is no compiler for it.
 fn library(scratch: &ScratchFolder) -> Option<PathBuf> {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/reliability/power_loss.c");
+    let source = root().join("tests/program/reliability/power_loss.c");
     let library = scratch.path("power_loss.so");
     let compiled =
         Command::new("cc").args(["-shared", "-fPIC", "-O1", "-o"]).arg(&library).arg(source).args(["-ldl"]).status();
@@ -91,9 +91,9 @@ fn power_fails(step: usize) {
     for name in ["nothing", "small", "other", "damaged"] {
         fs::create_dir_all(scratch.path(name)).unwrap();
     }
-    scratch.prints("campaign small.toml --samples 20 --no-report --threads 1 --out small/r", 0);
-    scratch.prints("campaign small.toml --samples 300 --seed 8 --no-report --threads 1 --out other/r", 0);
-    scratch.prints("campaign small.toml --samples 300 --no-report --threads 1 --out damaged/r", 0);
+    scratch.small("--samples 20 --no-report --threads 1 --out small/r", 0);
+    scratch.small("--samples 300 --seed 8 --no-report --threads 1 --out other/r", 0);
+    scratch.small("--samples 300 --no-report --threads 1 --out damaged/r", 0);
     let whole = contents(&scratch.path("damaged/r"));
     fs::write(scratch.path("damaged/r/runs/part-000001.parquet"), "damaged").unwrap();
     fs::write(scratch.path("damaged/r/summary.json"), "damaged").unwrap();

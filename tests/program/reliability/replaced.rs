@@ -86,23 +86,20 @@ fn a_link_is_the_folder_that_it_leads_to() {
         assert_same(&scratch, "disk/r", "whole");
         assert_eq!(entries(&scratch.path("disk")).len(), 1);
         scratch.prints("verify links", 0);
-        let said = scratch.prints(&format!("{command} --seed {seed} --out links"), 0);
-        assert!(said.contains("already complete"), "{said}");
+        scratch.shows(&format!("{command} --seed {seed} --out links"), 0, "already complete");
     }
     assert!(["link", "links"].iter().all(|name| fs::symlink_metadata(scratch.path(name)).unwrap().is_symlink()));
     std::os::unix::fs::symlink("round", scratch.path("round")).unwrap();
-    let said = scratch.prints(&format!("{command} --out round"), 4);
-    assert!(said.contains("a link that leads to itself"), "{said}");
+    scratch.shows(&format!("{command} --out round"), 4, "a link that leads to itself");
 }
 
 /// Law: the current folder takes a result and continues it, but is not replaced, which is refused before any run.
 #[test]
 fn the_current_folder_is_not_replaced() {
     let scratch = folder("replaced-current");
-    scratch.prints("campaign small.toml --samples 300 --out r", 0);
+    scratch.small("--samples 300 --out r", 0);
     let inside = ScratchFolder(scratch.path("r"));
-    let said = inside.prints("campaign ../small.toml --samples 300 --out .", 0);
-    assert!(said.contains("already complete"), "{said}");
+    inside.shows("campaign ../small.toml --samples 300 --out .", 0, "already complete");
     inside.prints("campaign ../small.toml --samples 600 --out .", 0);
     let before = contents(&inside.0);
     for out in [".", "../r", "runs/.."] {
@@ -112,7 +109,7 @@ fn the_current_folder_is_not_replaced() {
         assert!(contents(&inside.0) == before);
         assert!(entries(&scratch.0).iter().all(|name| !name.starts_with('.')), "{:?}", entries(&scratch.0));
     }
-    scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 0);
+    scratch.small("--seed 9 --overwrite --out r", 0);
 }
 
 /// Law: nor is a mount point.
@@ -130,13 +127,13 @@ fn a_mount_point_is_not_replaced() {
         return;
     }
     let ended = std::panic::catch_unwind(|| {
-        scratch.prints("campaign small.toml --samples 300 --out r", 0);
+        scratch.small("--samples 300 --out r", 0);
         let before = contents(&root);
-        let said = scratch.prints("campaign small.toml --seed 9 --overwrite --out r", 4);
+        let said = scratch.small("--seed 9 --overwrite --out r", 4);
         assert!(said.contains("cannot be replaced") && said.contains("another one as --out"), "{said}");
         assert!(contents(&root) == before);
         assert!(entries(&scratch.0).iter().all(|name| !name.starts_with('.')), "{:?}", entries(&scratch.0));
-        scratch.prints("campaign small.toml --samples 600 --out r", 0);
+        scratch.small("--samples 600 --out r", 0);
     });
     assert!(std::process::Command::new("umount").arg(&root).status().unwrap().success());
     ended.unwrap();
@@ -149,7 +146,7 @@ fn a_mount_point_is_not_replaced() {
 fn links_swapped_in_during_a_run_are_not_followed() {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
     let scratch = folder("replaced-swapped");
-    scratch.prints("campaign small.toml --seed 3 --out victim", 0);
+    scratch.small("--seed 3 --out victim", 0);
     let before = contents(&scratch.path("victim"));
     let command = "campaign small.toml --samples 60000 --threads 1 --no-report";
     scratch.prints(&format!("{command} --out whole"), 0);

@@ -145,7 +145,7 @@ fn of_two_plans_one_wins_without_locks() {
 fn a_lock_that_fails_is_an_error() {
     let scratch = folder("lock-error");
     let Some(library) = no_locks(&scratch) else { return };
-    scratch.prints("campaign small.toml --samples 20 --out r", 0);
+    scratch.small("--samples 20 --out r", 0);
     let commands = ["campaign small.toml --samples 20 --out new", "verify r", "finish r", "report r", "compare r r"];
     let commands = commands.map(str::to_owned);
     for (code, said) in together(&scratch, &commands, Some((&library, EIO))) {

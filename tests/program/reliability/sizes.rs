@@ -9,11 +9,11 @@ use crate::reliability::failing_store::contents;
 fn what_no_machine_can_do_is_refused() {
     let scratch = folder("sizes");
     scratch.file("points.toml", &campaign().replace("points = 11", "points = 10000000"));
-    scratch.file("more.toml", &campaign().replace("samples = 600", "samples = 1000000000000000000"));
+    scratch.file("more.toml", &sized(1000000000000000000));
     let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = \
         9007199254740992\n";
     scratch.file("stop.toml", &format!("{}{stop}", campaign()));
-    scratch.file("precise.toml", &campaign().replace("samples = 600", "samples = 900000000000"));
+    scratch.file("precise.toml", &sized(900000000000));
     for (command, said) in [
         ("campaign small.toml --out r --samples 9007199254740992", "9.007e15 runs of small: about"),
         ("campaign small.toml --out r --samples 9007199254740992", "of files in `r`"),
@@ -55,11 +55,11 @@ fn what_no_machine_can_do_is_refused() {
 fn a_slip_in_an_address_makes_no_folder() {
     let scratch = folder("addresses");
     for out in ["s3:/bucket/x", "s3:bucket/x", "S3://bucket/x", "gs:/bucket/x", "s3:"] {
-        let said = scratch.prints(&format!("campaign small.toml --samples 2 --out {out}"), 2);
+        let said = scratch.small(&format!("--samples 2 --out {out}"), 2);
         assert!(said.contains("s3://bucket/name"), "{out}: {said}");
     }
     assert!(fs::read_dir(&scratch.0).unwrap().all(|entry| !entry.unwrap().file_name().to_string_lossy().contains(':')));
-    scratch.prints("campaign small.toml --samples 2 --no-report --out ./s3:/x", 0);
+    scratch.small("--samples 2 --no-report --out ./s3:/x", 0);
     assert!(scratch.path("s3:/x/dataset.json").exists());
 }
 
@@ -71,11 +71,14 @@ fn what_is_long_is_asked_for() {
     let long =
         campaign().replace("duration_s = 1.0", "duration_s = 1000.0").replace("tolerance = 1e-10", "tolerance = 1e-14");
     scratch.file("long.toml", &long.replace("method = \"auto\"", "method = \"null_space\"").replace("1e-14", "1e-10"));
-    let said = scratch.prints("campaign long.toml --out r --samples 20000", 2);
-    assert!(said.contains("that is more than 24 hours of CPU time; --yes starts it"), "{said}");
+    scratch.shows(
+        "campaign long.toml --out r --samples 20000",
+        2,
+        "that is more than 24 hours of CPU time; --yes starts it",
+    );
     assert!(!scratch.path("r").exists());
-    scratch.prints("campaign small.toml --out r --samples 600", 0);
-    scratch.prints("campaign small.toml --out r --samples 700 --yes", 0);
+    scratch.small("--out r --samples 600", 0);
+    scratch.small("--out r --samples 700 --yes", 0);
 }
 
 /// Law: replacing a complete result needs `--yes` as an empty folder does; continuing it needs `--yes` for the rest only.
@@ -99,8 +102,7 @@ fn what_is_replaced_is_asked_for() {
     let said = scratch.prints("campaign long.toml --out r --overwrite", 2);
     assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
     assert!(contents(&scratch.path("r")) == before, "refused, and the result is another");
-    let said = scratch.prints("campaign long.toml --out r", 1);
-    assert!(said.contains("already complete"), "{said}");
+    scratch.shows("campaign long.toml --out r", 1, "already complete");
     assert!(contents(&scratch.path("r")) == before);
     let entries = fs::read_dir(&scratch.0).unwrap().count();
     assert_eq!(entries, 4, "a folder of a replacement is left");

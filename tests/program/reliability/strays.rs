@@ -28,7 +28,7 @@ fn strays_are_named_and_left_alone() {
     let retained = format!("{}\n[retain]\ntrajectories = \"sample:2\"\n", campaign());
     scratch.file("small.toml", &retained);
     for samples in [300, 900] {
-        scratch.prints(&format!("campaign small.toml --samples {samples} --out whole{samples}"), 0);
+        scratch.small(&format!("--samples {samples} --out whole{samples}"), 0);
     }
     let shard = |shard: u32| format!("campaign small.toml --samples 300 --out r --shard {shard}/2");
     scratch.prints(&shard(1), 0);
@@ -56,7 +56,7 @@ fn strays_are_named_and_left_alone() {
         files
     };
     assert!(mine("r") == mine("whole300"));
-    named(&scratch.prints("campaign small.toml --samples 900 --out r", 0));
+    named(&scratch.small("--samples 900 --out r", 0));
     scratch.prints("verify r", 0);
     let same = |name: &str| {
         let [r, whole] = ["r", "whole900"].map(|result| fs::read(scratch.path(result).join(name)).unwrap());
@@ -65,8 +65,7 @@ fn strays_are_named_and_left_alone() {
     ["runs/part-000003.parquet", "statistics.parquet", "summary.json"].into_iter().for_each(same);
     assert!(strays.iter().all(|path| fs::read_to_string(path).unwrap() == "precious"));
     // counter-test: replacing the result would lose them
-    let said = scratch.prints("campaign small.toml --samples 300 --out r --overwrite", 4);
-    assert!(said.contains("not part of a result of spindrift; move it away"), "{said}");
+    scratch.small_shows("--samples 300 --out r --overwrite", 4, "not part of a result of spindrift; move it away");
     assert!(strays.iter().all(|path| path.exists()));
 }
 
@@ -74,7 +73,7 @@ fn strays_are_named_and_left_alone() {
 #[test]
 fn what_no_manifest_lists_is_left_alone() {
     let scratch = folder("strays-part");
-    scratch.prints("campaign small.toml --out r", 0);
+    scratch.small("--out r", 0);
     let before = contents(&scratch.path("r"));
     for name in ["runs/part-000003.parquet", "bands/part-000099.parquet", "trajectories/sample-000007.parquet"] {
         let stray = plant(&scratch, "r", &[name]).remove(0);
@@ -84,7 +83,7 @@ fn what_no_manifest_lists_is_left_alone() {
             assert!(is_named || command == "report r", "{command}: {said}");
         }
         for options in ["--samples 2000", "--seed 9 --overwrite"] {
-            let said = scratch.prints(&format!("campaign small.toml --out r {options}"), 4);
+            let said = scratch.small(&format!("--out r {options}"), 4);
             assert!(said.contains(&format!("`{name}`, which is not part of a result")), "{options}: {said}");
         }
         assert_eq!(fs::read_to_string(&stray).unwrap(), "precious");

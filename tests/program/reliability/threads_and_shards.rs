@@ -13,7 +13,7 @@ fn threads_and_shards_change_no_byte() {
     let scratch = folder("threads-shards");
     // some samples are not physical, some runs are audited and kept, and some columns are expressions
     let rest = "\n[audit]\nfraction = 0.001\n[retain]\ntrajectories = \"worst:3 by energy_error_max\"\n";
-    let text = [&campaign().replace("samples = 600", "samples = 3600"), NEGATIVE_WALLS, MORE, rest].concat();
+    let text = [&sized(3600), NEGATIVE_WALLS, MORE, rest].concat();
     scratch.file("all.toml", &text);
     let mut first = None;
     for shards in SHARDS {
@@ -57,8 +57,7 @@ fn a_shard_reads_its_own_parts() {
     assert!(!said.contains("damaged") && said.contains("768 samples already there, 0 to run"), "{said}");
     let said = scratch.prints("finish r", 4);
     assert!(said.contains("part-000001") && said.contains("missing"), "{said}");
-    let said = scratch.prints(&shard(2), 0);
-    assert!(said.contains("464 samples already there, 256 to run"), "{said}");
+    scratch.shows(&shard(2), 0, "464 samples already there, 256 to run");
     assert!(fs::read(part(1)).unwrap() == whole);
     scratch.prints("finish r", 0);
 }

@@ -38,10 +38,10 @@ fn without_maximum(path: &Path) -> (Vec<String>, usize) {
 fn every_column_has_a_maximum_and_a_mean() {
     let scratch = folder("absent");
     // five points are too few for a frequency: the runs are `ok` and have none
-    let text = campaign().replace("samples = 600", "samples = 40").replace("points = 11", "points = 5");
+    let text = sized(40).replace("points = 11", "points = 5");
     let rest = "[retain]\ntrajectories = \"all\"\n[audit]\nfraction = 0.2\n";
     scratch.file("small.toml", &format!("{text}{NEGATIVE_WALLS}{rest}"));
-    scratch.prints("campaign small.toml --out r", 1);
+    scratch.small("--out r", 1);
     scratch.prints("sample small.toml --out s.parquet", 0);
     let files = [tables(&scratch.path("r")), vec![scratch.path("s.parquet")]].concat();
     assert!(files.len() > 20, "{} files", files.len());

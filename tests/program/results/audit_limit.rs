@@ -6,7 +6,7 @@ use spindrift::ensemble::{Auditor, NoAudit};
 use spindrift::storage::rows_file::AUDIT_REASON;
 
 fn with_debris_rate(rate: f64) -> String {
-    let text = campaign().replace("samples = 600", "samples = 6");
+    let text = sized(6);
     let text = text.replace("= [100, 0, 0]", &format!("= [{rate:?}, 0, 0]"));
     format!("{text}[audit]\nfraction = 1.0\n")
 }
@@ -34,8 +34,7 @@ fn an_audit_has_a_limit() {
         if !is_audited {
             let expected = "units of time (powers of two near the inverse of its rate), more than the 16384";
             assert!(reasons.iter().flatten().all(|reason| reason.contains(expected)), "{}", reasons.value(0));
-            let said = scratch.prints("simulate fast.toml --audit", 0);
-            assert!(said.contains("sample 0 has no audit: the debris turns for"), "{said}");
+            scratch.shows("simulate fast.toml --audit", 0, "sample 0 has no audit: the debris turns for");
         }
     }
 }
@@ -63,7 +62,7 @@ fn told(text: &str) -> Vec<u64> {
 /// Law: of long runs, and of audited ones, progress is told within a batch; of short ones once for a batch.
 #[test]
 fn progress_is_told_within_a_batch() {
-    let short = campaign().replace("samples = 600", "samples = 64").replace("duration_s = 1.0", "duration_s = 0.001");
+    let short = sized(64).replace("duration_s = 1.0", "duration_s = 0.001");
     let long = short.replace("duration_s = 0.001", "duration_s = 10.0").replace("\"auto\"", "\"runge_kutta_4\"");
     let long = long.replace("tolerance = 1e-10", "step_s = 0.001");
     let audited = format!("{short}[audit]\nfraction = 1.0\n");

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 
-const DETUMBLE: &str = include_str!("../../../campaigns/detumble.toml");
-
 /// Law: where a thruster is dead in a few runs and these miss a limit, screen, card and chart name it first, with the
 /// counts of the rows.
 #[test]

@@ -32,8 +32,11 @@ fn failed_samples_run_under_another_plan() {
     let scratch = results("failed-again");
     let failed: Vec<u64> = rows(&scratch, "tight").iter().filter(|(_, row)| row.0 != "ok").map(|(id, _)| *id).collect();
     assert!((20..750).contains(&failed.len()), "{} failed", failed.len());
-    let said = scratch.prints("campaign enough.toml --only-failed-of tight --out again", 0);
-    assert!(said.contains(&format!("{} runs computed", failed.len())), "{said}");
+    scratch.shows(
+        "campaign enough.toml --only-failed-of tight --out again",
+        0,
+        &format!("{} runs computed", failed.len()),
+    );
     let (again, all) = (rows(&scratch, "again"), rows(&scratch, "all"));
     assert_eq!(again.keys().copied().collect::<Vec<_>>(), failed);
     for (sample, row) in &again {
@@ -62,8 +65,7 @@ fn failed_samples_run_under_another_plan() {
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nfraction = 0.5\nat_most = 1e-30\n";
     scratch.file("required.toml", &(limited(10_000) + require));
     scratch.prints("campaign required.toml --samples 1500 --seed 9 --out required", 3);
-    let said = scratch.prints("campaign required.toml --only-failed-of tight --out chosen", 5);
-    assert!(said.contains("campaign.only"), "{said}");
+    scratch.shows("campaign required.toml --only-failed-of tight --out chosen", 5, "campaign.only");
 }
 
 #[test]
@@ -75,8 +77,7 @@ fn the_same_plan_fails_the_same_way() {
     // another choice of samples is another result
     scratch.file("tighter.toml", &limited(38));
     scratch.prints("campaign tighter.toml --samples 1500 --seed 9 --out tighter", 1);
-    let said = scratch.prints("campaign tight.toml --only-failed-of tighter --out same", 4);
-    assert!(said.contains("campaign.only"), "{said}");
+    scratch.shows("campaign tight.toml --only-failed-of tighter --out same", 4, "campaign.only");
     let said = scratch.prints("campaign enough.toml --only-failed-of all --out none", 0);
     assert!(said.contains("no run failed") && !scratch.path("none").exists(), "{said}");
     for (arguments, code) in [
@@ -88,8 +89,7 @@ fn the_same_plan_fails_the_same_way() {
     }
     let damaged = scratch.path("tight/runs/part-000001.parquet");
     fs::write(&damaged, b"x").unwrap();
-    let said = scratch.prints("campaign enough.toml --only-failed-of tight --out x", 4);
-    assert!(said.contains("part-000001"), "{said}");
+    scratch.shows("campaign enough.toml --only-failed-of tight --out x", 4, "part-000001");
 }
 
 /// Law: with `--fail-fast` no part starts after one with a run that failed, the message replays that run, and the
@@ -165,8 +165,7 @@ fn printed_commands_give_the_rows() {
     for options in
         ["", "--samples 300", "--seed 11", "--samples 300 --seed 11", "--audit 0.1", "--only-failed-of tight"]
     {
-        let said =
-            scratch.prints(&format!("campaign small.toml {options} --out r --overwrite --no-report --verbose"), 0);
+        let said = scratch.small(&format!("{options} --out r --overwrite --no-report --verbose"), 0);
         let rows = scratch.rows("r");
         let samples: Vec<u64> = ended(&rows).into_iter().map(|(sample, _)| sample).collect();
         let drawn = axes.map(|axis| column(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));

@@ -81,8 +81,7 @@ fn garbage_is_inaccurate() {
         }
     }
     assert_eq!(scratch.summary("long")["statuses"]["inaccurate"], 40);
-    let said = scratch.prints("simulate long.toml --sample 3", 1);
-    assert!(said.contains("the run ended with inaccurate: "), "{said}");
+    scratch.shows("simulate long.toml --sample 3", 1, "the run ended with inaccurate: ");
     // the counter-test: with steps that are short enough no run is
     scratch.file("short.toml", &too_long.replace("step_s = 0.25", "step_s = 0.001"));
     scratch.prints("campaign short.toml --samples 40 --out short", 0);
@@ -161,8 +160,7 @@ fn failed_rows_have_reasons() {
     let said = scratch.prints(&format!("simulate thin.toml --sample {row}"), 2);
     let reason = said.lines().find(|line| line.starts_with("  ")).expect("a reason");
     assert!(said.contains("invalid_sample") && reason.contains("wall_thickness_m"), "{said}");
-    let said = scratch.prints(&format!("sample thin.toml --sample {row}"), 0);
-    assert!(said.contains(reason), "{said}");
+    scratch.shows(&format!("sample thin.toml --sample {row}"), 0, reason);
 
     scratch.file("short.toml", &campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1"));
     scratch.prints("campaign short.toml --samples 5 --out short", 1);

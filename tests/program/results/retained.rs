@@ -31,7 +31,7 @@ fn retained(plan: &Plan, rows: &RowsReader, threads: Option<NonZeroUsize>) -> Re
 fn rules_choose_what_they_say() {
     let scratch = folder("retained");
     scratch.file("small.toml", &file("none"));
-    scratch.prints("campaign small.toml --out r", 1);
+    scratch.small("--out r", 1);
     let reader = rows(&scratch);
     let table = scratch.rows("r");
     let all = ended(&table);
@@ -78,7 +78,7 @@ fn a_campaign_keeps_what_its_file_asks_for() {
     let scratch = folder("retain");
     let kept = |retain: &str, code: i32| -> BTreeSet<String> {
         scratch.file("small.toml", &file(retain));
-        scratch.prints("campaign small.toml --out r", code);
+        scratch.small("--out r", code);
         let entries = fs::read_dir(scratch.path("r/trajectories")).into_iter().flatten();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     };
@@ -106,7 +106,7 @@ fn a_campaign_ends_with_bands() {
     let scratch = folder("bands");
     scratch.file("small.toml", &(campaign() + NEGATIVE_WALLS));
     let files = [1, 2].map(|threads| {
-        scratch.prints(&format!("campaign small.toml --threads {threads} --out r{threads}"), 1);
+        scratch.small(&format!("--threads {threads} --out r{threads}"), 1);
         fs::read(scratch.path(&format!("r{threads}/bands.parquet"))).unwrap()
     });
     assert!(files[0] == files[1]);
@@ -128,7 +128,7 @@ fn a_campaign_ends_with_bands() {
     let ok = ok.count() as i64;
     assert!(ok < 599 && counts.iter().all(|count| *count == ok), "{ok} runs are ok: {counts:?}");
     scratch.file("small.toml", &(campaign() + "[bands]\npoints = 0\n"));
-    scratch.prints("campaign small.toml --out none", 0);
+    scratch.small("--out none", 0);
     assert!(
         !scratch.path("none/bands.parquet").exists()
             && !scratch.path("none/bands").join("part-000000.parquet").exists()

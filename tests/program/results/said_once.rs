@@ -208,7 +208,7 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
 #[test]
 fn shipped_campaigns_are_said_once() {
     let scratch = folder("said-once");
-    let campaigns = Path::new(env!("CARGO_MANIFEST_DIR")).join("campaigns");
+    let campaigns = root().join("campaigns");
     let mut files: Vec<_> = fs::read_dir(&campaigns).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "toml")) {

@@ -210,7 +210,7 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     const REPLICATES: usize = 8;
     let scratch = folder("statistics-replicates");
     let design = "[design]\nkind = \"latin_hypercube\"\nreplicates = 8\n";
-    scratch.file("many.toml", &(campaign().replace("samples = 600", "samples = 601") + design + MORE));
+    scratch.file("many.toml", &(sized(601) + design + MORE));
     scratch.prints("campaign many.toml --out r --no-report", 0);
     let rows = scratch.rows("r");
     let table = scratch.table("r/statistics.parquet");

@@ -13,7 +13,7 @@ fn stopping(half_width: &str) -> String {
         "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = {half_width}\nmax_samples \
         = 2400\n"
     );
-    campaign().replace("samples = 600", "samples = 300") + &stop
+    sized(300) + &stop
 }
 
 fn half_width(summary: &Value) -> f64 {
@@ -72,7 +72,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
         assert_eq!(found["stop"]["estimate"].as_f64(), Some(median(&scratch, result)), "{result}");
     }
 
-    scratch.prints(&format!("campaign small.toml --samples {samples} --out fixed"), 0);
+    scratch.small(&format!("--samples {samples} --out fixed"), 0);
     assert_eq!(scratch.parts("stopped"), scratch.parts("fixed"));
     let said = scratch.prints("campaign stop.toml --out stopped", 0);
     assert!(said.contains("already complete") && said.contains(&format!("({samples} samples")), "{said}");
@@ -100,8 +100,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     // the rows of a narrower goal contain those of a wider one
     scratch.prints("campaign never.toml --out stopped", 5);
     assert_eq!(scratch.parts("stopped"), scratch.parts("never"));
-    let said = scratch.prints("campaign stop.toml --shard 1/2 --out shard", 2);
-    assert!(said.contains("[stop]"), "{said}");
+    scratch.shows("campaign stop.toml --shard 1/2 --out shard", 2, "[stop]");
 }
 
 /// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors
@@ -110,7 +109,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
 fn a_campaign_stops_when_its_requirements_are_decided() {
     const NAME: &str = "exchange_w1_peak_to_peak_j";
     let scratch = folder("decided");
-    scratch.prints("campaign small.toml --samples 2400 --out all --no-report", 0);
+    scratch.small("--samples 2400 --out all --no-report", 0);
     let values: Vec<f64> = column(&scratch.rows("all"), NAME).into_iter().skip(1).collect();
     let mut ascending = values.clone();
     ascending.sort_by(f64::total_cmp);
@@ -120,7 +119,7 @@ fn a_campaign_stops_when_its_requirements_are_decided() {
             "\n[[require]]\nobservable = \"{NAME}\"\nquantile = 0.5\nat_most = {limit:?}\n[stop]\nwhen = \
             \"decided\"\nmax_samples = 2400\n"
         );
-        campaign().replace("samples = 600", "samples = 300") + &tables
+        sized(300) + &tables
     };
     // limits that 54% to 75% of the runs keep, and 25% to 46%: each side is decided at other looks
     let mut ends = Vec::new();
