@@ -140,7 +140,8 @@ fn hard() -> Vec<Hard> {
     list
 }
 
-/// The change of the final state when the exact state is rounded at one of four times and integrated exactly from there.
+/// The change of the final state when the exact state is rounded at one of four times and integrated exactly from
+/// there.
 fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     let last = grid.points() - 1;
     let moved = |point: usize| {

@@ -2,7 +2,8 @@
 
 use crate::support::prelude::*;
 
-/// Methods with their largest relative distances. Measured: 6.6e-15, 6.6e-15, 5.8e-13, 1.1e-11, 5.5e-15, 1.1e-8, 5.9e-11.
+/// Methods with their largest relative distances. Measured: 6.6e-15, 6.6e-15, 5.8e-13, 1.1e-11, 5.5e-15, 1.1e-8,
+/// 5.9e-11.
 const METHODS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 5e-14),
     (Method::Taylor, adaptive(1e-16), 5e-14),
@@ -19,7 +20,8 @@ fn off<const K: usize>(run: &Run, field: StateField, point: usize, expected: [f6
     found.iter().zip(expected).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() / size
 }
 
-/// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by tau t^2/(2 J).
+/// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by tau t^2/(2
+/// J).
 #[test]
 fn an_axisymmetric_body_spins_up() {
     let (rate, torque) = (0.5, 40.0);

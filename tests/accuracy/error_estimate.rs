@@ -44,8 +44,8 @@ fn too_large(method: Method, family: &str) -> f64 {
     }
 }
 
-/// Whether the estimate of a setting is shown but not judged (`docs/results.md`): below 1e-12 the unknown rounding of drag
-/// and light counts, and the shortest steps of `gauss_legendre_6` leave only rounding.
+/// Whether the estimate of a setting is shown but not judged (`docs/results.md`): below 1e-12 the unknown rounding of
+/// drag and light counts, and the shortest steps of `gauss_legendre_6` leave only rounding.
 fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
     (IN_AIR.contains(&family) && setting < 1e-12)
         || (method == Method::Gyrostat(Integrator::GaussLegendre) && family == LIBRATING && setting < 5e-3)

@@ -171,8 +171,8 @@ fn on_the_separatrix(u: &mut Uniform, moments: [f64; 3], [low, high]: [f64; 2]) 
     rate
 }
 
-/// A body with these second moments of mass in an orbit of 37,000 s with a perigee of 500 to 8,000 km, turning at `rates`
-/// times the mean motion.
+/// A body with these second moments of mass in an orbit of 37,000 s with a perigee of 500 to 8,000 km, turning at
+/// `rates` times the mean motion.
 fn eccentric(u: &mut Uniform, second: [f64; 3], rates: [f64; 2]) -> SceneInput {
     let axis = 2.4e7;
     let perigee = u.between(6.88e6, 1.4e7);

@@ -1,5 +1,5 @@
-//! NASA's JEOD: free rotation, pulses of torque and force on the space station, and the gravity gradient on a circle and
-//! an ellipse, over eight hours of a two-body orbit.
+//! NASA's JEOD: free rotation, pulses of torque and force on the space station, and the gravity gradient on a circle
+//! and an ellipse, over eight hours of a two-body orbit.
 
 use crate::support::prelude::*;
 

@@ -51,8 +51,8 @@ fn angle(scene: &Scene) -> f64 {
 }
 
 /// The scale of an error of the work, J, at least one: the largest of the terms whose difference it is. The motor of a
-/// held wheel does A Omega (w(t) - w(0)) with the rate w along its axis, that of a free wheel the integral of tau (h/A -
-/// w), and a constant torque that of tau . omega.
+/// held wheel does A Omega (w(t) - w(0)) with the rate w along its axis, that of a free wheel the integral of tau (h/A
+/// - w), and a constant torque that of tau . omega.
 fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
     let points = 0..expected.points();
     let omega = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);

@@ -77,7 +77,8 @@ fn moved(state: &State, rate: &State, time: f64) -> State {
     State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))
 }
 
-/// d(T)/dt = nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat, and the sum of the terms' sizes.
+/// d(T)/dt = nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat, and the sum of the terms'
+/// sizes.
 fn energy_rate(parameters: &Parameters, state: &State, rate: &State) -> (f64, f64) {
     let pi = matrices::pi(parameters, state);
     let nu_hat = matrices::reduced_speeds(state);

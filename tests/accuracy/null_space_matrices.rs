@@ -1,6 +1,6 @@
-//! Berdoz's matrices as printed (and corrected), dense and slow, to prove the block form of `dynamics::null_space`. Rows
-//! of nu are, per body, [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot,
-//! beta-dot, v_gd, omega_d].
+//! Berdoz's matrices as printed (and corrected), dense and slow, to prove the block form of `dynamics::null_space`.
+//! Rows of nu are, per body, [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s,
+//! alpha-dot, beta-dot, v_gd, omega_d].
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 

@@ -196,8 +196,8 @@ fn debris_beside_a_spacecraft() {
     }
 }
 
-/// Law: lanes have the bits of runs alone, and J2 of zero is a point mass to rounding. The runs of a plan all have a J2,
-/// or none.
+/// Law: lanes have the bits of runs alone, and J2 of zero is a point mass to rounding. The runs of a plan all have a
+/// J2, or none.
 #[test]
 fn lanes_with_and_without() {
     let grid = Grid::uniform(6_000.0, 31);

@@ -16,8 +16,8 @@ fn methods() -> Vec<(Method, Control)> {
     near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))
 }
 
-/// Aligns the body with the orbital frame at the node of a circle of rate `n` in the e1-e2 plane: o3 = -e1 (nadir), o2 =
-/// -e3, o1 = e2.
+/// Aligns the body with the orbital frame at the node of a circle of rate `n` in the e1-e2 plane: o3 = -e1 (nadir), o2
+/// = -e3, o1 = e2.
 fn aligned(input: &mut SceneInput, n: f64) {
     // columns o1, o2, o3 in F_e: [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
     input.initial.attitude = [0.5, -0.5, -0.5, 0.5];

@@ -41,8 +41,8 @@ fn fixed_steps_converge_with_their_order_at_and_between_steps() {
     }
 }
 
-/// MATLAB's documentation of ode45 (odeset, option Stats, van der Pol with mu = 1 on [0, 20] from [2; 0]): 59 successful
-/// steps, 10 failed attempts, 415 function evaluations.
+/// MATLAB's documentation of ode45 (odeset, option Stats, van der Pol with mu = 1 on [0, 20] from [2; 0]): 59
+/// successful steps, 10 failed attempts, 415 function evaluations.
 #[test]
 fn dormand_prince_takes_the_steps_of_ode45() {
     let case = Case { state: [2.0, 0.0], parameters: [], ends: vec![20.0] };

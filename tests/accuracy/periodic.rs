@@ -67,8 +67,8 @@ fn a_horizon_costs_one_period() {
     assert!(taylor(100.0) > 9 * taylor(10.0));
 }
 
-/// Distance between periodic and plain propagation over one plus the angle of the body. Measured: 2e-16 at 10 s, 3e-16 at
-/// 100 s, 8e-16 at 1000 s.
+/// Distance between periodic and plain propagation over one plus the angle of the body. Measured: 2e-16 at 10 s, 3e-16
+/// at 100 s, 8e-16 at 1000 s.
 const PER_RADIAN: f64 = 2e-15;
 
 /// Law: periodic and plain propagation agree to a bound that grows linearly with the horizon.
@@ -277,7 +277,8 @@ fn time_has_no_scale() {
     }
 }
 
-/// Counter-test: a period off by 1e-10 keeps energy and momentum, and only the comparison with plain propagation sees it.
+/// Counter-test: a period off by 1e-10 keeps energy and momentum, and only the comparison with plain propagation sees
+/// it.
 #[test]
 fn a_wrong_period_is_noticed() {
     let horizon = 1000.0;

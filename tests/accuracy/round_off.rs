@@ -2,8 +2,8 @@
 //! Astronomical Journal 46, 1937), and nothing grows faster.
 //!
 //! Ensemble: 64 random scenes with fixed seeds. Of the signed relative errors e after N steps: rms e <= bound sqrt(N);
-//! the log-log slope of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n = 64,
-//! two-sided alpha = 0.0027).
+//! the log-log slope of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n =
+//! 64, two-sided alpha = 0.0027).
 
 use crate::support::invariants::Invariants;
 use crate::support::prelude::*;

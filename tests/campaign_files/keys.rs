@@ -1,5 +1,5 @@
-//! Each key of a file changes the plan, reads back, and changes the hash of the rows exactly where it changes rows. A key
-//! that no file here has fails the tests.
+//! Each key of a file changes the plan, reads back, and changes the hash of the rows exactly where it changes rows. A
+//! key that no file here has fails the tests.
 
 use crate::support::prelude::*;
 

@@ -107,7 +107,8 @@ fn a_module_that_cannot_be_flown_is_refused() {
     }
 }
 
-/// Law: sensors measure at whole multiples or fractions of the control period, with a common tick of a thousandth of it.
+/// Law: sensors measure at whole multiples or fractions of the control period, with a common tick of a thousandth of
+/// it.
 #[test]
 fn periods_of_sensors_fit_into_the_loop() {
     let with = |control: &str, gyro: &str, tracker: &str| {

@@ -149,8 +149,8 @@ fn wrong_names_and_types_are_refused() {
     assert!(count > 5000, "{count}");
 }
 
-/// Law: numbers beyond limits and words of no list are refused, and units accepted; a file that extends another may leave
-/// out what that has.
+/// Law: numbers beyond limits and words of no list are refused, and units accepted; a file that extends another may
+/// leave out what that has.
 #[test]
 fn limits_and_words_are_those_of_the_program() {
     let schema = schema();

@@ -41,8 +41,8 @@ velocity_m_s = [@m/s@, 0, 0]
 angular_velocity_rad_s = [0, 0, 1]
 "#;
 
-/// SI units, and others with their sizes: exact (BIPM, *The International System of Units*, 9th edition, tables 5, 7 and
-/// 8; NIST SP 811, appendix B.8), those with pi to 20 digits.
+/// SI units, and others with their sizes: exact (BIPM, *The International System of Units*, 9th edition, tables 5, 7
+/// and 8; NIST SP 811, appendix B.8), those with pi to 20 digits.
 #[expect(clippy::excessive_precision, clippy::approx_constant, reason = "digits of a table, not of this machine")]
 const TABLE: [(&str, &[(&str, f64)]); 11] = [
     (

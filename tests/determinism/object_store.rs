@@ -1,5 +1,5 @@
-//! Results in an object store: the bytes of a folder, whatever stops a process; nothing is replaced, and nothing that is
-//! not whole looks whole. `.ci/cloud` starts the server ([`super::store_proxy`]).
+//! Results in an object store: the bytes of a folder, whatever stops a process; nothing is replaced, and nothing that
+//! is not whole looks whole. `.ci/cloud` starts the server ([`super::store_proxy`]).
 
 use crate::support::prelude::*;
 
@@ -106,8 +106,8 @@ fn a_kill_at_every_request_changes_no_byte() {
     assert!(killed > 50, "{killed}");
 }
 
-/// Law: a shard that ends with 0 has put all its parts, whatever killed it before; a campaign with `[stop]` puts no part
-/// that is not final.
+/// Law: a shard that ends with 0 has put all its parts, whatever killed it before; a campaign with `[stop]` puts no
+/// part that is not final.
 #[test]
 fn parts_are_put_once_they_are_final() {
     let bench = Bench::new("final");
@@ -224,8 +224,8 @@ fn every_damaged_object_is_found() {
     assert_whole(&bench.objects("x"), &whole, SUCCESS);
 }
 
-/// Law: 409 and 503 are tried again, and a lost answer is looked up; a store that never takes an object is given up with
-/// its name.
+/// Law: 409 and 503 are tried again, and a lost answer is looked up; a store that never takes an object is given up
+/// with its name.
 #[test]
 fn what_a_store_refuses_for_a_moment_is_tried_again() {
     let bench = Bench::new("again");

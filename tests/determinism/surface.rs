@@ -92,8 +92,8 @@ fn a_pass_between_points_is_seen() {
     }
 }
 
-/// Law: coupled drag brings a run down at one time whatever the points; a hundredth of a second before, the body is above
-/// the surface. An event on the way ends the run as `ok`.
+/// Law: coupled drag brings a run down at one time whatever the points; a hundredth of a second before, the body is
+/// above the surface. An event on the way ends the run as `ok`.
 #[test]
 fn drag_brings_a_run_down() {
     let text = |points: usize, duration: f64| {

@@ -1,8 +1,8 @@
 //! Every shipped campaign keeps its values, bit for bit: hashes of each column of its first 257 rows in
 //! `golden/value_hashes.json`.
 //!
-//! A renamed column is renamed there by hand. Any other difference is a defect, unless CHANGELOG.md records its decision;
-//! then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file.
+//! A renamed column is renamed there by hand. Any other difference is a defect, unless CHANGELOG.md records its
+//! decision; then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file.
 
 use crate::support::prelude::*;
 

@@ -4,7 +4,6 @@ use crate::prelude::*;
 
 use crate::support::campaigns::{DEBRIS, DEBRIS_STATE};
 
-/// Six hundred samples are three parts.
 const HEAD: &str = r#"
 [campaign]
 name = "small"
@@ -27,7 +26,6 @@ min = -0.02
 max = 0.04
 "#;
 
-/// Numbers are shown as they are in the rows, where a test writes no other unit.
 pub const RADIANS: &str = "[display]\nunits = [\"rad\", \"rad/s\"]\n";
 
 pub fn campaign() -> String {

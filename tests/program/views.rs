@@ -1,23 +1,19 @@
-//! Screens and pages as approved by a reader: `tests/golden/views`. A view that changes on purpose is written again with
-//! `SPINDRIFT_WRITE_VIEWS=1`, and its difference is read before it is committed.
+//! Screens and pages as approved by a reader: `tests/golden/views`. A view that changes on purpose is written again
+//! with `SPINDRIFT_WRITE_VIEWS=1`, and its difference is read before it is committed.
 
 use crate::prelude::*;
 use std::fmt::Write;
 
 const WRITE: &str = "SPINDRIFT_WRITE_VIEWS";
 
-/// Elements of a page that begin a line.
 const BLOCKS: &str = "title h1 h2 h3 p div section li tr summary figcaption pre nav header details dl dt article";
-/// Rows of a table and terms of a glossary in a view.
 const MOST_ALIKE: usize = 6;
 
-/// The text of the static part of a page, an element on a line.
 fn text_of_page(page: &str) -> String {
     let markup = page.split_once("<script").expect("a page has scripts").0;
     let body = markup.split_once("<body").expect("a body").1;
     let (mut out, mut line) = (String::new(), String::new());
     let mut rest = &body[body.find('>').expect("a tag ends") + 1..];
-    // drawings and the plan are left out
     let (mut hidden, mut alike) = (None, 0);
     while let Some((text, after)) = rest.split_once('<') {
         if hidden.is_none() {
@@ -47,7 +43,6 @@ fn text_of_page(page: &str) -> String {
     out + line.trim() + "\n"
 }
 
-/// Title, axes, legend and caption of each figure of a page, a repeated caption once.
 fn text_of_figures(data: &Value) -> String {
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let (mut out, mut before) = (String::new(), String::new());
@@ -73,7 +68,6 @@ fn text_of_figures(data: &Value) -> String {
     out
 }
 
-/// `text` without identities of plans, times and folders.
 fn steady(text: &str, scratch: &ScratchFolder) -> String {
     let folder = scratch.0.to_string_lossy().into_owned();
     let is_identity =
@@ -106,7 +100,6 @@ fn steady(text: &str, scratch: &ScratchFolder) -> String {
     steady + rest
 }
 
-/// Compares a view with the approved one, or writes it.
 fn approved(name: &str, view: &str, different: &mut Vec<String>) {
     let path = root().join("tests/golden/views").join(format!("{name}.txt"));
     let before = fs::read_to_string(&path).unwrap_or_default();

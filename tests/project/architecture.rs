@@ -1,4 +1,5 @@
-//! The layers of the architecture, checked on the source line by line; the compiler, clippy and `cargo deny` hold others.
+//! The layers of the architecture, checked on the source line by line; the compiler, clippy and `cargo deny` hold
+//! others.
 
 use crate::support::prelude::*;
 

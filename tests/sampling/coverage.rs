@@ -158,8 +158,8 @@ fn nine_of_ten_campaigns_of_the_runs_named_decide() {
     checked((0..CAMPAIGNS).map(|_| u32::from(passes(campaign()))).sum(), "mean");
 }
 
-/// Law: a campaign that looks until a requirement is decided errs over all its looks as stated; uncorrected, more often.
-/// Where the truth is not near the target nine in ten decide before the last look.
+/// Law: a campaign that looks until a requirement is decided errs over all its looks as stated; uncorrected, more
+/// often. Where the truth is not near the target nine in ten decide before the last look.
 #[test]
 fn sequential_decisions_err_as_seldom_as_stated() {
     let runs = looks(50, 3200);

@@ -25,8 +25,8 @@ fn covers(found: &Estimate, truth: f64) -> bool {
     found.lower <= truth + 1e-9 && truth <= found.upper + 1e-9
 }
 
-/// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that of
-/// R^2 apart: the sixth power in the variance of x^3 has a tail that 100 runs do not show.
+/// x and z standard normal; y, its correlation with x, the coefficients of x and z, R^2, and the coverage of H0, that
+/// of R^2 apart: the sixth power in the variance of x^3 has a tail that 100 runs do not show.
 type Linear = (&'static str, fn(f64, f64) -> f64, f64, [f64; 2], f64, [f64; 2]);
 
 fn linear_models() -> Vec<Linear> {

@@ -62,8 +62,9 @@ fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     correlation(&ranks(a), &ranks(b))
 }
 
-/// Half the band in Fisher's transform at alpha = 1e-3; for rank correlations the variance is 1 + rho^2/2 times as large
-/// (D. G. Bonett & T. A. Wright, *Psychometrika* 65 (2000) 23). A value off by 0.05 is 6 standard deviations away.
+/// Half the band in Fisher's transform at alpha = 1e-3; for rank correlations the variance is 1 + rho^2/2 times as
+/// large (D. G. Bonett & T. A. Wright, *Psychometrika* 65 (2000) 23). A value off by 0.05 is 6 standard deviations
+/// away.
 fn band(expected: f64) -> f64 {
     3.29 * (1.0 + 0.5 * expected * expected).sqrt() / 141.4
 }
@@ -263,8 +264,8 @@ fn correlation_does_not_touch_other_draws() {
     assert_ne!(column(&alone, "wheels.w1.radius_m"), column(&tied, "wheels.w1.radius_m"));
 }
 
-/// H0: neighbouring samples, and components of one sample, are uncorrelated. alpha = 1e-3 each; a correlation of 0.02 is
-/// found with power 0.998.
+/// H0: neighbouring samples, and components of one sample, are uncorrelated. alpha = 1e-3 each; a correlation of 0.02
+/// is found with power 0.998.
 #[test]
 fn components_and_samples_are_independent() {
     const DRAWS: u64 = 100_000;

@@ -1,7 +1,7 @@
 //! What is said of drivers as on the screen, over a list of causal structures of known truth, designs and numbers of
 //! runs. H0, at alpha 1e-3: an interval of a share covers the truth in 95%; what is not a cause is named in 5% of the
-//! campaigns; a cause that explains more than half is first in 95% of those in which a test at 1e-4 sees it, or, without
-//! a fourth moment, where it varies more than the rest.
+//! campaigns; a cause that explains more than half is first in 95% of those in which a test at 1e-4 sees it, or,
+//! without a fourth moment, where it varies more than the rest.
 
 use crate::support::plans::planned;
 use spindrift::Plan;

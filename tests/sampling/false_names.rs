@@ -41,8 +41,8 @@ fn named(design: &Design, dimensions: usize, points: u64) -> u64 {
     (0..CAMPAIGNS).filter(is_named).count() as u64
 }
 
-/// H0: an input that does nothing is named in at most 0.05 of 300 campaigns: 26 (alpha = 2e-3). Counter-test: a sequence
-/// with too few points binds inputs to each other.
+/// H0: an input that does nothing is named in at most 0.05 of 300 campaigns: 26 (alpha = 2e-3). Counter-test: a
+/// sequence with too few points binds inputs to each other.
 #[test]
 fn what_does_nothing_is_seldom_named() {
     let one = Replicates::ONE;

@@ -1,5 +1,5 @@
-//! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number of
-//! runs that is named decides. H0: a bound misses with at most 5%; alpha = 1e-4. docs/results.md has the rates.
+//! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number
+//! of runs that is named decides. H0: a bound misses with at most 5%; alpha = 1e-4. docs/results.md has the rates.
 
 use crate::support::prelude::*;
 use spindrift::math::normal;
@@ -111,8 +111,8 @@ const BOUNDED: [Bounded; 5] = [
     ("half 0, half 1", |random| f64::from(u8::from(random.uniform() < 0.5)), 0.5, [0.0, 1.0]),
 ];
 
-/// Law: with bounds of the values both bounds of the mean miss as stated, whatever the tail; a limit at a quarter of the
-/// range above the mean passes with 1,000 runs. Without the bounds the same numbers pass wrongly.
+/// Law: with bounds of the values both bounds of the mean miss as stated, whatever the tail; a limit at a quarter of
+/// the range above the mean passes with 1,000 runs. Without the bounds the same numbers pass wrongly.
 #[test]
 fn bounded_means_miss_as_seldom_as_stated() {
     let mut worst: f64 = 0.0;

@@ -111,9 +111,9 @@ fn means(design: &Design) -> Vec<f64> {
     replicates(design, 3, 64).iter().map(mean).collect()
 }
 
-/// Law: replicates are independent and without bias, and their means vary less than those of random samples: the mean of
-/// 256 means and the correlation of neighbours are within 3.9 standard errors (alpha = 1e-4).
-/// of their scrambling correlate by 0.5, which is 8.
+/// Law: replicates are independent and without bias, and their means vary less than those of random samples: the mean
+/// of 256 means and the correlation of neighbours are within 3.9 standard errors (alpha = 1e-4). of their scrambling
+/// correlate by 0.5, which is 8.
 #[test]
 fn means_of_replicates_are_independent_and_vary_little() {
     const COUNT: u64 = 256;

@@ -76,8 +76,8 @@ fn digits(mut point: u64, base: u64, count: usize) -> Vec<u64> {
     (0..count).map(|_| digit()).collect()
 }
 
-/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), with a permutation of
-/// the values of each digit and dimension (A. B. Owen, 2017).
+/// Law: number n of dimension d is the radical inverse of n in the d-th prime (J. H. Halton, 1960), with a permutation
+/// of the values of each digit and dimension (A. B. Owen, 2017).
 #[test]
 fn halton_permutes_the_digits_of_the_radical_inverse() {
     const PRIMES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

@@ -1,5 +1,5 @@
-//! The table of accuracy claims: [`hold`] fails where the measured number exceeds the bound, and where `docs/accuracy.md`
-//! states another one. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead.
+//! The table of accuracy claims: [`hold`] fails where the measured number exceeds the bound, and where
+//! `docs/accuracy.md` states another one. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};

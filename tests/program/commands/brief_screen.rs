@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 
-/// What a command prints on a terminal of 80 characters: alone, and with its messages.
 fn said(scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, String) {
     let output = command.current_dir(&scratch.0).env("COLUMNS", "80").output().expect("the program runs");
     let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
@@ -41,7 +40,6 @@ fn a_campaign_fits_a_screen() {
         assert_eq!(out.lines().last(), Some(format!("{verdict} -> {page}").as_str()), "{out}");
         assert!(scratch.path(&page).is_file());
 
-        // every requirement has a line with its word, and no other column has one
         let is_verdict =
             |line: &&str| ["PASS", "FAIL", "UNDECIDED"].iter().any(|word| line.trim_start().starts_with(word));
         let words = out.lines().filter(is_verdict);
@@ -122,7 +120,6 @@ fn colour_adds_only_itself() {
     assert!(!refused.contains("\x1b[31mred"), "{refused:?}");
 }
 
-/// Law: one screen is enough when nearly every or every run is lost, of three runs, and of the nominal run alone.
 #[test]
 fn the_worst_campaigns_fit_a_screen() {
     let scratch = ScratchFolder::new("worst-screens");

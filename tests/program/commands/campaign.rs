@@ -97,7 +97,6 @@ fn instruction_sets_do_not_change_a_byte() {
         scratch.outputs(scratch.command(&arguments).env("SPINDRIFT_ISA", isa), code)
     };
     for file in ["small", "loop"] {
-        // the requirements of a mission do not hold in a minute of it
         let code = if file == "loop" { 3 } else { 0 };
         for isa in spindrift::math::Isa::available() {
             run(file, isa.name(), code);

@@ -36,7 +36,6 @@ fn every_column_is_shown() {
     assert!(meant > 2 && word.lines().filter(|line| line.starts_with("  ")).count() == meant, "{word}");
 }
 
-/// Law: without a word the groups are listed, each with the number of its columns, and their sum.
 #[test]
 fn groups_are_listed_with_their_columns() {
     let scratch = folder("groups");
@@ -148,7 +147,6 @@ fn columns_of_loops_are_found() {
             assert!(is_there, "{name}: {} needs {need:?}", quantity.name());
         }
     }
-    // columns of a module: tests/determinism/flight_code_interface.rs
     let of_modules = known.iter().filter(|(quantity, _)| quantity.name().contains("<telemetry>")).count();
     assert_eq!(seen.len() + of_modules, known.len(), "net_launch has all of them but those of rods: {seen:?}");
 }

@@ -25,16 +25,13 @@ fn results_are_compared() {
     let said = scratch.prints_wide("compare a d", 0);
     let is_said = says_key(&said, ["campaign.seed", "7", "8"]);
     assert!(is_said && said.contains("compared as independent samples"), "{said}");
-    // a hundredth of the spread is less than chance
     scratch.prints("compare a d --tolerance 0.01", 3);
 
-    // fewer samples of the same draws are pairs too
     scratch.small("--samples 300 --out e", 0);
     let said = scratch.prints_wide("compare a e", 0);
     let is_said = says_key(&said, ["campaign.samples", "600", "300"]);
     assert!(is_said && said.contains("299 samples drawn alike"), "{said}");
 
-    // chosen samples are paired by their numbers, whichever rows these are
     scratch.file("chosen.toml", &campaign().replace("[campaign]", "[campaign]\nonly = [7, 8, 11, 250]"));
     scratch.prints("campaign chosen.toml --out f", 0);
     for (results, pairs) in [("a f", 4), ("f a", 4), ("f e", 4), ("f f", 4)] {
@@ -163,8 +160,7 @@ fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
     assert!(checked > 50 && changed > 20, "{checked} {changed}");
 }
 
-/// Law: campaigns that drew the same samples about other nominal values are compared in pairs, which find a shift of a
-/// fiftieth of the standard deviation with its true size.
+/// Law: campaigns with the same samples about other nominal values are compared in pairs, which find a small shift.
 #[test]
 fn planted_shifts_are_found_by_pairs() {
     let scratch = folder("compare-planted");
@@ -175,9 +171,7 @@ fn planted_shifts_are_found_by_pairs() {
     let rate = row(&pairs, "rate");
     assert_eq!((&pairs["pairs"], &pairs["compared_as"]), (&Value::from(599), &Value::from("pairs")));
     let number = |key: &str| rate[key].as_f64().expect("a number");
-    // rounding of a difference of numbers of order one
     assert!((number("mean_shift") - 0.01).abs() < 1e-15 && number("adjusted_p_value_moved") < 1e-9, "{rate}");
-    // few runs pass through a limit, so the distribution is not seen to move
     assert_eq!(
         (&rate["is_moved"], &rate["is_shifted"], &rate["is_required"], &rate["differing_pairs"]),
         (&1.into(), &0.into(), &1.into(), &599.into())
@@ -191,7 +185,6 @@ fn planted_shifts_are_found_by_pairs() {
     assert_eq!((&independent["pairs"], &rate["is_shifted"]), (&0.into(), &0.into()));
     assert!((rate["mean_shift"].as_f64().expect("a number") - 0.01).abs() < 4.0 * 0.029, "{rate}");
 
-    // a verdict that gets worse ends with 3, whatever the tolerance
     for (results, tolerance, mark, code) in [
         (format!("{base} {far}"), "", "WORSE", 3),
         (format!("{base} {far}"), " --tolerance 1e9", "WORSE", 3),

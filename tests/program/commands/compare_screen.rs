@@ -42,7 +42,6 @@ fn a_comparison_fits_a_screen() {
             assert!(line.ends_with(&format!(" {name}, 599 of 599 runs ok")), "{line}");
         }
         let row = |begin: &str| said.lines().find(|line| line.trim_start().starts_with(begin)).expect(begin);
-        // the verdicts stand below a long line
         let mut lines =
             said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end <= 2000 deg/s in 90%"));
         let verdict = lines.nth(1).expect("the verdicts");
@@ -53,7 +52,6 @@ fn a_comparison_fits_a_screen() {
             assert!((found - share(values)).abs() < 0.06, "{verdict}: {}", share(values));
         }
         let key = row("initial.angular_velocity_rad_s");
-        // 10 pi rad/s and 36 rad/s
         assert!(key.contains(" 1800] deg/s") && key.contains(" 2062.6] deg/s"), "{key}");
         let mut outcome = said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end, deg/s"));
         let outcome = &outcome.by_ref().take(2).collect::<Vec<_>>().join(" ");
@@ -108,7 +106,6 @@ fn the_screen_is_the_file() {
             let text = line.trim_start();
             let name = text.split([' ', ',']).next().expect("a name");
             let one = observables.iter().find(|one| one["observable"] == name).unwrap_or_else(|| panic!("{name}"));
-            // angles and rates in degrees, wheel speeds in turns a minute
             let unit = text.strip_prefix(name).and_then(|rest| rest.strip_prefix(", "));
             let unit = unit.and_then(|rest| rest.split("  ").next()).unwrap_or("");
             let size = match (one["unit"].as_str().expect("a unit"), unit) {

@@ -14,7 +14,6 @@ fn exit_codes() {
     let fail = require("fraction = 0.5", "at_most = 1e-30");
     let undecided = require("quantile = 0.9999", "at_most = 1e-9");
     let mean = require("mean = true", "at_most = 1e-9");
-    // a hundred zeros may hide a rare one; a constant hides nothing
     let derived = |expression: &str| {
         let observable = format!("[[observable]]\nname = \"flag\"\nexpression = \"{expression}\"\n");
         observable + &mean.replace("energy_error_max", "flag")

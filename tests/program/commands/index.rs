@@ -11,7 +11,6 @@ fn run(scratch: &ScratchFolder, name: &str, limit: &str, out: &str, code: i32) {
     std::thread::sleep(std::time::Duration::from_millis(1100));
 }
 
-/// Law: each finished result below the folder has a row on screen and page, with its verdicts, runs and a link.
 #[test]
 fn every_result_has_a_row() {
     let scratch = folder("index");

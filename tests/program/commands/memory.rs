@@ -47,7 +47,6 @@ fn sample_holds_no_draws() {
     assert!(scratch.text("said.txt").contains("of 499999 draws"));
     let written = peak(&scratch, &format!("sample {small} --samples 400000 --out s.parquet"));
     assert!(written < few + 40_000, "kB: {written}");
-    // the figure shows the first 100,000 samples; all 2e6 numbers would take 1 GB
     let plotted = peak(&scratch, &format!("sample {small} --samples 500000 --plot s.html"));
     assert!(plotted < few + 400_000, "kB: {plotted}");
     assert!(scratch.text("s.html").contains("first "));
@@ -117,7 +116,6 @@ fn small_files_take_little_memory() {
             = \"{column}\"\n"
         );
         fs::write(scratch.0.join("draw.toml"), format!("{}{draw}", &text[..at])).unwrap();
-        // Linux shows no peak of so short a command
         let limited =
             format!("ulimit -v {LIMIT_KB}; exec {} sample draw.toml --samples 10", env!("CARGO_BIN_EXE_spindrift"));
         scratch.outputs(Command::new("sh").args(["-c", &limited]), code)

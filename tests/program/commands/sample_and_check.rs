@@ -22,7 +22,6 @@ fn sample_draws_the_rows_of_the_campaign() {
     let parquet = &scratch.table("s.parquet");
     scratch.prints("campaign thin.toml --out r", 1);
     let rows = scratch.rows("r");
-    // the last columns are mass properties
     assert_eq!(names[names.len() - 7..][..2], ["mass_kg", "center_of_mass_x_m"]);
     for name in &names[2..names.len() - 7] {
         let run: Vec<u64> = rows.iter().flat_map(|batch| floats(batch, name)).map(f64::to_bits).collect();
@@ -74,7 +73,6 @@ fn check_has_no_line_about_what_is_not_there() {
         let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
         assert_eq!(line, None, "{said}");
     }
-    // a thruster whose command acts in no run has no work
     let thruster = "[[thrusters]]\nname = \"p1\"\nposition_m = [0.1, 0, 0]\ndirection = [0, 0, 1]\n";
     let arc = |keys: &str| format!("{bare}{thruster}[[actuation]]\nend_s = 9\nthrust_n = {{ p1 = 1.0 }}\n{keys}\n");
     let says_work = |keys: &str| {
@@ -195,7 +193,6 @@ fn a_closed_pipe_is_no_panic() {
     }
 }
 
-/// Law: of two files with the same name, each command takes the one in the current folder, not that in `campaigns`.
 #[test]
 fn a_file_of_the_current_folder_comes_first() {
     let scratch = folder("find");

@@ -4,13 +4,9 @@ use crate::prelude::*;
 
 #[derive(Debug, PartialEq)]
 enum Step<'d> {
-    /// Text added to a file.
     Write { file: &'d str, text: String },
-    /// A line for a shell, with its exit code.
     Run { command: &'d str, code: i32 },
-    /// Lines that the commands before print in this order; `...` stands for omitted lines.
     Prints(Vec<&'d str>),
-    /// A figure that the commands before write, and its picture.
     Picture { figure: &'d str, picture: &'d str },
 }
 
@@ -84,12 +80,10 @@ fn the_tutorial_does_what_it_says() {
                 assert!(missing.is_none(), "not printed: {}\n{printed}", missing.unwrap_or_default());
                 counts[2] += 1;
             }
-            // drawn and compared in crates/figures/tests/tutorial.rs
             Step::Picture { .. } => counts[3] += 1,
         }
     }
     assert!(counts[..3].iter().zip([5, 6, 5]).all(|(count, least)| *count >= least), "{counts:?} steps were done");
-    // other pictures are photographs of the page by a browser
     let pictures = document.lines().filter(|line| line.starts_with("![") && !line.ends_with(".png)")).count();
     assert!(counts[3] == pictures && pictures >= 3, "{} of {pictures} pictures have a figure", counts[3]);
 }

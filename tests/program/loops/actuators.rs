@@ -6,13 +6,10 @@ use spindrift::scene::{Arc, WheelModel};
 
 use crate::loops::flown_loop::{SAME_TIME, State};
 
-/// Rounding of the torques and thrusts of an arc: about ten operations on rates of tens of rad/s over arcs of ms.
 const AGREED: f64 = 1e-12;
 
-/// The torques of a wheel over an arc, recomputed.
 #[derive(Clone, Copy, Debug)]
 pub struct Driven {
-    /// On the wheel, N m.
     pub torque: f64,
     /// Commanded torque, with its scale and bias, beyond that of the motor, N m.
     pub excess: f64,
@@ -31,12 +28,10 @@ pub fn driven(scene: &Scene, wheel: usize, commanded: f64, rate: f64, length: f6
     let inertia = 1.0 / (1.0 / of_wheel.axial + axis.dot(&(inverse * axis)));
     let asked = if commanded == 0.0 { 0.0 } else { model.torque_scale * commanded + model.torque_bias };
     let within = asked.abs().min(model.torque_limit) * asked.signum();
-    // up to the speed limit at the end of the arc, against the friction at its start
     let along = rate * within.signum();
     let against = if along > 0.0 { model.coulomb_friction + model.viscous_friction * along } else { 0.0 };
     let room = (inertia * (model.speed_limit - along) / length + against).max(0.0);
     let motor = within.abs().min(room) * within.signum();
-    // viscous friction at most stops the wheel
     let mut after = rate + motor * length / inertia;
     let mut friction = 0.0;
     if after * rate > 0.0 {
@@ -112,8 +107,7 @@ pub fn limited_slew() -> String {
     ) + "\n[[disperse]]\nparameter = \"wheels.w2.torque_bias_n_m\"\ndistribution = \"offset\"\noffset = 2e-4\n"
 }
 
-/// Law: a motor gives the command of `delay_s` before, with scale and bias, within the limits of torque and speed, less
-/// friction.
+/// Law: a motor gives the command of `delay_s` before, with scale and bias, within its limits, less friction.
 #[test]
 fn motors_give_what_their_wheels_make_of_the_commands() {
     for delay in ["0.0", "0.05", "0.25", "0.6"] {

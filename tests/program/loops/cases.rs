@@ -5,7 +5,6 @@ use crate::prelude::*;
 
 const POINT_AT_DEBRIS: &str = include_str!("../../../campaigns/point_at_debris.toml");
 
-/// A run, the reason of its end, and the run that goes on, in which the estimates of the last tick are recorded.
 pub struct Case {
     pub flown: FlownLoop,
     going_on: FlownLoop,
@@ -16,7 +15,6 @@ impl Case {
     fn new(text: &str, sample: u64, failure: &'static str, beyond: &[(&str, &str)]) -> Self {
         let flown = FlownLoop::new(text, sample);
         let going_on = FlownLoop::new(&changed(text, beyond), sample);
-        // no command follows the tick at which a mission ends
         let before = flown.run.telemetry.rows.len() - usize::from(flown.end.is_some());
         for (row, other) in flown.run.telemetry.rows[..before].iter().zip(&going_on.run.telemetry.rows) {
             let same = row.iter().zip(other).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()));
@@ -58,7 +56,6 @@ fn launch(changes: &[(&str, &str)]) -> String {
     changed(&changed(NET_LAUNCH, &plumes), changes)
 }
 
-/// Goes on after the launch.
 const NO_LAUNCH: (&str, &str) = (
     "next = \"launch\"\n",
     "next = \"after\"\n\n[[guidance]]\nphase = \"after\"\nlaw = \"rate_damping\"\ngain_n_m_s = 1.0\n",

@@ -104,8 +104,7 @@ pub(crate) fn angles(run: &SingleRun) -> Vec<f64> {
     w[..points].iter().zip(&y[..points]).map(|(w, y)| 2.0 * y.atan2(*w)).collect()
 }
 
-/// Law: a small angle about one axis follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta under a
-/// held torque, to 1e-9 of the initial angle.
+/// Law: a small angle follows the exact discrete solution of theta'' = -2 z w theta' - w^2 theta under a held torque.
 #[test]
 fn a_small_angle_loop_is_its_discrete_solution() {
     let (w, z, period, start) = (0.4, 0.7, 0.25, 1e-5_f64);

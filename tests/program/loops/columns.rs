@@ -11,7 +11,6 @@ use crate::loops::actuators::driven_wheels;
 use crate::loops::cases::{Case, cases};
 use crate::loops::flown_loop::{State, angle_between};
 
-/// Rounding of sums over a run, relative to one: thousands of arcs with 1.1e-16 each are 1e-12.
 const AGREED: f64 = 1e-11;
 
 /// Standard gravity, m/s^2 (ISO 80000-3).
@@ -85,7 +84,6 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
     };
     let s3 = state.s3_e();
     let angle = angle_between(s3, direction);
-    // from the direction back to s3, in F_s
     let across = cross(direction, s3);
     let back = scaled(angle / norm(across), across);
     Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| dot(back, state.to_e(axis))))
@@ -134,8 +132,7 @@ fn pointing(case: &Case, found: &mut Columns) {
     found.insert("pointing_error_final_rad".into(), errors.last().map_or(f64::NAN, |(_, error)| norm(*error)));
 }
 
-/// The settling time of the mission, and the relative performance error over the window that begins then or at a time of
-/// the file.
+/// The settling time, and the relative performance error over the window that begins then or at a time of the file.
 fn stability(flown: &FlownLoop, errors: &[(f64, Option<[f64; 3]>)], found: &mut Columns) {
     let band = flown.control("settling_band_rad");
     let last_outside = errors.iter().rposition(|(_, error)| error.is_none_or(|error| norm(error) > band));

@@ -26,7 +26,6 @@ fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// Stops a campaign after a number of runs.
 struct StopAfter {
     runs: u64,
     done: AtomicU64,
@@ -124,7 +123,6 @@ fn rows_under_a_law_are_its_runs() {
     let audited: Vec<f64> =
         results.column("audit_state_error").unwrap().into_iter().filter(|error| !error.is_nan()).collect();
     assert!(audited.len() > 3 && audited.iter().all(|error| *error < 1e-11), "{audited:?}");
-    // the audited run is that of the row
     let [own, of_audit] =
         ["state_error_estimate", "audit_state_error_estimate"].map(|name| results.column(name).unwrap());
     for (own, of_audit) in own.iter().zip(&of_audit).filter(|(_, of_audit)| !of_audit.is_nan()) {

@@ -26,7 +26,6 @@ const FAST: &str = "angular_velocity_rad_s = [3.0, -2.0, 1.0]";
 /// The laws with gains at `share` of their limits: c T = 2 with the least inertia of 24 kg m^2; k T = 2 c.
 fn laws(share: f64) -> [(String, &'static str); 4] {
     let gain = share * 2.0 * 24.0 / PERIOD;
-    // 2 zeta w T = 2 with zeta = 1; k T = 2 w^2 T/2 is less than 2 c
     let bandwidth = share / PERIOD;
     [
         (format!("law = \"rate_damping\"\ngain_n_m_s = {gain:?}"), "gain_n_m_s"),
@@ -39,8 +38,7 @@ fn laws(share: f64) -> [(String, &'static str); 4] {
     ]
 }
 
-/// Law: at two and at fifty times the limit a run ends as `diverged` with the gain and the limit, at the work of a few
-/// healthy runs at most.
+/// Law: at two and at fifty times the limit a run soon ends as `diverged` with the gain and the limit.
 #[test]
 fn unstable_loops_end_early_and_others_do_not() {
     for method in ["auto", "dop853"] {

@@ -7,10 +7,8 @@ use spindrift::control::estimators::rigid_body_filter::{BodyObservation, BodySte
 use spindrift::control::estimators::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use spindrift::control::measurement::PointMotion;
 
-/// Rounding of a steady state, relative to its diagonal: two inversions of matrices of condition up to 1e3.
 const AGREED: f64 = 1e-12;
 
-/// Updates until the steady state.
 const UPDATES: usize = 4000;
 
 /// The covariance after an update in the steady state of position and velocity, whose velocity walks by `walk` sqrt(T)
@@ -39,8 +37,7 @@ fn assert_same(found: [[f64; 2]; 2], expected: Matrix2<f64>) {
     }
 }
 
-/// Law: the covariance of position and velocity converges to the solution of the Riccati equation for any ratio of process
-/// and measurement noise.
+/// Law: the covariance of position and velocity converges to the solution of the Riccati equation.
 #[test]
 fn translation_converges_to_the_riccati_solution() {
     for (walk, t, sigmas) in [(2e-3, 0.5, [0.3, 0.05]), (0.1, 2.0, [0.5, 5.0]), (1e-4, 1.0, [10.0, 0.001])] {

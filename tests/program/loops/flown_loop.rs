@@ -6,7 +6,6 @@ use spindrift::scene::Arc;
 
 use crate::loops::closed_loops::{run, without};
 
-/// Times closer than this, s, are one: rounding of k T.
 pub const SAME_TIME: f64 = 1e-9;
 
 #[derive(Clone, Debug)]
@@ -46,15 +45,11 @@ impl State {
     }
 }
 
-/// A run and what it was made from.
 pub struct FlownLoop {
     pub plan: Plan,
     pub run: SingleRun,
-    /// The true states at the control ticks, up to the end of the run.
     pub ticks: Vec<State>,
-    /// The arcs without the one that marks the end of the run, each with the true state at its start.
     pub arcs: Vec<(Arc, State)>,
-    /// When the mission launched or failed.
     pub end: Option<f64>,
 }
 

@@ -2,8 +2,8 @@
 
 use crate::prelude::*;
 
-/// `net_launch.toml` without phases and draws, with one phase that turns to an attitude and stops the motion `along_s3`,
-/// m/s.
+/// `net_launch.toml` without phases and draws, with one phase that turns to an attitude and stops the motion
+/// `along_s3`, m/s.
 fn braking(estimator: &str, along_s3: f64) -> String {
     let start = NET_LAUNCH.find("[[guidance]]").expect("phases");
     let text = match estimator {
@@ -43,7 +43,8 @@ fn first_commands(text: &str) -> (Vec<f64>, bool) {
     (names.iter().map(|name| flown.told(name)[0]).collect(), is_drawn)
 }
 
-/// Law: where the state is known, the first command depends on no drawn number of spacecraft, wheels, thrusters or debris.
+/// Law: where the state is known, the first command depends on no drawn number of spacecraft, wheels, thrusters or
+/// debris.
 #[test]
 fn commands_do_not_depend_on_what_is_drawn() {
     // at rest, so that the velocity of the centre of mass is that of p
@@ -55,14 +56,12 @@ fn commands_do_not_depend_on_what_is_drawn() {
         )],
     );
     let turning = changed(&braking("perfect", -0.002), &[("thrust = \"stop\"\n", "")]);
-    // rounding of the initial state of a drawn body, in commands of 20 N and N m
     const ROUNDING: f64 = 1e-12;
     let mut drawn = 0;
     for text in [text, turning] {
         let (expected, _) = first_commands(&text);
         let acting = expected.iter().filter(|command| **command != 0.0).count();
         assert!(acting > 2 && expected.iter().all(|command| command.is_finite()), "{expected:?}");
-        // a thruster at its limit would hide the force
         assert!(expected[2..].iter().zip([20.0, 10.0, 10.0]).all(|(thrust, most)| *thrust < most), "{expected:?}");
         let plan = plan(&text);
         let parameters = Parameter::all(&plan.nominal).filter(|parameter| parameter.exists(&plan.nominal));
@@ -76,7 +75,6 @@ fn commands_do_not_depend_on_what_is_drawn() {
                 continue;
             }
             let dispersed = text.clone() + &offset(&name, 1e-3);
-            // a draw that makes no physical scene is left out
             if parsed(&dispersed).is_err() {
                 continue;
             }
@@ -101,11 +99,9 @@ fn mean_of_interval(commands: &[f64], delay: f64, period: f64) -> Vec<f64> {
 
 #[test]
 fn filters_predict_with_commands_and_nominal_numbers() {
-    // an ulp of 40 m or rad/s is 7e-15
     const ROUNDING: f64 = 2e-13;
     for delay in [0.0, 0.1, 0.5, 0.7] {
         let mut text = changed(&braking("mekf", -0.2), &[("delay_s = 0.1", &format!("delay_s = {delay:?}")[..])]);
-        // after the first measurements only the gyro measures
         for (from, to) in [
             ("latency_s = 0.5\nnoise_rad", "period_s = 2000.0\nlatency_s = 0.5\nnoise_rad"),
             ("period_s = 2.0\nlatency_s = 1.0", "period_s = 2000.0\nlatency_s = 1.0"),

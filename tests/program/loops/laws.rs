@@ -8,7 +8,6 @@ use spindrift::math::vector::transposed_product;
 
 use crate::loops::flown_loop::angle_between;
 
-/// Rounding relative to the sum of the magnitudes of the terms of a law: tens of operations with 1.1e-16 each.
 const AGREED: f64 = 1e-14;
 
 const PERIOD: f64 = 0.5;
@@ -16,7 +15,6 @@ const PERIOD: f64 = 0.5;
 const INERTIA: [[f64; 3]; 3] = [[30.0, 1.5, -2.0], [1.5, 36.0, 0.7], [-2.0, 0.7, 24.0]];
 const AXIAL: [f64; 3] = [0.4, 0.3, 0.5];
 
-/// Keys of the laws that differ from their defaults.
 const NUMBERS: [(&str, f64); 7] = [
     ("gain_n_m_s", 5.0),
     ("bandwidth_rad_s", 0.3),
@@ -97,8 +95,7 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
     }
 }
 
-/// Law: every law in the program's list commands the torque of its formula in docs/control-formulas.md from the estimates
-/// of the tick, for targets at rest and one that turns.
+/// Law: every law of the program commands the torque of docs/control-formulas.md from the estimates of the tick.
 #[test]
 fn every_law_is_its_formula() {
     let rotating: [[f64; 3]; 3] =
@@ -147,7 +144,6 @@ fn every_law_is_its_formula() {
                     let terms = terms(kind.name, &seen, &mut integral, is_first);
                     let expected = terms.iter().fold([0.0; 3], |total, term| sum(total, *term));
                     let size: f64 = terms.iter().map(|term| norm(*term)).sum();
-                    // the body takes the opposite torque of a motor
                     let found = [0, 1, 2].map(|wheel| -commands[wheel][tick]);
                     let off = norm(difference(found, expected)) / size;
                     assert!(off < AGREED, "{} {target}, {sample}, {tick}: {found:?} for {expected:?}", kind.name);

@@ -33,7 +33,6 @@ fn an_impulse_on_its_way_is_not_commanded_again() {
             .collect();
         assert!((along[0] + SPEED).abs() < 1e-12, "{along:?}");
         let (most, last) = (along.iter().copied().fold(f64::NEG_INFINITY, f64::max), along[along.len() - 1]);
-        // the body turns by 1e-4 rad under the torque of a thruster beside c
         assert!(most < 1e-4 * SPEED && last.abs() < 1e-4 * SPEED, "{delay}: {most:e} {last:e}");
     }
 }
@@ -66,7 +65,6 @@ fn each_transfer_arrives_after_its_own_time() {
     assert!((end - two - TIMES[1]).abs() < 1.0, "{two} to {end}");
     let state = &flown.ticks[arrived];
     let to_debris = difference(state.debris().r_gdo_e, state.r_co_e);
-    // the station is 10 m behind the debris along approach_axis
     let off = norm(difference(to_debris, [10.0, 0.0, 0.0]));
     assert!(off < 0.5, "{off} m");
 }

@@ -7,10 +7,8 @@ use crate::loops::closed_loops::value;
 const PERIOD: f64 = 0.5;
 const GAIN: f64 = 0.1;
 const LIMIT: f64 = 0.002;
-/// Axial inertia of the body with its wheel, and of the wheel, kg m^2.
 const INERTIA: [f64; 2] = [6.0, 1e-3];
 const DURATION: f64 = 10.0;
-/// Rounding of rates of 0.1 rad/s over twenty arcs.
 const ROUNDING: f64 = 1e-15;
 
 #[derive(Clone, Copy, Debug)]

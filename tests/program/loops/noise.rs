@@ -58,8 +58,7 @@ fn variance(values: &[f64]) -> f64 {
     values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64
 }
 
-/// Law: an outcome of the scene alone has no noise, one of a sensor alone is all noise, and a sum has the share of the
-/// variances of its parts.
+/// Law: an outcome of the scene has no noise, one of a sensor is all noise, a sum has the share of its parts.
 #[test]
 fn noise_is_told_from_scenes() {
     let run = found("noise", &noisy());

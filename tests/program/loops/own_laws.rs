@@ -12,7 +12,6 @@ use spindrift::workflow::WorkflowError;
 struct Feedback {
     bandwidth: f64,
     damping: f64,
-    /// Torque about s3 that each tick of the phase adds, N m.
     creep: f64,
     ticks: f64,
 }
@@ -86,7 +85,6 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     for (expected, found) in built_in.iter().zip(&found) {
         assert!(expected == found, "{}", expected.0);
     }
-    // counter-test: a torque that grows from tick to tick is another law
     let creeping = text.replacen("own_damping", "creep_n_m = 1e-6\nown_damping", 1);
     assert_ne!(run(&creeping, own, "creeping"), found);
 

@@ -31,7 +31,6 @@ fn a_hold_starts_with_its_phase() {
     );
     let flown = FlownLoop::new(&text, 0);
     let met: Vec<bool> = flown.ticks.iter().map(|state| norm(state.omega_se_s) < 0.004).collect();
-    // a condition is evaluated from the tick after the beginning of its phase, that of the first from the start
     let (mut begin, mut asked) = (0, 0);
     let mut expected = vec![(0.0, 0)];
     for (place, hold) in holds.iter().enumerate() {
@@ -45,11 +44,9 @@ fn a_hold_starts_with_its_phase() {
     assert!(!met[0] && expected[1].0 > 6.0, "{expected:?}");
 }
 
-/// Law: a mission that does not see its debris fails at the first tick whose last measurement was *taken* longer ago than
-/// the limit.
+/// Law: a mission fails at the first tick whose last measurement was *taken* longer ago than the limit.
 #[test]
 fn the_age_of_the_camera_contains_its_latency() {
-    // seen at the start alone
     for latency in ["0.5", "2.0"] {
         let text = changed(
             NET_LAUNCH,
@@ -70,8 +67,7 @@ fn the_age_of_the_camera_contains_its_latency() {
     }
 }
 
-/// Law: a wheel at its limit fails the mission at the first tick after `saturation_timeout_s` without a gap, counted from
-/// the start of the arc in which the limit first cuts its motor.
+/// Law: a wheel at its limit fails the mission after `saturation_timeout_s` without a gap.
 #[test]
 fn a_wheel_fails_after_its_timeout() {
     for timeout in [1.0, 5.0, 10.0] {

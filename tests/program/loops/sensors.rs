@@ -23,7 +23,6 @@ const CAMERA_NOISE: [f64; 2] = [0.02, 0.003];
 const TACHOMETER_NOISE: f64 = 0.01;
 const GYRO_WALK: f64 = 1e-4;
 
-/// Period and latency of the sensors that have them, s.
 const TRACKER: [f64; 2] = [1.0, 0.5];
 const RADAR: [f64; 2] = [2.0, 1.0];
 const CAMERA: [f64; 2] = [1.5, 1.0];
@@ -33,7 +32,6 @@ const SUN_E: [f64; 3] = [-0.48, 0.6, 0.64];
 const BORESIGHT: [f64; 3] = [0.0, 1.0, 0.0];
 const SUN_BIAS: f64 = 2e-3;
 const SUN_NOISE: f64 = 1e-3;
-/// Limits of tracker and camera, both passed in the run.
 const TRACKER_RATE: f64 = 0.015;
 const CAMERA_RANGE: f64 = 38.0;
 
@@ -231,7 +229,8 @@ fn errors(kind: &str, found: &[f64], expected: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Law: every kind of sensor delivers, at the ticks at which it is due and no other, its measurement `latency_s` before.
+/// Law: every kind of sensor delivers, at the ticks at which it is due and no other, its measurement `latency_s`
+/// before.
 #[test]
 fn every_sensor_measures_the_true_state() {
     let (nominal, noisy) = (FlownLoop::new(&file(), 0), FlownLoop::new(&file(), 1));
@@ -326,8 +325,7 @@ fn raw_estimates_are_the_last_measurements() {
     assert!(relative.is_some() && of_debris.is_some());
 }
 
-/// Law: a Sun sensor along s3 of a body that points s3 at the Sun measures angles near zero in the light and nothing in
-/// the Earth's shadow.
+/// Law: a Sun sensor of a body that points at the Sun measures nothing in the Earth's shadow.
 #[test]
 fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     let text = file_on_orbit();

@@ -2,12 +2,9 @@
 
 use crate::prelude::*;
 
-/// Ticks of `slew_closed.toml` before its end, where there is one more.
 const PERIOD: f64 = 0.25;
 const TICKS: usize = 720;
-/// The tick at which the second phase begins.
 const SLEW: usize = 120;
-/// Rounding of angles between attitudes.
 const ROUNDING: f64 = 1e-13;
 
 fn rotation(a: [f64; 4], b: [f64; 4]) -> [f64; 3] {
@@ -28,8 +25,7 @@ fn errors(run: &SingleRun) -> Vec<[f64; 3]> {
     (0..=TICKS).map(|tick| rotation(target(tick), run.table.at(StateField::Attitude, tick))).collect()
 }
 
-/// Law: at a tick the pointing error is the angle from the target to the true attitude, estimation errors are those of the
-/// recorded estimate, and torques those of the arc flown.
+/// Law: the pointing error is from the target to the true attitude; torques are those of the arc flown.
 #[test]
 fn quantities_over_time_are_those_of_the_run() {
     for sample in [0, 3, 17] {
@@ -59,10 +55,8 @@ fn quantities_over_time_are_those_of_the_run() {
             }
         }
         assert!(series(&run, Series::MotorTorque).iter().any(|torque| torque.abs() > 1e-3));
-        // the last point has the tick at the end
         assert_ne!(series(&run, Series::PointingError)[TICKS], series(&run, Series::PointingError)[TICKS - 1]);
     }
-    // between ticks an error is that of the tick before
     let text = SLEW_CLOSED;
     let between = SingleRun::new(&plan(text), SampleId(3), Grid::uniform(180.0, 1801), Isa::best()).expect("physical");
     let ticks = at_ticks(text, 3);

@@ -32,7 +32,6 @@ fn a_row_shows_the_tick_of_its_time() {
     let off = estimation_errors(&run);
     let worst = off.iter().copied().fold(0.0, f64::max);
     assert!(worst < 1e-7, "{worst:e} at {:?}", off.iter().position(|error| *error == worst));
-    // rounding puts some ticks after their points
     let late = run.telemetry.times.iter().zip(run.grid.times()).filter(|(tick, point)| tick > point).count();
     assert!(late > 5, "{late} ticks");
 }
@@ -48,7 +47,6 @@ fn the_last_tick_is_that_of_a_longer_run() {
         let ticks = short.telemetry.times.len();
         assert!((short.telemetry.times[ticks - 1] - duration).abs() < 1e-9, "{:?}", short.telemetry.times.last());
         for (short, long) in short.telemetry.rows.iter().zip(&long.telemetry.rows) {
-            // up to rounding: the state at the end is observed, and a tick within the run is a step
             let near = |a: f64, b: f64| a.is_nan() && b.is_nan() || (a - b).abs() <= 1e-13 * (1.0 + a.abs());
             assert!(short.iter().zip(long).all(|(a, b)| near(*a, *b)), "{short:?}\n{long:?}");
         }
@@ -67,8 +65,7 @@ fn holding(duration: f64, hold: f64, more: &str) -> String {
         .replace("points = 401", "points = 2")
 }
 
-/// Law: a hold that completes exactly at the end of the run counts, however the times round, and one a tick longer does
-/// not.
+/// Law: a hold that completes exactly at the end of the run counts, and one a tick longer does not.
 #[test]
 fn what_ends_with_the_run_counts() {
     for ticks in [1, 3, 6, 7, 11, 23, 100] {
@@ -108,7 +105,6 @@ fn phases_last_whole_ticks() {
             let phases: Vec<f64> = run.telemetry.rows.iter().map(|row| row[0]).collect();
             assert_eq!(run.telemetry.quantities[0].name(), "phase");
             let changes: Vec<usize> = (1..phases.len()).filter(|tick| phases[*tick] != phases[tick - 1]).collect();
-            // a hold begins at the tick after its phase
             let lasted: Vec<usize> = changes.windows(2).map(|pair| pair[1] - pair[0]).collect();
             let expected: Vec<usize> = (0..lasted.len()).map(|place| ticks + place % 2).collect();
             assert_eq!((changes[0], &lasted), (ticks, &expected), "{period}");
@@ -127,7 +123,6 @@ fn the_end_of_a_run_is_observed_on_every_grid() {
     let text = holding(200.0, 1e3, "timeout_s = 3.1\n");
     let plan = plan(&text);
     let mut beside = [0; 3];
-    // 3.1 s is point `place` of `part` intervals of a run that is intervals/place as long
     let of_parts = |part: u32| [1, 2, 4, 5, 8, 10, 20].map(|place| (part, place));
     for (part, place) in (1..=40).flat_map(of_parts).filter(|(part, place)| part > place) {
         let (duration, intervals, place) =

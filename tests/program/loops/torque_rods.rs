@@ -9,14 +9,11 @@ use super::flown_loop::{FlownLoop, State};
 const MOMENTS: [f64; 3] = [0.12, 0.14, 0.09];
 const WHEEL: f64 = 1e-4;
 
-/// A small satellite with three rods, one at half of its dipole, on a polar orbit.
 struct Craft {
     duration: f64,
     period: f64,
-    /// Limit of each rod, A m^2.
     limit: f64,
     errors: &'static str,
-    /// Rates of the wheels, rad/s; all zero means no wheels.
     wheels: [f64; 3],
     initial: &'static str,
     phase: String,
@@ -87,8 +84,7 @@ fn momenta(state: &State) -> [[f64; 3]; 2] {
     [state.to_e(std::array::from_fn(|i| MOMENTS[i] * state.omega_se_s[i])), state.to_e(wheels)]
 }
 
-/// Law: B-dot commands -k times the rate of change of the measured field, scaled down as a whole at a limit; a drawn rod
-/// gives its share.
+/// Law: B-dot commands -k times the rate of the measured field, scaled as a whole at a limit.
 #[test]
 fn b_dot_is_its_formula() {
     const LIMIT: f64 = 0.3;
@@ -119,7 +115,6 @@ fn b_dot_is_its_formula() {
         assert!(rate(flown.ticks.len() - 1) < 0.6 * rate(0), "{} of {}", rate(flown.ticks.len() - 1), rate(0));
         let column = |name: &str| value(&flown.run, name);
         assert!((column("rod_dipole_max_a_m2") / largest - 1.0).abs() < 1e-12);
-        // a tick has the dipole of the arc that ends there; the end of the run is a point too
         let torque = |pair: &[State]| norm(cross(pair[1].to_e(dipole(&flown, &pair[0])), field_e(&flown, &pair[1])));
         let torques = flown.ticks.windows(2).map(torque);
         let excess = column("magnetic_torque_max_n_m") / torques.fold(0.0, f64::max) - 1.0;
@@ -128,8 +123,7 @@ fn b_dot_is_its_formula() {
     }
 }
 
-/// Law (P. J. Camillo & F. L. Markley, 1980): while wheels keep the attitude, unloading rods change the total momentum H in
-/// F_e by H' = -(H - B (B . H)/|B|^2)/T.
+/// Law (P. J. Camillo & F. L. Markley, 1980): unloading rods change the momentum by H' = -(H - B (B . H)/|B|^2)/T.
 #[test]
 fn wheels_are_unloaded_as_theory_says() {
     const TIME: f64 = 400.0;
@@ -153,7 +147,6 @@ fn wheels_are_unloaded_as_theory_says() {
     let start = norm(h);
     let rate = |state: &State, h: [f64; 3]| {
         let b = field_e(&flown, state);
-        // half of the second rod is missing
         let m = state.to_s(scaled(1.0 / (TIME * dot(b, b)), cross(h, b)));
         cross(state.to_e([m[0], 0.5 * m[1], m[2]]), b)
     };
@@ -167,7 +160,6 @@ fn wheels_are_unloaded_as_theory_says() {
         turned = turned.max(2.0 * norm([x, y, z]));
     }
     assert!(norm(h) < 0.6 * start && worst < 0.005 * start, "{start:e} to {:e}: {worst:e}", norm(h));
-    // wheels keep the attitude but for the missing dipole
     assert!(turned < 0.01, "{turned}");
     let idle = craft("\"b_dot\"\nb_dot_gain_a_m2_s_t = 1e-9").flown(0);
     let change = norm(difference(of(&idle, idle.ticks.len() - 1), of(&idle, 0)));

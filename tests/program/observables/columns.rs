@@ -30,14 +30,12 @@ fn padding_leaves_no_trace() {
     }
 }
 
-/// Law: the fraction is the swing over the largest total about the centre of mass, and net is the last minus the first
-/// value, where these are not the extremes.
+/// Law: the fraction is the swing over the largest total about c; net is the last minus the first value.
 #[test]
 fn fraction_and_net_are_relative_to_the_right_points() {
     let (_, mut scene) = table1();
     scene.mass.debris = None;
     let grid = Grid::uniform(6.0, 61);
-    // first, smallest, last and largest spin differ
     let spin = |t: f64| 3.0 - 1.5 * libm::sin(t);
     let table =
         motion_table(&grid, &|t| (rotation([0.0, 0.0, 1.0], t), [0.0, 0.0, spin(t)], [10.0, 20.0 + t], [0.0; 3]));
@@ -113,7 +111,6 @@ fn a_failed_run_has_its_effort_and_its_last_finite_state() {
     let mut observer = Observer::new(request, &grid);
     let columns = request.columns();
     let mut row = vec![0.0; columns.len()];
-    // numbers of an earlier run must not be used
     observer.observe(Isa::best(), &scene, &table, &done(grid.points(), grid.duration()), &mut row);
     table.set(StateField::Rate, 3, [f64::NAN; 3]);
     let effort = StepStatistics { steps: 7, rejected: 1, evaluations: 50 };

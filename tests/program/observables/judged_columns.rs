@@ -31,7 +31,6 @@ fn a_constant_energy_has_no_correlation() {
     let correlation = |table: &Table, wheel: &str| table.column(&format!("exchange_{wheel}_correlation"))[0];
     let one = coaxial(0.25);
     let [w1, w2, w3] = ["w1", "w2", "w3"].map(|wheel| correlation(&one, wheel));
-    // both motors speed their wheels up and slow the body down
     assert!(w1 < -0.9 && w2 < -0.9, "{w1} {w2}");
     assert_eq!(w3, 0.0);
     let opposite = coaxial(-0.7);

@@ -25,15 +25,13 @@ fn plan() -> Plan {
     Plan { groups: vec![Group::MassProperties], ..plan.unwrap() }
 }
 
-/// Law: the columns are the mass properties of the drawn scene, with ascending principal moments that keep trace and
-/// determinant of the inertia.
+/// Law: the columns are the mass properties of the drawn scene, with ascending principal moments.
 #[test]
 fn columns_are_those_of_the_scene() {
     let plan = plan();
     let table = rows(&plan);
     let columns: Vec<_> = table.columns().collect();
     assert_eq!(columns.len(), 7);
-    // Berdoz's model without dispersions
     let nominal = columns[4..].iter().map(|(_, column)| column[0]);
     for (value, expected) in nominal.zip([1687.2800329075988, 3054.590970145349, 3055.375141124116]) {
         assert!((value / expected - 1.0).abs() < 1e-15, "{value} {expected}");
@@ -105,7 +103,6 @@ fn moved(([sx, sy, sz], [xy, xz, yz]): ([f64; 3], [f64; 3]), [x, y, z]: [f64; 3]
 
 #[test]
 fn mass_errors_move_point_masses() {
-    // pairs, so that the centre of mass stays
     const POINTS: [(f64, [f64; 3]); 3] = [(2.0, [1.0, 0.3, -0.2]), (3.0, [-0.4, 0.9, 0.5]), (1.5, [0.2, -0.6, 1.1])];
     const CENTER: [f64; 3] = [0.5, -0.25, 1.0];
     let points = |errors: ([f64; 3], [f64; 3])| -> String {
@@ -131,8 +128,7 @@ fn mass_errors_move_point_masses() {
     }
 }
 
-/// Law: a body that includes its wheels has mass, centre and inertia as written, with the errors of the body, whichever
-/// wheels are free, held or locked.
+/// Law: a body that includes its wheels has mass, centre and inertia as written, whatever the wheels do.
 #[test]
 fn what_includes_the_wheels_is_the_whole() {
     const MASS: f64 = 500.0;
@@ -143,7 +139,6 @@ fn what_includes_the_wheels_is_the_whole() {
     let modes = ["free", "speed_held", "locked"];
     for errors in ERRORS {
         let (scale_log, shear) = errors;
-        // k A S A^T of the second moments S, and its inertia
         let inertia = Matrix::from_fn(|i, j| INERTIA[i][j]);
         let second = Matrix::identity() * (0.5 * inertia.trace()) - inertia;
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| moved(errors, axis));

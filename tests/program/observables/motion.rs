@@ -63,7 +63,6 @@ fn rates_nutation_and_wheels() {
     for (wheel, axis) in scene.mass.wheels.iter_mut().zip([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
         (wheel.axis, wheel.axial) = (axis, 0.25);
     }
-    // wheel 2 slows down; wheel 1 turns backwards, fastest in the middle
     let rates = |t: f64| [-40.0 + 10.0 * (t - 1.0).abs(), 100.0 - 30.0 * t];
     let motion = |t: f64| -> State {
         let omega = [0.3 * libm::cos(t), 0.0, 2.0];

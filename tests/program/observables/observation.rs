@@ -8,7 +8,6 @@ use crate::prelude::*;
 fn a_nutating_top_swings_its_tilted_wheel_at_twice_the_body_nutation_rate() {
     let (_, mut scene) = table1();
     scene.mass.debris = None;
-    // with equal transverse inertias and wheels at rest the whole is a symmetric top
     let transverse = scene.mass.inertia[0][0];
     let excess = scene.mass.inertia[1][1] - transverse;
     scene.mass.inertia[1][1] -= excess;
@@ -36,7 +35,6 @@ fn a_nutating_top_swings_its_tilted_wheel_at_twice_the_body_nutation_rate() {
     // measured: 1.0e-15
     assert!(row["angular_momentum_error_max"] <= 3.0 * ROUNDING, "{}", row["angular_momentum_error_max"]);
     close(row["angular_momentum_initial_n_m_s"], h, ROUNDING);
-    // the wheels make the body's energy swing with cos(2 k t)
     let expected = nutation.abs() / std::f64::consts::PI;
     // measured: a tenth of that, 6.3e-4 of the 1/30 Hz between the lines of 30 s
     let frequency = row["exchange_frequency_hz"];

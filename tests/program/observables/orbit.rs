@@ -35,7 +35,6 @@ fn a_body_at_rest_is_left_by_nadir() {
             assert!((row[name] / AXIS - 1.0).abs() < 1e-14, "{name} {}", row[name]);
         }
     }
-    // beyond half an orbit the angle falls again
     let far = row("", 4.0 / rate, 4_001, &body);
     assert!((far["nadir_angle_final_rad"] - (2.0 * PI - 4.0)).abs() < 1e-13);
     assert!((far["nadir_angle_max_rad"] - PI).abs() < 1e-3);
@@ -49,7 +48,6 @@ fn a_body_at_rest_is_left_by_nadir() {
 #[test]
 fn the_torque_is_that_of_the_textbook() {
     for turned in [0.2_f64, PI / 4.0, 1.2, 3.0] {
-        // s3 is `turned` from -e1, about e2
         let half = 0.5 * (-PI / 2.0 + turned);
         let (w, y) = (half.cos(), half.sin());
         let body = format!(

@@ -21,7 +21,6 @@ pub(crate) fn si(text: &str) -> f64 {
     if ["?", "-"].contains(&text) { f64::NAN } else { read_number(number) / scale }
 }
 
-/// The text is the number to three digits.
 pub(crate) fn same(text: &str, expected: &Value, what: &str) {
     let (found, expected) = (si(text), expected.as_f64().unwrap_or(f64::NAN));
     let is_same = found.is_nan() && expected.is_nan() || (found - expected).abs() <= 6e-3 * expected.abs();
@@ -75,8 +74,7 @@ fn answer_shows(row: &str, name: &str, value: &Value, interval: &Value, limit: O
     assert!(if is_most { x == 0.0 && (width - line).abs() < 0.11 } else { (x - line).abs() < 0.11 }, "{scale}");
 }
 
-/// Law: each requirement is one row with the verdict, limit, number, interval and counts of the summary; failures come
-/// first.
+/// Law: each requirement is one row with what the summary says; failures come first.
 #[test]
 fn answers_are_the_summary() {
     let lower = "[[require]]\nobservable = \"nutation_angle_max_rad\"\nquantile = 0.05\nat_least = \"1 deg\"\n";
@@ -150,8 +148,7 @@ fn found_outcomes(name: &str) -> Found {
     found(name, &text)
 }
 
-/// Law: without requirements each outcome of the file is a row with the summary's median, and the page has an example of
-/// a requirement that the program accepts.
+/// Law: without requirements each outcome is a row, and the page has an example that the program accepts.
 #[test]
 fn outcomes_are_the_summary() {
     let found = found_outcomes("answers-found");
@@ -191,8 +188,7 @@ fn small_pictures_are_the_figures() {
     assert!(missed > 0 && picture.contains("class=\"limit\"") && plain(picture).contains("1500 deg/s"), "{picture}");
 }
 
-/// Law: a listed run has its rank among the dispersed runs that are ok, the value and the inputs of its row, those
-/// farthest from nominal first, and the command of its sample.
+/// Law: a listed run has its rank, value, inputs (farthest first) and command.
 #[test]
 fn listed_runs_have_their_ranks() {
     let of_requirements = [

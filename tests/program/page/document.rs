@@ -92,8 +92,7 @@ fn pages_of_failures() {
     }
 }
 
-/// Law: the integration of the file of `new` holds its tolerance whatever the draws; a method whose steps add up to more
-/// than ten times its tolerance is named.
+/// Law: a method whose steps add up to more than ten times its tolerance is named, and the file of `new` has none.
 #[test]
 fn the_campaign_of_new_holds_its_tolerance() {
     let scratch = ScratchFolder::new("page-new");
@@ -111,8 +110,7 @@ fn the_campaign_of_new_holds_its_tolerance() {
     assert!(page(&scratch, "d").contains(above));
 }
 
-/// Law: the page has the verdict in title and head, then the answers, causes, runs, motion over time and distributions;
-/// the rest is folded.
+/// Law: verdict, answers, causes, runs, motion over time and distributions in this order; the rest is folded.
 #[test]
 fn the_page_answers_first() {
     let scratch = ScratchFolder::new("page-order");

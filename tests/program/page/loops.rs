@@ -63,8 +63,7 @@ fn called(text: &str) -> Vec<&'static str> {
     .collect()
 }
 
-/// Law: the page of a loop has the figures of its scene, those with limits first, and energies only if a requirement is
-/// about one; the page of a spinning body has energies and nothing of a loop.
+/// Law: the page of a loop has the figures of its scene; that of a spinning body has energies.
 #[test]
 fn a_loop_has_the_figures_of_a_loop() {
     for (file, text) in [("net_launch", NET_LAUNCH), ("slew_closed", SLEW_CLOSED), ("detumble", DETUMBLE)] {
@@ -145,8 +144,7 @@ fn events_are_marked_at_their_medians() {
     }
 }
 
-/// Law: the runs in flight are those whose rows have not ended; bands end with fewer than twenty, the axis with one in a
-/// hundred or with the nominal run.
+/// Law: bands end with fewer than twenty runs in flight, the axis with one in a hundred or the nominal run.
 #[test]
 fn bands_end_with_their_runs() {
     let found = page("flight", NET_LAUNCH);

@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 
-/// Ranks from 0; equal values do not occur.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
@@ -101,7 +100,6 @@ fn every_named_driver_has_its_direction() {
             dispersed(&found, &found.column_called(outcome))
         };
         for driver in drivers.split("), ").filter(|driver| driver.contains("with it")) {
-            // "y explains 80% [70, 90] of the variance (rises with it", then "z 12% [5, 20] (falls with it"
             let (input, _) = driver.trim_start().split_once(" (").expect("an input");
             let input = input
                 .split_once("% [")

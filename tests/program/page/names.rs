@@ -2,10 +2,8 @@
 
 use crate::prelude::*;
 
-/// Names of frames and symbols are no technical names.
 const SYMBOLS: [&str; 10] = ["F_s", "F_e", "F_d", "F_o", "C_es", "q_es", "omega_se", "A_d", "H_s", "n_d"];
 
-/// What a reader sees of a static page: without styles, code, and what is in tags.
 fn texts(page: &str) -> Vec<String> {
     let mut text = page.to_owned();
     for (start, end) in [
@@ -42,8 +40,7 @@ fn names_of(figure: &Value) -> Vec<String> {
     names
 }
 
-/// Law: no name on the page of a shipped campaign has an underscore, no two quantities or figures share a name, and
-/// angles are in degrees unless the file says otherwise.
+/// Law: no name has an underscore or two meanings, and angles are in degrees unless the file says otherwise.
 #[test]
 fn shown_names_are_words_and_unique() {
     let scratch = ScratchFolder::new("page-names");
@@ -60,7 +57,6 @@ fn shown_names_are_words_and_unique() {
         assert!(matches!(output.status.code(), Some(0 | 1 | 3 | 5)), "{name}: {output:?}");
         let page = scratch.text(&format!("{name}/report.html"));
         let data = Found::data_of(&page);
-        // the names of phases are those of the file
         let file =
             format!("{}{}", fs::read_to_string(&path).expect("a file"), scratch.text(&format!("{name}/plan.toml")));
         let is_phase = |word: &String| file.contains(&format!("phase = \"{word}\""));

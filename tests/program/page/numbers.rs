@@ -155,7 +155,6 @@ pub(crate) fn motion() -> String {
     sized(300).replace("points = 11", &format!("points = 11\n{GROUPS}")) + MORE
 }
 
-/// Of these runs some end well, some are not accurate and some are not physical; all requirements are missed.
 pub(crate) fn failing() -> String {
     const REQUIRED: &str = "[audit]\nfraction = 0.2\n\
         [[require]]\nobservable = \"angular_rate_final_rad_s\"\nquantile = 0.95\nat_most = \"2100 deg/s\"\n\
@@ -316,7 +315,8 @@ fn static_numbers_are_those_of_the_rows() {
     }
 }
 
-/// Law: the screen counts the runs left out, a reason is escaped on the page, and a failed run has no derived observable.
+/// Law: the screen counts the runs left out, a reason is escaped on the page, and a failed run has no derived
+/// observable.
 #[test]
 fn runs_that_failed_are_left_out() {
     use arrow_array::{Array as _, cast::AsArray as _};

@@ -134,7 +134,6 @@ fn shadow_is_that_of_the_column() {
         assert_eq!(live["words"], serde_json::json!(["full", "part shadow", "in shadow"]));
         assert!(live["held"] == true && found.array(&live["values"]) == hidden);
         for (value, column) in hidden.iter().zip(series(&columns, Series::SunHidden)) {
-            // times have single precision, and a part of the Sun lasts some seconds
             assert!((value - column).abs() < 1e-3, "{value} for {column}");
             seen[usize::from(*column > 0.5)] += 1;
         }

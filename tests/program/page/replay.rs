@@ -16,7 +16,8 @@ fn near(found: f64, expected: f64, scale: f64, what: &str) {
     assert!((found - expected).abs() <= 1e-6 * scale.max(expected.abs()), "{what}: {found} for {expected}");
 }
 
-/// Law: the live numbers are those of `simulate` for that sample and time; propellant never falls and ends as in the row.
+/// Law: the live numbers are those of `simulate` for that sample and time; propellant never falls and ends as in the
+/// row.
 #[test]
 fn live_numbers_are_those_of_simulate() {
     let found = &*MISSIONS;
@@ -93,7 +94,6 @@ fn pointing_errors_are_those_of_the_run() {
     let table = found.scratch.table("p.parquet");
     let estimated = floats(&table, "estimated_pointing_error_rad");
     for (row, place) in known.into_iter().enumerate() {
-        // the star tracker of the nominal run is within some arc minutes
         assert!(
             (shown[place] - estimated[row]).abs() < 3e-3,
             "{} for {} at {}",

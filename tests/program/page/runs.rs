@@ -86,7 +86,6 @@ fn nominal_is_nominal() {
     let middles: Vec<f64> = edges.windows(2).map(|ends| 0.5 * (ends[0] + ends[1])).collect();
     let mean = inputs.iter().sum::<f64>() / 299.0;
     assert!((center(&middles, &heights) - mean).abs() < edges[1] - edges[0]);
-    // the mean of a normal distribution is its nominal value
     let expected = found.mark("input_initial_angular_velocity_z_rad_s", "expected counts");
     let [x, y] = ["x", "y"].map(|key| found.array(&expected[key]));
     near(y.iter().sum(), 299.0, 0.02, "expected samples");
@@ -135,7 +134,8 @@ fn bars_of_influence_descend() {
     }
 }
 
-/// Law: each way of failing is counted, its first run listed with reason and command, and no failed run is among the ok.
+/// Law: each way of failing is counted, its first run listed with reason and command, and no failed run is among the
+/// ok.
 #[test]
 fn two_statuses_are_told_apart() {
     let scratch = ScratchFolder::new("page-statuses");

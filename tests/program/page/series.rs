@@ -17,7 +17,6 @@ fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * expected.abs(), "{what}: {found} for {expected}");
 }
 
-/// Relative error of a value within its bucket.
 const BUCKET: f64 = 2e-3;
 
 fn share(values: &[f64], limit: f64) -> f64 {
@@ -39,7 +38,6 @@ fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
     }
 }
 
-/// Limits of the requirements on single runs of `column`, with the sign of the side on which they are missed.
 fn limits_on(found: &Found, column: &str) -> Vec<(f64, f64)> {
     let summary = found.scratch.summary("r");
     let list = summary["requirements"]["list"].as_array().expect("requirements").clone();
@@ -141,7 +139,6 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
     }
 }
 
-/// Quantities over time, and the columns that have their last values.
 const LAST: [(&str, &str); 4] = [
     ("nadir_angle_rad", "nadir_angle_final_rad"),
     ("angular_rate_rad_s", "angular_rate_final_rad_s"),

@@ -30,7 +30,7 @@ column = "wall"
     scratch.prints(&format!("campaign all.toml --seed {seed} --out {result}"), 3);
 }
 
-/// Law: `verify` finds and names each derived file of other rows under right checksums, and a repair makes its bytes again.
+/// Law: `verify` names each derived file of other rows under right checksums; a repair makes its bytes again.
 #[test]
 fn every_altered_file_is_found_under_right_checksums() {
     let scratch = folder("altered");
@@ -47,7 +47,6 @@ fn every_altered_file_is_found_under_right_checksums() {
     }
     for name in names {
         let altered = other.get(name).filter(|bytes| **bytes != whole[name]).cloned();
-        // a file that does not depend on the seed gets a byte more
         let altered = altered.unwrap_or_else(|| [whole[name].as_slice(), b"\n"].concat());
         alter(&scratch, &[(name, &altered)]);
         let said = scratch.prints("verify r --fraction 1", 4);
@@ -91,8 +90,7 @@ fn verdicts_are_those_of_the_rows() {
     }
 }
 
-/// Law: `verify` of a result without its empty mark compares what the manifest lists and ends with 5; the campaign's
-/// command finishes the result.
+/// Law: without its mark a result is compared and ends with 5; the campaign's command finishes it.
 #[test]
 fn a_result_without_its_mark_is_not_sound() {
     let scratch = folder("altered-mark");
@@ -133,8 +131,7 @@ fn what_is_not_compared_is_named() {
     assert!(contents(&scratch.path("r")) == whole);
 }
 
-/// Law: a campaign stopped before its first or last part is sound but not finished, and `verify` ends with 5; a part
-/// without its bands is damage.
+/// Law: an unfinished campaign is sound and ends with 5; a part without its bands is damage.
 #[test]
 fn what_is_not_made_yet_is_no_damage() {
     let scratch = folder("altered-early");

@@ -7,7 +7,6 @@ use crate::reliability::interrupted::send;
 const DOCUMENT: &str = include_str!("../../../docs/cluster.md");
 const SHARDS: usize = 8;
 
-/// The text between `before`, which occurs once, and `after` in the document.
 fn between(before: &str, after: &str) -> String {
     let mut found = DOCUMENT.split(before).skip(1);
     let (first, more) = (found.next().unwrap_or_else(|| panic!("no {before}")), found.next());
@@ -51,7 +50,6 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
     }
 }
 
-/// The document's script of the array for `small.toml`, with `scontrol` writing its arguments to a file.
 fn slurm_script(scratch: &ScratchFolder, samples: u64) -> String {
     let mut script =
         format!("scontrol() {{ echo \"$@\" >>scontrol.log; }}\n{}", between("```text\n#!/bin/bash\n", "```"));
@@ -90,8 +88,7 @@ fn the_slurm_array_makes_the_bytes_of_one_process() {
     assert!(!scratch.path("scontrol.log").exists());
 }
 
-/// Law: a task signalled before its time limit, or killed, requeues itself at most ten times; after another signal it
-/// does not.
+/// Law: a task signalled before its time limit, or killed, requeues itself at most ten times.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_slurm_task_that_was_stopped_is_put_back() {
@@ -106,7 +103,6 @@ fn a_slurm_task_that_was_stopped_is_put_back() {
         }
     };
     let mut requeued = 0;
-    // USR1 goes to the shell, which passes it on; the others to the program
     for (signal, restarts, code, is_back) in
         [("USR1", 0, 138, true), ("KILL", 9, 137, true), ("KILL", 10, 137, false), ("TERM", 0, 143, false)]
     {

@@ -6,8 +6,7 @@ use crate::reliability::altered_results::everything;
 use crate::reliability::failing_store::contents;
 use crate::reliability::interrupted::{is_ignored, send, start};
 
-/// Law: any file that is flipped in a bit, cut off, emptied, deleted or replaced is named by `verify` and refused by the
-/// commands that read it; each repairing command makes the same bytes again.
+/// Law: any changed file is named by `verify` and refused by readers; each repair makes the same bytes.
 #[test]
 fn every_damage_is_found_and_made_again() {
     let scratch = folder("derived");
@@ -48,7 +47,6 @@ fn every_damage_is_found_and_made_again() {
             scratch.prints("compare r r", 4);
             let is_of_rows = ["runs/", "bands/"].iter().any(|folder| name.starts_with(folder));
             let repair = match name.split('/').next() {
-                // a file of numbers follows from nothing: the campaign's command has the original
                 Some("data") => 1,
                 _ if is_of_rows => (index + way) % 2,
                 _ => (index + way) % repairs.len(),
@@ -189,8 +187,7 @@ fn unlisted_files_are_left_alone() {
     assert_eq!(scratch.text("r/report.html"), "another page");
 }
 
-/// Law: a shard started again on a finished result changes nothing; with other requirements it is refused with the keys
-/// that differ.
+/// Law: a shard on a finished result changes nothing; other requirements are refused with their keys.
 #[test]
 fn shards_change_no_finished_result() {
     let scratch = folder("derived-shards");

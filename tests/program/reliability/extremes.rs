@@ -8,9 +8,7 @@ use arrow_array::cast::AsArray as _;
 use spindrift::findings::loss::readable;
 const SPIN: &str = "[0, 3.141592653589793, 31.41592653589793]";
 
-/// Keys, their values in the campaign, and the values that replace these.
 const CHANGES: &[(&str, &str, &[&str])] = &[
-    // the fifth is an observation every 1e-30 s
     ("duration_s = ", "1.0", &["1e300", "1.7976931348623157e308", "1e-300", "5e-324", "1e-29", "0", "inf", "1e100"]),
     ("points = ", "11", &["2", "1", "1000000000000000000"]),
     ("tolerance = ", "1e-10", &["0", "nan", "-nan", "1e-300", "1e300", "1e-16"]),
@@ -96,13 +94,11 @@ fn extremes_are_refused_or_answered() {
 const LONG: &[(&str, &str)] =
     &[(SPIN, "[1e9, 1e9, 0]"), (SPIN, "[0, 1e308, 1e308]"), ("radius_m = 0.25", "radius_m = 1e9")];
 
-/// Law: a run for which `integrator.max_steps` does not suffice ends as soon as its pace shows it, by every method; as a
-/// row with that status and reason. (Otherwise these commands take minutes.)
+/// Law: a run for which `integrator.max_steps` does not suffice ends as soon as its pace shows it.
 #[test]
 fn what_is_out_of_reach_ends_at_once() {
     let scratch = folder("out-of-reach");
     for (from, to) in LONG {
-        // `auto` finds the period of such rates
         let text = sized(3).replace("\"auto\"", "\"taylor\"").replacen(from, to, 1);
         scratch.file("long.toml", &text);
         let said = scratch.prints_wide("check long.toml", 0);
@@ -159,7 +155,8 @@ fn outliers_end_alone() {
     }
 }
 
-/// Law: masses whose products overflow are refused with the limit in every shipped campaign, and none is shown infinite.
+/// Law: masses whose products overflow are refused with the limit in every shipped campaign, and none is shown
+/// infinite.
 #[test]
 fn masses_that_overflow_are_refused() {
     let scratch = folder("large-masses");

@@ -12,7 +12,6 @@ use spindrift::workflow::{Outputs, WorkflowError as Failure};
 
 pub use crate::support::scratch_folder::contents;
 
-/// The number of parts of a dataset, each checked to be whole with its bands.
 pub fn whole_parts(root: &Path) -> usize {
     let entries = fs::read_dir(root.join("runs")).into_iter().flatten().map(|entry| entry.unwrap().path());
     let files = entries.filter(|path| path.extension().is_some_and(|extension| extension == "parquet"));
@@ -36,8 +35,7 @@ pub enum Operation {
     Lock,
 }
 
-/// How an operation fails: as an error of this kind, with half of a put file under a temporary name; after it was done,
-/// its answer lost; or with an error number of the operating system.
+/// As an error of this kind, with half of a put file; after it was done; or with an error number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     Kind(io::ErrorKind),
@@ -65,7 +63,6 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// Counted operation `fails`, from zero, fails, and so do all later ones if the fault `persists`.
     pub fn new(is_counted: fn(Operation) -> bool, fails: u64, persists: bool, fault: Fault) -> Arc<Self> {
         Arc::new(Plot { is_counted, fails, persists, fault, watched: None, done: Mutex::default() })
     }
@@ -161,7 +158,6 @@ impl Store for Failing {
     }
 
     fn lock(&self, _: bool) -> Result<Option<File>, TryLockError> {
-        // no real lock: a process that another test is about to start would have it too, from its fork to its exec
         self.plot.check(Operation::Lock, self.root()).map(|()| None).map_err(TryLockError::Error)
     }
 

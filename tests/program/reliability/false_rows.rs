@@ -53,7 +53,8 @@ fn a_part_of_another_seed_is_found() {
     assert!(contents(&scratch.path("r")) == whole);
 }
 
-/// Law: `verify` with any fraction above zero computes a part again and finds bands of another seed under right checksums.
+/// Law: `verify` with any fraction above zero computes a part again and finds bands of another seed under right
+/// checksums.
 #[test]
 fn any_fraction_computes_a_part() {
     let scratch = two_seeds("false-bands", 20);
@@ -74,8 +75,7 @@ fn any_fraction_computes_a_part() {
     assert!(contents(&scratch.path("r")) == whole);
 }
 
-/// Law: without a sound `dataset.json` the rows are known by their own metadata: another plan is refused, and the same
-/// one heals it.
+/// Law: without a sound `dataset.json` rows are known by their metadata; the same plan heals it.
 #[test]
 fn a_damaged_head_adopts_no_other_plan() {
     let scratch = two_seeds("false-head", 300);
@@ -103,7 +103,8 @@ fn a_damaged_head_adopts_no_other_plan() {
     }
 }
 
-/// Law: parts of different plans are never merged: `finish` names the odd one, and the campaign's command makes it again.
+/// Law: parts of different plans are never merged: `finish` names the odd one, and the campaign's command makes it
+/// again.
 #[test]
 fn shards_of_two_plans_are_not_merged() {
     let scratch = folder("false-shards");

@@ -6,11 +6,9 @@ use std::sync::Arc;
 
 use crate::reliability::failing_store::{Fault, Making, Plot, contents, made, reason, whole_parts};
 
-/// Three parts.
 const SAMPLES: u64 = 520;
 
-/// Makes a campaign with a fault at every operation in turn, and checks what is left and the next attempt. Returns the
-/// number of errors and of operations.
+/// With a fault at every operation in turn. Returns the number of errors and of operations.
 fn fail_everywhere(scratch: &ScratchFolder, has_page: bool, persists: bool, faults: &[Fault]) -> [usize; 2] {
     let making = Making { has_page, ..Making::of(SAMPLES) };
     let counted = Plot::harmless(|_| true);
@@ -42,8 +40,7 @@ fn fail_everywhere(scratch: &ScratchFolder, has_page: bool, persists: bool, faul
     [errors, operations.len()]
 }
 
-/// Law: a fault at any operation of a campaign, before it is done or after, once or from then on, is an error with the
-/// path; files under final names are whole; the next attempt gives the same bytes. Kinds of faults take turns.
+/// Law: a fault is an error with the path; files are whole; the next attempt gives the same bytes.
 #[test]
 fn every_operation_may_fail() {
     use io::ErrorKind::{Other, ReadOnlyFilesystem, StorageFull};
@@ -118,7 +115,6 @@ struct SmallDisk(std::path::PathBuf);
 
 #[cfg(target_os = "linux")]
 impl SmallDisk {
-    /// `None` where this process may not mount.
     fn new(path: std::path::PathBuf, kilobytes: u64) -> Option<Self> {
         fs::create_dir_all(&path).unwrap();
         let options = format!("size={kilobytes}k");
@@ -141,12 +137,10 @@ impl Drop for SmallDisk {
     }
 }
 
-/// A disk on which a whole result fits, kB.
 #[cfg(target_os = "linux")]
 const ENOUGH: u64 = 65_536;
 
-/// Law: on a real full disk the error names path and cause, files under final names are whole, and with more space the
-/// same command gives the same bytes.
+/// Law: so on a real full disk.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_small_disk_fills_up() {

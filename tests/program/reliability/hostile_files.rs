@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 
-/// A campaign whose samples are the rows of `table.csv`.
 fn table_campaign(scratch: &ScratchFolder) {
     let table = "\n[design]\nkind = \"table\"\nfile = \"table.csv\"\n";
     let text = campaign().replace("samples = 600\n", "");
@@ -59,8 +58,7 @@ fn what_is_no_file_of_numbers_is_refused_by_what_it_is() {
     }
 }
 
-/// Law: a result is complete in itself: moved and without the file of numbers of its plan it is finished, verified and
-/// reported, with the bytes of one process.
+/// Law: a result moved, without the file of numbers of its plan, is complete.
 #[test]
 fn a_result_has_its_data() {
     let scratch = folder("data");
@@ -81,7 +79,6 @@ fn a_result_has_its_data() {
     }
     let copies: Vec<_> = fs::read_dir(scratch.path("whole/data")).unwrap().collect();
     assert_eq!(copies.len(), 1);
-    // counter-test: a copy that has changed is not taken for the file
     let copy = fs::read_dir(scratch.path("campaigns/moved/data")).unwrap().next().unwrap().unwrap().path();
     fs::write(copy, "wheels.w1.radius_m\n0.25\n0.26\n0.25\n").unwrap();
     scratch.shows("simulate campaigns/moved/plan.toml --sample 1", 2, "must be the SHA-256 of the file");
@@ -118,7 +115,6 @@ fn inputs_are_never_outputs() {
         assert_eq!(fs::read(scratch.path("table.csv")).unwrap(), table, "{command}");
     }
     assert!(!scratch.path("results").exists());
-    // counter-test: other files are written
     scratch.prints("sample table.toml --out other.csv", 0);
     assert!(scratch.path("other.csv").exists());
 }
@@ -137,7 +133,6 @@ fn a_result_takes_no_other_files() {
     scratch.shows("report r --figures r/figures", 2, "must be outside of the result in `r`");
 }
 
-/// Law: planted links are not followed, and another program's folder is refused.
 #[cfg(unix)]
 #[test]
 fn planted_links_are_not_followed() {
@@ -171,12 +166,10 @@ fn planted_links_are_not_followed() {
     assert_eq!(fs::read_dir(scratch.path("precious")).unwrap().count(), 1);
 }
 
-/// A character that a terminal obeys.
 fn is_obeyed(letter: char) -> bool {
     letter != '\n' && (letter.is_control() || letter == '\u{202e}')
 }
 
-/// Law: no such character of a file reaches the terminal.
 #[test]
 fn escapes_are_shown_as_text() {
     let scratch = folder("escapes");
@@ -227,7 +220,6 @@ fn too_many_files_of_numbers_are_refused() {
 fn threads_that_do_not_start_are_no_input_error() {
     let scratch = folder("no-threads");
     scratch.small("--out r", 0);
-    // stacks that are larger than the addresses of a process
     let command = |arguments: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_spindrift"));
         command.args(arguments.split(' ')).env("RUST_MIN_STACK", "100000000000000000");
@@ -276,7 +268,6 @@ fn a_limit_of_file_sizes_is_an_error() {
     let scratch = folder("file-limit");
     scratch.small("--out whole", 0);
     let limited = |arguments: &str, code: i32| {
-        // blocks of 512 bytes
         let line = format!("ulimit -f 8; exec '{}' {arguments}", env!("CARGO_BIN_EXE_spindrift"));
         scratch.outputs(Command::new("sh").args(["-c", &line]), code)
     };
@@ -291,7 +282,6 @@ fn a_limit_of_file_sizes_is_an_error() {
     }
     scratch.small("--out r", 0);
     assert!(contents(&scratch.path("r")) == contents(&scratch.path("whole")));
-    // counter-test: what fits is written
     limited("check small.toml", 0);
 }
 
@@ -302,7 +292,6 @@ fn what_cannot_be_read_now_is_no_mistake() {
     let scratch = folder("unreadable");
     table_campaign(&scratch);
     fs::remove_file(scratch.path("table.csv")).unwrap();
-    // a regular file whose first byte cannot be read (EIO): no page of memory is there
     let unreadable = |name: &str| std::os::unix::fs::symlink("/proc/self/mem", scratch.path(name)).unwrap();
     let commands = ["check FILE", "campaign FILE --out r", "simulate FILE", "sample FILE"];
     let all = |file: &str, code: i32| {

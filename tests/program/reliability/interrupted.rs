@@ -4,7 +4,6 @@ use crate::prelude::*;
 
 use crate::reliability::failing_store::whole_parts;
 
-/// Kills of the short version.
 const KILLS: u32 = 100;
 /// Samples of the campaign that is killed: about 0.1 s.
 const SAMPLES: u64 = 5_000;
@@ -25,8 +24,7 @@ pub fn start(scratch: &ScratchFolder, arguments: &str) -> Child {
     scratch.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
-/// Kills and continues the campaign until it is complete, `kills` times in all, at instants that follow from `seed`; no
-/// part is lost.
+/// `kills` times in all, at instants that follow from `seed`; no part is lost.
 fn kill_and_continue(kills: u32, seed: u64) {
     let scratch = folder(&format!("kill-{seed}"));
     let command = format!("campaign small.toml --samples {SAMPLES} --no-report");
@@ -186,7 +184,6 @@ fn signals_stop_and_the_command_continues() {
     let scratch = folder("signals");
     let command = format!("campaign small.toml --samples {} --no-report --threads 1", 5 * SAMPLES);
     for (signal, number) in [("HUP", 1), ("INT", 2), ("USR1", 10), ("TERM", 15)] {
-        // ignored by this process (`nohup`), a signal is ignored by its children too
         if is_ignored(number) {
             continue;
         }

@@ -1,14 +1,10 @@
-//! Loss of power: at any call that changes or flushes a file, all unflushed content and names are gone; the same command
-//! then ends with the same bytes.
-//!
-//! A library (`power_loss.c`, compiled here and loaded before libc) keeps what is flushed and ends the process before
-//! the chosen call; the test restores what was kept.
+//! Loss of power: at any call that changes or flushes a file all unflushed content and names are gone; the same command
+//! then ends with the same bytes. A library (`power_loss.c`, loaded before libc) keeps what is flushed.
 
 use crate::prelude::*;
 
 use crate::reliability::failing_store::contents;
 
-/// Calls between failures of power in the short version.
 const STEP: usize = 7;
 
 /// The library; `None` where there is no compiler for it.
@@ -29,7 +25,6 @@ fn library(scratch: &ScratchFolder) -> Option<PathBuf> {
     }
 }
 
-/// The entries of a folder at its last flush: inode, whether it is a folder, name.
 fn entries(durable: &Path, inode: &str) -> Vec<(String, bool, String)> {
     let text = fs::read_to_string(durable.join(format!("folder-{inode}"))).unwrap_or_default();
     let entry = |line: &str| {
@@ -40,7 +35,6 @@ fn entries(durable: &Path, inode: &str) -> Vec<(String, bool, String)> {
     text.lines().map(entry).collect()
 }
 
-/// Puts what was flushed of the folder `inode` into the empty folder `to`.
 fn put_back(durable: &Path, inode: &str, to: &Path) {
     for (inode, is_folder, name) in entries(durable, inode) {
         let path = to.join(name);
@@ -58,7 +52,6 @@ fn inode(path: &Path) -> String {
     fs::metadata(path).unwrap().ino().to_string()
 }
 
-/// Copies the files below `from` to `to`, which is made new.
 fn copy(from: &Path, to: &Path) {
     let _ = fs::remove_dir_all(to);
     fs::create_dir_all(to).unwrap();
@@ -122,7 +115,6 @@ fn power_fails(step: usize) {
             files.iter().filter(|(name, _)| name.starts_with("runs/")).map(|(_, bytes)| bytes.clone()).collect()
         };
         assert!(rows(&goal) == rows(&whole), "{}", case.name);
-        // counter-test: everything was flushed at the end
         let root = inode(&disk);
         let _ = fs::remove_dir_all(&disk);
         fs::create_dir(&disk).unwrap();

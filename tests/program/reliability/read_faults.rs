@@ -1,5 +1,4 @@
-//! A fault at the k-th read of a dataset, for every k and command: an unreadable file is an error with its name and
-//! cause, and never taken for a damaged one.
+//! A fault at the k-th read of a dataset, for every k and command, is an error and never taken for damage.
 
 use crate::prelude::*;
 use std::sync::Arc;
@@ -15,7 +14,6 @@ type Files = BTreeMap<String, Vec<u8>>;
 
 const SAMPLES: [u64; 2] = [260, 520];
 
-/// Linux's EIO, EACCES, ENOENT.
 const UNREADABLE: [i32; 3] = [5, 13, 2];
 
 fn is_read(operation: Operation) -> bool {
@@ -31,7 +29,6 @@ fn faults(operation: Operation) -> Vec<Fault> {
     errors.iter().map(|number| Fault::System(*number)).collect()
 }
 
-/// Causes that the message may name: a folder that the disk does not have is an empty one.
 fn causes(fault: Fault) -> [String; 2] {
     [fault.error().to_string(), "has no result of spindrift".to_owned()]
 }
@@ -119,7 +116,6 @@ impl Case<'_> {
                 let ended = (self.command)(&plot, root);
                 count.faults += 1;
                 count.errors += usize::from(ended.is_err());
-                // a file that may be absent is reported by a later read
                 let failed = plot.done().split_off(fails);
                 let paths = failed.iter().take(if persists { failed.len() } else { 1 }).map(|(_, path)| path);
                 self.check_end(&what, root, paths.collect(), (ended, fault), &goal);
@@ -151,7 +147,6 @@ impl Case<'_> {
             }
         }
         if now == *self.start {
-            // running again starts from the same files
             return;
         }
         for (name, bytes) in
@@ -174,8 +169,7 @@ impl Case<'_> {
     }
 }
 
-/// Law: whichever read fails, once or from then on, the command names path and cause with code 4, or ends as if nothing
-/// had happened; no sound part is lost, and the same command without the fault gives the same bytes.
+/// Law: whichever read fails, the command names path and cause with code 4 or is not affected; no part is lost.
 macro_rules! reads_may_fail {
     ($($test:ident: $command:literal),* $(,)?) => {$(
         #[test]
@@ -203,7 +197,6 @@ fn reads_fail(of: &str, in_turn: bool) {
     let scratch = ScratchFolder::new(&format!("read-faults-{of}-{in_turn}"));
     let root = scratch.path("r");
     let [whole, longer] = SAMPLES.map(|samples| made(Making::of(samples), &root));
-    // what a killed process leaves
     let without_end = |files: &Files, parts: usize| -> Files {
         let numbers: Vec<String> = (0..parts).map(|part| format!("part-{part:06}.")).collect();
         let is_kept = |name: &str| {

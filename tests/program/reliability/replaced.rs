@@ -12,10 +12,8 @@ fn entries(folder: &Path) -> BTreeSet<String> {
 
 const SAMPLES: u64 = 300;
 
-/// Folders beside a result `r` that no command made, with names of replacements.
 const NOT_OURS: [&str; 4] = [".r.old", ".r.new", ".r.0123456789abcdef.new", ".r.0123456789abcdef.old"];
 
-/// Makes these folders as copies of a result.
 fn plant(scratch: &ScratchFolder, result: &Path) {
     for name in NOT_OURS {
         let folder = scratch.path(name);
@@ -27,8 +25,7 @@ fn plant(scratch: &ScratchFolder, result: &Path) {
     }
 }
 
-/// Law: a fault at any operation of a replacement names a path; the old or the new result is whole, in its place or
-/// beside it; the next command ends with the new result, and foreign neighbours stay as they were.
+/// Law: after a fault at any operation the old or the new result is whole, and the next command ends with the new.
 #[test]
 fn every_operation_of_a_replacement_may_fail() {
     let scratch = ScratchFolder::new("replaced-faults");
@@ -120,7 +117,6 @@ fn a_mount_point_is_not_replaced() {
     fs::create_dir_all(scratch.path("inner")).unwrap();
     let root = scratch.path("r");
     fs::create_dir(&root).unwrap();
-    // a bind mount has the device number of its file system
     let mount = std::process::Command::new("mount").arg("--bind").arg(scratch.path("inner")).arg(&root).output();
     if !mount.is_ok_and(|output| output.status.success()) {
         println!("skipped: this process may not mount a folder");
@@ -139,8 +135,7 @@ fn a_mount_point_is_not_replaced() {
     ended.unwrap();
 }
 
-/// Law: a folder of a result that becomes a link during a run is not written through: the command ends with code 4, and
-/// completes the result once the folder is back.
+/// Law: a folder of a result that becomes a link during a run is not written through.
 #[cfg(target_os = "linux")]
 #[test]
 fn links_swapped_in_during_a_run_are_not_followed() {

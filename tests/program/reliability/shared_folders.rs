@@ -27,7 +27,6 @@ fn no_locks(scratch: &ScratchFolder) -> Option<PathBuf> {
     None
 }
 
-/// The library in which locks fail, and the error number.
 type Locks<'a> = Option<(&'a Path, i32)>;
 
 fn start(scratch: &ScratchFolder, arguments: &str, locks: Locks<'_>) -> Child {
@@ -39,7 +38,6 @@ fn start(scratch: &ScratchFolder, arguments: &str, locks: Locks<'_>) -> Child {
     program.spawn().unwrap()
 }
 
-/// Runs all commands at once: exit codes and messages.
 fn together(scratch: &ScratchFolder, commands: &[String], locks: Locks<'_>) -> Vec<(i32, String)> {
     let started: Vec<Child> = commands.iter().map(|command| start(scratch, command, locks)).collect();
     let ended = |child: Child| {
@@ -93,7 +91,6 @@ fn many_rounds_of_shards() {
     }
 }
 
-/// Lets different campaigns begin in an empty folder, `rounds` times: one completes, the others are refused.
 fn others_begin(scratch: &ScratchFolder, rounds: u32, locks: Locks<'_>) {
     let other = campaign().replace("duration_s = 1.0", "duration_s = 1.5");
     scratch.file("other.toml", &other);
@@ -152,7 +149,6 @@ fn a_lock_that_fails_is_an_error() {
         assert!(code == 4 && said.contains("Input/output error"), "{code}: {said}");
     }
     assert_eq!(fs::read_dir(scratch.path("new")).unwrap().count(), 0);
-    // counter-test: without locks the same commands do their work
     for (code, said) in together(&scratch, &commands, Some((&library, WITHOUT[0]))) {
         assert_eq!(code, 0, "{said}");
     }

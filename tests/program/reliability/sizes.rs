@@ -67,7 +67,6 @@ fn a_slip_in_an_address_makes_no_folder() {
 #[test]
 fn what_is_long_is_asked_for() {
     let scratch = folder("long");
-    // at most 20 ms a run, so that the probe can measure it
     let long =
         campaign().replace("duration_s = 1.0", "duration_s = 1000.0").replace("tolerance = 1e-10", "tolerance = 1e-14");
     scratch.file("long.toml", &long.replace("method = \"auto\"", "method = \"null_space\"").replace("1e-14", "1e-10"));
@@ -81,11 +80,11 @@ fn what_is_long_is_asked_for() {
     scratch.small("--out r --samples 700 --yes", 0);
 }
 
-/// Law: replacing a complete result needs `--yes` as an empty folder does; continuing it needs `--yes` for the rest only.
+/// Law: replacing a complete result needs `--yes` as an empty folder does; continuing it needs `--yes` for the rest
+/// only.
 #[test]
 fn what_is_replaced_is_asked_for() {
     let scratch = folder("long-again");
-    // a run stops after the first steps; the estimate takes them all
     let method = "method = \"null_space\"\nmax_steps = 1000000000";
     let long = campaign_without_debris()
         .replace("duration_s = 1.0", "duration_s = 1e9")

@@ -64,7 +64,6 @@ fn strays_are_named_and_left_alone() {
     };
     ["runs/part-000003.parquet", "statistics.parquet", "summary.json"].into_iter().for_each(same);
     assert!(strays.iter().all(|path| fs::read_to_string(path).unwrap() == "precious"));
-    // counter-test: replacing the result would lose them
     scratch.small_shows("--samples 300 --out r --overwrite", 4, "not part of a result of spindrift; move it away");
     assert!(strays.iter().all(|path| path.exists()));
 }

@@ -11,7 +11,6 @@ const SHARDS: [u32; 3] = [1, 4, 13];
 #[test]
 fn threads_and_shards_change_no_byte() {
     let scratch = folder("threads-shards");
-    // some samples are not physical, some runs are audited and kept, and some columns are expressions
     let rest = "\n[audit]\nfraction = 0.001\n[retain]\ntrajectories = \"worst:3 by energy_error_max\"\n";
     let text = [&sized(3600), NEGATIVE_WALLS, MORE, rest].concat();
     scratch.file("all.toml", &text);
@@ -21,7 +20,6 @@ fn threads_and_shards_change_no_byte() {
             if shards == 1 {
                 scratch.prints(&format!("campaign all.toml --threads {threads} --out r"), 1);
             } else {
-                // the first comes last, and until then `finish` says what is missing
                 for shard in (1..=shards).rev() {
                     if shard == 1 {
                         let said = scratch.prints("finish r", 4);

@@ -1,5 +1,4 @@
-//! Null, never NaN: what is no finite number is absent in every file of a result, so that the maximum and the mean of a
-//! column are numbers.
+//! What is no finite number is absent in every file of a result: null, never NaN.
 
 use crate::prelude::*;
 
@@ -32,12 +31,10 @@ fn without_maximum(path: &Path) -> (Vec<String>, usize) {
     (wrong, columns)
 }
 
-/// Law: in every table of a campaign with failed, audited, retained and unphysical runs, maximum and mean of every
-/// column are finite.
+/// Law: in every table of a campaign with failures maximum and mean of every column are finite.
 #[test]
 fn every_column_has_a_maximum_and_a_mean() {
     let scratch = folder("absent");
-    // five points are too few for a frequency: the runs are `ok` and have none
     let text = sized(40).replace("points = 11", "points = 5");
     let rest = "[retain]\ntrajectories = \"all\"\n[audit]\nfraction = 0.2\n";
     scratch.file("small.toml", &format!("{text}{NEGATIVE_WALLS}{rest}"));

@@ -10,7 +10,6 @@ fn plan(name: &str, samples: u64, fraction: f64) -> Plan {
     Plan { audit_fraction: fraction, ..shipped(name, Some(samples)) }
 }
 
-/// A row as bits, and what its audit found.
 type Row = (RowBits, Option<Option<Audit>>);
 
 fn rows(plan: &Plan, threads: usize) -> BTreeMap<u64, Row> {
@@ -51,10 +50,8 @@ fn rows_keep_their_bits_and_audits_are_those_of_any_thread() {
     }
 }
 
-/// Law: the selection is a fraction of the samples (H0: each with probability 0.01, of 100,000; alpha = 1e-6,
-/// two-sided), does not depend on the order, and a larger fraction contains the samples of a smaller one. The seed
-/// decides which they are (H0: two seeds select independently; then about 10 are common, and 40 or more with a
-/// probability below 1e-12).
+/// Law: the selection is a fraction of the samples (alpha = 1e-6), in any order, contains that of a smaller one, and
+/// depends on the seed (40 or more in common have a probability below 1e-12).
 #[test]
 fn the_selection_is_a_share_and_grows_with_it() {
     let nominal = plan("no_debris", 100_000, 0.0);
@@ -68,7 +65,6 @@ fn the_selection_is_a_share_and_grows_with_it() {
         found
     };
     let (small, large) = (selected(0.01, 1), selected(0.1, 1));
-    // 4.9 standard deviations of 31.5
     assert!((845..=1155).contains(&small.len()), "{}", small.len());
     assert!(small.iter().all(|sample| large.contains(sample)));
     assert_eq!((selected(0.0, 1).len(), selected(1.0, 1).len()), (0, 100_000));
@@ -100,8 +96,7 @@ fn a_wrong_debris_is_caught() {
     wrong.mass.debris.as_mut().expect("a debris").inertia[0][0] *= 1.0 + 1e-4;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
-    // measured: 8.0e-10 and 9.6e-6; the right one is a rounding that the instability amplifies, of another size on
-    // another machine
+    // measured: 8.0e-10 and 9.6e-6; the right one is a rounding that the instability amplifies
     assert!(
         right.value(AuditValue::Debris) > 0.0 && right.value(AuditValue::Debris) < 4e-9,
         "{:e}",
@@ -112,7 +107,6 @@ fn a_wrong_debris_is_caught() {
         "{:e}",
         caught.value(AuditValue::Debris)
     );
-    // the estimate is of the debris: it covers the error of the right one, and not that of the wrong one
     assert!(
         right.value(AuditValue::DebrisEstimate) >= right.value(AuditValue::Debris)
             && caught.value(AuditValue::DebrisEstimate) < 0.01 * caught.value(AuditValue::Debris)
@@ -164,8 +158,7 @@ fn air_and_sunlight_are_audited() {
     assert!(refused.to_string().starts_with("the spacecraft turns for"), "{refused}");
 }
 
-/// Law: the program writes the audit's columns, null for rows without audit, summarises them with every statistic, and
-/// reports the cost.
+/// Law: audits are columns, null without audit, and are summarised.
 #[test]
 fn the_program_audits() {
     let scratch = ScratchFolder::new("campaign");
@@ -181,7 +174,6 @@ fn the_program_audits() {
     );
     assert!(scratch.text("one/plan.toml").contains("[audit]\nfraction = 0.25\n"));
 
-    // null as NaN
     let table = scratch.table("one/runs/part-000000.parquet");
     let [state, omega, attitude] =
         ["audit_state_error", "audit_omega_error", "audit_attitude_error_rad"].map(|name| floats(&table, name));
@@ -222,7 +214,6 @@ fn the_program_audits() {
         let numbers = line["numerical_error"].as_object().unwrap().values().filter_map(Value::as_f64);
         numbers.for_each(|number| assert!(number >= 0.0, "{line}"));
     }
-    // nothing is audited where the command says so, whatever the file says
     scratch.file("audited.toml", &plan("spin_sweep", 120, 0.5).text());
     let said = scratch.prints("campaign audited.toml --audit 0 --out none", 0);
     assert!(!said.contains("audit:"), "{said}");
@@ -247,8 +238,7 @@ groups = ["energy_conservation", "numerics"]
 fraction = 0.9375
 "#;
 
-/// Law: each quantile of an audit's errors in the summary is that of type 7 of the column in the files, without the
-/// nominal sample.
+/// Law: each quantile of an audit's errors is that of type 7 of the dispersed rows.
 #[test]
 fn the_summary_of_the_audits_is_that_of_the_files() {
     let scratch = ScratchFolder::new("quantiles");
@@ -263,7 +253,6 @@ fn the_summary_of_the_audits_is_that_of_the_files() {
         ("omega_error", "audit_omega_error"),
         ("attitude_error_rad", "audit_attitude_error_rad"),
     ] {
-        // the nominal sample is not dispersed
         let mut errors: Vec<f64> = column(&rows, name).into_iter().skip(1).filter(|error| !error.is_nan()).collect();
         errors.sort_by(f64::total_cmp);
         let count = errors.len();
@@ -272,7 +261,6 @@ fn the_summary_of_the_audits_is_that_of_the_files() {
         for (level, p) in [("median", 0.5), ("p95", 0.95)] {
             let exact = quantile(&errors, p).expect("errors");
             let found = audit[key][level].as_f64().unwrap_or_else(|| panic!("{key}: {}", audit[key]));
-            // the stated relative error of the sketches
             assert!((found - exact).abs() <= exact / 2048.0, "{name} {level}: {found:e} for {exact:e}");
         }
         assert_eq!(audit[key]["max"].as_f64(), errors.last().copied(), "{name}");
@@ -285,8 +273,8 @@ fn the_summary_of_the_audits_is_that_of_the_files() {
     assert_eq!(audited + failed, selected);
 }
 
-/// Law: q and -q are the same attitude: an audit of the null-space method is small where its quaternions, which are
-/// made of DCMs, each as near to the one before as can be, have the other sign.
+/// Law: q and -q are the same attitude: an audit of the null-space method, whose quaternions are made of DCMs, is
+/// small.
 #[test]
 fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
     let mut plan = plan("no_debris", 1, 1.0);
@@ -294,7 +282,6 @@ fn the_sign_of_a_quaternion_is_no_error_of_an_audit() {
     plan.tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
     plan.nominal.initial.angular_velocity_rad_s = [0.0, 0.1, 3.0];
     let scene = Scene::resolve(&plan.nominal).unwrap();
-    // the body turns by 6 rad between its two points
     let grid = Grid::uniform(2.0, 2);
     let audit = Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap();
     // measured: 2.6e-8; with the other sign 4

@@ -39,7 +39,6 @@ fn an_audit_has_a_limit() {
     }
 }
 
-/// Takes rows and forgets them.
 struct Nowhere;
 
 impl Sink for Nowhere {

@@ -3,9 +3,7 @@
 use crate::prelude::*;
 use spindrift::statistics::binomial::{lower_bound, upper_bound};
 
-/// Dispersed samples: all but the nominal one.
 const RUNS: usize = 599;
-/// A quantity with bands in the default groups.
 const SERIES: &str = "energy_body_j";
 
 fn series(scratch: &ScratchFolder) -> (Vec<f64>, Vec<Vec<f64>>) {
@@ -26,8 +24,7 @@ fn verdict(scratch: &ScratchFolder, requirement: &str, code: i32) -> Value {
     entry(scratch, "gate")
 }
 
-/// Law: the worst point of time is that with the fewest runs within the limit, their number is within what the bands
-/// resolve, and the verdict is that of the exact test at every point.
+/// Law: the worst time is that with the fewest runs within the limit, and the verdict is the exact test's.
 #[test]
 fn counts_are_those_of_the_time_series() {
     let scratch = folder("band-requirements");
@@ -74,8 +71,7 @@ fn counts_are_those_of_the_time_series() {
     }
     assert_eq!(are_apart, [true; 2]);
 
-    // the counter-tests: a share that is missed; too few runs to tell; a part of the time, in which more runs keep the
-    // limit
+    // a share that is missed; too few runs to tell; a part of the time, in which more runs keep the limit
     assert_eq!(verdict(&scratch, &format!("fraction = 0.999\nat_most = {limit:?}"), 3)["verdict"], "FAIL");
     assert_eq!(verdict(&scratch, &format!("quantile = 0.97\nat_most = {limit:?}"), 5)["verdict"], "UNDECIDED");
     let high = (0..times.len()).map(|point| *at(point).last().unwrap()).fold(f64::NEG_INFINITY, f64::max);
@@ -123,7 +119,6 @@ fn all_times_are_those_of_each_run() {
     let times = floats(&tables[0], "time_s");
     let plain = scratch.rows("series");
     let mut seen = Vec::new();
-    // rounding errors are largest at another time in each run
     for (series, sides) in [("energy_error", &[true, false][..]), ("spin_axis_angle_rad", &[true])] {
         let runs: Vec<Vec<f64>> = tables.iter().map(|table| floats(table, series)).collect();
         for (from, to) in [(None, None), (Some(times[7]), Some(times[22]))] {
@@ -143,7 +138,6 @@ fn all_times_are_those_of_each_run() {
                 };
                 let mut extremes: Vec<f64> = runs.iter().map(|run| beyond(run)).collect();
                 extremes.sort_by(f64::total_cmp);
-                // a limit that half of the runs keep
                 let limit = extremes[RUNS / 2];
                 let is_met = |value: f64| if is_highest { value <= limit } else { value >= limit };
                 let within = runs.iter().filter(|run| is_met(beyond(run))).count();
@@ -166,7 +160,6 @@ fn all_times_are_those_of_each_run() {
                 let rows = scratch.rows("all");
                 let shown: Vec<f64> = rows.iter().flat_map(|rows| floats(rows, column)).skip(1).collect();
                 assert!(shown.iter().zip(&runs).all(|(shown, run)| *shown == beyond(run)), "{column}");
-                // without the column a row is as it was
                 for (rows, plain) in rows.iter().zip(&plain) {
                     assert_eq!(rows.num_columns(), plain.num_columns() + 1);
                     assert!(
@@ -177,7 +170,6 @@ fn all_times_are_those_of_each_run() {
                             .all(|field| rows.column_by_name(field.name()) == plain.column_by_name(field.name()))
                     );
                 }
-                // at each time more runs keep the limit
                 let share = |point: &usize| runs.iter().filter(|run| is_met(run[*point])).count() as f64 / RUNS as f64;
                 let worst = points.iter().map(share).fold(1.0, f64::min);
                 if worst > 0.75 {

@@ -2,8 +2,7 @@
 
 use crate::prelude::*;
 
-/// Law: where a thruster is dead in a few runs and these miss a limit, screen, card and chart name it first, with the
-/// counts of the rows.
+/// Law: where a thruster is dead in a few runs and these miss a limit, screen, card and chart name it first.
 #[test]
 fn a_dead_thruster_is_named() {
     const SCALE: &str = "parameter = \"thrusters.p2.thrust_scale\"\ndistribution = \"normal\"\nstd = 0.03";

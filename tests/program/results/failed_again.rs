@@ -42,14 +42,12 @@ fn failed_samples_run_under_another_plan() {
     for (sample, row) in &again {
         assert_eq!(row, &all[sample], "sample {sample}");
     }
-    // the commands on a result
     scratch.prints("verify again --fraction 1", 0);
     scratch.prints("finish again", 0);
     scratch.prints("report again", 0);
     scratch.prints(&format!("simulate again/plan.toml --sample {}", failed[1]), 0);
     scratch.prints("campaign enough.toml --only-failed-of tight --out again", 0);
     scratch.prints("campaign again/plan.toml --out again", 0);
-    // shards in any order, and a part that is lost
     for shard in [2, 1] {
         scratch.prints(
             &format!("campaign enough.toml --only-failed-of tight --out shards --threads 3 --shard {shard}/2"),
@@ -61,7 +59,6 @@ fn failed_samples_run_under_another_plan() {
     fs::remove_file(scratch.path("shards/runs/part-000000.parquet")).unwrap();
     scratch.prints("verify shards --repair", 0);
     assert!(contents(&scratch.path("shards")) == contents(&scratch.path("again")));
-    // no interval of a population
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nfraction = 0.5\nat_most = 1e-30\n";
     scratch.file("required.toml", &(limited(10_000) + require));
     scratch.prints("campaign required.toml --samples 1500 --seed 9 --out required", 3);
@@ -74,7 +71,6 @@ fn the_same_plan_fails_the_same_way() {
     scratch.prints("campaign tight.toml --only-failed-of tight --out same", 1);
     let (same, before) = (rows(&scratch, "same"), rows(&scratch, "tight"));
     assert!(same.iter().all(|(sample, row)| row.0 != "ok" && row == &before[sample]));
-    // another choice of samples is another result
     scratch.file("tighter.toml", &limited(38));
     scratch.prints("campaign tighter.toml --samples 1500 --seed 9 --out tighter", 1);
     scratch.shows("campaign tight.toml --only-failed-of tighter --out same", 4, "campaign.only");
@@ -92,8 +88,7 @@ fn the_same_plan_fails_the_same_way() {
     scratch.shows("campaign enough.toml --only-failed-of tight --out x", 4, "part-000001");
 }
 
-/// Law: with `--fail-fast` no part starts after one with a run that failed, the message replays that run, and the
-/// command without it continues to the bytes of an undisturbed campaign.
+/// Law: with `--fail-fast` no part starts after a run that failed; without it the campaign continues.
 #[test]
 fn the_first_failure_ends_the_campaign() {
     let scratch = results("fail-fast");
@@ -110,7 +105,6 @@ fn the_first_failure_ends_the_campaign() {
     scratch.prints(&format!("simulate r/plan.toml --sample {first}"), 1);
     scratch.prints(command, 1);
     assert!(contents(&scratch.path("r")) == contents(&scratch.path("tight")));
-    // where no run fails it changes nothing
     scratch.prints("campaign enough.toml --samples 1500 --seed 9 --out whole --fail-fast", 0);
     assert!(contents(&scratch.path("whole")) == contents(&scratch.path("all")));
 }
@@ -133,8 +127,7 @@ fn every_failure_is_run_again() {
     assert_eq!(seen, ["inaccurate", "invalid_sample", "step_limit"]);
 }
 
-/// Law: of several parts that are made at the same time `--fail-fast` names the first run that failed, and the same
-/// command names it again.
+/// Law: of several parts at the same time `--fail-fast` names the first run that failed, each time.
 #[test]
 fn the_first_failure_is_that_of_the_first_sample() {
     let scratch = folder("fail-fast-threads");
@@ -151,12 +144,10 @@ fn the_first_failure_is_that_of_the_first_sample() {
     }
 }
 
-/// Law: every command that a campaign prints for a run gives the run of that row, whichever options replaced numbers of
-/// its file.
+/// Law: every command that a campaign prints for a run gives the run of that row.
 #[test]
 fn printed_commands_give_the_rows() {
     let scratch = folder("printed");
-    // the file has too few samples for most of the others
     let few = |max_steps: u64| limited(max_steps).replace("samples = 600", "samples = 20");
     scratch.file("tight.toml", &few(40));
     scratch.file("small.toml", &few(10_000));
@@ -181,7 +172,6 @@ fn printed_commands_give_the_rows() {
                     run.lines().find(|line| line.starts_with(&format!("initial.angular_velocity_rad_s.{axis} ")));
                 let value = line.and_then(|line| line.split_whitespace().nth(1)).map(|value| value.parse());
                 let value: f64 = value.expect("a value").expect("a number");
-                // six digits are shown
                 assert!((value - drawn[row]).abs() <= 5e-6 * drawn[row].abs(), "{options}: {command}: {value}");
             }
         }

@@ -30,7 +30,6 @@ fn reasons_are_said_and_counted() {
     assert!(first[2] == line && line.contains("integrator.max_steps does not suffice: the run reached 0."), "{said}");
     assert!(first[1].starts_with(&format!("{count} of the first {count} runs failed")), "{said}");
 
-    // nor does a value that no draw makes physical hide the reason
     scratch.file("negative.toml", &[campaign(), NEGATIVE_WALLS.replace("max = 0.04", "max = -0.01")].concat());
     let said = scratch.prints_wide("check negative.toml", 1);
     assert!(said.lines().nth(3).is_some_and(|line| line.contains("wall_thickness_m")), "{said}");
@@ -49,7 +48,6 @@ fn reasons_are_said_and_counted() {
     let of_row = ends(&scratch.table("whole/runs/part-000000.parquet"))[0].1.clone();
     assert_eq!(reason["reason"].as_str(), of_row.as_deref());
 
-    // a third of the walls are negative
     scratch.file("thin.toml", &(campaign() + NEGATIVE_WALLS));
     let said = scratch.prints_wide("check thin.toml", 0);
     assert!(!said.contains("EVERY RUN FAILS") && reasons(&said, "invalid_sample").len() == 1, "{said}");
@@ -82,7 +80,6 @@ fn garbage_is_inaccurate() {
     }
     assert_eq!(scratch.summary("long")["statuses"]["inaccurate"], 40);
     scratch.shows("simulate long.toml --sample 3", 1, "the run ended with inaccurate: ");
-    // the counter-test: with steps that are short enough no run is
     scratch.file("short.toml", &too_long.replace("step_s = 0.25", "step_s = 0.001"));
     scratch.prints("campaign short.toml --samples 40 --out short", 0);
     let batch = &scratch.table("short/runs/part-000000.parquet");

@@ -51,10 +51,8 @@ fn a_loss_is_said_first_and_is_not_random() {
     let page = scratch.text("lost/report.html");
     let place = |anchor: &str| page.find(&format!("<section id=\"{anchor}\"")).unwrap_or_else(|| panic!("{anchor}"));
     assert!(place("warnings") < place("status") && page.contains("<b>NOT COMPUTED:</b>"));
-    // also where the result is there already
     assert!(scratch.prints("campaign lost.toml --out lost", 3).contains("NOT COMPUTED"));
 
-    // shares between bounds
     let failures = column(&rows, "failure");
     let ok = (1..RUNS).filter(|row| ended[*row].1 == "ok");
     let failed = ok.clone().filter(|row| failures[*row] != 0.0).count();
@@ -87,14 +85,12 @@ fn a_loss_is_said_first_and_is_not_random() {
         let known = [(runs - missing) as f64, runs as f64, 100.0 - share, interval[0], interval[1], missing as f64];
         says(found, "# of # runs within the limit: #% [#, #]; # runs without a value count as violations", &known);
     }
-    // the interval is named once on the screen
     assert_eq!(said.matches("in brackets:").count(), 1, "{said}");
     assert_eq!(said.matches("two-sided 95% intervals").count(), 1, "{said}");
     assert!(scratch.text("lost.xml").contains("two-sided 95% intervals"));
 }
 
-/// A spin that is drawn, thrust that ends at a time that is drawn, and steps of the size that an attitude of that rate
-/// needs: the fastest runs need the most.
+/// The fastest runs need the most steps.
 const FASTEST: &str = r#"
 [campaign]
 name = "fastest"
@@ -189,8 +185,7 @@ fn intervals_hold_whatever_lost_runs_are() {
     scratch.shows("compare open100 open20", 3, "WORSE");
 }
 
-/// A spin about the intermediate axis, which flips, seen at three points: the estimate of the error knows too little of
-/// the motion.
+/// Seen at three points: the estimate of the error knows too little of the motion.
 const FLIPS: &str = r#"
 initial = { angular_velocity_rad_s = [1.0, 1e-6, 1e-6] }
 integrator = { method = "auto", tolerance = 1e-14 }
@@ -226,7 +221,6 @@ fn an_audit_that_fails_is_no_success() {
     let rows = scratch.rows("few");
     let [estimates, errors] =
         ["audit_state_error_estimate", "audit_state_error"].map(|name| column(&rows, name).split_off(1));
-    // no error is so large that any estimate covers it
     let covered = estimates.iter().zip(&errors).filter(|(estimate, error)| estimate >= error).count();
     assert!(covered < 10 && errors.iter().all(|error| *error < 0.1), "{covered} of {}", errors.len());
     let words = format!("AUDIT FAILED: state error estimate covers the true error in {covered} of {}", errors.len());

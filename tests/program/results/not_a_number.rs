@@ -40,8 +40,7 @@ fn required(observable: &str, more: &str) -> String {
     format!("[[require]]\nobservable = \"{observable}\"\n{more}\n")
 }
 
-/// Law: what is not a number passes nothing: each requirement on it is UNDECIDED and says why, whether it counts,
-/// waits, is a largest value or a condition, and whatever `never` says.
+/// Law: what is not a number passes nothing: each requirement on it is UNDECIDED and says why.
 #[test]
 fn what_is_not_a_number_passes_nothing() {
     let scratch = ScratchFolder::new("not-a-number");

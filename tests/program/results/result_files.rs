@@ -1,5 +1,4 @@
-//! What the files of a result say: statistics, units, parts, compression, and the identity of the plan, each against a
-//! source of its own.
+//! What the files of a result say, against a source of its own.
 
 use crate::prelude::*;
 
@@ -9,7 +8,6 @@ use sha2::{Digest, Sha256};
 
 use crate::support::parquet_tables::schema;
 
-/// Spins differ from sample to sample, and some 7% of the runs need more steps than they may take.
 const HEAD: &str = r#"
 [campaign]
 name = "limited"

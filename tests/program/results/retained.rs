@@ -49,8 +49,6 @@ fn rules_choose_what_they_say() {
     let failed = those(&|status| status == "step_limit");
     assert!(failed.len() > 3 && failed.len() < 300, "{} runs reach the limit", failed.len());
     assert_eq!(chosen("failed"), failed);
-    // greatest magnitudes: of errors, of a number with a sign, and of counts, where many are equal and the first are
-    // taken
     for observable in ["energy_error_max", "energy_error_rate_per_s", "steps"] {
         let values = column(&table, observable).into_iter().zip(ended(&table));
         let with_value = values.filter(|(value, (sample, _))| *sample > 0 && !value.is_nan());
@@ -138,7 +136,6 @@ fn a_campaign_ends_with_bands() {
 #[test]
 fn failed_parts_change_no_band() {
     let scratch = folder("bands-failed-parts");
-    // the first part has the nominal run and 255 samples
     let bands = |name: &str, parts: &[(bool, usize)]| {
         let mut spins = (0..).map(|index| 31.0 + 0.01 * f64::from(index));
         let fails = parts.iter().flat_map(|(fails, count)| std::iter::repeat_n(*fails, *count));

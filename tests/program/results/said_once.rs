@@ -1,15 +1,12 @@
-//! What a campaign has found is said once: screen, long screen, `summary.json`, JUnit and page have the same sentences,
-//! numbers and names.
+//! Screen, long screen, `summary.json`, JUnit and page have the same sentences, numbers and names.
 
 use crate::prelude::*;
 
-/// The text of a page without markup.
 fn untagged(page: &str) -> String {
     let texts = page.split('<').map(|part| part.split_once('>').map_or(part, |(_, text)| text));
     texts.collect::<Vec<_>>().concat()
 }
 
-/// Text in one line, in small letters, as a terminal has it: with plain minus signs and powers of ten.
 fn plain(text: &str) -> String {
     let mut out = text.replace('\u{2212}', "-").replace(['\u{202f}', '\u{a0}'], "");
     for (digit, raised) in "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().enumerate() {
@@ -27,7 +24,6 @@ fn texts<'v>(list: &'v Value, key: &str) -> Vec<&'v str> {
     list.as_array().unwrap().iter().filter_map(|one| one[key].as_str()).collect()
 }
 
-/// Estimates with their intervals.
 fn with_intervals(text: &str) -> Vec<String> {
     let found = text.match_indices('[').filter_map(|(at, _)| {
         let end = at + text[at..].find(']')?;
@@ -39,7 +35,6 @@ fn with_intervals(text: &str) -> Vec<String> {
     found.collect()
 }
 
-/// An outcome of the table on a screen: what it is called, its unit, its median and its maximum.
 struct OutcomeRow {
     title: String,
     unit: String,
@@ -47,7 +42,6 @@ struct OutcomeRow {
     max: String,
 }
 
-/// The table of outcomes on a screen of long lines.
 fn outcome_rows(screen: &str) -> Vec<OutcomeRow> {
     let cells = |line: &str| {
         let cells = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty());
@@ -66,8 +60,7 @@ fn outcome_rows(screen: &str) -> Vec<OutcomeRow> {
     lines.map(cells).take_while(|cells| cells.len() == heads.len()).map(row).collect()
 }
 
-/// The numbers of the page below its pictures are those of the `screen`, each with its unit, which the axis of the
-/// large figure has too.
+/// The numbers of the page are those of the `screen`, each with its unit, which the axis of the figure has too.
 fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found: &Found) {
     for (at, _) in page.match_indices("median ").filter(|_| !screen.contains(" more outcome")) {
         let rest = &page[at..];
@@ -76,7 +69,6 @@ fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found:
         let Some((_, after)) = said.split_once(", max ") else { continue };
         let [median, max] = [number(said.strip_prefix("median ")), number(Some(after))];
         let Some((median, max)) = median.zip(max) else { continue };
-        // beside an interval a number has as many digits as that supports
         let near = |shown: &str, value: f64| {
             let (digits, power) = shown.split_once('e').unwrap_or((shown, "0"));
             let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
@@ -100,8 +92,7 @@ fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found:
     }
 }
 
-/// The law of a comparison with the same campaign of another seed: each requirement is called as in both results, with
-/// their verdicts and numbers; what one screen says the long one and the file say too.
+/// Of a comparison with another seed: names, verdicts and numbers are those of the results.
 fn compares(scratch: &ScratchFolder, name: &str, samples: &str, first: &Value) {
     let run = |arguments: &str| {
         let output = scratch.command(arguments).env("COLUMNS", "2000").output().unwrap();
@@ -134,7 +125,6 @@ fn compares(scratch: &ScratchFolder, name: &str, samples: &str, first: &Value) {
     }
 }
 
-/// The law of one campaign, the file `name` in `scratch`.
 fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     let run = |arguments: &str| {
         let output = scratch.command(arguments).env("COLUMNS", "2000").output().unwrap();
@@ -147,7 +137,6 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     let body = |text: &str| {
         text.lines().filter(|line| line.starts_with(' ')).map(str::to_owned).collect::<Vec<_>>().join("\n")
     };
-    // the first lines of a run say how long it took
     assert_eq!(body(&brief.replace(name, "r/plan.toml")), body(&again), "{name}");
     let summary: Value = serde_json::from_str(&json).unwrap();
     let page = scratch.text("r/report.html");
@@ -213,7 +202,6 @@ fn shipped_campaigns_are_said_once() {
     files.sort();
     for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "toml")) {
         let text = fs::read_to_string(file).unwrap();
-        // a table or a grid has its own number of samples
         let samples = if text.contains("kind = \"table\"") { "" } else { "--samples 24" };
         agrees(&scratch, &file.display().to_string(), samples);
     }

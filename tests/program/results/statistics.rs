@@ -1,5 +1,4 @@
-//! `statistics.parquet` and `sensitivity.parquet` are those of the files of rows, and the same bytes for any number of
-//! threads.
+//! `statistics.parquet` and `sensitivity.parquet` are those of the rows, for any number of threads.
 
 use crate::prelude::*;
 
@@ -62,7 +61,6 @@ fn statistics_are_those_of_the_files() {
                 let [a, b] = ["x", "y"].map(|axis| values(&rows, &format!("initial_angular_velocity_{axis}_rad_s")));
                 a.iter().zip(&b).map(|(a, b)| (libm::pow(*a, 2.0) + libm::pow(*b, 2.0)).sqrt()).collect()
             }
-            // the root of what is negative is no number
             "half" => {
                 let x = values(&rows, "initial_angular_velocity_x_rad_s");
                 x.iter().filter(|x| **x >= 0.0).map(|x| x.sqrt()).collect()
@@ -116,7 +114,6 @@ fn designs_without_independent_samples_have_no_intervals() {
         ("kind = \"saltelli\"", "chosen"),
         ("kind = \"one_at_a_time\"\nlevels = 5", "chosen"),
     ] {
-        // whole blocks of three distributions; a design with a size of its own
         let samples = match design {
             _ if design.contains("one_at_a_time") => "",
             _ if design.contains("saltelli") => "samples = 101\n",
@@ -193,7 +190,6 @@ quantile = 0.9
         assert!(names.contains(&format!("initial_angular_velocity_{axis}_rad_s")), "{names:?}");
     }
     let share = number(&inputs, "first_order", drivers[0]).expect("a share");
-    // "initial_angular_velocity_y_rad_s", as people say it
     let said = |name: &str| name.strip_suffix("_rad_s").unwrap_or(name).replace('_', " ");
     let words = format!("{} explains ", said(&names[0]));
     let page = scratch.text("r/report.html");
@@ -218,13 +214,11 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     let mut checked = 0;
     for row in 0..table.num_rows() {
         let name = names.value(row);
-        // those of expressions are no columns of the rows
         if ["spin", "error_ratio", "half"].contains(&name) {
             continue;
         }
         let x = values(&rows, name);
         assert_eq!(x.len(), 600, "{name}");
-        // sample k is of replicate (k - 1) mod 8
         let of_replicate =
             |first: usize| x[first..].iter().step_by(REPLICATES).sum::<f64>() / (600 / REPLICATES) as f64;
         let means: Vec<f64> = (0..REPLICATES).map(of_replicate).collect();

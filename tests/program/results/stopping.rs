@@ -6,8 +6,6 @@ use spindrift::statistics::binomial::at_most;
 
 use crate::commands::screen_numbers::{junit_counts, numbers};
 
-/// The campaign of 300 samples with `[stop]`: the median of the energy transfer of wheel 1 to within `half_width` J,
-/// with at most 2,400 samples.
 fn stopping(half_width: &str) -> String {
     let stop = format!(
         "\n[stop]\nobservable = \"exchange_w1_peak_to_peak_j\"\nquantile = 0.5\nhalf_width = {half_width}\nmax_samples \
@@ -31,12 +29,10 @@ fn median(scratch: &ScratchFolder, result: &str) -> f64 {
     values[values.len() / 2]
 }
 
-/// Law: a campaign stops at the first look whose interval is narrow enough, its rows are those of a campaign of so many
-/// samples, and the interval has the confidence of one of four looks.
+/// Law: a campaign stops at the first look whose interval is narrow enough, with the confidence of one of four looks.
 #[test]
 fn a_campaign_stops_when_it_is_precise_enough() {
     let scratch = folder("stop");
-    // the interval of all four looks, from a campaign that never stops
     scratch.file("never.toml", &stopping("1e-30"));
     let mut command = scratch.command("campaign never.toml --out never --junit never.xml");
     let said = scratch.outputs(command.env("COLUMNS", "250"), 5);
@@ -57,7 +53,6 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     }
     assert!((never["stop"]["confidence"].as_f64().unwrap() - (1.0 - 0.05 / 4.0)).abs() < 1e-12);
 
-    // twice the last width is reached after about a quarter of the samples, at the second look
     let wanted = 2.05 * half_width(&never);
     scratch.file("stop.toml", &stopping(&format!("{wanted:?}")));
     scratch.prints("campaign stop.toml --out stopped --junit stopped.xml", 0);
@@ -84,7 +79,6 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     }
     let checked = scratch.prints("verify stopped --fraction 0", 0);
     assert!(checked.contains(&format!(" {samples} rows: checksums compared")), "the manifest: {checked}");
-    // an unfinished one is continued by the command that looks
     let manifest = scratch.text("stopped/manifest.json");
     fs::remove_file(scratch.path("stopped/manifest.json")).unwrap();
     let refused = scratch.prints("finish stopped", 4);
@@ -97,14 +91,12 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     scratch.prints("report stopped", 0);
     assert!(before == fs::read(scratch.path("stopped/report.html")).unwrap(), "the page is made again, the same");
 
-    // the rows of a narrower goal contain those of a wider one
     scratch.prints("campaign never.toml --out stopped", 5);
     assert_eq!(scratch.parts("stopped"), scratch.parts("never"));
     scratch.shows("campaign stop.toml --shard 1/2 --out shard", 2, "[stop]");
 }
 
-/// Law: with `when = "decided"` a campaign ends at the first look at which the exact test, at its share of the errors
-/// of all looks, decides.
+/// Law: with `when = "decided"` a campaign ends at the first look at which the exact test decides.
 #[test]
 fn a_campaign_stops_when_its_requirements_are_decided() {
     const NAME: &str = "exchange_w1_peak_to_peak_j";
@@ -128,7 +120,6 @@ fn a_campaign_stops_when_its_requirements_are_decided() {
         let decides = |samples: u64| {
             let trials = samples - 1;
             let within = values[..trials as usize].iter().filter(|value| **value <= limit).count() as u64;
-            // of one half both tails are lower ones
             let [missed, met] = [within, trials - within].map(|count| at_most(count, trials, 0.5) <= 0.05 / 4.0);
             met.then_some("PASS").or(missed.then_some("FAIL"))
         };
