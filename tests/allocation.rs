@@ -17,7 +17,6 @@ use support::plans::shipped;
 use support::runs::{METHODS, adaptive, everything};
 use support::scenes::mixed;
 
-/// The system's allocator with a count per thread.
 struct Counting;
 
 thread_local! {
@@ -156,7 +155,6 @@ fn a_worker_with_bands() {
     assert!(later < columns, "{later} of {columns} columns");
 }
 
-/// The allocations and bytes that a part of `no_debris` adds to a running campaign.
 #[derive(Debug)]
 struct Added {
     allocations: u64,

@@ -8,12 +8,10 @@ use rayon::prelude::*;
 
 const SECTION: &str = "accuracy_claims";
 const TOLERANCE: f64 = 1e-16;
-/// Tolerance of the reference solution: eight digits beyond the claims.
 const TRUE: f64 = 1e-24;
 const REVOLUTIONS: f64 = 1000.0;
 /// State error, rad and relative, of 99 scenes in a hundred.
 const STATE: f64 = 1e-11;
-/// State error of every scene: some pass near a separatrix, which amplifies roundings.
 const WORST_STATE: f64 = 1e-9;
 const ENERGY: f64 = 9e-15;
 
@@ -106,7 +104,6 @@ struct Hard {
 
 /// Bound where the scene amplifies nothing.
 const HARD: f64 = 1e-12;
-/// Factor on the effect of rounding the state once during the run.
 const ROUNDINGS: f64 = 20.0;
 
 fn hard() -> Vec<Hard> {
@@ -124,7 +121,6 @@ fn hard() -> Vec<Hard> {
     boxed.initial.debris_relative_angular_velocity_rad_s = [3.0, 20.0, -5.0];
     list.push(Hard { name: "tumbling box, 50 s", scene: scene(&boxed), horizon: 50.0 });
 
-    // the start is 1e-4 off the unstable axis of J
     let mut near = table1.clone();
     near.debris = None;
     near.body.inertia_kg_m2 = Some([[3000.0, 120.0, -80.0], [120.0, 2400.0, 60.0], [-80.0, 60.0, 1700.0]]);
@@ -140,8 +136,7 @@ fn hard() -> Vec<Hard> {
     list
 }
 
-/// The change of the final state when the exact state is rounded at one of four times and integrated exactly from
-/// there.
+/// The change of the final state when the exact state is rounded at one of four times.
 fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
     let last = grid.points() - 1;
     let moved = |point: usize| {

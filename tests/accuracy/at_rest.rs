@@ -46,7 +46,6 @@ fn oppose(input: &mut SceneInput, u: &mut Uniform) {
     for (wheel, rate) in input.wheels.iter_mut().zip([one, other, one, other]) {
         wheel.rate_rad_s = rate;
     }
-    // w1 and w3 together have momentum along s3 alone, as w2 and w4
     for wheel in &mut input.wheels[2..] {
         wheel.axis = wheel.axis.map(|x| -x);
     }
@@ -72,7 +71,6 @@ fn thrust_slew(input: &mut SceneInput, (start, on, coast): (f64, f64, f64), thru
     ];
 }
 
-/// A regime: its name, and the change of a satellite.
 type Regime = (&'static str, fn(u64, &mut Uniform, &mut SceneInput));
 
 const REGIMES: [Regime; 8] = [

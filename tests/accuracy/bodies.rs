@@ -30,7 +30,6 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
         let refused = draws::seen(&plan, 1..=COUNT, |input, _| Scene::resolve(input).err());
         let refused: Vec<_> = refused.into_iter().flatten().collect();
         assert!(refused.iter().all(|errors| keys.contains(&errors[0].key.to_string())), "{:?}", refused[0]);
-        // 3.29 standard errors of a share of 2000 draws: two-sided alpha = 1e-3 for each of the two; the seed is fixed
         let sigma = (share * (1.0 - share) / COUNT as f64).sqrt();
         let found = refused.len() as f64 / COUNT as f64;
         assert!((found - share).abs() < 3.29 * sigma, "{keys:?}: {found} {share}");
@@ -57,7 +56,6 @@ fn a_debris_turns_as_in_its_principal_frame() {
         let turned = axes.eigenvectors;
         let [a, b, c] = [0, 1, 2].map(|i| axes.eigenvalues[i]);
         let principal = [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]];
-        // a frame of the other hand changes the sign of a rate
         let hand = turned.determinant();
         let into = hand * turned.transpose() * nalgebra::Vector3::from(rate);
         for method in Method::ALL {
@@ -92,7 +90,6 @@ fn a_scaled_actuator_is_a_scaled_command() {
     off.thrusters.iter_mut().for_each(|thruster| thruster.thrust_scale = 0.0);
     off.wheels.iter_mut().for_each(|wheel| wheel.torque_scale = 0.0);
     let scene = |input| Scene::resolve(input).expect("a physical scene");
-    // the first scene decides what is integrated, and nothing works in it
     let scenes = [scene(&off), scene(&errors), scene(&scaled)];
     let runs: Vec<Run> = propagate(Method::Taylor, adaptive(1e-16), &Grid::uniform(1.0, 9), &scenes);
     assert_eq!(runs[1].bits(), runs[2].bits(), "factors of two leave no rounding");

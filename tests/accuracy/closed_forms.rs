@@ -22,7 +22,6 @@ fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
     let mut input = Golden::load("table1").scene;
     let [a, b, c] = moments;
     input.body.inertia_kg_m2 = Some([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]);
-    // about its centre of mass also in Berdoz's form, whose states are those of the base point
     input.body.center_of_mass_m = Some([0.0; 3]);
     input.wheels.clear();
     input.debris = None;
@@ -58,7 +57,6 @@ fn cases() -> Vec<Case> {
     file["cases"].as_array().expect("a list").iter().map(case).collect()
 }
 
-/// The larger of the relative error of omega and the angle between attitudes, rad.
 fn error(table: &StateTable, point: usize, omega: [f64; 3], q: [f64; 4]) -> f64 {
     let found = table.at::<3>(StateField::Rate, point);
     let rate = norm(std::array::from_fn::<f64, 3, _>(|i| found[i] - omega[i])) / norm(omega);
@@ -78,14 +76,12 @@ fn states(method: Method, tolerance: f64, scene: &Scene, times: &[f64]) -> State
 
 /// State error after a hundred periods, rad and relative, in the eight classical regimes.
 const HUNDRED_PERIODS: f64 = 1e-12;
-/// The same from 3e-4 off the separatrix: a rounding moves the relative distance of the energies by 1e-9, and so the
-/// next of two hundred passages by 1e-9 of its time constant.
+/// From 3e-4 off the separatrix, where a rounding moves the next of two hundred passages.
 const SEPARATRIX: f64 = 1.5e-9;
 /// Growth of the state error of `auto` with the angle of the body, from rounding of the period.
 const PER_RADIAN: f64 = 5e-16;
 
-/// Law: free bodies move as in Jacobi's solution through a hundred periods; by `auto` through a million seconds with an
-/// error in proportion to the angle.
+/// Law: free bodies move as in Jacobi's solution through a hundred periods; by `auto` through a million seconds.
 #[test]
 fn free_bodies_move_as_jacobi_says() {
     for case in cases() {
@@ -119,7 +115,6 @@ fn a_wrong_moment_is_seen() {
         case.scene.mass.inertia_free[1][1] *= 1.0 + 1e-12;
         let table = states(Method::Auto, TOLERANCE, &case.scene, &case.times[..=last]);
         let worst = error(&table, last, case.omega[last], case.q[last]);
-        // 1e-12 of hundreds or thousands of radians
         assert!(worst > 10.0 * HUNDRED_PERIODS, "{}: {worst:e}", case.name);
     }
 }
@@ -153,7 +148,6 @@ fn the_tumbling_brick_tumbles_as_published() {
     hold(SECTION, "NESC check case 2 after 30 s: largest difference from published rates, deg/s", NESC_SPREAD, off);
 }
 
-/// cos and sin of `rate` * `time` radians, the product and its reduction in double-double.
 fn turn(rate: DoubleDouble, time: f64) -> [f64; 2] {
     // 2 pi to 106 bits (D. H. Bailey, QD)
     let turn = DoubleDouble { high: core::f64::consts::TAU, low: 2.449_293_598_294_706_4e-16 };
@@ -163,10 +157,8 @@ fn turn(rate: DoubleDouble, time: f64) -> [f64; 2] {
     [libm::cos(rest), libm::sin(rest)]
 }
 
-/// The error of a body of revolution about s3, with a wheel on that axis or none, against two uniform rotations.
-///
-/// With transverse moment A, axial moment C and the wheel's momentum h (free: of J*, and J (omega_3 + Omega);
-/// speed-held: of J, and J Omega): omega_3 is constant, the transverse rate turns in the body by lambda = ((C - A)
+/// A body of revolution about s3, with a wheel on that axis or none, against two uniform rotations: with transverse
+/// moment A, axial moment C and the wheel's momentum h the transverse rate turns in the body by lambda = ((C - A)
 /// omega_3 + h)/A, and the body by |L|/A about L in F_e and by -lambda about its own axis.
 fn axial_error(scene: &Scene, times: &[f64], table: &StateTable) -> f64 {
     let zero = DoubleDouble::exact(0.0);

@@ -7,7 +7,6 @@ use spindrift::dynamics::environment::sun::sun;
 use spindrift::scene::{Offset, Offsets, Orbit};
 
 const DURATION: f64 = 6_000.0;
-/// A plate through the centre of mass, so that nothing turns the body.
 const AREA: f64 = 2.0;
 const MASS: f64 = 50.0;
 const DRAG: f64 = 2.4;
@@ -78,8 +77,7 @@ fn force(input: &SceneInput, time: f64, [r, v]: [[f64; 3]; 2]) -> [f64; 3] {
     scaled(-PRESSURE / (sun.distance * sun.distance) * AREA * cosine, push)
 }
 
-/// Position and velocity after [`DURATION`], by the classical Runge-Kutta method with short steps, which do not end
-/// where the plate turns on and off.
+/// By the classical Runge-Kutta method with short steps.
 fn integrated(input: &SceneInput, pushed: bool) -> [[f64; 3]; 2] {
     let orbit = Orbit::of(input.orbit.as_ref().expect("an orbit"));
     let rate = |time: f64, state: [[f64; 3]; 2]| {

@@ -1,13 +1,7 @@
 //! The conservation errors of every shipped campaign under every method.
-//!
-//! - Bounds: the upper 99% confidence limit of the median (order statistic), and the largest of n = 512 runs, which is
-//!   the upper 99.4% confidence limit of the 99th percentile.
-//! - Baseline: 33 quantiles of each distribution in `tests/golden/drift_bounds.json`. H0: the same distribution.
-//!   Two-sample Kolmogorov-Smirnov, n = m = 512, alpha = 1e-4 (critical distance 0.139), 84 comparisons; power above
-//!   0.999 for a median at the 75th percentile.
-//!
-//! A kernel that changes these distributions on purpose writes the baseline again:
-//! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test accuracy drift_bounds`.
+//! Bounds: the upper 99% confidence limit of the median, and the largest of 512 runs. Baseline: 33 quantiles of each
+//! distribution; H0: the same (Kolmogorov-Smirnov, alpha = 1e-4, critical distance 0.139).
+//! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test accuracy drift_bounds` writes it again.
 
 use crate::support::prelude::*;
 use serde_json::json;
@@ -15,12 +9,10 @@ use serde_json::json;
 const SECTION: &str = "drift_bounds";
 const WRITE: &str = "SPINDRIFT_WRITE_BASELINE";
 const CAMPAIGNS: [&str; 5] = ["burn", "no_debris", "report_1e-6", "report_1e-8", "spin_sweep"];
-/// Runs of a cell, and of one of the slow null-space kernel.
 const RUNS: u64 = 512;
 const REFERENCE_RUNS: u64 = 48;
 const COLUMNS: [&str; 4] =
     ["energy_error_max", "energy_error_rate_per_s", "angular_momentum_error_max", "angular_momentum_error_rate_per_s"];
-/// Quantiles of a stored distribution: k/32.
 const QUANTILES: usize = 33;
 /// Kolmogorov's constant for alpha = 1e-4: sqrt(-ln(alpha/2)/2).
 const KOLMOGOROV: f64 = 2.225;
@@ -49,7 +41,6 @@ fn settings() -> [Setting; 7] {
     ]
 }
 
-/// The campaign under a method; campaigns of one run keep it.
 fn plan(campaign: &str, setting: &Setting) -> Plan {
     let samples = shipped(campaign, None).samples;
     let most = if setting.method == Method::NullSpace { REFERENCE_RUNS } else { RUNS };
@@ -87,7 +78,6 @@ fn distance(sorted: &[f64], baseline: &[f64]) -> f64 {
     let n = sorted.len() as f64;
     let at = |k: usize| {
         let share = k as f64 / (QUANTILES - 1) as f64;
-        // among ties both shares are ranges
         let below = baseline.partition_point(|q| *q < baseline[k]) as f64 / (QUANTILES - 1) as f64;
         let up_to = (baseline.partition_point(|q| *q <= baseline[k]) as f64 - 1.0) / (QUANTILES - 1) as f64;
         let (low, high) = (
@@ -146,7 +136,6 @@ fn shipped_campaigns_drift_as_before() {
                     let digits = quantiles(&found).into_iter().map(|q| json!(format!("{q:.6e}"))).collect();
                     written.insert(key, Value::Array(digits));
                 } else if found.len() == 1 {
-                    // one run has no distribution: its error keeps its size
                     let ratio = (found[0] + 1e-16) / (baseline(&file, &key)[0] + 1e-16);
                     if !(0.1..10.0).contains(&ratio) {
                         wrong.push(format!("{key}: {:e}, {ratio:.2} times the baseline", found[0]));
@@ -200,7 +189,6 @@ fn drift_scales_with_the_tolerance() {
     }
 }
 
-/// The energy errors of the first `count` runs with a `fault` that the observer does not know.
 fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] {
     let isa = Isa::best();
     let campaign = Ensemble::new(plan, isa);
@@ -248,10 +236,8 @@ fn faults_are_seen() {
         let (off, _) = seen(&|scene| scene.mass.inertia_free[axis][axis] *= 1.0 + 1e-12);
         assert!(off > critical(128), "moment {axis}: {off}");
     }
-    // a dropped term: J instead of J*
     let (off, beyond) = seen(&|scene| scene.mass.inertia_free = scene.mass.inertia);
     assert!(off > 0.99 && beyond, "{off}");
-    // a wrong sign: wheel 1 couples about -s2
     let (off, beyond) = seen(&|scene| scene.mass.wheels[0].axis = scene.mass.wheels[0].axis.map(|x| -x));
     assert!(off > 0.99 && beyond, "{off}");
 }

@@ -1,36 +1,29 @@
 //! The shipped campaign `dual_spin` finds the classical boundary of a stable spin with a rotor about the spin axis.
 //!
-//! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, let K = K3 + h/omega. The
-//! transverse momenta h1 = A omega1 and h2 = B omega2 keep (K - A)/A h1^2 + (K - B)/B h2^2: an ellipse if K is above or
-//! below both A and B, else a hyperbola of growth omega sqrt((A - K)(K - B)/(A B)). Source: P. C. Hughes, *Spacecraft
-//! Attitude Dynamics*, 1986, section 6.2.
+//! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, K = K3 + h/omega has to be
+//! above or below both transverse moments A and B (P. C. Hughes, *Spacecraft Attitude Dynamics*, 1986, 6.2).
 
 use crate::support::prelude::*;
 
 /// K of the campaign, kg m^2: K3 = 100, h = 5 N m s, omega = 0.5 rad/s.
 const BOUNDARY: f64 = 110.0;
-/// Momentum about the spin axis, N m s: K omega.
 const SPIN_MOMENTUM: f64 = 55.0;
-/// Spin rate and transverse rates at the start, rad/s.
 const SPIN: f64 = 0.5;
 const TRANSVERSE: f64 = 1e-3;
 const DURATION: f64 = 400.0;
-/// Angle between a spin that stayed and one that was left, rad.
 const LEFT: f64 = 0.1745;
 
-/// Relative distance of a stable spin's largest angle from the reach of its ellipse: the linearisation is off by 3e-4,
-/// and the maximum lies between points. Measured: 9.1e-4.
+/// Relative distance of the largest angle from the reach of the ellipse. Measured: 9.1e-4.
 const ELLIPSE: f64 = 2e-3;
-/// Distance of the boundary found from the classical one, kg m^2: runs next to it need longer to leave. Measured: 0.05.
+/// Of the boundary found, kg m^2. Measured: 0.05.
 const FOUND: f64 = 0.5;
 
-/// From this distance to the boundary on, kg m^2, the campaign file promises that a stable spin stays within the first
-/// angle and an unstable one exceeds the second, degrees. Measured: 0.395 and 65.8.
+/// From this distance on, kg m^2, a stable spin stays within the first angle and an unstable one exceeds the second,
+/// degrees. Measured: 0.395 and 65.8.
 const CLEAR: f64 = 5.0;
 const STABLE_DEG: f64 = 0.4;
 const UNSTABLE_DEG: f64 = 65.0;
 
-/// The transverse moments of a run, kg m^2, and its largest nutation angle, rad.
 struct Spin {
     moments: [f64; 2],
     nutation: f64,
@@ -64,14 +57,12 @@ fn the_campaign_finds_the_classical_boundary() {
         let (square, weights) = conic([*a, *b]);
         if weights[0] * weights[1] > 0.0 {
             let reach = (square / weights[0].abs().min(weights[1].abs()) * weights[0].signum()).sqrt() / SPIN_MOMENTUM;
-            // below a degree, where the linearised motion holds, with at least one nutation
             let rate = SPIN * (weights[0] * weights[1]).sqrt();
             if reach < 0.0175 && rate * DURATION > 2.0 * std::f64::consts::PI {
                 worst = worst.max((nutation / reach - 1.0).abs());
                 ellipses += 1;
             }
         } else {
-            // the growing part of the start is not below a hundredth, and has grown by e^12
             let growth = SPIN * (-weights[0] * weights[1]).sqrt() * DURATION;
             if growth > 12.0 {
                 assert!(*nutation > LEFT, "A = {a}, B = {b}: left by {nutation} rad only");
@@ -82,7 +73,6 @@ fn the_campaign_finds_the_classical_boundary() {
     assert!(ellipses > 1000 && hyperbolas > 1000, "{ellipses}, {hyperbolas}");
     assert!(worst < ELLIPSE, "{worst:e}");
 
-    // the promise of the campaign file
     let clear = spins.iter().filter(|spin| spin.moments.iter().all(|moment| (moment - BOUNDARY).abs() > CLEAR));
     let (stable, unstable): (Vec<&Spin>, Vec<&Spin>) =
         clear.partition(|spin| (spin.moments[0] - BOUNDARY) * (spin.moments[1] - BOUNDARY) > 0.0);
@@ -91,7 +81,6 @@ fn the_campaign_finds_the_classical_boundary() {
     assert!(degrees(&stable).iter().all(|angle| *angle < STABLE_DEG), "a stable spin was left");
     assert!(degrees(&unstable).iter().all(|angle| *angle > UNSTABLE_DEG), "an unstable spin stayed");
 
-    // the boundary of a user: the K with the fewest runs on the wrong side
     let wrong = |k: f64| {
         let is_wrong = |spin: &&Spin| {
             let is_stable = (spin.moments[0] - k) * (spin.moments[1] - k) > 0.0;

@@ -20,8 +20,7 @@ fn off<const K: usize>(run: &Run, field: StateField, point: usize, expected: [f6
     found.iter().zip(expected).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() / size
 }
 
-/// Law: a torque tau about the axis of an axisymmetric body makes its rate grow by tau t/J and its angle by tau t^2/(2
-/// J).
+/// Law: a torque about the axis of an axisymmetric body makes its rate grow by tau t/J.
 #[test]
 fn an_axisymmetric_body_spins_up() {
     let (rate, torque) = (0.5, 40.0);

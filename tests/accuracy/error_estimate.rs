@@ -1,9 +1,8 @@
 //! `state_error_estimate` against the true error from double-double solutions, for every method, loose and tight.
 //!
-//! Law: the estimate covers the error in at least 95% of the runs of a family, method and setting, and is at most 100
-//! times too large in the median. A coverage is rejected if its chance under 95% is below [`ALPHA`] (one-sided binomial
-//! test, fixed seeds); a coverage of 75% is rejected for 24 runs with a power of 73%. The count of all settings of a
-//! method is at least 95%. Beyond a tenth an error is bounded and covered by any estimate above a twentieth.
+//! Law: the estimate covers the error in at least 95% of the runs of a setting, and of all settings of a method, and is
+//! at most 100 times too large in the median. Rejected below [`ALPHA`]; a coverage of 75% for 24 runs with a power of
+//! 73%.
 
 use crate::support::exact::solved;
 use crate::support::orbits::{in_thin_air, magnetic, tumbling};
@@ -19,9 +18,7 @@ use spindrift::statistics::binomial::at_most;
 /// Chance of rejecting a setting with 95% coverage: there are about two hundred settings.
 const ALPHA: f64 = 1e-5;
 const COVERAGE: f64 = 0.95;
-/// Largest excess of the estimate in the median: two to three times the measured. It is largest where errors add as if
-/// all had one direction, arise evenly along an eccentric orbit, or where a method is better than its order
-/// (`docs/results.md`).
+/// Largest excess of the estimate in the median: two to three times the measured.
 fn too_large(method: Method, family: &str) -> f64 {
     match (method, family) {
         (Method::NullSpace, "mixed, forced") => 200.0,
@@ -44,8 +41,7 @@ fn too_large(method: Method, family: &str) -> f64 {
     }
 }
 
-/// Whether the estimate of a setting is shown but not judged (`docs/results.md`): below 1e-12 the unknown rounding of
-/// drag and light counts, and the shortest steps of `gauss_legendre_6` leave only rounding.
+/// Below 1e-12 the unknown rounding of drag and light counts, and `gauss_legendre_6` leaves only rounding.
 fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
     (IN_AIR.contains(&family) && setting < 1e-12)
         || (method == Method::Gyrostat(Integrator::GaussLegendre) && family == LIBRATING && setting < 5e-3)
@@ -164,7 +160,6 @@ fn librating(faster: f64, samples: u64) -> Family {
     Family::new(if faster > 1.0 { SPINNING } else { LIBRATING }, Grid::uniform(12_000.0, 201), scenes)
 }
 
-/// Bodies that turn 20 to 200 times in an orbit.
 const TURNING_FAST: &str = "gravity gradient, fast";
 const LIBRATING: &str = "librating";
 const SPINNING: &str = "spinning on orbit";
@@ -295,7 +290,6 @@ pub(super) fn of_families(families: &[Family], methods: &[Method], count: u64) -
                 continue;
             }
             for (setting, control) in settings(method) {
-                // an orbit takes a thousand times as long
                 let is_slow = family.grid.duration() > 1000.0;
                 let control =
                     Control { step: control.step.map(|step| if is_slow { 1e3 * step } else { step }), ..control };
@@ -385,10 +379,8 @@ fn what_rounding_decides_is_ill_conditioned() {
         assert_eq!(ill, if axis == 1 { [false, false, true, true] } else { [false; 4] }, "axis {axis}");
         if axis == 1 {
             let growth: Vec<f64> = runs.iter().map(|run| run.amplification).collect();
-            // rounding decides how often the last two flip, and which grows more
             assert!(growth[..3].is_sorted() && growth[3] > growth[1], "{growth:?}");
         } else {
-            // a few times the 360 rad of rotation
             for (off, run) in offs.iter().zip(&runs) {
                 assert!(run.amplification < 5e3, "axis {axis}, offset {off:e}: {:e}", run.amplification);
             }

@@ -3,7 +3,6 @@
 use crate::support::feedback::{Flight, fly, law};
 use crate::support::prelude::*;
 
-/// Some control periods and quarter turns of the slowest scene, s.
 const HORIZON: f64 = 3.1;
 
 /// Largest relative distance from the double-double solution of any state: within 10 times the measured.
@@ -75,7 +74,6 @@ fn all_methods_fly_the_same_closed_loop() {
         report.push_str(&format!("{}: {worst:.1e}, bound {bound:.1e}\n", method.name()));
     }
     assert!(!failed, "{report}");
-    // counter-test: without the law the scenes end elsewhere
     let free = ReferenceSolution::new(Isa::best(), &scenes[0], &grid, everything(Method::Taylor), TOLERANCE);
     let last = grid.points() - 1;
     let free = free.expect("arrives").high.at::<3>(StateField::Rate, last);

@@ -4,8 +4,7 @@ use crate::support::prelude::*;
 
 use crate::support::runs::base_point;
 
-/// The largest error of each kind, relative to the truth (at least to one in its unit); of energies relative to the
-/// body's own and to the total.
+/// Relative to the truth (at least to one in its unit); of energies to the body's own and to the total.
 type Errors = BTreeMap<&'static str, f64>;
 
 fn assert_below(errors: &Errors, bound: f64, others: &[(&str, f64)], what: &str) {
@@ -44,13 +43,11 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
         let size = norm(truth.momentum_c_e);
         take("angular impulse", norm(difference(gained, impulse(StateField::AngularImpulse))) / size);
         if method == Method::NullSpace {
-            // the sign of a quaternion made of the DCM is continuous
             let before: [f64; 4] = table.at(StateField::Attitude, point.saturating_sub(1));
             let is_next =
                 before.iter().zip(table.at::<4>(StateField::Attitude, point)).map(|(p, q)| p * q).sum::<f64>() >= 0.0;
             assert!(is_next, "the sign of the quaternion jumps before point {point}");
             let [kinematic, collocation, tilt] = table.at(StateField::Residuals, point);
-            // a tilt times the rate of a wheel is kinematic
             take("constraints", (kinematic / 300.0).max(collocation).max(tilt));
         }
     }

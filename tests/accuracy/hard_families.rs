@@ -1,13 +1,12 @@
 //! Families of scenes whose error estimates once missed the error, and their neighbours.
 //!
-//! Law: that of [`super::error_estimate`], with its H0 and alpha; the estimate also covers 95% of all runs of a family.
-//! `null_space`, whose steps follow the wheels, is left out.
+//! Law: that of [`super::error_estimate`], of each family too. `null_space`, whose steps follow the wheels, is left
+//! out.
 
 use super::error_estimate::{Family, Found, Measured, breaches, of_families};
 use crate::support::prelude::*;
 use spindrift::scene::BodyInput;
 
-/// A family: its name, duration in s, points, and scene number `k`.
 type Regime = (&'static str, f64, usize, fn(u64, &mut Uniform) -> SceneInput);
 
 const REGIMES: [Regime; 13] = [
@@ -86,7 +85,6 @@ const REGIMES: [Regime; 13] = [
     }),
 ];
 
-/// Seed of the first family; later ones count up.
 const SEED: u64 = 100;
 
 const COVERAGE: f64 = 0.95;
@@ -171,8 +169,7 @@ fn on_the_separatrix(u: &mut Uniform, moments: [f64; 3], [low, high]: [f64; 2]) 
     rate
 }
 
-/// A body with these second moments of mass in an orbit of 37,000 s with a perigee of 500 to 8,000 km, turning at
-/// `rates` times the mean motion.
+/// On an orbit of 37,000 s with a perigee of 500 to 8,000 km, turning at `rates` times the mean motion.
 fn eccentric(u: &mut Uniform, second: [f64; 3], rates: [f64; 2]) -> SceneInput {
     let axis = 2.4e7;
     let perigee = u.between(6.88e6, 1.4e7);

@@ -12,7 +12,6 @@ pub struct JeodRun {
     attitude: [f64; 4],
     /// At time zero and after 28,800 s, F_s, rad/s.
     rates: [[f64; 3]; 2],
-    /// Position after 28,800 s, m.
     position: [f64; 3],
     /// `T_parent_this` after 28,800 s, by rows.
     dcm: [[f64; 3]; 3],
@@ -22,9 +21,7 @@ pub struct JeodRun {
 
 #[derive(Clone, Copy, PartialEq)]
 enum Craft {
-    /// A cylinder of 1000 kg in the gravity gradient.
     Cylinder,
-    /// A sphere of 1 kg and nothing.
     Sphere,
     /// The space station under 10 N m about s1 from 1000 s to 2000 s, with this force along s1, N.
     Station(f64),
@@ -133,7 +130,6 @@ fn nasa_jeod_runs() {
             }
             assert!(ours[0] < 1e-6 && ours[1] < 1e-15 && ours[2] < 2e-13, "{} {}", jeod.name, method.name());
         }
-        // counter-test: without its torques the body points elsewhere
         if jeod.craft != Craft::Sphere {
             let scene = Scene::resolve(&jeod.input(false)).expect("a legal scene");
             let run = propagate(Method::Auto, adaptive(1e-16), &grid, &[scene]).remove(0);

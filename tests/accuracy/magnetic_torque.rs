@@ -49,7 +49,6 @@ fn a_whole_run_is_that_of_scipy() {
         // measured 1.8e-10 and 5.2e-13: the error of SciPy, and the Earth's angle, rounded to 1e-10 rad
         assert!(attitude < 1e-9 && rate < 5e-12, "{}: {attitude:e} {rate:e}", method.name());
     }
-    // counter-test: a dipole is another field
     let (attitude, _) = off(FieldModel::Dipole, Method::Auto, adaptive(1e-16));
     assert!(attitude > 1e-2, "{attitude}");
 }

@@ -50,9 +50,7 @@ fn angle(scene: &Scene) -> f64 {
     HORIZON * norm(initial.omega_se_s).max(norm(initial.omega_de_d)).max(wheels)
 }
 
-/// The scale of an error of the work, J, at least one: the largest of the terms whose difference it is. The motor of a
-/// held wheel does A Omega (w(t) - w(0)) with the rate w along its axis, that of a free wheel the integral of tau (h/A
-/// - w), and a constant torque that of tau . omega.
+/// The largest, J, of the terms whose difference the error of the work is, at least one.
 fn work_scale(scene: &Scene, expected: &StateTable) -> f64 {
     let points = 0..expected.points();
     let omega = points.clone().map(|point| norm(expected.at::<3>(StateField::Rate, point))).fold(0.0, f64::max);

@@ -77,8 +77,7 @@ fn moved(state: &State, rate: &State, time: f64) -> State {
     State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))
 }
 
-/// d(T)/dt = nu^T M nu-dot + 1/2 nu^T M-dot nu with nu-dot = Pi nu-hat-dot + Pi-dot nu-hat, and the sum of the terms'
-/// sizes.
+/// d(T)/dt = nu^T M nu-dot + 1/2 nu^T M-dot nu, and the sum of the terms' sizes.
 fn energy_rate(parameters: &Parameters, state: &State, rate: &State) -> (f64, f64) {
     let pi = matrices::pi(parameters, state);
     let nu_hat = matrices::reduced_speeds(state);
@@ -195,7 +194,6 @@ proptest! {
         let found = Vector3::from(rate.omega_s);
         prop_assert!((found - omega_dot).norm() <= RATE_TOLERANCE * size, "{} {}", found, omega_dot);
 
-        // the kernel has entries for two wheels; that of a missing wheel is constant
         for i in 0..2 {
             if let Some(wheel) = mass.wheels.get(i) {
                 let expected = actuation.motor_torque[i] / wheel.axial - omega_dot.dot(&Vector3::from(wheel.axis));
@@ -255,7 +253,6 @@ proptest! {
             prop_assert!(value <= 4e-13, "{}: {}", kind, value); // speeds of some hundred rad/s, to rounding
         }
         let rate = derivative(&scene, &actuation, &state);
-        // after a short time along the rates, residuals grow with its square
         let step = 1e-7;
         let [_, collocation, attitude] = residuals(&scene, &parameters, &moved(&state, &rate, step));
         let bound = (400.0 * step) * (400.0 * step);

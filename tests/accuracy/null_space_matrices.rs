@@ -1,6 +1,5 @@
-//! Berdoz's matrices as printed (and corrected), dense and slow, to prove the block form of `dynamics::null_space`.
-//! Rows of nu are, per body, [velocity in F_e, angular velocity in the body's frame]; of nu-hat [v_p, omega_s,
-//! alpha-dot, beta-dot, v_gd, omega_d].
+//! Berdoz's matrices as printed (and corrected), dense and slow. Rows of nu are, per body, [velocity in F_e, angular
+//! velocity in the body's frame]; of nu-hat [v_p, omega_s, alpha-dot, beta-dot, v_gd, omega_d].
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -22,7 +21,6 @@ pub fn reduced_speeds(state: &State) -> SVector<f64, SPEEDS> {
     SVector::from_column_slice(&state.components::<COMPONENTS>()[COORDINATES..COORDINATES + SPEEDS])
 }
 
-/// r^x, so that r^x v = r x v.
 pub fn skew(r: Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -r.z, r.y, r.z, 0.0, -r.x, -r.y, r.x, 0.0)
 }
@@ -159,8 +157,7 @@ pub fn actuation(parameters: &Parameters, state: &State) -> SMatrix<f64, FULL_SP
     b
 }
 
-/// M-hat = Pi^T M Pi (25), with a unit on the diagonal for a missing wheel, and the rows and columns of the unit matrix
-/// for a wheel of constant speed.
+/// M-hat = Pi^T M Pi (25), with unit rows and columns for a missing or speed-held wheel.
 pub fn reduced_mass(parameters: &Parameters, state: &State) -> SMatrix<f64, SPEEDS, SPEEDS> {
     let pi = pi(parameters, state);
     let mut m = pi.transpose() * mass(parameters, state) * pi;
@@ -172,8 +169,7 @@ pub fn reduced_mass(parameters: &Parameters, state: &State) -> SMatrix<f64, SPEE
     m
 }
 
-/// f-hat_non + f-hat (39) under the inputs u = (P1, P2, P3, tau^W1, tau^W2); zero for the rate of a wheel whose speed
-/// is held.
+/// f-hat_non + f-hat (39) under u = (P1, P2, P3, tau^W1, tau^W2); zero for a held wheel.
 pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], sign: f64) -> SVector<f64, SPEEDS> {
     let (pi, nu_hat) = (pi(parameters, state), reduced_speeds(state));
     let nu = pi * nu_hat;

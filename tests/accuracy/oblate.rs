@@ -75,7 +75,6 @@ fn the_node_drifts() {
             let h = cross(r, v);
             h[0].atan2(-h[1])
         };
-        // the slope of all points, without the period of the orbit
         let (mut turned, mut before) = (0.0, node(0));
         let (mut sums, mut count) = ([0.0; 4], 0.0);
         for (point, time) in grid.times().iter().enumerate() {
@@ -95,8 +94,7 @@ fn the_node_drifts() {
     }
 }
 
-/// Law: every method finds the reference solution after ten orbits, on a circle, an ellipse, and with plates in air and
-/// light, and it differs from that of a point mass.
+/// Law: every method finds the reference solution after ten orbits, and it differs from that of a point mass.
 #[test]
 fn every_method_finds_the_reference_solution() {
     let grid = ten_orbits();
@@ -172,7 +170,6 @@ fn debris_beside_a_spacecraft() {
             [0.09807094104096233, 0.09291008102550678, -0.03969129108386968]),
     ];
     let (position_m, velocity_m_s) = (Some([7e6, 1e6, -2e5]), Some([100.0, 7100.0, 2900.0]));
-    // the same J2 R^2 with a smaller body, below the periapsis of 6363 km
     let j2 = Some(J2 * (RADIUS / 6e6) * (RADIUS / 6e6));
     let orbit = OrbitInput { position_m, velocity_m_s, j2, body_radius_m: 6e6, ..OrbitInput::DEFAULT };
     let mut input = slow(orbit);
@@ -196,8 +193,7 @@ fn debris_beside_a_spacecraft() {
     }
 }
 
-/// Law: lanes have the bits of runs alone, and J2 of zero is a point mass to rounding. The runs of a plan all have a
-/// J2, or none.
+/// Law: lanes have the bits of runs alone, and J2 of zero is a point mass to rounding.
 #[test]
 fn lanes_with_and_without() {
     let grid = Grid::uniform(6_000.0, 31);

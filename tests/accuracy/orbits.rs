@@ -16,10 +16,8 @@ fn methods() -> Vec<(Method, Control)> {
     near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))
 }
 
-/// Aligns the body with the orbital frame at the node of a circle of rate `n` in the e1-e2 plane: o3 = -e1 (nadir), o2
-/// = -e3, o1 = e2.
+/// At the node of a circle of rate `n` in the e1-e2 plane: o3 = -e1 (nadir), o2 = -e3, o1 = e2.
 fn aligned(input: &mut SceneInput, n: f64) {
-    // columns o1, o2, o3 in F_e: [[0, 0, -1], [1, 0, 0], [0, -1, 0]]
     input.initial.attitude = [0.5, -0.5, -0.5, 0.5];
     input.initial.angular_velocity_rad_s = [0.0, -n, 0.0];
 }
@@ -204,7 +202,6 @@ fn every_method_has_every_effect_or_says_so() {
             }
             let off = reference.distance::<3>(&run.table, StateField::ComPosition, last, 1.0);
             assert!(off < 1e-6, "{} {}: {off:e} m", method.name(), effect.key());
-            // gravity's work on 1,000 kg is a difference of 5.6e10 J, and its impulse one of 7.5e6 N s
             let integrals =
                 [(StateField::Work, 2, 1e-4), (StateField::AngularImpulse, 3, 1e-12), (StateField::Impulse, 3, 1e-7)];
             for (field, width, rounding) in integrals {
@@ -275,7 +272,6 @@ fn each_key_of_an_orbit_has_a_truth() {
         let orbit = OrbitInput { body_radius_m: radius, ..elements(axis, e, i, node, periapsis, anomaly) };
         Scene::resolve(&body([90.0, 100.0, 40.0], orbit)).is_ok()
     };
-    // above the equator a flattened body pulls by 3/2 J2 more
     let pulled = |j2: f64| {
         let scene = Scene::resolve(&body([90.0, 100.0, 40.0], OrbitInput { j2: Some(j2), ..circle(7e6, 0.3) }));
         let gravity = Gravity::of(&scene.expect("a legal scene").orbit.expect("an orbit"));
@@ -301,7 +297,6 @@ fn each_key_of_an_orbit_has_a_truth() {
     }
 }
 
-/// A change of a key, and the factors on the torques of drag and light.
 type Truth = (&'static str, fn(&mut EnvironmentInput), [f64; 2]);
 
 #[test]
@@ -316,7 +311,6 @@ fn each_key_of_the_environment_has_a_truth() {
     };
     let orbit = scene.orbit.expect("an orbit");
     let height = norm(orbit.position) - orbit.body_radius;
-    // half the scale height has the density at twice the distance from the base
     let shallower = libm::exp(-(height - 4e5) / 5e4);
     let parameters: [Truth; 6] = [
         ("density_scale", |of| of.density_scale = 3.0, [3.0, 1.0]),

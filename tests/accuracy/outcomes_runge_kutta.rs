@@ -41,7 +41,6 @@ fn ends_as<M: LaneMethod, L: Law<1, 0>>(method: M, law: L, state: f64, control: 
     let outcome = journey.outcome;
     assert_eq!(outcome.status, status, "{outcome:?}");
     assert!(outcome.time < 2.0);
-    // the quotient may be rounded to below a whole number
     assert_eq!(outcome.points, 1 + (outcome.time / 0.1 + 1e-9) as usize, "{outcome:?}");
     for (point, state) in journey.points.iter().enumerate() {
         assert_eq!(state[0].is_nan(), point >= outcome.points, "point {point}");
@@ -58,7 +57,6 @@ fn a_pole_is_a_step_floor_or_not_finite() {
         scalar(Adaptive(Dop853), BlowUp, &[case], &Grid::uniform(2.0, 21), &control).remove(0),
     ] {
         assert!(matches!(journey.outcome.status, Status::StepFloor | Status::NonFinite), "{:?}", journey.outcome);
-        // the error of the solution moves its pole
         assert!((journey.outcome.time - 1.0).abs() < 1e-8, "the pole is at 1: {:?}", journey.outcome);
         assert_eq!(journey.outcome.points, 10 + usize::from(journey.outcome.time >= 1.0));
     }

@@ -52,8 +52,7 @@ fn off_attitude(q: [f64; 4], p: [f64; 4]) -> f64 {
 /// Balances in double-double. Measured: 3.4e-30.
 const BALANCED: f64 = 3e-29;
 
-/// Law: energy minus work, momentum minus impulse, angular momentum minus angular impulse are constant to the last
-/// digits.
+/// Law: energy minus work, momentum minus impulse, angular momentum minus angular impulse are constant.
 #[test]
 fn balances_hold_to_the_last_digits() {
     for name in ["table1", "forced"] {

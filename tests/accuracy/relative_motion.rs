@@ -46,8 +46,7 @@ fn a_day_beside_an_orbit_without_thrust() {
     }
 }
 
-/// Law: thrust moves the spacecraft by r'' = -mu r/|r|^3 + F/m, here by the classical Runge-Kutta method about the
-/// central body.
+/// Law: thrust moves the spacecraft by r'' = -mu r/|r|^3 + F/m, here by the classical Runge-Kutta method.
 #[test]
 fn thrust_on_an_orbit() {
     let mut input = SceneInput { environment: EnvironmentInput::DEFAULT, ..body([90.0, 100.0, 40.0], ellipse()) };

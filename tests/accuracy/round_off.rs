@@ -1,9 +1,8 @@
 //! Round-off: at the smallest tolerance errors of conserved quantities are a random walk of last digits (D. Brouwer,
 //! Astronomical Journal 46, 1937), and nothing grows faster.
 //!
-//! Ensemble: 64 random scenes with fixed seeds. Of the signed relative errors e after N steps: rms e <= bound sqrt(N);
-//! the log-log slope of rms e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (H0: no bias; n =
-//! 64, two-sided alpha = 0.0027).
+//! Of the signed relative errors e of 64 random scenes after N steps: rms e <= bound sqrt(N); the log-log slope of rms
+//! e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (alpha = 0.0027).
 
 use crate::support::invariants::Invariants;
 use crate::support::prelude::*;
@@ -86,7 +85,6 @@ fn taylor(steps: &[f64]) -> [Walk; 4] {
         let parts: Vec<_> = scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         parts.into_iter().flatten().collect::<Vec<_>>()
     };
-    // a short run gives the steps in a second
     let rates: Vec<f64> =
         run(vec![0.0, 20.0], &scenes).iter().map(|run| run.outcome.effort.steps as f64 / 20.0).collect();
     let mean = libm::exp(rates.iter().map(|rate| libm::log(*rate)).sum::<f64>() / rates.len() as f64);
@@ -128,7 +126,6 @@ fn hold_law(count: i32, last: &str) {
         hold(SECTION, &claim("distance of its log-log slope from 1/2"), SLOPE_SLACK, (slope - SLOPE).abs());
         hold(SECTION, &claim("mean in standard errors"), SIGMAS, bias);
     }
-    // sizes of vectors have no sign and no mean
     let claim = |what: &str| format!("`taylor` at 1e-16, {what}, N to {last}");
     assert!((vector.slope() - SLOPE).abs() < SLOPE_SLACK, "vector L: slope {}", vector.slope());
     hold(
@@ -143,7 +140,6 @@ fn hold_law(count: i32, last: &str) {
         sizes.sort_by(f64::total_cmp);
         middle = middle.max(sizes[sizes.len() / 2]);
         let size = errors.iter().fold(0.0_f64, |size, e| size.max(e.abs()));
-        // the first hundred steps are rounding of the start
         largest = if *n > 1e3 { largest.max(size / n) } else { largest };
     }
     hold(SECTION, &claim("norm of the quaternion: median error / sqrt(N)"), NORM, middle);
@@ -161,9 +157,7 @@ fn taylor_errors_are_a_random_walk_over_a_million_steps() {
     hold_law(4, "1e6");
 }
 
-/// Largest error of energy, |L|, norm and vector L of a periodic run at any horizon.
 const PERIODIC: f64 = 1e-14;
-/// Largest error at any horizon over that at a short one.
 const GROWTH: f64 = 2.0;
 
 const MOST_STEPS: u64 = 200;
@@ -177,7 +171,6 @@ fn periods_add_no_error_of_conservation() {
         let horizon = libm::pow(10.0, f64::from(exponent));
         let plan = PropagationSettings::new(
             Method::Auto,
-            // a run without a period within memory ends here
             Control { max_steps: MOST_STEPS, ..adaptive(TOLERANCE) },
             Grid::uniform(horizon, 101),
             fields,

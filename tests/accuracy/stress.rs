@@ -158,7 +158,6 @@ fn any_shape_passes() {
     ]
     .map(|(name, moments)| (name.to_owned(), body(diagonal(moments), omega)))
     .to_vec();
-    // turned, the flat body has products of inertia at the triangle's limit
     let (c, s) = (0.8, 0.6);
     let turned = [
         [c * c * 1000.0 + s * s * 2500.0, 0.0, c * s * (2500.0 - 1000.0)],
@@ -236,7 +235,6 @@ fn short_thrusts_are_not_missed() {
             let plan = PropagationSettings::new(Method::Auto, adaptive(1e-16), Grid::uniform(2.0, 21), fields, &scene);
             propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0)
         };
-        // the body spins about the axis of the thrust
         let off = (run.table.column(StateField::Impulse, 2)[20] / expected - 1.0).abs();
         worst = worst.max(off);
     }

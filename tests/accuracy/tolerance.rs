@@ -24,7 +24,6 @@ fn slope(points: &[[f64; 2]]) -> f64 {
     covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
 }
 
-/// Methods with their number of scenes, horizon in seconds, and largest error over the tolerance.
 const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::Auto, 8, 10.0, 4e2),
     (Method::Taylor, 8, 10.0, 4e2),
@@ -32,11 +31,9 @@ const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::Gyrostat(Integrator::Dop853), 8, 10.0, 2e1),
     (Method::NullSpace, 4, 1.0, 2.0),
 ];
-/// Slack of the log-log slope of the error over the tolerance from one.
 const PROPORTIONAL: f64 = 0.05;
 /// The same of the Taylor method, whose order changes in whole numbers.
 const STAIRCASE: f64 = 0.15;
-/// Rounding of these runs.
 const FLOOR: f64 = 2e-14;
 
 #[test]
@@ -95,7 +92,6 @@ fn methods_have_their_order() {
     }
 }
 
-/// Distance from the start, once forward and once back.
 const RETURN: f64 = 1e3 * f64::EPSILON;
 
 #[test]

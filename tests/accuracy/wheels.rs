@@ -7,7 +7,6 @@ use crate::support::scenes::{keep_wheels, misaligned, speed_held};
 const HORIZON: f64 = 1.0;
 const TAYLOR: f64 = 1e-16;
 
-/// Random scenes with every combination of held wheels, most of them misaligned.
 fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
     let scene = |k: u64| {
         let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: !k.is_multiple_of(3), forced };
@@ -30,7 +29,6 @@ fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
                 for (point, time) in grid.times().iter().enumerate() {
                     assert_eq!(run.table.column(StateField::WheelRates, w)[point].to_bits(), rate.to_bits());
                     let off = run.table.column(StateField::WheelAngles, w)[point] - (start + rate * time);
-                    // the null-space kernel adds up its steps; measured: 3e-16
                     assert!(off.abs() <= 2e-15 * (1.0 + rate.abs()), "{} {off:e}", method.name());
                 }
             }
@@ -53,8 +51,7 @@ fn rotor(mode: WheelMode) -> SceneInput {
     input
 }
 
-/// Law: about the wheel's axis the body's rate grows by tau t/J with the wheel held and tau t/J* with it free; the free
-/// wheel lags by as much, and the motor of the held one does Omega J_1 (omega - omega(0)).
+/// Law: the body's rate grows by tau t/J with the wheel held and tau t/J* with it free, which lags by as much.
 #[test]
 fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     const TAU: f64 = 0.5 * (200.0 - 100.0);

@@ -1,15 +1,12 @@
 //! [`Assembled`]: WebAssembly modules byte by byte (WebAssembly 1.0, section 5), beyond what compilers build.
 
-/// Addresses of input, output, measurements and telemetry.
 pub const INPUT: i32 = 1024;
 pub const OUTPUT: i32 = 4096;
 pub const MEASURED: i32 = 20_480;
 pub const REPORTED: i32 = 24_576;
 
-/// Addresses of the texts of parameters, measurements and telemetry.
 const TEXTS: [i32; 3] = [8192, 28_672, 32_768];
 
-/// A step that applies no torque.
 pub const NOTHING: &[u8] = &[0x0b];
 
 /// A module that is flown without a torque, but for the changes of a test.
@@ -20,17 +17,12 @@ pub struct Assembled {
     pub pages: u32,
     pub step: Vec<u8>,
     pub start: Option<Vec<u8>>,
-    /// The text of the parameters.
     pub table: Option<&'static str>,
-    /// The texts of measurements and of telemetry.
     pub tables: [Option<&'static str>; 2],
-    /// An export with another name.
     pub misnamed: &'static str,
     pub imports: bool,
-    /// Its step, or its `spindrift_init`, returns a number.
     pub is_mistyped: bool,
     pub is_init_mistyped: bool,
-    /// Locals of its step, and idle functions.
     pub locals: usize,
     pub functions: usize,
 }

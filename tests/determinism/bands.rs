@@ -161,7 +161,6 @@ fn the_angular_rate_has_bands() {
             assert!((found - expected).abs() <= bound, "{found} {expected}");
         }
     }
-    // counter-test: the rates differ from run to run
     assert!(own[8].1[1] > 1.1 * own[8].1[0]);
 }
 

@@ -30,7 +30,6 @@ fn crossings_of_a_free_body_are_at_the_times_of_its_precession() {
             let plan = free(&written, 121, &events);
             let rows = rows(&plan, Isa::best(), 0, 1);
             let found = |name: &str| column(&plan, &rows, name)[0];
-            // errors of the motion itself
             let bound = if method.name() == "runge_kutta_4" { 1e-9 } else { 1e-10 };
             for (name, expected) in [("up", up), ("down", period - up), ("last_up", last_up), ("any", up)] {
                 let time = found(&format!("{name}_time_s"));
@@ -55,7 +54,6 @@ fn a_rate_under_torque_crosses_where_it_must() {
         let rows = rows(&plan, Isa::best(), 0, 1);
         (column(&plan, &rows, "spin_time_s")[0], column(&plan, &rows, "spin_count")[0])
     };
-    // 0.6 - 0.02 t, at rest after 30 s
     for (value, more, time, count) in [
         (0.25, "direction = \"falling\"", 17.5, 1.0),
         (0.25, "direction = \"rising\"", 42.5, 1.0),
@@ -64,7 +62,6 @@ fn a_rate_under_torque_crosses_where_it_must() {
         (0.7, "direction = \"falling\"\nwhich = \"stays\"", 0.0, 0.0),
         (0.25, "direction = \"falling\"\nwhich = \"stays\"", f64::NAN, 1.0),
         (0.59, "", 0.5, 2.0),
-        // a start at the value
         (0.6, "", f64::NAN, 0.0),
         (0.6, "direction = \"falling\"\nwhich = \"stays\"", 0.0, 0.0),
         (0.6, "direction = \"rising\"\nwhich = \"stays\"", f64::NAN, 0.0),
@@ -74,7 +71,6 @@ fn a_rate_under_torque_crosses_where_it_must() {
         let is_right = if time.is_nan() { found.0.is_nan() } else { (found.0 - time).abs() < 1e-11 };
         assert!(is_right, "{value} {more}: {}", found.0);
     }
-    // a crossing nearer to the turn than two points is not seen
     assert_eq!(of(0.001, "").1, 0.0);
 }
 
@@ -113,7 +109,6 @@ fn what_is_not_a_number_crosses_nothing() {
         }
     }
     assert!(column(&plan, &found, "number_count")[0] >= 1.0);
-    // an end before the quantity is no number, and a run to the end
     let ends = |value| event("condition", "if(sqrt(0.5 - spin_axis_angle_rad) < 0.3, 1, 0)", value, "ends_run = true");
     for (value, ended_by, count) in [(0.5, 1.0, 1.0), (1.5, 0.0, f64::NAN)] {
         let plan = free("method = \"auto\"", 121, &ends(value));

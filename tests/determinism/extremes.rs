@@ -1,5 +1,3 @@
-//! Extremes between observation points, against closed forms and many points.
-
 use super::whole_rows::{SPREAD, column, event, free_body, near_rounding, plan, precession, rows, single};
 use crate::support::prelude::*;
 
@@ -18,7 +16,6 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
     let alpha = |time: f64| 2.0 * (angle.sin() * (0.5 * rate * time).sin().abs()).asin();
     let up = 2.0 / rate * ((0.5 * 0.5_f64).sin() / angle.sin()).asin();
     let period = 2.0 * std::f64::consts::PI / rate;
-    // from this delay on it falls
     let late = 60.0 - 0.2 * period - up;
     assert!(alpha(60.0) < alpha(60.0 - 0.2 * period) && (60.0 / period).fract() > 0.7, "{}", 60.0 / period);
     let more = event("up", "spin_axis_angle_rad", 0.5, "direction = \"rising\"")
@@ -38,7 +35,6 @@ fn extremes_of_a_free_body_are_those_of_its_precession() {
         for (name, expected, bound) in [
             ("most_rad", 2.0 * angle, bound),
             ("most_after_deg", (2.0 * angle).to_degrees(), 60.0 * bound),
-            // the square root of rounding
             ("least_rad", 0.0, 1e-6),
             ("last_rad", alpha(up + late), 10.0 * bound),
         ] {
@@ -94,7 +90,6 @@ fn extremes_are_those_of_many_points() {
     for row in 0..40 {
         for (name, dense) in [("angle_rad", "spin_axis_angle_max_rad"), ("rate_rad_s", "angular_rate_max_rad_s")] {
             let [found, dense] = [column(&coarse, &found, name)[row], column(&fine, &truth, dense)[row]];
-            // an eighth of the square of an interval times the largest second derivative, near half a turn
             let bound = 1e-6 / (std::f64::consts::PI - found).clamp(1e-3, 1.0);
             assert!(found >= dense - 1e-12 && found - dense < bound, "sample {row}, {name}: {found} and {dense}");
         }

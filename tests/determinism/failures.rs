@@ -2,7 +2,6 @@
 
 use crate::support::prelude::*;
 
-/// A body with four wheels in a pyramid under a memoryless law with perfect knowledge.
 const HELD: &str = r#"[campaign]
 name = "held"
 samples = 20
@@ -94,12 +93,10 @@ fn a_run_is_the_same_until_the_failure() {
         (format!("{DEAD}coulomb_friction_n_m = 0.004\n"), true),
         (format!("{DEAD}viscous_friction_n_m_s = 1e-4\n"), true),
         ("[[failure]]\nname = \"on\"\nthruster = \"p1\"\nthrust_n = 0.05\n".to_owned(), true),
-        // the loop fires it for torque alone, with which wheels are quicker
         ("[[failure]]\nname = \"off\"\nthruster = \"p1\"\nthrust_n = 0.0\n".to_owned(), false),
     ] {
         for at in [10.1, 20.0] {
             let failed = run(&format!("{}{failure}at_s = {at:?}\n", held()), 3);
-            // a point every half second, a tick every quarter
             let same = same_points(&healthy, &failed);
             let until = (2.0 * at) as usize;
             assert!(same > until - usize::from(at == 20.0), "{failure} {at}: {same}");
@@ -156,7 +153,6 @@ fn after_its_failure_a_wheel_is_another_wheel() {
             {
                 for i in 0..width {
                     let [a, b] = [whole.table.column(field, i)[point + k], rest.table.column(field, i)[k]];
-                    // rounding of the written state, through the loop
                     assert!((a - b).abs() < 1e-11 * size, "{failure} {field:?} {i} {k}: {a} {b}");
                 }
             }
@@ -263,7 +259,6 @@ fn loops_fly_on_without_a_sensor() {
     ] {
         assert!(of(failure).is_finite(), "{failure}");
     }
-    // the bias that the filter takes from the tracker grows to all of it
     let biased = of("sensor = \"tracker\"\nbias_rad = [0.0, 0.0, 0.01]");
     assert!(healthy < 1e-3 && (2e-3..2e-2).contains(&biased), "{healthy} {biased}");
     let frozen = of("sensor = \"tracker\"\noutput = \"frozen\"");
@@ -290,7 +285,6 @@ fn a_torque_rod_fails() {
     // ticks of b-dot multiply the rounding of the sum of two dipoles
     assert!(apart(rate(&stuck), rate(&residual)) < 1e-9, "{:?} {:?}", rate(&stuck), rate(&residual));
     assert!(apart(rate(&stuck), rate(&healthy)) > 1e-3);
-    // a point every 16.4 s, a tick every 5 s
     let spacing = 1800.0 / (points - 1) as f64;
     for at in [601.0, 900.0] {
         let same = same_points(&healthy, &failed(at, 0.2));

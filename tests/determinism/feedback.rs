@@ -63,7 +63,6 @@ fn the_environment_acts_beside_a_law() {
     }
 }
 
-/// Law: so has one of arcs much shorter than a step, beside lanes with longer ones and idle ones.
 #[test]
 fn bits_of_brief_arcs_are_a_run_s_own() {
     let mut scenes = mixed(13, false, HORIZON);
@@ -99,7 +98,6 @@ fn bits_of_brief_arcs_are_a_run_s_own() {
     }
 }
 
-/// A law with a torque of its own on some wheels.
 struct Pushing<L>(L, Vec<bool>, f64);
 
 impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
@@ -138,7 +136,6 @@ fn a_torque_on_a_held_wheel_changes_no_bit() {
     }
 }
 
-/// Observes a run with the arcs flown, or with those of the schedule.
 type Observe = fn(&mut Observer, Isa, &Scene, &CompletedRun<'_>, &mut [f64]);
 
 fn flown(observer: &mut Observer, isa: Isa, scene: &Scene, run: &CompletedRun<'_>, row: &mut [f64]) {
@@ -185,7 +182,6 @@ fn columns_are_those_of_the_record_replayed() {
         let method = (method, control);
         let (best, _) = rows(Isa::best(), method, &scenes, true, flown);
         let closed: Vec<_> = Isa::available().into_iter().map(|isa| rows(isa, method, &scenes, true, flown)).collect();
-        // an observer of the schedule takes the run for a free one
         let (mistaken, _) = rows(Isa::best(), method, &scenes, true, scheduled);
         for (run, (a, b)) in mistaken.iter().zip(&best).enumerate() {
             assert!(a != b, "{}: run {run} has the same row", method.0.name());

@@ -43,8 +43,7 @@ fn built_in() -> String {
     CAMPAIGN.replace("law = \"module\"", "law = \"mrp_feedback\"").replace("module = \"mrp_feedback_c.wasm\"\n", "")
 }
 
-/// Law: modules from C and Rust that compute the built-in law give its rows, bit for bit, with a memory, in two phases,
-/// and with a dispersed parameter.
+/// Law: modules from C and Rust that compute the built-in law give its rows, bit for bit.
 #[test]
 fn modules_have_the_bits_of_the_built_in_law() {
     let folder = folder("flight-code-bits");
@@ -196,7 +195,6 @@ fn runs_end_with_the_reason_of_their_module() {
         [time, vec![0x04, 0x40], code.to_vec(), vec![0x0b, 0x0b]].concat()
     };
     let endless: &[u8] = &[0x03, 0x40, 0x0c, 0, 0x0b, 0x0b];
-    // grows its memory page by page until refused
     let growing: &[u8] = &[0x03, 0x40, 0x41, 1, 0x40, 0, 0x1a, 0x0c, 0, 0x0b, 0x0b];
     let [trap, fuel, diverged] = [Failure::ModuleTrap, Failure::ModuleFuel, Failure::Diverged];
     let cases: [(&str, Vec<u8>, Failure, f64); 10] = [
@@ -235,7 +233,6 @@ fn modules_that_cannot_fly_are_refused() {
         [sound.bytes(), vec![0], filling].concat()
     };
     let nested = |depth| [[0x02, 0x40].repeat(depth), vec![0x0b; depth + 1]].concat();
-    // i32.const 0, br_table
     let branches = |count: usize| [vec![0x41, 0, 0x0e], size(count), vec![0; count + 1], vec![0x0b]].concat();
     let component = b"\0asm\x0d\0\x01\0".to_vec();
     let truncated = sound.bytes()[..60].to_vec();

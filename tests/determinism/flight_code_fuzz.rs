@@ -1,5 +1,3 @@
-//! Modules of flight code at random, loaded and flown as campaigns are.
-
 use crate::support::prelude::*;
 
 use super::assembled_module::section;
@@ -9,10 +7,8 @@ use rustix::time::{ClockId, clock_gettime};
 
 const SEED: u64 = 20_261_126;
 const MODULES: u64 = 250;
-/// CPU time in which a module must be compiled and fly twice, s.
 const MOST_CPU: f64 = 30.0;
 
-/// Numbers at random.
 struct Numbers(Uniform);
 
 impl Numbers {
@@ -95,13 +91,11 @@ fn damaged(numbers: &mut Numbers, mut whole: Vec<u8>, shipped: &[Vec<u8>]) -> Ve
             }
             9 => drop(whole.drain(some_section(numbers, &places))),
             10 => {
-                // a section of another module
                 let other = &shipped[numbers.below(shipped.len())];
                 let taken = other[some_section(numbers, &sections(other))].to_vec();
                 whole.splice(some_section(numbers, &places), taken);
             }
             _ => {
-                // two sections swapped
                 let [one, two] = [0; 2].map(|_| some_section(numbers, &places));
                 let (first, second) = if one.start < two.start { (one, two) } else { (two, one) };
                 let between = whole[first.end.min(second.start)..second.start].to_vec();

@@ -29,7 +29,6 @@ fn of_row(run: &SingleRun, name: &str) -> f64 {
 fn measurements_are_what_sensors_have_delivered_last() {
     let folder = ScratchFolder::new("flight-code-measurements");
     let sensors = "tracker | star_tracker\ntachometers | tachometers\n\ngyro | rate_gyro\n";
-    // 13 numbers of each sensor: all of the tracker, and 4 of each of the others
     let [tracker, tachometers, gyro] = [0, 13, 26].map(|first| MEASURED + 8 * first);
     let parts = [
         copied(tracker, REPORTED, 6),
@@ -75,8 +74,7 @@ fn measurements_are_what_sensors_have_delivered_last() {
     assert_eq!(recorded(&run, "module_n0")[..5], [-1.0, 0.25, 0.5, 0.25, 0.5]);
 }
 
-/// Law: telemetry is a column of time series, and two of rows: the last value and the largest magnitude, with the
-/// module's unit and meaning, for `[[require]]` too.
+/// Law: telemetry is a column of time series, and two of rows: the last value and the largest magnitude.
 #[test]
 fn telemetry_is_columns() {
     let folder = ScratchFolder::new("flight-code-telemetry");
@@ -91,7 +89,6 @@ fn telemetry_is_columns() {
     for axis in ["x", "y", "z"] {
         let told = recorded(&run, &format!("module_{axis}_rad_s"));
         assert_eq!(told, recorded(&run, &format!("estimated_omega_se_s_{axis}_rad_s")));
-        // the tick at the end of a run is not in its columns
         let judged = &told[..told.len() - 1];
         assert_eq!(of_row(&run, &format!("module_{axis}_final_rad_s")), judged[judged.len() - 1]);
         let most = judged.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
@@ -112,7 +109,6 @@ fn telemetry_that_is_not_finite_is_null() {
     let folder = ScratchFolder::new("flight-code-telemetry-null");
     let number = |value: f64| [vec![0x44], value.to_le_bytes().to_vec()].concat();
     let time = [constant(INPUT), vec![0x2b, 3, 0]].concat();
-    // reports the time, and from 2 s on another number
     let step = |value: f64, end: f64, then: &[u8]| {
         let is_between = [time.clone(), number(2.0), vec![0x66], time.clone(), number(end), vec![0x63, 0x71]].concat();
         let otherwise =

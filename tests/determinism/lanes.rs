@@ -16,7 +16,6 @@ fn plan(method: Method, control: Control, scenes: &[Scene]) -> PropagationSettin
 fn plan_until(horizon: f64, method: Method, control: Control, scenes: &[Scene]) -> PropagationSettings {
     let settings =
         PropagationSettings::new(method, control, Grid::uniform(horizon, 29), everything(method), &scenes[0]);
-    // columns for everything that any of the scenes has
     PropagationSettings {
         wheels: scenes.iter().map(|scene| scene.mass.wheels.len()).max().expect("there are scenes"),
         thrust: scenes.iter().any(|scene| scene.commands_thrust),
@@ -25,7 +24,6 @@ fn plan_until(horizon: f64, method: Method, control: Control, scenes: &[Scene]) 
     }
 }
 
-/// The bits of a run and its estimated errors.
 type Whole = (Bits, LocalErrors, LocalErrors);
 
 fn whole(run: &Run) -> Whole {
@@ -52,7 +50,6 @@ fn equal_among_runs_of(horizon: f64, method: Method, control: Control, scenes: &
             let backwards: Vec<Scene> = scenes.iter().rev().cloned().collect();
             assert!(wholes(&propagate_on(isa, &plan, &backwards)).iter().rev().eq(&alone), "{what}, backwards");
         }
-        // a second batch in the same engine
         let mut engine = plan.engine(Isa::best());
         engine.propagate(&scenes[10..], &mut |_| {});
         let mut found = vec![None; 10];
@@ -75,11 +72,9 @@ fn bits_do_not_depend_on_other_runs() {
 fn many_wheels_among_any_runs() {
     let scenes = |forced: bool| -> Vec<Scene> {
         let input = |k: u64| many_wheels([8, 4, 3, 1, 0][(k % 5) as usize], k, forced, HORIZON);
-        // eight lanes, and five runs that follow
         (0..13).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
     };
     METHODS.par_iter().filter(|(method, _)| !method.has_fixed_step()).for_each(|(method, control)| {
-        // with eight wheels the null-space method is slow
         let horizon = if *method == Method::NullSpace { 1.0 } else { HORIZON };
         equal_among_runs_of(horizon, *method, *control, &scenes);
     });
@@ -121,10 +116,8 @@ fn runs_that_fail_beside_runs_that_do_not() {
     }
 }
 
-/// SHA-256 of outcome and states of sixteen fixed scenes, without and with actuators.
-///
-/// A deliberate change of a method's arithmetic commits new ones (printed by this test) with its reason. Machine,
-/// compiler, instruction set, threads and dependencies must not change them.
+/// SHA-256 of outcome and states of sixteen fixed scenes. A deliberate change of a method's arithmetic commits new ones
+/// (printed by this test) with its reason.
 const GOLDEN: [(Method, &str, &str); 7] = [
     (
         Method::Auto,
@@ -169,7 +162,6 @@ fn golden_bits(run: &Run, k: u64, forced: bool) -> Bits {
     assert_eq!(table.wheels(), 2, "the first scene, which makes the table, has both wheels");
     let mut bits = run.outcome_bits();
     for block in StateField::ALL.into_iter().filter(|block| table.fields().contains(*block)) {
-        // the wheels' components follow these; none in blocks without wheels
         let before = match block {
             StateField::WheelRates | StateField::WheelAngles => 0,
             StateField::KineticEnergies => 1,

@@ -8,7 +8,6 @@ use spindrift::ode::{Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 
 const HORIZON: f64 = 6.0;
 
-/// Three-body runs of very different lengths and outcomes.
 fn cases() -> Vec<Case<4, 1>> {
     (0..29)
         .map(|run| {
@@ -56,7 +55,6 @@ fn lanes_are_scalar_runs() {
     equal_in_all_lanes(Fixed(GaussLegendre), &control);
 }
 
-/// Law: so it does where steps end at switches, in each lane at its own.
 #[test]
 fn lanes_switch_apart_from_each_other() {
     let case = |run: u32| {

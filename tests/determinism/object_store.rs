@@ -6,8 +6,7 @@ use crate::support::prelude::*;
 use super::store_bench::{Bench, HEAD, HEAD_OBJECT, KEY, SECRET, SUCCESS, assert_whole, direct};
 use super::store_proxy::{Fate, Message, Proxy};
 
-/// Law: a store has the files of a folder, each put if absent; every command on another machine finds them there, and
-/// the campaign puts nothing again.
+/// Law: a store has the files of a folder, each put if absent; another machine finds them and puts nothing again.
 #[test]
 fn a_store_has_the_files_of_a_folder() {
     let bench = Bench::new("same");
@@ -62,7 +61,6 @@ fn shards_meet_in_a_store() {
     assert!(bench.prints("verify s3:x", 5).contains("not finished"));
     bench.prints("finish s3:x", 0);
     assert_whole(&bench.objects("x"), &whole, "shards");
-    // counter-test: no shard runs the other's parts
     let proxy = Proxy::new(|_, _: &Message| Fate::Passed);
     assert_eq!(bench.behind(&proxy, "campaign stored.toml --shard 1/2 --out s3:x"), Some(0));
     assert!(proxy.requests().iter().all(|request| request.starts_with("GET")));
@@ -86,7 +84,6 @@ fn a_kill_at_every_request_changes_no_byte() {
                 assert_whole(&found, &whole, &prefix);
             } else {
                 assert!(ended.is_none(), "{prefix}");
-                // sound, without a plan, or no result yet
                 let code = match (found.contains_key("plan.toml"), found.contains_key(HEAD_OBJECT)) {
                     (true, _) => 5,
                     (false, true) => 4,
@@ -137,7 +134,6 @@ fn parts_are_put_once_they_are_final() {
     let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 1200\n";
     let text = [&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat();
     bench.scratch.file("stop.toml", &text);
-    // 5: the precision is not reached
     bench.prints("campaign stop.toml --no-report --out stopped", 5);
     let whole = contents(&bench.scratch.path("stopped"));
     for at in (0..).step_by(4) {
@@ -171,7 +167,6 @@ fn the_first_content_stays() {
     let said = bench.prints("campaign stored.toml --seed 8 --set campaign.duration_s=2 --out s3:x", 4);
     let named = ["another plan", "campaign.seed: 7 there, 8 here", "campaign.duration_s", "choose another --out"];
     assert!(named.iter().all(|part| said.contains(part)), "{said}");
-    // a change without new rows is another plan, too
     let said = bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", 4);
     assert!(said.contains("campaign.description"), "{said}");
     assert!(bench.objects("x") == found);
@@ -189,7 +184,7 @@ fn the_first_content_stays() {
     }
 }
 
-/// Law: `verify` and commands that read it name any changed or missing object; the campaign's command puts it again.
+/// Law: `verify` and readers name any changed or missing object; the campaign's command puts it again.
 #[test]
 fn every_damaged_object_is_found() {
     let bench = Bench::new("damage");
@@ -211,7 +206,6 @@ fn every_damaged_object_is_found() {
         bench.prints(campaign, 0);
         assert_whole(&bench.objects("x"), &whole, name);
     }
-    // so in an unfinished result
     for name in [SUCCESS, "manifest.json", "runs/part-000001.parquet"] {
         bench.remove(&format!("x/{name}"));
     }

@@ -6,7 +6,6 @@ use spindrift::propagation::{CompletionCallback, Engine};
 /// An engine that panics at spins above [`TOO_FAST`], before the last run of a batch ends.
 struct Fragile(Box<dyn Engine>);
 
-/// About 2% of the samples spin faster, rad/s.
 const TOO_FAST: f64 = 34.5;
 
 fn is_too_fast(scene: &Scene) -> bool {

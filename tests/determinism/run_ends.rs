@@ -59,7 +59,6 @@ fn an_ended_run_is_one_of_that_duration() {
         let rows = rows(&short, Isa::best(), 0, 1);
         let of = |name: &String| {
             let [a, b] = [column(&ends, &ended, name)[0], column(&short, &rows, name)[0]];
-            // rounding of zero has no digits in common
             if a.to_bits() == b.to_bits() || a.abs().max(b.abs()) < 1e-13 {
                 0.0
             } else {
@@ -110,7 +109,6 @@ fn loops_end_as_in_a_campaign_of_that_duration() {
             let is_same = a.to_bits() == b.to_bits() || (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-15;
             (!is_same).then(|| format!("{name}: {a} and {b}"))
         };
-        // at rest, the direction of the angular momentum is rounding
         let compared = names(&short).into_iter().filter(|name| !name.starts_with("nutation_angle"));
         let wrong: Vec<String> = compared.filter_map(|name| off(&name)).collect();
         assert!(wrong.is_empty(), "sample {row} at {end} s: {wrong:#?}");

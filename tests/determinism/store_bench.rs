@@ -4,7 +4,6 @@ use crate::support::prelude::*;
 
 use super::store_proxy::{Proxy, asked, objects, server};
 
-/// Three parts from a table, with bands and two retained runs.
 pub const HEAD: &str = r#"
 [campaign]
 name = "stored"
@@ -46,7 +45,6 @@ impl Bench {
         Bench { scratch, bucket }
     }
 
-    /// The program with the store at `port`; `s3:x` is `x` in the bucket.
     pub fn command(&self, arguments: &str, port: u16) -> Command {
         let bucket = format!("s3://{}/", self.bucket);
         let arguments =
@@ -79,7 +77,6 @@ impl Bench {
         objects(&self.bucket, prefix)
     }
 
-    /// The files of the result in a folder.
     pub fn whole(&self, options: &str) -> Objects {
         self.prints(&format!("campaign stored.toml --out whole {options}"), 0);
         contents(&self.scratch.path("whole"))

@@ -5,9 +5,7 @@ use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::sync::{Arc, MutexGuard, PoisonError};
 
-/// The variable with the server's address, as `127.0.0.1:5000`.
 const SERVER: &str = "SPINDRIFT_S3";
-/// Servers of tests take any signature.
 const SIGNED: &str =
     "AWS4-HMAC-SHA256 Credential=tests/20260101/us-east-1/s3/aws4_request, SignedHeaders=host, Signature=0";
 
@@ -90,17 +88,12 @@ pub fn objects(bucket: &str, prefix: &str) -> BTreeMap<String, Vec<u8>> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fate {
     Passed,
-    /// The answer is lost.
     Lost,
-    /// Answered without the server.
     Answered(u16, &'static str),
-    /// The process is killed before the server sees the request.
     KilledBefore,
-    /// The process is killed before the server's answer.
     KilledAfter,
 }
 
-/// Decides on a request by its number, from 0.
 type Rule = Box<dyn FnMut(usize, &Message) -> Fate + Send>;
 
 struct State {
@@ -141,7 +134,6 @@ impl Proxy {
 
     pub fn watch(&self, command: &mut Command) -> Option<i32> {
         {
-            // the victim is known before its first request
             let mut state = self.state();
             state.victim = Some(command.spawn().expect("a process"));
         }

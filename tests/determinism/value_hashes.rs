@@ -10,16 +10,12 @@ use crate::support::plans::files;
 use arrow_schema::DataType;
 use rayon::prelude::*;
 
-/// Rows of each campaign, if it does not fix them.
 const SAMPLES: u64 = 257;
 
-/// Campaigns with some audited samples.
 const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
 
-/// A campaign with a failed requirement.
 const FAILS: &str = "acceptance";
 
-/// Campaigns with an undecided requirement.
 const UNDECIDED: [&str; 3] = ["slew", "slew_closed", "net_launch"];
 
 /// Columns that measure the machine and not the run.
@@ -100,7 +96,6 @@ fn audited(parts: &[RecordBatch]) -> Vec<bool> {
 struct Found {
     rows: usize,
     columns: BTreeMap<String, String>,
-    /// Hashes of columns without values.
     nothing: [String; 3],
 }
 
