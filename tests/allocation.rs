@@ -64,7 +64,7 @@ fn allocations(work: impl FnOnce()) -> u64 {
 
 fn plan(name: &str, method: &str) -> Plan {
     let mut plan = shipped(name, Some(512));
-    plan.method = Method::ALL.into_iter().find(|known| known.name() == method).expect("a method");
+    plan.method = Method::ALL.into_iter().find(|known| known.name() == method).unwrap();
     plan
 }
 
@@ -144,7 +144,7 @@ fn a_worker_with_bands() {
     let campaign = Ensemble::new(&plan, Isa::best());
     let mut worker = campaign.worker();
     let mut rows = campaign.rows(256);
-    let columns = rows.bands().expect("bands").layout().columns() as u64;
+    let columns = rows.bands().unwrap().layout().columns() as u64;
     let mut part = |first| {
         let part = Part { id: PartId(0), first: SampleId(first), count: 256 };
         worker.run(part, &mut rows, Supervision::progress(&|_| {}));
@@ -168,7 +168,7 @@ fn added(samples: u64, first: u64) -> Added {
     let plan = shipped("no_debris", Some(samples));
     let campaign = Ensemble::new(&plan, Isa::best());
     let (mut worker, mut rows) = (campaign.worker(), campaign.rows(PART));
-    let (files, fold) = (PartFiles::new(&campaign).expect("files"), RunningFold::of(&campaign).expect("a fold"));
+    let (files, fold) = (PartFiles::new(&campaign).unwrap(), RunningFold::of(&campaign).unwrap());
     let mut buffers: Vec<Vec<u8>> = Vec::new();
     let mut part = |id: u64| {
         let part = Part { id: PartId(id), first: SampleId(first + id * PART as u64), count: PART };
@@ -177,7 +177,7 @@ fn added(samples: u64, first: u64) -> Added {
             bytes.clear();
             bytes
         });
-        let written = files.encoded(&rows, emptied.collect::<Vec<_>>().into_iter()).expect("encoded");
+        let written = files.encoded(&rows, emptied.collect::<Vec<_>>().into_iter()).unwrap();
         fold.add(&rows);
         buffers = written.into_iter().map(|file| file.bytes).collect();
         [buffers[0].len(), buffers[1].len()]

@@ -122,7 +122,7 @@ fn family((name, make): Regime, count: u64) -> Family {
     let scene = |k: u64| {
         let mut input = satellite(k, &mut u);
         make(k, &mut u, &mut input);
-        Scene::resolve(&input).expect("physical")
+        Scene::resolve(&input).unwrap()
     };
     Family::new(name, Grid::uniform(DURATION, 41), (0..count).map(scene).collect())
 }
@@ -167,7 +167,7 @@ fn a_slew_that_is_wrong_is_inaccurate() {
         let mut input = satellite(k, &mut u);
         input.wheels[0].rate_rad_s = 30.0 * FAST;
         slew(&mut input, (1.0, 4.0, 1.0), &u.vector::<4>(0.5));
-        Scene::resolve(&input).expect("physical")
+        Scene::resolve(&input).unwrap()
     };
     let family = Family::new("biased slew", Grid::uniform(DURATION, 41), (0..16).map(scene).collect());
     let runs = found(&family, Method::Gyrostat(Integrator::RungeKutta4), fixed(0.5));

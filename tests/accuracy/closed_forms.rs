@@ -30,23 +30,23 @@ fn body(moments: [f64; 3], omega: [f64; 3]) -> SceneInput {
 }
 
 fn number(value: &Value) -> f64 {
-    value.as_str().expect("a string of digits").parse().expect("a decimal number")
+    value.as_str().unwrap().parse().unwrap()
 }
 
 fn numbers<const N: usize>(value: &Value) -> [f64; N] {
-    let list = value.as_array().expect("a list");
-    std::array::from_fn(|i| number(&list[i]))
+    let list = value.as_array().unwrap();
+    from_fn(|i| number(&list[i]))
 }
 
 fn cases() -> Vec<Case> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/free_bodies.json");
-    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).expect("the golden file")).expect("JSON");
+    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let case = |case: &Value| {
-        let truth = case["truth"].as_array().expect("a list");
+        let truth = case["truth"].as_array().unwrap();
         let moments = numbers(&case["moments"]);
         Case {
-            name: case["name"].as_str().expect("a name").to_owned(),
-            scene: Scene::resolve(&body(moments, numbers(&case["omega"]))).expect("a physical body"),
+            name: case["name"].as_str().unwrap().to_owned(),
+            scene: Scene::resolve(&body(moments, numbers(&case["omega"]))).unwrap(),
             moments,
             hundred_periods: number(&case["periods_100_s"]),
             times: truth.iter().map(|row| number(&row["t"])).collect(),
@@ -54,12 +54,12 @@ fn cases() -> Vec<Case> {
             q: truth.iter().map(|row| numbers(&row["q"])).collect(),
         }
     };
-    file["cases"].as_array().expect("a list").iter().map(case).collect()
+    file["cases"].as_array().unwrap().iter().map(case).collect()
 }
 
 fn error(table: &StateTable, point: usize, omega: [f64; 3], q: [f64; 4]) -> f64 {
     let found = table.at::<3>(StateField::Rate, point);
-    let rate = norm(std::array::from_fn::<f64, 3, _>(|i| found[i] - omega[i])) / norm(omega);
+    let rate = norm(from_fn::<f64, 3, _>(|i| found[i] - omega[i])) / norm(omega);
     let found = table.at::<4>(StateField::Attitude, point);
     let off = |sign: f64| (0..4).map(|i| (sign * found[i] - q[i]).powi(2)).sum::<f64>().sqrt();
     let worst = rate.max(2.0 * off(1.0).min(off(-1.0)));
@@ -125,8 +125,8 @@ fn published_campaigns_are_the_published_cases() {
     for (file, name) in
         [("published_rigid_body", "Hairer, Lubich & Wanner"), ("published_tumbling_brick", "NESC check case 2")]
     {
-        let scene = Scene::resolve(&shipped(file, None).nominal).expect("a physical scene");
-        let case = cases().into_iter().find(|case| case.name == name).expect("the case is there");
+        let scene = Scene::resolve(&shipped(file, None).nominal).unwrap();
+        let case = cases().into_iter().find(|case| case.name == name).unwrap();
         let inertia = scene.mass.inertia_free;
         assert_eq!([inertia[0][0], inertia[1][1], inertia[2][2]], case.moments, "{file}");
         assert_eq!(scene.initial.omega_se_s, case.scene.initial.omega_se_s, "{file}");
@@ -141,7 +141,7 @@ const NESC_SPREAD: f64 = 1e-4;
 
 #[test]
 fn the_tumbling_brick_tumbles_as_published() {
-    let scene = Scene::resolve(&shipped("published_tumbling_brick", None).nominal).expect("a physical scene");
+    let scene = Scene::resolve(&shipped("published_tumbling_brick", None).nominal).unwrap();
     let table = states(Method::Auto, TOLERANCE, &scene, &[0.0, 30.0]);
     let rates = table.at::<3>(StateField::Rate, 1).map(f64::to_degrees);
     let off = (0..3).map(|i| (rates[i] - NESC_RATES[i]).abs()).fold(0.0, f64::max);
@@ -205,7 +205,7 @@ fn symmetric_bodies_turn_uniformly() {
             let axial = Golden::load("table1").scene.wheels[1];
             input.wheels = vec![WheelInput { mode, rate_rad_s: rate, ..axial }];
         }
-        let scene = Scene::resolve(&input).expect("a physical scene");
+        let scene = Scene::resolve(&input).unwrap();
         let inertia = scene.mass.inertia_free;
         assert!(inertia[0][0] == inertia[1][1] && inertia[0][1] == 0.0 && inertia[0][2] == 0.0 && inertia[1][2] == 0.0);
         let long = axial_error(&scene, &times, &states(Method::Auto, TOLERANCE, &scene, &times));

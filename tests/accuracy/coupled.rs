@@ -18,7 +18,7 @@ const HEIGHT: f64 = 6e5;
 const SCALE: f64 = 6e4;
 
 fn epoch() -> Epoch {
-    Epoch::parse("2026-06-01T00:00:00Z").expect("a date")
+    Epoch::parse("2026-06-01T00:00:00Z").unwrap()
 }
 
 fn one_plate(orbit: OrbitInput, normal: [f64; 3]) -> SceneInput {
@@ -79,7 +79,7 @@ fn force(input: &SceneInput, time: f64, [r, v]: [[f64; 3]; 2]) -> [f64; 3] {
 
 /// By the classical Runge-Kutta method with short steps.
 fn integrated(input: &SceneInput, pushed: bool) -> [[f64; 3]; 2] {
-    let orbit = Orbit::of(input.orbit.as_ref().expect("an orbit"));
+    let orbit = Orbit::of(input.orbit.as_ref().unwrap());
     let rate = |time: f64, state: [[f64; 3]; 2]| {
         let [r, v] = state;
         let own = if pushed { scaled(1.0 / MASS, force(input, time, state)) } else { [0.0; 3] };
@@ -142,8 +142,8 @@ fn scenes(count: u64, seed: u64) -> Vec<Scene> {
 fn every_method_finds_the_reference_solution() {
     let grid = Grid::uniform(DURATION, 31);
     for scene in scenes(2, 91) {
-        let reference = ReferenceSolution::new(Isa::best(), &scene, &grid, everything(Method::Auto), TOLERANCE)
-            .expect("a reference solution");
+        let reference =
+            ReferenceSolution::new(Isa::best(), &scene, &grid, everything(Method::Auto), TOLERANCE).unwrap();
         for (method, control) in near_rounding(ForceModel::of(&scene)) {
             let run = propagate_one(method, control, &grid, &scene);
             let place = reference.distance::<3>(&run.table, StateField::ComPosition, 30, 1.0);

@@ -104,7 +104,7 @@ fn key(campaign: &str, method: Method, column: &str) -> String {
 
 fn baseline(file: &Value, key: &str) -> Vec<f64> {
     let list = file[key].as_array().unwrap_or_else(|| panic!("drift_bounds.json has no {key}: {WRITE}=1 writes it"));
-    list.iter().map(|value| value.as_str().expect("digits").parse().expect("a number")).collect()
+    list.iter().map(|value| value.as_str().unwrap().parse().unwrap()).collect()
 }
 
 /// Law: errors of shipped campaigns stay within their bounds and distributions.
@@ -161,8 +161,8 @@ fn shipped_campaigns_drift_as_before() {
         hold(SECTION, &claim("largest secular rate times the time"), 1.5 * setting.energy[1], secular);
     }
     if write {
-        let text = serde_json::to_string_pretty(&Value::Object(written)).expect("JSON");
-        std::fs::write(golden(), text + "\n").expect("the baseline can be written");
+        let text = serde_json::to_string_pretty(&Value::Object(written)).unwrap();
+        std::fs::write(golden(), text + "\n").unwrap();
     }
     assert!(wrong.is_empty(), "distributions have changed ({WRITE}=1 writes the baseline again): {wrong:#?}");
 }
@@ -174,7 +174,7 @@ const PROPORTIONAL: f64 = 0.1;
 fn drift_scales_with_the_tolerance() {
     for method in [Method::Gyrostat(Integrator::DormandPrince), Method::Gyrostat(Integrator::Dop853), Method::NullSpace]
     {
-        let setting = settings().into_iter().find(|setting| setting.method == method).expect("every method has one");
+        let setting = settings().into_iter().find(|setting| setting.method == method).unwrap();
         let median = |tolerance: f64| {
             let mut plan = plan("no_debris", &Setting { tolerance, ..setting });
             plan.samples = plan.samples.min(64);
@@ -194,14 +194,13 @@ fn faulty(plan: &Plan, count: u64, fault: impl Fn(&mut Scene)) -> [Vec<f64>; 2] 
     let campaign = Ensemble::new(plan, isa);
     let columns = campaign.request().columns();
     let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
-    let place = |name: &str| names.iter().position(|known| *known == name).expect("the column is there");
+    let place = |name: &str| names.iter().position(|known| *known == name).unwrap();
     let propagator: &PropagationSettings = campaign.propagator();
     let (mut engine, mut observer) = (propagator.engine(isa), Observer::new(*campaign.request(), &plan.grid));
     let mut row = vec![0.0; names.len()];
     let mut errors = [Vec::new(), Vec::new()];
     for sample in 0..count {
-        let drawn =
-            SingleRun::new(plan, SampleId(sample), Grid::uniform(1e-3, 2), isa).expect("a physical sample").scene;
+        let drawn = SingleRun::new(plan, SampleId(sample), Grid::uniform(1e-3, 2), isa).unwrap().scene;
         let mut wrong = drawn.clone();
         fault(&mut wrong);
         engine.propagate(std::slice::from_ref(&wrong), &mut |CompletedRun { table, outcome, .. }| {
@@ -220,8 +219,8 @@ fn faults_are_seen() {
     if std::env::var_os(WRITE).is_some() {
         return;
     }
-    let text = std::fs::read_to_string(golden()).expect("the baseline");
-    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let text = std::fs::read_to_string(golden()).unwrap();
+    let file: Value = serde_json::from_str(&text).unwrap();
     let setting = &settings()[0];
     let plan = plan("no_debris", setting);
     let seen = |fault: &dyn Fn(&mut Scene)| {

@@ -37,7 +37,7 @@ fn spins() -> Vec<Spin> {
     let nutation = table.column("nutation_angle_max_rad");
     (0..plan.samples)
         .map(|sample| {
-            let inertia = draws.scene(SampleId(sample)).expect("a physical sample").mass.inertia;
+            let inertia = draws.scene(SampleId(sample)).unwrap().mass.inertia;
             Spin { moments: [inertia[0][0], inertia[1][1]], nutation: nutation[sample as usize] }
         })
         .collect()
@@ -89,7 +89,7 @@ fn the_campaign_finds_the_classical_boundary() {
         spins.iter().filter(is_wrong).count()
     };
     let candidates = (0..=800).map(|step| 90.0 + 0.05 * f64::from(step));
-    let best = candidates.clone().map(wrong).min().expect("there are candidates");
+    let best = candidates.clone().map(wrong).min().unwrap();
     let found: Vec<f64> = candidates.filter(|k| wrong(*k) == best).collect();
     let middle = 0.5 * (found[0] + found[found.len() - 1]);
     assert!((middle - BOUNDARY).abs() <= FOUND, "{middle}");

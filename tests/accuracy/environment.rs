@@ -27,7 +27,7 @@ fn an_axisymmetric_body_spins_up() {
     let mut input = SceneInput::default();
     input.initial.angular_velocity_rad_s = [0.0, 0.0, rate];
     input.environment.body_torque_n_m = Some([0.0, 0.0, torque]);
-    let scene = Scene::resolve(&input).expect("a legal scene");
+    let scene = Scene::resolve(&input).unwrap();
     let moment = scene.mass.inertia[2][2];
     let grid = Grid::uniform(12.0, 25);
     for (method, control, bound) in METHODS {

@@ -83,12 +83,12 @@ fn boxes(count: u64) -> Family {
     let mut u = Uniform::new(83);
     let scene = |k: u64| {
         let kind = Kind { wheels: [false; 2], debris: 2, products: false, offset: false, forced: false };
-        let mut scene = Scene::resolve(&random(kind, 900 + k, 10.0)).expect("physical");
-        let inertia = scene.mass.debris.as_ref().expect("debris").inertia;
+        let mut scene = Scene::resolve(&random(kind, 900 + k, 10.0)).unwrap();
+        let inertia = scene.mass.debris.as_ref().unwrap().inertia;
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| inertia[*a][*a].total_cmp(&inertia[*b][*b]));
         let (rate, off, noise) = (u.between(0.5, 3.0), libm::pow(10.0, u.between(-14.0, -1.0)), u.vector::<3>(1.0));
-        scene.initial.omega_de_d = std::array::from_fn(|axis| match (k % 2, axis == order[1]) {
+        scene.initial.omega_de_d = from_fn(|axis| match (k % 2, axis == order[1]) {
             (0, true) => rate,
             (0, false) => rate * off * noise[axis],
             _ => rate * noise[axis],
@@ -114,17 +114,17 @@ fn separatrix(count: u64) -> Family {
             input.body.center_of_mass_m = None;
         }
         set_wheel_rates(&mut input, [if wheels { u.between(-30.0, 30.0) } else { 0.0 }, 0.0]);
-        let (moments, axes) = principal_axes(Scene::resolve(&input).expect("physical").mass.inertia_free);
+        let (moments, axes) = principal_axes(Scene::resolve(&input).unwrap().mass.inertia_free);
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
         let off = libm::pow(10.0, u.between(-14.0, -1.0));
         let (rate, noise) = (u.between(0.5, 3.0), u.vector::<3>(1.0));
         let axis = |i: usize| if is_aligned { f64::from(u8::from(i == 1)) } else { axes[i][order[1]] };
-        input.initial.angular_velocity_rad_s = std::array::from_fn(|i| {
+        input.initial.angular_velocity_rad_s = from_fn(|i| {
             let off = if is_aligned && i == 1 { 0.0 } else { off * noise[i] };
             rate * (axis(i) + off)
         });
-        Scene::resolve(&input).expect("physical")
+        Scene::resolve(&input).unwrap()
     };
     Family::new("separatrix", Grid::uniform(60.0, 101), (0..count).map(scene).collect())
 }
@@ -139,7 +139,7 @@ fn nutating(count: u64) -> Family {
         let rate = u.between(0.5, 30.0);
         input.initial.angular_velocity_rad_s = [rate * off * u.between(-1.0, 1.0), rate * off, rate];
         set_wheel_rates(&mut input, u.vector(300.0));
-        Scene::resolve(&input).expect("physical")
+        Scene::resolve(&input).unwrap()
     };
     Family::new("nutating", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
@@ -147,7 +147,7 @@ fn nutating(count: u64) -> Family {
 fn held(count: u64) -> Family {
     let scene = |k: u64| {
         let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: k % 5 > 1, forced: false };
-        Scene::resolve(&speed_held(random(kind, 300 + k, 10.0), [k % 3 != 2, !k.is_multiple_of(3)])).expect("physical")
+        Scene::resolve(&speed_held(random(kind, 300 + k, 10.0), [k % 3 != 2, !k.is_multiple_of(3)])).unwrap()
     };
     Family::new("speed held", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
@@ -367,8 +367,8 @@ fn what_rounding_decides_is_ill_conditioned() {
         let kind = Kind { wheels: [false; 2], debris: 0, products: false, offset: false, forced: false };
         let mut input = random(kind, 5, 10.0);
         input.body.inertia_kg_m2 = Some([[900.0, 0.0, 0.0], [0.0, 1400.0, 0.0], [0.0, 0.0, 1800.0]]);
-        input.initial.angular_velocity_rad_s = std::array::from_fn(|i| if i == axis { 3.0 } else { 3.0 * off });
-        Scene::resolve(&input).expect("physical")
+        input.initial.angular_velocity_rad_s = from_fn(|i| if i == axis { 3.0 } else { 3.0 * off });
+        Scene::resolve(&input).unwrap()
     };
     let offs = [1e-2, 1e-4, 1e-12, 1e-15];
     for axis in 0..3 {

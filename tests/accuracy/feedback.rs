@@ -57,7 +57,7 @@ fn all_methods_fly_the_same_closed_loop() {
         .iter()
         .map(|scene| {
             let fields = everything(Method::Taylor);
-            ReferenceSolution::under(&mut law(scene), Isa::best(), scene, &grid, fields, TOLERANCE).expect("arrives")
+            ReferenceSolution::under(&mut law(scene), Isa::best(), scene, &grid, fields, TOLERANCE).unwrap()
         })
         .collect();
     let mut report = String::new();
@@ -76,7 +76,7 @@ fn all_methods_fly_the_same_closed_loop() {
     assert!(!failed, "{report}");
     let free = ReferenceSolution::new(Isa::best(), &scenes[0], &grid, everything(Method::Taylor), TOLERANCE);
     let last = grid.points() - 1;
-    let free = free.expect("arrives").high.at::<3>(StateField::Rate, last);
+    let free = free.unwrap().high.at::<3>(StateField::Rate, last);
     let bound = references[0].high.at::<3>(StateField::Rate, last);
     // measured: 8.4 rad/s
     assert!((0..3).any(|i| (free[i] - bound[i]).abs() > 1e-3), "{free:?} {bound:?}");

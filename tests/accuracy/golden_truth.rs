@@ -77,7 +77,7 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
 
 fn errors(name: &str, method: Method, control: Control) -> Errors {
     let golden = Golden::load(name);
-    let scene = Scene::resolve(&golden.scene).expect("a golden scene");
+    let scene = Scene::resolve(&golden.scene).unwrap();
     let grid = Grid::at(golden.times());
     let run = propagate_one(method, control, &grid, &scene);
     errors_of(&golden, &scene, method, &grid, &run)

@@ -136,7 +136,7 @@ fn with_wheels(mut input: SceneInput, u: &mut Uniform, momenta: &[f64]) -> Scene
     for (k, momentum) in momenta.iter().enumerate() {
         let mut axis = u.vector::<3>(1.0);
         if u.bits().is_multiple_of(3) {
-            axis = std::array::from_fn(|i| if i == k % 3 { 1.0 } else { 0.0 });
+            axis = from_fn(|i| if i == k % 3 { 1.0 } else { 0.0 });
         }
         let name = format!("w{}", k + 1);
         let wheel = WheelInput {

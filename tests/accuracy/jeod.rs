@@ -30,14 +30,14 @@ enum Craft {
 /// With zero rate (8A, 9A, 9C) and that of the orbit (8B, 9B, 9D); then on a circle (10A) and an ellipse (10C, and 10D
 /// with a rate in pitch).
 pub fn jeod_runs() -> Vec<JeodRun> {
-    let file: Value = serde_json::from_str(include_str!("../golden/jeod.json")).expect("JSON");
+    let file: Value = serde_json::from_str(include_str!("../golden/jeod.json")).unwrap();
     let craft = |run: &Value| match (run["craft"].as_str(), run["force_n"].as_f64()) {
         (_, Some(force)) => Craft::Station(force),
         (Some("sphere"), _) => Craft::Sphere,
         _ => Craft::Cylinder,
     };
     let of = |run: &Value| JeodRun {
-        name: run["name"].as_str().expect("a name").to_owned(),
+        name: run["name"].as_str().unwrap().to_owned(),
         craft: craft(run),
         start: [numbers(&run["position_m"][0]), numbers(&run["velocity_m_s"])],
         attitude: numbers(&run["attitude"]),
@@ -46,11 +46,11 @@ pub fn jeod_runs() -> Vec<JeodRun> {
         dcm: [0, 1, 2].map(|row| numbers(&run["dcm"][row])),
         own: numbers(&run["own"]),
     };
-    file["runs"].as_array().expect("runs").iter().map(of).collect()
+    file["runs"].as_array().unwrap().iter().map(of).collect()
 }
 
 fn numbers<const N: usize>(list: &Value) -> [f64; N] {
-    std::array::from_fn(|place| list[place].as_f64().expect("a number"))
+    from_fn(|place| list[place].as_f64().unwrap())
 }
 
 impl JeodRun {
@@ -106,9 +106,9 @@ fn nasa_jeod_runs() {
     let runs = jeod_runs();
     assert_eq!(runs.len(), 9);
     for jeod in &runs {
-        let scene = Scene::resolve(&jeod.input(true)).expect("a legal scene");
+        let scene = Scene::resolve(&jeod.input(true)).unwrap();
         let fields = everything(Method::Auto);
-        let exact = ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TOLERANCE).expect("a solution").high;
+        let exact = ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TOLERANCE).unwrap().high;
         let from = |table: &StateTable, position: [f64; 3], rate: [f64; 3], dcm: [[f64; 3]; 3]| {
             let c_es = dcm_from_quaternion(table.at(StateField::Attitude, 480));
             let entries = (0..9).map(|k| (c_es[k % 3][k / 3] - dcm[k / 3][k % 3]).abs());
@@ -119,7 +119,7 @@ fn nasa_jeod_runs() {
             ]
         };
         let c_es = dcm_from_quaternion(exact.at(StateField::Attitude, 480));
-        let transposed = core::array::from_fn(|i| core::array::from_fn(|j| c_es[j][i]));
+        let transposed = from_fn(|i| from_fn(|j| c_es[j][i]));
         for (method, control) in near_rounding(ForceModel::of(&scene)) {
             let run = propagate_one(method, control, &grid, &scene);
             let off = from(&run.table, jeod.position, jeod.rates[1], jeod.dcm);
@@ -131,7 +131,7 @@ fn nasa_jeod_runs() {
             assert!(ours[0] < 1e-6 && ours[1] < 1e-15 && ours[2] < 2e-13, "{} {}", jeod.name, method.name());
         }
         if jeod.craft != Craft::Sphere {
-            let scene = Scene::resolve(&jeod.input(false)).expect("a legal scene");
+            let scene = Scene::resolve(&jeod.input(false)).unwrap();
             let run = propagate(Method::Auto, adaptive(1e-16), &grid, &[scene]).remove(0);
             assert!(norm(difference(run.table.at(StateField::Rate, 480), jeod.rates[1])) > 1e-5, "{}", jeod.name);
         }

@@ -59,7 +59,7 @@ fn rods_add_to_the_residual_dipole() {
     let alone = scene(FieldModel::Igrf);
     let mut with_rods = alone.clone();
     let rods = [0.2, 0.1, -0.3];
-    let dipole = alone.environment.magnetic_dipole_a_m2.expect("a dipole");
+    let dipole = alone.environment.magnetic_dipole_a_m2.unwrap();
     with_rods.environment.magnetic_dipole_a_m2 = Some(difference(dipole, rods));
     with_rods.torque_rods = vec![TorqueRod { axis: [1.0, 0.0, 0.0], limit: 0.4, scale: 1.0 }];
     let times = [0.0, 1234.5, 1300.0, 4321.0, 6000.0];

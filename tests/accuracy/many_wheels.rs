@@ -123,7 +123,7 @@ fn scene(input: &SceneInput) -> Scene {
 }
 
 fn truth(scene: &Scene, grid: &Grid) -> ReferenceSolution {
-    ReferenceSolution::new(Isa::best(), scene, grid, everything(Method::Taylor), TRUTH_TOLERANCE).expect("it arrives")
+    ReferenceSolution::new(Isa::best(), scene, grid, everything(Method::Taylor), TRUTH_TOLERANCE).unwrap()
 }
 
 fn run(scene: &Scene, grid: &Grid, method: Method, control: Control) -> Run {

@@ -47,7 +47,7 @@ fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
             input.initial.position_m = linear.0;
             input.initial.velocity_m_s = linear.1;
             let torque: Vec<f64> = (0..2).filter(|wheel| present[*wheel]).map(|wheel| torque[wheel]).collect();
-            let scene = Scene::resolve(&input).expect("a physical scene");
+            let scene = Scene::resolve(&input).unwrap();
             Some((scene, Actuation::none(1.0).with_thrust(&thrust).with_motor_torque(&torque)))
         },
     )
@@ -74,7 +74,7 @@ fn tensor(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
 
 fn moved(state: &State, rate: &State, time: f64) -> State {
     let (x, f): ([f64; COMPONENTS], [f64; COMPONENTS]) = (state.components(), rate.components());
-    State::from_components::<COMPONENTS>(&std::array::from_fn(|i| x[i] + time * f[i]))
+    State::from_components::<COMPONENTS>(&from_fn(|i| x[i] + time * f[i]))
 }
 
 /// d(T)/dt = nu^T M nu-dot + 1/2 nu^T M-dot nu, and the sum of the terms' sizes.
@@ -189,7 +189,7 @@ proptest! {
             h += axis * (wheel.axial * (omega.dot(&axis) + state.wheel_rates[i]));
             torque -= axis * actuation.motor_torque[i];
         }
-        let omega_dot = j_free.try_inverse().expect("J* is positive definite") * (h.cross(&omega) + torque);
+        let omega_dot = j_free.try_inverse().unwrap() * (h.cross(&omega) + torque);
         let size = omega_dot.norm() + omega.norm_squared() + 1.0;
         let found = Vector3::from(rate.omega_s);
         prop_assert!((found - omega_dot).norm() <= RATE_TOLERANCE * size, "{} {}", found, omega_dot);
@@ -265,7 +265,7 @@ proptest! {
 fn the_printed_sign_feeds_energy_from_nowhere() {
     let mut input = Golden::load("table1").scene;
     input.body.center_of_mass_m = Some([0.1, 0.0, 1.5]);
-    let scene = Scene::resolve(&input).expect("Berdoz's scene");
+    let scene = Scene::resolve(&input).unwrap();
     let (parameters, state, coast): (_, State, _) = (Parameters::of(&scene), sigma(&scene), Actuation::none(1.0));
     let relative = |rate: &State| {
         let (rate, size) = energy_rate(&parameters, &state, rate);

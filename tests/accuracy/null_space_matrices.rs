@@ -189,7 +189,7 @@ pub fn reduced_force(parameters: &Parameters, state: &State, inputs: [f64; 5], s
 pub fn with_printed_sign(parameters: &Parameters, state: &State, rate: &State) -> State {
     let change = a_non(parameters, state, -1.0) - a_non(parameters, state, 1.0);
     let force = pi(parameters, state).transpose() * change;
-    let speeds = reduced_mass(parameters, state).cholesky().expect("M-hat is positive definite").solve(&force);
+    let speeds = reduced_mass(parameters, state).cholesky().unwrap().solve(&force);
     let mut components: [f64; COMPONENTS] = rate.components();
     for (component, change) in components[COORDINATES..COORDINATES + SPEEDS].iter_mut().zip(speeds.iter()) {
         *component += change;

@@ -107,19 +107,17 @@ fn every_method_finds_the_reference_solution() {
     };
     let mut scenes = vec![spinning(circle(7e6, 1.1)), spinning(ellipse)];
     let mut in_air = plated(1, 5, [0.5, 2.0]).remove(0);
-    in_air.orbit.as_mut().expect("an orbit").j2 = Some(J2);
+    in_air.orbit.as_mut().unwrap().j2 = Some(J2);
     scenes.push(in_air);
     for scene in &scenes {
         let model = ForceModel::of(scene);
         let has_plates = scene.environment.drag;
         let grid = if has_plates { Grid::uniform(6_000.0, 31) } else { grid.clone() };
         let fields = everything(Method::Auto);
-        let solve = |scene: &Scene| {
-            ReferenceSolution::new(Isa::best(), scene, &grid, fields, TOLERANCE).expect("a reference solution")
-        };
+        let solve = |scene: &Scene| ReferenceSolution::new(Isa::best(), scene, &grid, fields, TOLERANCE).unwrap();
         let reference = solve(scene);
         let mut point_mass = scene.clone();
-        point_mass.orbit.as_mut().expect("an orbit").j2 = None;
+        point_mass.orbit.as_mut().unwrap().j2 = None;
         let last = grid.points() - 1;
         let moved = difference(
             solve(&point_mass).high.at(StateField::ComPosition, last),

@@ -33,7 +33,7 @@ fn librations_in_pitch() {
     aligned(&mut input, n);
     let speed = AMPLITUDE * frequency;
     input.initial.angular_velocity_rad_s[1] += speed;
-    let scene = Scene::resolve(&input).expect("a legal scene");
+    let scene = Scene::resolve(&input).unwrap();
     let grid = Grid::uniform(12_000.0, 201);
     for (method, control) in methods() {
         let run = propagate_one(method, control, &grid, &scene);
@@ -76,7 +76,7 @@ fn the_constant_is_constant(orbits: f64, methods: &[(Method, Control)], bound: i
     tumbling.initial.angular_velocity_rad_s = [2.0 * n, 1.0 * n, -3.0 * n];
     let grid = Grid::uniform(orbits * core::f64::consts::TAU / n, 1001);
     for input in [librating, tumbling] {
-        let scene = Scene::resolve(&input).expect("a legal scene");
+        let scene = Scene::resolve(&input).unwrap();
         for (method, control) in methods {
             let run = propagate(*method, *control, &grid, std::slice::from_ref(&scene)).remove(0);
             let worst = change_of_the_constant(&scene, &run, n);
@@ -100,7 +100,7 @@ fn the_constant_over_a_thousand_orbits() {
 
 fn with_and_without(effect: Effect) -> [Scene; 2] {
     let mut input = jeod_runs()[0].input(true);
-    input.orbit.as_mut().expect("an orbit").epoch = Epoch::parse("2026-06-01T00:00:00Z");
+    input.orbit.as_mut().unwrap().epoch = Epoch::parse("2026-06-01T00:00:00Z");
     let plate = |name, normal, center_m| PlateInput {
         name: Name::of(name),
         area_m2: 8.0,
@@ -146,7 +146,7 @@ fn with_and_without(effect: Effect) -> [Scene; 2] {
             without = SceneInput { orbit: None, ..input.clone() };
         }
     }
-    let mut scenes = [input, without].map(|input| Scene::resolve(&input).expect("a legal scene"));
+    let mut scenes = [input, without].map(|input| Scene::resolve(&input).unwrap());
     if effect == Effect::MagneticTorque {
         let until = [700.0, 1_600.0, 2_400.0];
         let dipoles = [[40.0, -20.0, 60.0], [0.0; 3], [-90.0, 10.0, 30.0]];
@@ -226,7 +226,7 @@ fn an_orbit_without_gradient_costs_nothing() {
         input.environment.gravity_gradient = false;
         let flat = SceneInput { orbit: None, ..input.clone() };
         let runs = [input, flat].map(|input| {
-            let scene = Scene::resolve(&input).expect("a legal scene");
+            let scene = Scene::resolve(&input).unwrap();
             let settings =
                 PropagationSettings::new(method, control, Grid::uniform(20_000.0, 101), everything(method), &scene);
             propagate_on(Isa::best(), &settings, &[scene]).remove(0)
@@ -251,8 +251,8 @@ fn each_key_of_an_orbit_has_a_truth() {
         ..OrbitInput::DEFAULT
     };
     let place = |input: OrbitInput| {
-        let scene = Scene::resolve(&body([90.0, 100.0, 40.0], input)).expect("a legal scene");
-        let orbit = scene.orbit.expect("an orbit");
+        let scene = Scene::resolve(&body([90.0, 100.0, 40.0], input)).unwrap();
+        let orbit = scene.orbit.unwrap();
         (orbit.position, orbit.velocity)
     };
     let (axis, e, i, node, periapsis, anomaly) = (9e6, 0.2, 0.9, 2.0, -0.7, 1.1);
@@ -274,7 +274,7 @@ fn each_key_of_an_orbit_has_a_truth() {
     };
     let pulled = |j2: f64| {
         let scene = Scene::resolve(&body([90.0, 100.0, 40.0], OrbitInput { j2: Some(j2), ..circle(7e6, 0.3) }));
-        let gravity = Gravity::of(&scene.expect("a legal scene").orbit.expect("an orbit"));
+        let gravity = Gravity::of(&scene.unwrap().orbit.unwrap());
         norm(gravity.acceleration([6_378_137.0, 0.0, 0.0], 6_378_137.0)) * 6_378_137.0 * 6_378_137.0 / MU
     };
     let truths: [(&str, f64, f64); 11] = [
@@ -309,7 +309,7 @@ fn each_key_of_the_environment_has_a_truth() {
         scale_height_m: Some(5e4),
         ..scene.environment
     };
-    let orbit = scene.orbit.expect("an orbit");
+    let orbit = scene.orbit.unwrap();
     let height = norm(orbit.position) - orbit.body_radius;
     let shallower = libm::exp(-(height - 4e5) / 5e4);
     let parameters: [Truth; 6] = [
@@ -328,8 +328,8 @@ fn each_key_of_the_environment_has_a_truth() {
         let OrbitState { position, velocity, .. } = KeplerOrbit::new(&orbit).state(0.0);
         let place = OrbitState { position, velocity, distance: norm(position) };
         let motion = Motion { time: 0.0, attitude: scene.initial.q_es, rate: [0.0; 3], place };
-        let drag = effects.drag.expect("drag").torque(&motion);
-        [drag, effects.solar_pressure.expect("light").torque(&motion)].map(norm)
+        let drag = effects.drag.unwrap().torque(&motion);
+        [drag, effects.solar_pressure.unwrap().torque(&motion)].map(norm)
     };
     let before = torques(scene.environment);
     assert!(before.iter().all(|torque| *torque > 0.0), "{before:?}");
@@ -372,7 +372,7 @@ fn balances_hold(scenes: &[Scene], bound: f64) {
         if !method.integrates(model) {
             continue;
         }
-        let widest = scenes.iter().max_by_key(|scene| scene.mass.wheels.len()).expect("scenes");
+        let widest = scenes.iter().max_by_key(|scene| scene.mass.wheels.len()).unwrap();
         let settings = PropagationSettings::new(method, control, grid.clone(), everything(method), widest);
         for (scene, run) in scenes.iter().zip(propagate_on(Isa::best(), &settings, scenes)) {
             let momentum = |point: usize| {
@@ -381,7 +381,7 @@ fn balances_hold(scenes: &[Scene], bound: f64) {
                 let mut h = product(scene.mass.inertia, table.at(StateField::Rate, point));
                 for (wheel, spin) in scene.mass.wheels.iter().enumerate() {
                     let rate = table.column(StateField::WheelRates, wheel)[point];
-                    h = std::array::from_fn(|i| h[i] + spin.axial * rate * spin.axis[i]);
+                    h = from_fn(|i| h[i] + spin.axial * rate * spin.axis[i]);
                 }
                 difference(product(c_es, h), table.at(StateField::AngularImpulse, point))
             };

@@ -11,7 +11,7 @@ fn runs(method: Method, horizon: f64, scenes: &[Scene]) -> Vec<Run> {
 }
 
 fn scene(input: &SceneInput) -> Scene {
-    Scene::resolve(input).expect("a physical scene")
+    Scene::resolve(input).unwrap()
 }
 
 fn table_one(count: u64) -> Vec<Scene> {
@@ -23,7 +23,7 @@ fn table_one(count: u64) -> Vec<Scene> {
         if k > 0 {
             let off: [f64; 3] = u.vector(1.0);
             input.initial.angular_velocity_rad_s =
-                std::array::from_fn(|i| nominal.angular_velocity_rad_s[i] + off[i] * [0.5, 0.5, 1.5][i]);
+                from_fn(|i| nominal.angular_velocity_rad_s[i] + off[i] * [0.5, 0.5, 1.5][i]);
         }
         scene(&input)
     };
@@ -121,7 +121,7 @@ fn spun(omega: [f64; 3], wheel_rates: [f64; 2]) -> SceneInput {
 fn without_momentum(omega: [f64; 3]) -> SceneInput {
     let mut input = spun(omega, [0.0; 2]);
     let mass = scene(&input).mass;
-    let rates = std::array::from_fn(|i| {
+    let rates = from_fn(|i| {
         let own: f64 = (0..3).map(|j| mass.inertia_free[i + 1][j] * omega[j]).sum();
         -own / mass.wheels[i].axial - omega[i + 1]
     });

@@ -12,9 +12,9 @@ fn everything() -> StateFields {
 
 fn solved(name: &str, tolerance: f64) -> (Golden, Scene, ReferenceSolution) {
     let golden = Golden::load(name);
-    let scene = Scene::resolve(&golden.scene).expect("golden scenes are physical");
-    let truth = ReferenceSolution::new(Isa::best(), &scene, &Grid::at(golden.times()), everything(), tolerance)
-        .expect("the reference solution is complete");
+    let scene = Scene::resolve(&golden.scene).unwrap();
+    let truth =
+        ReferenceSolution::new(Isa::best(), &scene, &Grid::at(golden.times()), everything(), tolerance).unwrap();
     (golden, scene, truth)
 }
 

@@ -31,7 +31,7 @@ fn a_day_beside_an_orbit_without_thrust() {
     let grid = Grid::uniform(86_400.0, 145);
     for has_gradient in [false, true] {
         input.environment.gravity_gradient = has_gradient;
-        let scene = Scene::resolve(&input).expect("a legal scene");
+        let scene = Scene::resolve(&input).unwrap();
         for (method, control) in near_rounding(ForceModel::of(&scene)) {
             let run = propagate_one(method, control, &grid, &scene);
             for (point, position, velocity) in TRUTH {
@@ -53,13 +53,13 @@ fn thrust_on_an_orbit() {
     input.thrusters = vec![ThrusterInput::named("p1", [0.0; 3], [1.0, 2.0, 2.0])];
     input.initial.position_m = [300.0, -20.0, 10.0];
     let input = input.with_actuation(ActuationInput::idle(200.0, 1000.0).with_thrust(&[6.0]));
-    let scene = Scene::resolve(&input).expect("a legal scene");
+    let scene = Scene::resolve(&input).unwrap();
     let slope = |[r, v]: [[f64; 3]; 2], force: f64| {
         let pull = scaled(-MU / (norm(r) * norm(r) * norm(r)), r);
         [v, sum(pull, scaled(force / 1000.0 / 3.0, [1.0, 2.0, 2.0]))]
     };
     let along = |y: [[f64; 3]; 2], s: f64, k: [[f64; 3]; 2]| [0, 1].map(|i| sum(y[i], scaled(s, k[i])));
-    let orbit = scene.orbit.expect("an orbit");
+    let orbit = scene.orbit.unwrap();
     let mut y = [sum(orbit.position, [300.0, -20.0, 10.0]), orbit.velocity];
     let mut unmoved = y;
     for k in 0..6000 {
@@ -84,7 +84,7 @@ fn thrust_on_an_orbit() {
     }
     let reference =
         ReferenceSolution::new(spindrift::math::Isa::best(), &scene, &grid, everything(Method::Auto), TOLERANCE);
-    let reference = reference.expect("a reference solution");
+    let reference = reference.unwrap();
     assert!(norm(difference(reference.high.at(StateField::ComPosition, 30), y[0])) < 1e-5);
 }
 
@@ -92,14 +92,14 @@ fn thrust_on_an_orbit() {
 fn the_balances_hold_beside_an_orbit() {
     let mut input = leaving(body([90.0, 100.0, 40.0], ellipse()));
     input.initial.angular_velocity_rad_s = [0.01, -0.02, 0.03];
-    let scene = Scene::resolve(&input).expect("a legal scene");
+    let scene = Scene::resolve(&input).unwrap();
     let grid = Grid::uniform(6_000.0, 61);
     for (method, control) in
         near_rounding(ForceModel::of(&scene)).into_iter().filter(|(method, _)| !method.has_fixed_step())
     {
         let run = propagate_one(method, control, &grid, &scene);
         let table = &run.table;
-        let debris = scene.mass.debris.expect("debris");
+        let debris = scene.mass.debris.unwrap();
         let kinetic = |point: usize| {
             let (v, omega): ([f64; 3], [f64; 3]) =
                 (table.at(StateField::ComVelocity, point), table.at(StateField::Rate, point));

@@ -9,7 +9,7 @@ const POINTS: usize = 201;
 const FACTOR: f64 = 3.0;
 
 fn table_one() -> Scene {
-    Scene::resolve(&Golden::load("table1").scene).expect("Berdoz's scene")
+    Scene::resolve(&Golden::load("table1").scene).unwrap()
 }
 
 fn figures(control: Control) -> (Vec<(String, Vec<f64>)>, StepStatistics) {
@@ -17,9 +17,9 @@ fn figures(control: Control) -> (Vec<(String, Vec<f64>)>, StepStatistics) {
     let run = propagate_one(Method::NullSpace, control, &grid, &scene);
     let request = request(Groups::ALL, 2, true, false, true);
     let (_, observer) = observed(Isa::best(), request, &grid, &scene, (&run.table, &run.outcome), None);
-    let named = observer.series().map(|(series, values)| {
-        (series.quantity(&request.wheels).expect("it is shown").name().to_owned(), values.collect())
-    });
+    let named = observer
+        .series()
+        .map(|(series, values)| (series.quantity(&request.wheels).unwrap().name().to_owned(), values.collect()));
     (named.collect(), run.outcome.effort)
 }
 

@@ -93,7 +93,7 @@ fn taylor(steps: &[f64]) -> [Walk; 4] {
     for (scene, run) in runs.iter().enumerate() {
         assert_eq!(run.outcome.status, Status::Done, "scene {scene}");
     }
-    std::array::from_fn(|quantity| {
+    from_fn(|quantity| {
         let mut walk = Walk { steps: steps.to_vec(), errors: Vec::new(), scaled: Vec::new() };
         for (point, time) in times.iter().enumerate().skip(1) {
             let errors: Vec<f64> = scenes

@@ -93,11 +93,11 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     let mut points = Vec::new();
     for exponent in 2..=15 {
         let delta = libm::pow(10.0, -f64::from(exponent));
-        let scene = Scene::resolve(&body(diagonal(moments), [0.0, rate, rate * delta])).expect("a physical body");
+        let scene = Scene::resolve(&body(diagonal(moments), [0.0, rate, rate * delta])).unwrap();
         let run = run(&scene, Method::Auto, 1e-16, Grid::uniform(60.0, 6001));
         assert_eq!(run.outcome.status, Status::Done);
         let rates = run.table.column(StateField::Rate, 1);
-        let after = (1..6001).find(|point| rates[*point] < 0.0).expect("the body flips");
+        let after = (1..6001).find(|point| rates[*point] < 0.0).unwrap();
         let (before, here) = (rates[after - 1], rates[after]);
         points.push([-libm::log(delta), 0.01 * (after as f64 - here / (here - before))]);
     }
@@ -228,7 +228,7 @@ fn short_thrusts_are_not_missed() {
         ];
         let table = rows(&plan(&input, 2.0, 21));
         worst = worst.max(largest_error(&format!("thrust for {length:e} s"), &table));
-        let scene = Scene::resolve(&input).expect("a physical scene");
+        let scene = Scene::resolve(&input).unwrap();
         let expected: f64 = input.actuation.iter().map(|act| act.thrust_n[0] * (act.end_s - act.start_s)).sum();
         let fields = blocks([StateField::Impulse, StateField::Rate, StateField::Attitude]);
         let run = {
@@ -274,7 +274,7 @@ fn units_do_not_matter() {
     input.debris = None;
     let grid = Grid::uniform(10.0, 21);
     let states = |input: &SceneInput| {
-        let scene = Scene::resolve(input).expect("a physical scene");
+        let scene = Scene::resolve(input).unwrap();
         let run = run(&scene, Method::Auto, 1e-16, grid.clone());
         assert_eq!(run.outcome.status, Status::Done);
         run.table

@@ -12,7 +12,7 @@ fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
         let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: !k.is_multiple_of(3), forced };
         let held = [[true, false], [false, true], [true, true]][(k % 3) as usize];
         let input = speed_held(random(kind, 400 + k, HORIZON), held);
-        Scene::resolve(&if k % 5 > 1 { misaligned(input, k) } else { input }).expect("random scenes are physical")
+        Scene::resolve(&if k % 5 > 1 { misaligned(input, k) } else { input }).unwrap()
     };
     (0..count).map(scene).collect()
 }
@@ -63,7 +63,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     {
         let mut rates = [0.0; 2];
         for mode in [WheelMode::Free, WheelMode::SpeedHeld] {
-            let scene = Scene::resolve(&rotor(mode)).expect("a physical scene");
+            let scene = Scene::resolve(&rotor(mode)).unwrap();
             let (wheel, locked) = (scene.mass.wheels[0], scene.mass.inertia[0][0]);
             let held = mode == WheelMode::SpeedHeld;
             let inertia = if held { locked } else { locked - wheel.axial };
@@ -94,7 +94,7 @@ fn periods_carry_held_wheels_too() {
     let mut folded = 0;
     for seed in 0..6 {
         let input = misaligned(speed_held(random(kind, 70 + seed, 1.0), [seed % 2 == 0, seed % 3 > 0]), seed);
-        let scene = Scene::resolve(&input).expect("a physical scene");
+        let scene = Scene::resolve(&input).unwrap();
         let run = |method| propagate_one(method, adaptive(TAYLOR), &grid, &scene);
         let (auto, plain) = (run(Method::Auto), run(Method::Taylor));
         folded += usize::from(auto.outcome.effort.steps * 4 < plain.outcome.effort.steps);
@@ -116,8 +116,8 @@ const HELD_WHEEL: &str = "[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m 
 fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     let plan = |text: &str| parsed(text);
     let file = [HEAD, FUSELAGE, HELD_WHEEL].concat();
-    let held = plan(&file).expect("a legal campaign");
-    let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).expect("a physical scene");
+    let held = plan(&file).unwrap();
+    let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).unwrap();
     let value = |name: &str| {
         let place = run.request.columns().iter().position(|column| column.quantity.name() == name);
         run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
@@ -125,6 +125,6 @@ fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
     // measured: 12.5 J
     assert!(value("work_motors_final_j").abs() > 1e-3);
     assert!(value("energy_error_max") < CAMPAIGN_BALANCE);
-    let free = plan(&file.replace("speed_held", "free")).expect("a legal campaign");
+    let free = plan(&file.replace("speed_held", "free")).unwrap();
     assert!(!Actuated::of(&free.nominal).any());
 }

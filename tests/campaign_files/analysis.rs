@@ -66,7 +66,7 @@ fn every_key_is_read_and_written() {
     assert_eq!((requirements[2].statement, requirements[2].limit), (Statement::Mean, GateLimit::AtLeast(3.0)));
     let band = BandSubject { series: "energy_body_j".to_owned(), from_s: None, to_s: Some(5.0) };
     assert_eq!((requirements[3].band(), requirements[3].observable()), (Some(&band), None));
-    let stop = stop.as_ref().expect("a goal");
+    let stop = stop.as_ref().unwrap();
     let When::Precise { goal, .. } = &stop.when else { panic!("{stop:?}") };
     assert_eq!((goal.half_width, goal.confidence, stop.max_samples), (1e-12, 0.95, 5000));
     let again = planned(&plan.text());
@@ -97,7 +97,7 @@ fn units_that_are_written_come_back() {
     assert_eq!(written, 2.5);
     let std =
         plan.text().lines().rfind(|line| line.starts_with("std = ")).and_then(|line| line[6..].parse::<f64>().ok());
-    assert!((std.expect("a standard deviation") - core::f64::consts::PI / 3.0).abs() < 1e-15);
+    assert!((std.unwrap() - core::f64::consts::PI / 3.0).abs() < 1e-15);
     let again = planned(&plan.text());
     assert_eq!((&again, again.text()), (&plan, plan.text()));
     let other = self::plan(&text.replace("arcsec", "deg"));

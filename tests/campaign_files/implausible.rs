@@ -70,8 +70,8 @@ fn each_rule_has_a_file_that_breaks_it() {
 #[test]
 fn shipped_campaigns_have_the_notes_that_are_true() {
     let (mut files, mut clean, mut false_notes) = (0, 0, Vec::new());
-    for entry in std::fs::read_dir(root().join("campaigns")).expect("a folder") {
-        let path = entry.expect("an entry").path();
+    for entry in std::fs::read_dir(root().join("campaigns")).unwrap() {
+        let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "toml") {
             let found = implausible(&Plan::load(&path, Overrides::default()).unwrap_or_else(|error| panic!("{error}")));
             (files, clean) = (files + 1, clean + usize::from(found.is_empty()));

@@ -337,7 +337,7 @@ fn every_number_of_a_scene_is_in_the_plan() {
                 }
                 let mut other = plan.clone();
                 if parameter.shape() == Shape::Quaternion {
-                    let turned: [f64; 4] = std::array::from_fn(|i| if i / 2 == component / 2 { -0.5 } else { 0.5 });
+                    let turned: [f64; 4] = from_fn(|i| if i / 2 == component / 2 { -0.5 } else { 0.5 });
                     (0..4).for_each(|i| parameter.set(&mut other.nominal, i, turned[i]));
                 } else {
                     parameter.set(&mut other.nominal, component, if value == 0.0 { 0.015625 } else { 1.03125 * value });

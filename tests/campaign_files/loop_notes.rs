@@ -29,7 +29,7 @@ fn each_note_has_a_file_that_gets_it_and_a_neighbour_that_does_not() {
 #[test]
 fn the_tolerance_of_plates_is_the_one_down_to_which_estimates_cover() {
     let cases = cases();
-    let [_, drag, ..] = cases.iter().find(|[_, wrong, ..]| wrong.contains("tolerance = 1e-13")).expect("a case");
+    let [_, drag, ..] = cases.iter().find(|[_, wrong, ..]| wrong.contains("tolerance = 1e-13")).unwrap();
     for tolerance in ["tolerance = 1e-12", ""] {
         let found = plan(&LOOP.replacen("[initial]", &drag.replace("tolerance = 1e-13", tolerance), 1));
         assert_eq!(found.tolerance.relative, 1e-12);
@@ -40,7 +40,7 @@ fn the_tolerance_of_plates_is_the_one_down_to_which_estimates_cover() {
 #[test]
 fn keys_without_effect_are_not_in_the_plan() {
     let settings = vec![("control.estimator".to_owned(), "perfect".to_owned())];
-    let tried = Plan::from_text("loop.toml", LOOP, Overrides { settings, ..Overrides::default() }).expect("a plan");
+    let tried = Plan::from_text("loop.toml", LOOP, Overrides { settings, ..Overrides::default() }).unwrap();
     assert_eq!(tried.notes().len(), 1);
     assert!(!tried.text().contains("initial_attitude_sigma_rad"));
     let removed = LOOP.replacen("initial_attitude_sigma_rad = 0.1\n", "", 1).replacen("\"mekf\"", "\"perfect\"", 1);

@@ -51,7 +51,7 @@ fn a_sensor_that_nobody_uses_is_refused() {
 
 #[test]
 fn a_transfer_takes_less_than_half_a_revolution() {
-    let text = std::fs::read_to_string("campaigns/net_launch.toml").expect("a shipped campaign");
+    let text = std::fs::read_to_string("campaigns/net_launch.toml").unwrap();
     plan(&text.replacen("transfer_time_s = 300.0", "transfer_time_s = 3000.0", 1));
     let on_orbit = format!("{text}\n[orbit]\nsemi_major_axis_m = 7e6\n");
     let notes = |text: &str| plan(text).notes().join("\n");
@@ -68,7 +68,7 @@ fn a_transfer_takes_less_than_half_a_revolution() {
 #[test]
 fn a_loop_without_phases_is_one_problem() {
     let requirement = "[[require]]\nobservable = \"phase_slew_begin_s\"\nquantile = 0.95\nat_most = 100\n";
-    let without = LOOP[..LOOP.find("[[guidance]]").expect("phases")].to_owned() + requirement;
+    let without = LOOP[..LOOP.find("[[guidance]]").unwrap()].to_owned() + requirement;
     let keys = |text: &str| refused(text).problems.into_iter().map(|problem| problem.key).collect::<Vec<_>>();
     assert_eq!(keys(&without), ["guidance"]);
     let several = without.replacen("\"mekf\"", "\"ekf2\"", 1).replacen("mass_kg = 100", "mass_kg = \"heavy\"", 1);
@@ -83,7 +83,7 @@ fn a_module_that_cannot_be_flown_is_refused() {
     scratch.file("law.txt", "");
     let problem = |control: &str, law: &str| {
         let text = LOOP.replacen("period_s = 0.25\n", &format!("period_s = 0.25\n{control}"), 1);
-        let (before, phases) = text.split_once("[[guidance]]").expect("phases");
+        let (before, phases) = text.split_once("[[guidance]]").unwrap();
         let phases = phases.replacen("law = \"rate_damping\"\n", law, 1);
         scratch.file("loop.toml", &format!("{before}[[guidance]]{phases}"));
         let error = Plan::load(&scratch.path("loop.toml"), Overrides::default()).expect_err(control);
@@ -170,13 +170,12 @@ fn a_remedy_is_accepted() {
 /// one alone.
 #[test]
 fn phases_and_sensors_have_names() {
-    let value =
-        |plan: &Plan, table: usize, key: &str| plan.nominal.control.guidance[table].named(key).expect("a key")[0];
+    let value = |plan: &Plan, table: usize, key: &str| plan.nominal.control.guidance[table].named(key).unwrap()[0];
     for key in ["guidance.hold.bandwidth_rad_s", "guidance[2].bandwidth_rad_s"] {
         let plan = set(&[(key, "0.15")]).expect(key);
         assert_eq!((value(&plan, 2, "bandwidth_rad_s"), value(&plan, 1, "bandwidth_rad_s")), (0.15, 0.1));
     }
-    let noise = set(&[("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")]).expect("a sensor");
+    let noise = set(&[("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")]).unwrap();
     assert_eq!(noise.nominal.control.sensors[1].named("noise_rad"), Some(&[1e-3, 2e-3, 3e-3][..]));
     let wrong = set(&[("guidance.held.damping", "1")]).expect_err("no such phase").to_string();
     assert!(wrong.contains("[[guidance]]") && wrong.contains("damp, slew, hold"), "{wrong}");
@@ -189,8 +188,8 @@ fn phases_and_sensors_have_names() {
     );
     let variant =
         Plan::load(&scratch.path("variant.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-    let same = set(&[("guidance.hold.bandwidth_rad_s", "0.15"), ("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")])
-        .expect("a plan");
+    let same =
+        set(&[("guidance.hold.bandwidth_rad_s", "0.15"), ("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")]).unwrap();
     assert_eq!(variant.hash(), same.hash());
     assert_eq!(variant.nominal.control.guidance.len(), 3);
 }

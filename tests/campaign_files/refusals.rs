@@ -127,13 +127,13 @@ semi_major_axis_m = 7e6
 "#;
 
 fn plain() -> String {
-    let head = &HEAD[..HEAD.find("[integrator]").expect("the method")];
+    let head = &HEAD[..HEAD.find("[integrator]").unwrap()];
     [head, FUSELAGE, WHEEL1_AT_REST, "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n"].concat()
 }
 
 fn folder() -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("spindrift-bad-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::create_dir_all(&folder).unwrap();
     for (name, text) in [
         (
             "data.csv",
@@ -143,7 +143,7 @@ fn folder() -> std::path::PathBuf {
         ("empty.csv", "density\n"),
         ("ragged.csv", "density,name\n1,2,3\n"),
     ] {
-        std::fs::write(folder.join(name), text).expect("written");
+        std::fs::write(folder.join(name), text).unwrap();
     }
     folder
 }
@@ -189,7 +189,7 @@ fn each_kind_of_refusal_gives_line_key_value_range_and_remedy() {
             wrong.push(format!("{line}\n  said {said}"));
         }
     }
-    std::fs::remove_dir_all(&folder).expect("removed");
+    std::fs::remove_dir_all(&folder).unwrap();
     assert!(wrong.is_empty() && count > 150, "{} of {count} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -245,8 +245,8 @@ fn too_many_wheels_thrusters_and_parts_are_refused() {
 
 #[test]
 fn a_spacecraft_without_a_body_is_refused() {
-    let start = PARTS.find("[[body.parts]]").expect("parts");
-    let end = PARTS.find("[initial]").expect("the state");
+    let start = PARTS.find("[[body.parts]]").unwrap();
+    let end = PARTS.find("[initial]").unwrap();
     let mut text = PARTS.to_owned();
     text.replace_range(start..end, "");
     let error = refused(&text);

@@ -13,7 +13,7 @@ fn obeys(schema: &Value, value: &Value) -> bool {
 
 fn is_valid(root: &Value, schema: &Value, value: &Value) -> bool {
     let obeys = |schema: &Value, value: &Value| is_valid(root, schema, value);
-    let keywords = schema.as_object().expect("a schema");
+    let keywords = schema.as_object().unwrap();
     keywords.iter().all(|(keyword, wanted)| {
         let list = || wanted.as_array().expect(keyword);
         let size = || wanted.as_u64().expect(keyword) as usize;
@@ -24,13 +24,13 @@ fn is_valid(root: &Value, schema: &Value, value: &Value) -> bool {
         };
         match keyword.as_str() {
             "$ref" => {
-                let place = wanted.as_str().and_then(|place| place.strip_prefix('#')).expect("a place in the schema");
+                let place = wanted.as_str().and_then(|place| place.strip_prefix('#')).unwrap();
                 obeys(root.pointer(place).expect(place), value)
             }
             "$schema" | "definitions" | "title" | "description" | "default" | "exclusiveMinimum"
             | "exclusiveMaximum" => true,
             "type" if wanted.is_array() => list().iter().any(|one| obeys(&json!({"type": one}), value)),
-            "type" => match wanted.as_str().expect("a type") {
+            "type" => match wanted.as_str().unwrap() {
                 "object" => value.is_object(),
                 "array" => value.is_array(),
                 "string" => value.is_string(),
@@ -60,7 +60,7 @@ fn is_valid(root: &Value, schema: &Value, value: &Value) -> bool {
             }),
             "required" => value
                 .as_object()
-                .is_none_or(|object| list().iter().all(|key| object.contains_key(key.as_str().expect("a key")))),
+                .is_none_or(|object| list().iter().all(|key| object.contains_key(key.as_str().unwrap()))),
             "anyOf" => list().iter().any(|schema| obeys(schema, value)),
             "not" => !obeys(wanted, value),
             other => panic!("the keyword {other} is not of the ones that are checked here"),
@@ -70,13 +70,13 @@ fn is_valid(root: &Value, schema: &Value, value: &Value) -> bool {
 
 fn parsed(text: &str) -> Value {
     let table: toml::Table = text.parse().unwrap_or_else(|error| panic!("{error}\n{text}"));
-    serde_json::to_value(table).expect("a file without infinite numbers")
+    serde_json::to_value(table).unwrap()
 }
 
 fn files() -> Vec<(String, String)> {
-    let entries = std::fs::read_dir("campaigns").expect("the campaigns").map(|entry| entry.expect("an entry").path());
+    let entries = std::fs::read_dir("campaigns").unwrap().map(|entry| entry.unwrap().path());
     let shipped = entries.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    let text = |path: std::path::PathBuf| (path.display().to_string(), std::fs::read_to_string(path).expect("a file"));
+    let text = |path: std::path::PathBuf| (path.display().to_string(), std::fs::read_to_string(path).unwrap());
     let mut files: Vec<(String, String)> = shipped.map(text).collect();
     assert!(files.len() > 10);
     let dispersed = distribution_tables().into_iter().map(|(_, table)| without_draws() + &table);

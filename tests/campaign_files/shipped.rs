@@ -6,8 +6,8 @@ use spindrift::campaign::Retention;
 fn shipped() -> Vec<std::path::PathBuf> {
     let folder = root().join("campaigns");
     let mut files: Vec<_> = std::fs::read_dir(folder)
-        .expect("a folder of campaigns")
-        .map(|entry| entry.expect("an entry").path())
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
         .collect();
     files.sort();
@@ -22,7 +22,7 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
         let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
         assert!(Scene::resolve(&plan.nominal).is_ok());
         assert_eq!(file.file_stem().and_then(|stem| stem.to_str()), Some(plan.name.as_str()));
-        let text = std::fs::read_to_string(&file).expect("readable");
+        let text = std::fs::read_to_string(&file).unwrap();
         for word in ["# Question: ", "\n# Source: ", "\n# Expect: "] {
             assert!(text.contains(word), "{} says {word}", file.display());
         }
@@ -33,8 +33,8 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
 #[test]
 fn a_launch_is_judged_by_what_its_file_promises() {
     let file = root().join("campaigns/net_launch.toml");
-    let text = std::fs::read_to_string(&file).expect("readable");
-    let header = text.split("\n\n").next().expect("a header").replace("\n#  ", "");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let header = text.split("\n\n").next().unwrap().replace("\n#  ", "");
     let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
     let degree = std::f64::consts::PI / 180.0;
     for (said, column, limit) in [
@@ -53,16 +53,15 @@ fn a_launch_is_judged_by_what_its_file_promises() {
 }
 
 fn at_most(requirement: &str) -> f64 {
-    let line = requirement.lines().find_map(|line| line.strip_prefix("at_most = ")).expect("an upper limit");
-    line.trim_matches('"').parse().expect("a number")
+    let line = requirement.lines().find_map(|line| line.strip_prefix("at_most = ")).unwrap();
+    line.trim_matches('"').parse().unwrap()
 }
 
 #[test]
 fn a_plan_reads_back_from_its_text() {
     for file in shipped() {
-        let plan =
-            Plan::load(&file, Overrides { samples: Some(17), seed: Some(5), ..Overrides::default() }).expect("valid");
-        let folder = file.parent().expect("a folder");
+        let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5), ..Overrides::default() }).unwrap();
+        let folder = file.parent().unwrap();
         let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default());
         let again = again.unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(again, plan);
@@ -95,7 +94,7 @@ fn omitted_keys_have_defaults() {
     let scene = &plan.nominal;
     assert!(scene.wheels.is_empty() && scene.thrusters.is_empty() && scene.parts.is_empty() && scene.debris.is_none());
     assert_eq!((scene.body.center_of_mass_m, scene.body.includes_wheels), (None, false));
-    let mass = Scene::resolve(scene).expect("physical").mass;
+    let mass = Scene::resolve(scene).unwrap().mass;
     assert_eq!((mass.total, mass.center), (10.0, [0.0; 3]));
     assert!(plan.dispersions.columns().is_empty());
     assert_eq!((plan.band_points, &plan.retention), (33, &Retention::None));

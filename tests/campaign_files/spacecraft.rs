@@ -43,7 +43,7 @@ fn changed(from: &str, to: &str) -> String {
 fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
     assert!(NEWCOMER.lines().count() <= 25, "{} lines", NEWCOMER.lines().count());
     let plan = plan(NEWCOMER);
-    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("a physical scene");
+    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).unwrap();
     assert_eq!(run.outcome.status, Status::Done);
     let columns = run.request.columns();
     let value = |name: &str| {
@@ -83,7 +83,7 @@ fn names_are_lower_case_letters_digits_and_underscores_and_unique() {
     }
     let part = |name: &str| format!("[[body.parts]]\nname = {name:?}\nshape = \"point_mass\"\nmass_kg = 1\n");
     let twice = |first: &str, second: &str| {
-        let parts = NEWCOMER.find("[body]").expect("a body")..NEWCOMER.find("[[wheels]]").expect("wheels");
+        let parts = NEWCOMER.find("[body]").unwrap()..NEWCOMER.find("[[wheels]]").unwrap();
         let mut text = NEWCOMER.to_owned();
         text.replace_range(
             parts,

@@ -56,7 +56,7 @@ fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
         std::fs::write(scratch.path(&name), bytes).unwrap();
         name
     });
-    bands_file::read(&*folder(&scratch.0), &written.collect::<Vec<_>>(), None).unwrap().expect("bands")
+    bands_file::read(&*folder(&scratch.0), &written.collect::<Vec<_>>(), None).unwrap().unwrap()
 }
 
 fn exact(plan: &Plan, points: &[usize]) -> BTreeMap<String, Vec<Vec<f64>>> {
@@ -142,7 +142,7 @@ fn the_angular_rate_has_bands() {
         let mut plan = plan(9);
         plan.groups = groups.to_vec();
         let bands = merged(&files(&plan, 1));
-        let series = bands.find("angular_rate_rad_s").expect("bands of |omega|");
+        let series = bands.find("angular_rate_rad_s").unwrap();
         let numbers = |point: usize| {
             let quantiles = [0.05, 0.5, 0.95].map(|p| bands.quantile(series, point, p).unwrap());
             (bands.count(series, point), bands.extremes(series, point).unwrap(), quantiles)

@@ -123,7 +123,7 @@ fn extremes_of_loops_are_at_ticks() {
     for sample in 0..12 {
         let run = single(&plan, sample);
         let is_error = |(series, _): &&(Series, Vec<f64>)| *series == Series::PointingError;
-        let (_, values) = run.series.iter().find(is_error).expect("a series");
+        let (_, values) = run.series.iter().find(is_error).unwrap();
         let from = turned[sample] + 30.0;
         let ticks = plan.grid.times().iter().zip(values).filter(|(time, _)| **time >= from - 1e-9);
         let most = ticks.fold(0.0, |most: f64, (_, value)| most.max(*value));

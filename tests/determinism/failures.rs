@@ -65,7 +65,7 @@ fn plan(text: &str) -> Plan {
 
 fn run(text: &str, sample: u64) -> SingleRun {
     let plan = plan(text);
-    SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("a physical scene")
+    SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
 }
 
 fn value(run: &SingleRun, name: &str) -> f64 {
@@ -163,7 +163,7 @@ fn after_its_failure_a_wheel_is_another_wheel() {
 #[test]
 fn a_schedule_has_what_the_failed_devices_apply() {
     let text = held();
-    let open = text[..text.find("[control]").expect("a loop")]
+    let open = text[..text.find("[control]").unwrap()]
         .replace("torque_limit_n_m = 0.02\nviscous_friction_n_m_s = 1e-6", "")
         .replace("max_thrust_n = 0.1\n", "");
     let arc = |start: f64, end: f64, thrust: f64, torque: f64| {
@@ -226,7 +226,7 @@ fn the_row_says_what_has_failed() {
     let columns = ensemble.request().columns();
     let place = |name: &str| columns.iter().position(|column| column.quantity.name() == name).expect(name);
     let mut columns_of_draws = plan.dispersions.columns().iter();
-    let drawn = columns_of_draws.position(|column| column.parameter.name() == "failure.dead.at_s").expect("drawn");
+    let drawn = columns_of_draws.position(|column| column.parameter.name() == "failure.dead.at_s").unwrap();
     let mut happened = 0;
     for sample in 0..20_usize {
         let at = rows.parameter(drawn)[sample];

@@ -114,7 +114,7 @@ impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
 
 #[test]
 fn a_torque_on_a_held_wheel_changes_no_bit() {
-    let scenes = (0..12).map(|k| Scene::resolve(&many_wheels(4, k, false, HORIZON)).expect("physical"));
+    let scenes = (0..12).map(|k| Scene::resolve(&many_wheels(4, k, false, HORIZON)).unwrap());
     let is_held = |scene: &Scene| -> Vec<bool> {
         scene.mass.wheels.iter().map(|wheel| wheel.mode == WheelMode::SpeedHeld).collect()
     };

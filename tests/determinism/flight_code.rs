@@ -140,19 +140,19 @@ fn first_torque(
 #[test]
 fn the_input_is_laid_out_as_documented() {
     let number = |place: usize| 0.25 + place as f64;
-    let numbers = |first: usize| std::array::from_fn(|k| number(first + k));
+    let numbers = |first: usize| from_fn(|k| number(first + k));
     let estimate = Estimate {
-        q_es: std::array::from_fn(|k| number(29 + k)),
+        q_es: from_fn(|k| number(29 + k)),
         gyro_bias_s: numbers(33),
         r_co_e: numbers(36),
         v_co_e: numbers(39),
-        wheel_rates: std::array::from_fn(|k| number(42 + k)),
+        wheel_rates: from_fn(|k| number(42 + k)),
         omega_se_s: [0.0; 3],
         debris: None,
     };
     let input = LawInput {
         time: number(0),
-        q_ts: std::array::from_fn(|k| number(4 + k)),
+        q_ts: from_fn(|k| number(4 + k)),
         omega_se_s: numbers(8),
         omega_te_s: numbers(11),
         acceleration_te_s: numbers(14),
@@ -160,7 +160,7 @@ fn the_input_is_laid_out_as_documented() {
         estimate: Some(&estimate),
         readings: Readings::NONE,
     };
-    let body = KnownBody { inertia: std::array::from_fn(|row| numbers(20 + 3 * row)) };
+    let body = KnownBody { inertia: from_fn(|row| numbers(20 + 3 * row)) };
     for place in 0..48_usize {
         let step = [copied(INPUT + 8 * place as i32, OUTPUT, 3), vec![0x0b]].concat();
         let code = kept(&Assembled::with_step(&step).bytes()).unwrap();

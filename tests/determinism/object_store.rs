@@ -23,7 +23,7 @@ fn a_store_has_the_files_of_a_folder() {
     }
     // first the identity of the rows, then the plan with its data; last the mark
     let puts: Vec<String> = proxy.requests().into_iter().filter(|request| request.starts_with("PUT")).collect();
-    let at = |object: &str| puts.iter().position(|put| put.contains(object)).expect("a put");
+    let at = |object: &str| puts.iter().position(|put| put.contains(object)).unwrap();
     assert_eq!([HEAD_OBJECT, "/data/", "plan.toml"].map(at), [0, 1, 2], "{puts:?}");
     assert_eq!(["manifest.json", SUCCESS].map(at), [puts.len() - 2, puts.len() - 1], "{puts:?}");
     assert_eq!(puts.len(), found.len());
@@ -130,7 +130,7 @@ fn parts_are_put_once_they_are_final() {
         }
     }
 
-    let design = HEAD.split("[design]").next().expect("a campaign").replace("seed = 7", "seed = 7\nsamples = 300");
+    let design = HEAD.split("[design]").next().unwrap().replace("seed = 7", "seed = 7\nsamples = 300");
     let stop = "[stop]\nobservable = \"energy_error_max\"\nquantile = 0.5\nhalf_width = 1e-30\nmax_samples = 1200\n";
     let text = [&design, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION, stop].concat();
     bench.scratch.file("stop.toml", &text);
@@ -155,11 +155,11 @@ fn the_first_content_stays() {
     let whole = bench.whole("");
     let start = |_| {
         let mut command = bench.command("campaign stored.toml --out s3:x", direct());
-        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("a process")
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     };
     let writers = [(); 3].map(start);
     for mut writer in writers {
-        assert!(writer.wait().expect("a process").success());
+        assert!(writer.wait().unwrap().success());
     }
     let found = bench.objects("x");
     assert_whole(&found, &whole, "writers");

@@ -82,7 +82,7 @@ fn single_runs_end_where_their_rows_do() {
     for (sample, time) in column(&plan, &all, "tipped_time_s").iter().enumerate() {
         let end = if time.is_nan() { 60.0 } else { *time };
         for grid in [plan.grid.clone(), Grid::uniform(60.0, 777)] {
-            let run = SingleRun::new(&plan, SampleId(sample as u64), grid, Isa::best()).expect("physical");
+            let run = SingleRun::new(&plan, SampleId(sample as u64), grid, Isa::best()).unwrap();
             assert_eq!((run.grid.duration(), run.outcome.time, run.outcome.points), (end, end, run.grid.points()));
         }
     }
@@ -140,9 +140,9 @@ fn bands_lose_a_run_at_its_end() {
     let ends = plan(&(text + &event("tipped", "spin_axis_angle_rad", 0.7, ENDS)));
     let all = rows(&ends, Isa::best(), 0, 40);
     let times = &column(&ends, &all, "tipped_time_s")[1..];
-    let bands = all.bands().expect("bands");
+    let bands = all.bands().unwrap();
     let layout = bands.layout();
-    let angle = layout.series.iter().position(|(quantity, _)| quantity.name() == "spin_axis_angle_rad").expect("bands");
+    let angle = layout.series.iter().position(|(quantity, _)| quantity.name() == "spin_axis_angle_rad").unwrap();
     let nominal_end = column(&ends, &all, "tipped_time_s")[0];
     for (point, time) in layout.times.iter().enumerate() {
         let (runs, buckets) = bands.column(angle * layout.times.len() + point);

@@ -119,7 +119,7 @@ fn groups_do_not_reach_each_other() {
             let (names, some): (Vec<String>, Vec<Bits>) = rows(Groups::NONE.with(group));
             for (row, whole) in some.iter().zip(&all) {
                 for (name, value) in names.iter().zip(row) {
-                    let at = all_names.iter().position(|other| other == name).expect("the whole row has every column");
+                    let at = all_names.iter().position(|other| other == name).unwrap();
                     assert_eq!(*value, whole[at], "{}: {name} of {}", method.name(), group.name());
                 }
             }

@@ -92,7 +92,7 @@ impl Bench {
 }
 
 pub fn direct() -> u16 {
-    server().rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port")
+    server().rsplit(':').next().and_then(|port| port.parse().ok()).unwrap()
 }
 
 pub fn assert_whole(found: &Objects, whole: &Objects, what: &str) {

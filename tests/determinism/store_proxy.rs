@@ -65,8 +65,8 @@ pub fn asked(method: &str, path: &str, body: &[u8]) -> (u16, Vec<u8>) {
         server(),
         body.len()
     );
-    let answer = Message { head, body: body.to_vec() }.answered().expect("the server answers");
-    let end = answer.windows(4).position(|four| four == b"\r\n\r\n").expect("an answer") + 4;
+    let answer = Message { head, body: body.to_vec() }.answered().unwrap();
+    let end = answer.windows(4).position(|four| four == b"\r\n\r\n").unwrap() + 4;
     let head = String::from_utf8_lossy(&answer[..end]).into_owned();
     (Message { head, body: Vec::new() }.status(), answer[end..].to_vec())
 }
@@ -74,9 +74,9 @@ pub fn asked(method: &str, path: &str, body: &[u8]) -> (u16, Vec<u8>) {
 pub fn objects(bucket: &str, prefix: &str) -> BTreeMap<String, Vec<u8>> {
     let (status, listed) = asked("GET", &format!("/{bucket}?list-type=2&prefix={prefix}%2F"), b"");
     assert_eq!(status, 200);
-    let listed = String::from_utf8(listed).expect("text");
+    let listed = String::from_utf8(listed).unwrap();
     assert!(listed.contains("<IsTruncated>false"), "{listed}");
-    let names = listed.split("<Key>").skip(1).map(|rest| rest.split("</Key>").next().expect("a name").to_owned());
+    let names = listed.split("<Key>").skip(1).map(|rest| rest.split("</Key>").next().unwrap().to_owned());
     let read = |name: String| {
         let (status, bytes) = asked("GET", &format!("/{bucket}/{name}"), b"");
         assert_eq!(status, 200, "{name}");
@@ -110,8 +110,8 @@ pub struct Proxy {
 
 impl Proxy {
     pub fn new(rule: impl FnMut(usize, &Message) -> Fate + Send + 'static) -> Proxy {
-        let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
-        let port = listener.local_addr().expect("an address").port();
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let port = listener.local_addr().unwrap().port();
         let state = State { rule: Box::new(rule), requests: Vec::new(), victim: None };
         let proxy = Proxy { state: Arc::new(Mutex::new(state)), port };
         let of_threads = proxy.clone();
@@ -135,10 +135,10 @@ impl Proxy {
     pub fn watch(&self, command: &mut Command) -> Option<i32> {
         {
             let mut state = self.state();
-            state.victim = Some(command.spawn().expect("a process"));
+            state.victim = Some(command.spawn().unwrap());
         }
         loop {
-            let ended = self.state().victim.as_mut().and_then(|child| child.try_wait().expect("a process"));
+            let ended = self.state().victim.as_mut().and_then(|child| child.try_wait().unwrap());
             if let Some(ended) = ended {
                 return ended.code();
             }

@@ -23,7 +23,7 @@ const TAYLOR: &str = "method = \"taylor\"";
 
 fn flown(text: &str) -> SingleRun {
     let plan = planned(text);
-    SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).expect("a physical scene")
+    SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).unwrap()
 }
 
 fn last(run: &SingleRun) -> [[f64; 3]; 2] {
@@ -64,7 +64,7 @@ fn a_burn_ends_at_the_surface() {
         assert!(run.reason.contains("reached the surface"), "{}", run.reason);
         assert!(run.grid.times()[found.points - 1] <= found.time);
         let energy = run.request.columns().iter().position(|column| column.quantity.name().contains("energy"));
-        assert!(run.row[energy.expect("a column")].is_nan());
+        assert!(run.row[energy.unwrap()].is_nan());
     }
 }
 

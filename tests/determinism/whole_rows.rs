@@ -50,7 +50,7 @@ pub fn bits(rows: &Rows) -> Vec<RowBits> {
 }
 
 pub fn single(plan: &Plan, sample: usize) -> SingleRun {
-    SingleRun::new(plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).expect("a physical scene")
+    SingleRun::new(plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).unwrap()
 }
 
 pub fn own_rows(plan: &Plan, count: usize) -> Rows {

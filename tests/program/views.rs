@@ -10,16 +10,16 @@ const BLOCKS: &str = "title h1 h2 h3 p div section li tr summary figcaption pre 
 const MOST_ALIKE: usize = 6;
 
 fn text_of_page(page: &str) -> String {
-    let markup = page.split_once("<script").expect("a page has scripts").0;
-    let body = markup.split_once("<body").expect("a body").1;
+    let markup = page.split_once("<script").unwrap().0;
+    let body = markup.split_once("<body").unwrap().1;
     let (mut out, mut line) = (String::new(), String::new());
-    let mut rest = &body[body.find('>').expect("a tag ends") + 1..];
+    let mut rest = &body[body.find('>').unwrap() + 1..];
     let (mut hidden, mut alike) = (None, 0);
     while let Some((text, after)) = rest.split_once('<') {
         if hidden.is_none() {
             line.push_str(text.trim_matches('\n'));
         }
-        let (tag, after) = after.split_once('>').expect("a tag ends");
+        let (tag, after) = after.split_once('>').unwrap();
         let name = tag.trim_start_matches('/').split([' ', '/', '\n']).next().unwrap_or_default();
         match hidden {
             None if ["svg", "pre"].contains(&name) => hidden = Some(name),
@@ -29,9 +29,9 @@ fn text_of_page(page: &str) -> String {
         if BLOCKS.split(' ').any(|block| block == name) && !line.trim().is_empty() {
             alike = if ["tr", "dt"].contains(&name) { alike + 1 } else { 0 };
             if alike <= MOST_ALIKE {
-                writeln!(out, "{}", line.trim()).expect("a string");
+                writeln!(out, "{}", line.trim()).unwrap();
             } else if alike == MOST_ALIKE + 1 {
-                writeln!(out, "...").expect("a string");
+                writeln!(out, "...").unwrap();
             }
             line.clear();
         }
@@ -46,24 +46,24 @@ fn text_of_page(page: &str) -> String {
 fn text_of_figures(data: &Value) -> String {
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let (mut out, mut before) = (String::new(), String::new());
-    for figure in data["figures"].as_array().expect("figures") {
+    for figure in data["figures"].as_array().unwrap() {
         let axis = |axis: &Value| match text(&axis["unit"]) {
             unit if unit.is_empty() => text(&axis["quantity"]),
             unit => format!("{}, {unit}", text(&axis["quantity"])),
         };
-        let marks = figure["marks"].as_array().expect("marks");
+        let marks = figure["marks"].as_array().unwrap();
         let mut labels: Vec<String> = marks.iter().map(|mark| text(&mark["label"])).collect();
         labels.dedup();
         let [x, y] = [axis(&figure["x"]), axis(&figure["y"])];
-        writeln!(out, "figure {}: {x} | {y} | {}", text(&figure["title"]), labels.join("; ")).expect("a string");
+        writeln!(out, "figure {}: {x} | {y} | {}", text(&figure["title"]), labels.join("; ")).unwrap();
         let caption = text(&figure["caption"]);
         if caption != before {
-            writeln!(out, "  {caption}").expect("a string");
+            writeln!(out, "  {caption}").unwrap();
             before = caption;
         }
     }
     for run in data["replay"]["runs"].as_array().into_iter().flatten().take(2) {
-        writeln!(out, "replay of {}: {}, {}", text(&run["name"]), text(&run["why"]), run["numbers"]).expect("a string");
+        writeln!(out, "replay of {}: {}, {}", text(&run["name"]), text(&run["why"]), run["numbers"]).unwrap();
     }
     out
 }
@@ -107,14 +107,12 @@ fn approved(name: &str, view: &str, different: &mut Vec<String>) {
         return;
     }
     if std::env::var_os(WRITE).is_some() {
-        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-        return fs::write(&path, view).expect("a file");
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        return fs::write(&path, view).unwrap();
     }
     let (mut old, mut new) = (before.lines(), view.lines());
-    let (at, was, is) = (1..)
-        .map(|line| (line, old.next(), new.next()))
-        .find(|(_, was, is)| was != is || was.is_none())
-        .expect("endless");
+    let (at, was, is) =
+        (1..).map(|line| (line, old.next(), new.next())).find(|(_, was, is)| was != is || was.is_none()).unwrap();
     different.push(format!("{name}.txt:{at}\n  was {}\n  is  {}", was.unwrap_or("-"), is.unwrap_or("-")));
 }
 

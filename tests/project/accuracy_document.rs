@@ -27,7 +27,7 @@ fn sections(text: &str) -> Vec<(&str, &str)> {
 
 #[test]
 fn every_table_is_that_of_a_test_and_holds() {
-    let text = std::fs::read_to_string(path()).expect("docs/accuracy.md");
+    let text = std::fs::read_to_string(path()).unwrap();
     let sections = sections(&text);
     assert!(sections.len() >= 6, "{} sections", sections.len());
     for (name, table) in sections {

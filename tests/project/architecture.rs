@@ -246,9 +246,9 @@ fn no_line_is_too_long() {
         ["benches", "crates", "examples", "fuzz", "src", "tests"].map(|name| root.join(name)).into();
     while let Some(path) = open.pop() {
         if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
-            open.extend(std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()));
+            open.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
         } else if path.extension().is_some_and(|found| found == "rs") {
-            let text = std::fs::read_to_string(&path).expect("a text");
+            let text = std::fs::read_to_string(&path).unwrap();
             let lines = text.lines().enumerate().filter(|(_, line)| line.chars().count() > WIDTH);
             long.extend(lines.map(|(at, _)| format!("{}:{}", path.display(), at + 1)));
         }

@@ -25,8 +25,8 @@ fn text(file: &Path) -> String {
 fn documents() -> Vec<PathBuf> {
     let mut files = Vec::new();
     for folder in ["", "docs", "benches"] {
-        let entries = std::fs::read_dir(root().join(folder)).expect("a readable folder");
-        files.extend(entries.map(|entry| entry.expect("an entry").path()));
+        let entries = std::fs::read_dir(root().join(folder)).unwrap();
+        files.extend(entries.map(|entry| entry.unwrap().path()));
     }
     files.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
     files.sort();
@@ -51,7 +51,7 @@ fn blocks(document: &str) -> Vec<Block> {
                 blocks.push(Block { language, text: String::new(), is_fragment });
             }
             None if is_open => {
-                let block = blocks.last_mut().expect("an open block");
+                let block = blocks.last_mut().unwrap();
                 block.text.push_str(line);
                 block.text.push('\n');
             }
@@ -167,11 +167,11 @@ fn the_readme_shows_what_new_writes() {
     let shown = blocks(&readme);
     let start = text(&root().join("assets/start.toml"));
     assert!(shown.iter().any(|block| block.language == "toml" && block.text == start), "not the file of `new`");
-    let output = shown.iter().find(|block| block.language == "text").expect("an output");
+    let output = shown.iter().find(|block| block.language == "text").unwrap();
     assert!(output.text.lines().count() <= 10, "{}", output.text);
-    let first = shown.iter().find(|block| block.language == "sh").expect("commands");
+    let first = shown.iter().find(|block| block.language == "sh").unwrap();
     assert!(first.text.starts_with("git clone") && first.text.lines().count() == 4, "{}", first.text);
-    let picture = std::fs::read(root().join("docs/figures/replay.png")).expect("a picture");
+    let picture = std::fs::read(root().join("docs/figures/replay.png")).unwrap();
     assert!(readme.contains("(docs/figures/replay.png)") && picture.len() < 1_500_000, "{}", picture.len());
     assert!(picture.windows(4).any(|four| four == b"acTL"), "it does not move");
 }
@@ -192,7 +192,7 @@ fn every_campaign_file_is_valid() {
 #[test]
 fn the_complete_example_raises_no_note() {
     let document = text(&root().join("docs/campaign-files.md"));
-    let example = blocks(&document).into_iter().find(|block| block.language == "toml").expect("an example").text;
+    let example = blocks(&document).into_iter().find(|block| block.language == "toml").unwrap().text;
     let notes = |text: &str| {
         let plan = planned(text);
         [plan.notes(), implausible(&plan)].concat()
@@ -244,7 +244,7 @@ fn every_link_leads_somewhere() {
         let document = text(&file);
         for link in links(&document) {
             let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
-            let target = file.parent().expect("a folder").join(path);
+            let target = file.parent().unwrap().join(path);
             assert!(target.exists(), "{}: there is no {link}", file.display());
             let known = || anchors(&text(&target)).iter().any(|known| known == anchor);
             assert!(anchor.is_empty() || known(), "{}: {path} has no heading #{anchor}", file.display());
@@ -274,8 +274,8 @@ fn every_name_is_documented() {
     let unknown: Vec<_> =
         Status::ALL.into_iter().filter(|status| !page.contains(&format!("`{}`", status.name()))).collect();
     assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
-    let files = std::fs::read_dir(root().join("campaigns")).expect("a folder of campaigns");
-    let names = files.map(|file| file.expect("an entry").file_name().to_string_lossy().into_owned());
+    let files = std::fs::read_dir(root().join("campaigns")).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().to_string_lossy().into_owned());
     let unknown: Vec<String> = names.filter(|name| !page.contains(name.as_str())).collect();
     assert!(unknown.is_empty(), "docs/campaign-files.md does not mention {unknown:?}");
 }
@@ -283,7 +283,7 @@ fn every_name_is_documented() {
 #[test]
 fn the_flight_code_is_that_of_the_example() {
     let document = text(&root().join("docs/flight-code.md"));
-    let shown = blocks(&document).into_iter().find(|block| block.language == "c").expect("a block");
+    let shown = blocks(&document).into_iter().find(|block| block.language == "c").unwrap();
     let example = root().join("examples/flight_code");
     assert_eq!(shown.text, text(&example.join("mrp_feedback.c")));
     let header = text(&example.join("spindrift.h"));

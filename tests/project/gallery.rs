@@ -37,15 +37,14 @@ fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<St
 
 #[test]
 fn every_campaign_is_in_the_gallery() {
-    let gallery = fs::read_to_string(root().join("docs/gallery.md")).expect("a gallery");
-    let files = fs::read_dir(root().join("campaigns")).expect("campaigns").map(|entry| entry.expect("an entry").path());
+    let gallery = fs::read_to_string(root().join("docs/gallery.md")).unwrap();
+    let files = fs::read_dir(root().join("campaigns")).unwrap().map(|entry| entry.unwrap().path());
     let files: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
     for file in &files {
-        let text = fs::read_to_string(file).expect("a campaign");
-        let plan =
-            Plan::from_text_in(&root().join("campaigns"), "c.toml", &text, Overrides::default()).expect("a plan");
-        let question = plan.description.clone().expect("a question");
-        let name = file.file_stem().expect("a name").to_string_lossy();
+        let text = fs::read_to_string(file).unwrap();
+        let plan = Plan::from_text_in(&root().join("campaigns"), "c.toml", &text, Overrides::default()).unwrap();
+        let question = plan.description.clone().unwrap();
+        let name = file.file_stem().unwrap().to_string_lossy();
         let found = problem(&gallery, &name, &question, plan.samples);
         assert!(found.is_none(), "{name}: {}", found.unwrap_or_default());
         // another question, another number of runs or no entry would be seen
@@ -54,6 +53,6 @@ fn every_campaign_is_in_the_gallery() {
         assert!(problem(&gallery.replace(&format!("### {name}.toml"), ""), &name, &question, plan.samples).is_some());
     }
     assert_eq!(gallery.matches("\n### ").count(), files.len(), "an entry for each campaign");
-    let pictures = fs::read_dir(root().join("docs/figures/gallery")).expect("pictures").count();
+    let pictures = fs::read_dir(root().join("docs/figures/gallery")).unwrap().count();
     assert_eq!(pictures, files.len(), "a picture for each campaign");
 }

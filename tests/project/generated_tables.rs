@@ -77,7 +77,7 @@ fn columns_of_rows() -> String {
 fn columns_of_series() -> String {
     let plan = plan("burn.toml");
     let isa = Isa::best();
-    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), isa).expect("the nominal scene is physical");
+    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), isa).unwrap();
     let series = time_series(SampleId(0), &run, |_| true);
     let names: Vec<String> = series.columns.iter().map(|column| format!("`{}`", column.quantity.name())).collect();
     format!("{}.\n", names.join(", "))
@@ -132,8 +132,8 @@ fn dependencies() -> String {
         "benches/Cargo.toml",
     ]
     .map(manifest);
-    let mut of_program = program["dependencies"].as_table().expect("a table").clone();
-    of_program.extend(kernels["dependencies"].as_table().expect("a table").clone());
+    let mut of_program = program["dependencies"].as_table().unwrap().clone();
+    of_program.extend(kernels["dependencies"].as_table().unwrap().clone());
     let places = [
         (&toml::Value::Table(of_program), "program"),
         (&program["target"]["cfg(unix)"]["dependencies"], "program, on Unix"),
@@ -146,7 +146,7 @@ fn dependencies() -> String {
     let own = |name: &str| ["spindrift", "spindrift-figures"].contains(&name);
     let mut named = BTreeSet::new();
     for (dependencies, place) in places {
-        for name in dependencies.as_table().expect("a table").keys().filter(|name| !own(name)) {
+        for name in dependencies.as_table().unwrap().keys().filter(|name| !own(name)) {
             if named.insert(name) {
                 let (version, why) = &listed[name];
                 let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(why));
@@ -160,15 +160,15 @@ fn dependencies() -> String {
 
 fn listed_dependencies() -> BTreeMap<String, (String, String)> {
     let text = text("Cargo.toml");
-    let (_, list) = text.split_once("\n[workspace.dependencies]\n").expect("the list");
+    let (_, list) = text.split_once("\n[workspace.dependencies]\n").unwrap();
     let (mut listed, mut why) = (BTreeMap::new(), Vec::new());
     for line in list.lines().take_while(|line| !line.starts_with('[')) {
         if let Some(comment) = line.strip_prefix("# ") {
             why.push(comment);
         } else if let Some((name, value)) = line.split_once(" = ") {
             assert!(!why.is_empty(), "Cargo.toml does not say why there is {name}");
-            let value: toml::Value = format!("v = {value}").parse::<toml::Table>().expect("TOML")["v"].clone();
-            let version = value.get("version").unwrap_or(&value).as_str().expect("a version").to_owned();
+            let value: toml::Value = format!("v = {value}").parse::<toml::Table>().unwrap()["v"].clone();
+            let version = value.get("version").unwrap_or(&value).as_str().unwrap().to_owned();
             listed.insert(name.to_owned(), (version, std::mem::take(&mut why).join(" ")));
         }
     }
@@ -252,7 +252,7 @@ fn keys_of_tables() -> String {
         (format!("`[[disperse]]`, `distribution = \"{}\"`", kind.name()), kind.keys().to_vec(), kind.rules())
     });
     let designs = Design::NAMES.iter().map(|name| {
-        let (rows, rules) = Design::keys_of(name).expect("a design");
+        let (rows, rules) = Design::keys_of(name).unwrap();
         (format!("`[design]`, `kind = \"{name}\"`"), rows.to_vec(), rules)
     });
     let settings = settings::HEAD

@@ -7,7 +7,7 @@ fn root() -> PathBuf {
 }
 
 fn words(architecture: &str) -> Vec<(String, String)> {
-    let table = architecture.split_once("| say | not |").expect("a table of words").1;
+    let table = architecture.split_once("| say | not |").unwrap().1;
     let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
     let pair = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
@@ -17,8 +17,8 @@ fn words(architecture: &str) -> Vec<(String, String)> {
 }
 
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         if path.is_dir() {
             files(&path, found);
@@ -34,14 +34,14 @@ fn line_with<'t>(text: &'t str, phrase: &str) -> Option<&'t str> {
 
 #[test]
 fn words_are_those_of_the_glossary() {
-    let words = words(&fs::read_to_string(root().join("ARCHITECTURE.md")).expect("a document"));
+    let words = words(&fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap());
     assert!(words.len() > 6, "{words:?}");
     let mut list = vec![root().join("README.md"), root().join("CHANGELOG.md")];
     for folder in ["docs", "src", "assets"] {
         files(&root().join(folder), &mut list);
     }
     for file in &list {
-        let text = fs::read_to_string(file).expect("a text");
+        let text = fs::read_to_string(file).unwrap();
         for (say, not) in &words {
             let found = line_with(&text, &not.to_lowercase());
             assert!(found.is_none(), "{}: say {say:?}, not {not:?}: {}", file.display(), found.unwrap_or_default());

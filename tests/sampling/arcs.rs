@@ -38,7 +38,7 @@ fn all_bits(arcs: &[Arc]) -> Vec<Vec<u64>> {
 }
 
 fn runs(scenes: &[SceneInput]) -> Vec<Run> {
-    let scenes: Vec<Scene> = scenes.iter().map(|input| Scene::resolve(input).expect("physical")).collect();
+    let scenes: Vec<Scene> = scenes.iter().map(|input| Scene::resolve(input).unwrap()).collect();
     propagate(Method::Taylor, adaptive(1e-12), &Grid::uniform(HORIZON, 41), &scenes)
 }
 
@@ -202,7 +202,7 @@ fn errors_are_drawn_recorded_and_written() {
     assert_eq!(columns[0].nominal, 0.98);
     let mut draws = SceneDraws::new(&plan);
     for sample in 1..plan.samples {
-        let arcs = draws.scene(SampleId(sample)).expect("physical").schedule;
+        let arcs = draws.scene(SampleId(sample)).unwrap().schedule;
         let applied = draws.applied();
         assert!(applied[0] != 0.98 && applied[1] == applied[2] && applied[1] != 0.0);
         assert_eq!(arcs[0].applied.thrust[0], applied[0] * 10.0);

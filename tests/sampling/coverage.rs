@@ -94,7 +94,7 @@ fn stopped_campaigns_cover() {
             let found = runs.iter().map(|runs| decision(&values[..*runs as usize], goal, looks_counted));
             let found: Vec<_> = found.collect();
             let at = found.iter().position(|look| look.stops).unwrap_or(runs.len() - 1);
-            let [lower, upper] = found[at].interval.map(|end| end.expect("forty runs bound a median"));
+            let [lower, upper] = found[at].interval.map(|end| end.unwrap());
             (at, u32::from(lower <= 0.0 && 0.0 <= upper))
         };
         let (at, covers) = stop(runs.len());
@@ -247,13 +247,13 @@ fn a_sketch_of_ten_million_is_within_its_error() {
     values.sort_unstable_by(f64::total_cmp);
     let ranks = sketch.ranks();
     for p in [1e-6, 0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999, 1.0 - 1e-6] {
-        let (found, exact) = (ranks.quantile(p).expect("many"), quantile(&values, p).expect("many"));
+        let (found, exact) = (ranks.quantile(p).unwrap(), quantile(&values, p).unwrap());
         assert!((found - exact).abs() <= RELATIVE_ERROR * exact.abs(), "{p}: {found} for {exact}");
         let rank = 1 + (p * (COUNT - 1) as f64) as u64;
-        let [lower, upper] = ranks.bounds(rank).expect("a rank");
+        let [lower, upper] = ranks.bounds(rank).unwrap();
         assert!(lower <= values[rank as usize - 1] && values[rank as usize - 1] <= upper, "{p}");
     }
-    let (next, median) = (ranks.quantile(0.51).expect("many"), quantile(&values, 0.5).expect("many"));
+    let (next, median) = (ranks.quantile(0.51).unwrap(), quantile(&values, 0.5).unwrap());
     assert!((next - median).abs() > RELATIVE_ERROR * median.abs());
     assert_eq!((sketch.min(), sketch.max()), (values.first().copied(), values.last().copied()));
 }

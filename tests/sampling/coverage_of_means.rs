@@ -87,7 +87,7 @@ fn bounds_of_means(all: Campaigns) {
             for _ in 0..campaigns {
                 let values: Vec<f64> = (0..runs).map(|_| draw(&mut random)).collect();
                 let moments = Moments::of_block(&values);
-                let (found, error) = (moments.mean().expect("runs"), moments.mean_error().expect("runs"));
+                let (found, error) = (moments.mean().unwrap(), moments.mean_error().unwrap());
                 for (place, confidence) in CONFIDENCES.into_iter().enumerate() {
                     let [lower, upper] = mean_bounds(&moments, confidence);
                     misses[place][0] += u32::from(lower > mean);
@@ -145,7 +145,7 @@ fn bounds_of_standard_deviations(all: Campaigns) {
                 misses[0] += u32::from(lower > deviation);
                 misses[1] += u32::from(upper < deviation);
                 unbounded += u32::from(upper.is_infinite());
-                let found = moments.standard_deviation().expect("runs");
+                let found = moments.standard_deviation().unwrap();
                 let half = 1.96 * moments.standard_deviation_error().unwrap_or(0.0);
                 of_error[0] += u32::from(found - half > deviation);
                 of_error[1] += u32::from(found + half < deviation);

@@ -17,7 +17,7 @@ use spindrift::statistics::sensitivity::{Block, saltelli_indices};
 const PI: f64 = core::f64::consts::PI;
 
 fn fewest(campaigns: u64, coverage: f64) -> u64 {
-    (0..campaigns).find(|count| binomial::at_most(*count, campaigns, coverage) >= 1e-4).expect("some count")
+    (0..campaigns).find(|count| binomial::at_most(*count, campaigns, coverage) >= 1e-4).unwrap()
 }
 
 fn covers(found: &Estimate, truth: f64) -> bool {
@@ -53,8 +53,8 @@ fn linear_measures_are_covered(sizes: &[(usize, u64)]) {
                 let y: Vec<f64> = x.iter().zip(&z).map(|(x, z)| of(*x, *z)).collect();
                 let [x, z, y] = [x, z, y].map(|column| standardised(&column));
                 let plain = correlation(&x, &y, 0, 0.95);
-                let of = Regressors::new(vec![x, z]).expect("independent inputs");
-                let found = of.regression(&y).expect("enough runs");
+                let of = Regressors::new(vec![x, z]).unwrap();
+                let found = of.regression(&y).unwrap();
                 let both = [0, 1].map(|input| found.coefficient(input, 0.95));
                 let all = [
                     (plain, pearson),
@@ -120,7 +120,7 @@ fn of_blocks(
         let [[a, b], [c, d]] = [i, j].map(|dimension| [false, true].map(|from_b| number(dimension, from_b, point)));
         Block { a: f(a, c), b: f(b, d), mixed: f(b, c) }
     };
-    saltelli_indices(&(0..blocks).map(block).collect::<Vec<_>>(), 0.95).expect("it varies")
+    saltelli_indices(&(0..blocks).map(block).collect::<Vec<_>>(), 0.95).unwrap()
 }
 
 /// H0: in every pair of 50 dimensions intervals of the indices, 0 and 1 of x in x y, and in the exclusive or of x > 1/2
@@ -168,8 +168,8 @@ fn partial_correlations_are_covered() {
             let rest = column();
             let of_row = |row: usize| rest[row] + b * inputs[0][row] + inputs[1..].iter().map(|x| x[row]).sum::<f64>();
             let y = standardised(&(0..40).map(of_row).collect::<Vec<_>>());
-            let of = Regressors::new(inputs.iter().map(|x| standardised(x)).collect()).expect("independent inputs");
-            let found = of.regression(&y).expect("enough runs").partial(0, 0.95);
+            let of = Regressors::new(inputs.iter().map(|x| standardised(x)).collect()).unwrap();
+            let found = of.regression(&y).unwrap().partial(0, 0.95);
             let middle = libm::atanh(found.value);
             let narrow = |end: f64| libm::tanh(middle + libm::sqrt(19.0 / 39.0) * (libm::atanh(end) - middle));
             let without_cost = Estimate { lower: narrow(found.lower), upper: narrow(found.upper), ..found };

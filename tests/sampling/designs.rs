@@ -67,8 +67,8 @@ fn draws_do_not_depend_on_company() {
         assert!(backward.iter().rev().eq(rows.iter()), "{kind}");
         assert_eq!(value(&rows[0], "body_parts_fuselage_length_m"), 3.0);
         assert_ne!(rows[1], rows[2]);
-        let other = planned(&format!("{head}{RATE}{LENGTH}"), Overrides { seed: Some(8), ..Overrides::default() })
-            .expect("valid");
+        let other =
+            planned(&format!("{head}{RATE}{LENGTH}"), Overrides { seed: Some(8), ..Overrides::default() }).unwrap();
         assert_ne!(draws(&other, 1..3), rows[1..3], "{kind}");
     }
     let ids = || [1, 9, 4095, 1 << 40];
@@ -85,8 +85,7 @@ fn samples_can_be_added() {
         let samples = if kind == "saltelli" { 50 } else { 65 };
         let few = planned(&text, Overrides { samples: Some(1 + (samples - 1) / 7 * 7), ..Overrides::default() });
         let few = few.unwrap_or_else(|e| panic!("{e}"));
-        let many =
-            planned(&text, Overrides { samples: Some(1 + (more - 1) / 7 * 7), ..Overrides::default() }).expect("valid");
+        let many = planned(&text, Overrides { samples: Some(1 + (more - 1) / 7 * 7), ..Overrides::default() }).unwrap();
         assert!(many.samples > few.samples);
         assert_eq!(draws(&few, 0..few.samples), draws(&many, 0..few.samples), "{kind}");
     }
@@ -139,10 +138,10 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
 #[test]
 fn a_table_gives_its_rows() {
     let folder = std::env::temp_dir().join(format!("spindrift-table-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::create_dir_all(&folder).unwrap();
     let rows = "sample_id, wheels.w1.radius_m, initial_angular_velocity_x_rad_s, body.parts.fuselage.length_m\n0, \
         0.21, 1.5, 3.5\n1, 0.22, -1, 3.25\n";
-    std::fs::write(folder.join("rows.csv"), rows).expect("written");
+    std::fs::write(folder.join("rows.csv"), rows).unwrap();
     let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
     let read = |text: &str| Plan::from_text_in(&folder, "t.toml", &without_samples(text), Overrides::default());
     let table = format!("{}file = \"rows.csv\"\n", design("table"));
@@ -158,7 +157,7 @@ fn a_table_gives_its_rows() {
     for (mixed, random) in draws(&mixed, 0..3).iter().zip(draws(&random, 0..3)) {
         assert_eq!(mixed["body_parts_fuselage_length_m"], random["body_parts_fuselage_length_m"]);
     }
-    std::fs::remove_dir_all(&folder).expect("removed");
+    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 fn slope(points: &[(f64, f64)]) -> f64 {
@@ -289,7 +288,7 @@ const GOLDEN: [(&str, [[u64; 2]; 3]); 5] = [
 fn a_partial_grid_is_told() {
     let grid = |samples: u64| {
         let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
-        planned(&format!("[design]\nkind = \"grid\"\nlevels = 5\n{LENGTH}{RADIUS}"), overrides).expect("legal").notes()
+        planned(&format!("[design]\nkind = \"grid\"\nlevels = 5\n{LENGTH}{RADIUS}"), overrides).unwrap().notes()
     };
     assert!(grid(26).is_empty() && grid(1).is_empty(), "all points, and none");
     for samples in [2, 6, 25] {

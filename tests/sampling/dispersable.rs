@@ -33,11 +33,11 @@ fn variants() -> Vec<SceneInput> {
         DebrisInput::Tensor { mass_kg: 20.0, inertia_kg_m2: tensor },
         DebrisInput::Principal {
             mass_kg: 20.0,
-            principal: principal(PrincipalMoments::Inertia([3.0, 4.0, 5.0])).expect("some"),
+            principal: principal(PrincipalMoments::Inertia([3.0, 4.0, 5.0])).unwrap(),
         },
         DebrisInput::Principal {
             mass_kg: 20.0,
-            principal: principal(PrincipalMoments::Second([3.0, 4.0, 5.0])).expect("some"),
+            principal: principal(PrincipalMoments::Second([3.0, 4.0, 5.0])).unwrap(),
         },
     ];
     let mut list = vec![plain, scene(1), scene(2), by_moments, by_second];
@@ -151,7 +151,7 @@ fn dispersions(nominal: &SceneInput, disperse: &[Dispersion]) -> Result<Dispersi
 }
 
 fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (SceneInput, Vec<(Parameter, usize, f64)>) {
-    let value = parameter.value(nominal, component).expect("the key exists");
+    let value = parameter.value(nominal, component).unwrap();
     let std = SPREAD * if value == 0.0 { 1.0 } else { value.abs() };
     let distribution =
         WrittenDistribution { kind: DistributionKind::Normal, written: Written::default().with("std", std) };

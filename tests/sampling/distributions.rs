@@ -29,9 +29,9 @@ fn law(name: &str, p: &[f64]) -> Distribution {
         "triangular" => Distribution::Triangular(TriangularQuantile { min: p[0], mode: p[1], max: p[2] }),
         "beta" => Distribution::Beta(BetaQuantile::new(p[0], p[1], p[2], p[3])),
         "pert" => Distribution::Pert(PertQuantile::new(p[0], p[1], p[2])),
-        "truncated_normal" => Distribution::TruncatedNormal(
-            TruncatedNormalQuantile::new(p[0], p[1], p[2], p[3]).expect("mass between the bounds"),
-        ),
+        "truncated_normal" => {
+            Distribution::TruncatedNormal(TruncatedNormalQuantile::new(p[0], p[1], p[2], p[3]).unwrap())
+        }
         other => panic!("{other}"),
     }
 }
@@ -41,13 +41,13 @@ const AGREEMENT: f64 = 1e-12;
 
 #[test]
 fn quantiles_are_those_of_scipy() {
-    let golden: Value = serde_json::from_str(include_str!("../golden/quantiles.json")).expect("JSON");
-    let rows = golden["rows"].as_array().expect("rows");
+    let golden: Value = serde_json::from_str(include_str!("../golden/quantiles.json")).unwrap();
+    let rows = golden["rows"].as_array().unwrap();
     assert!(rows.len() > 250);
     let mut wrong = Vec::new();
     for row in rows {
-        let name = row["law"].as_str().expect("a name");
-        let parameters: Vec<f64> = row["parameters"].as_array().expect("parameters").iter().map(number).collect();
+        let name = row["law"].as_str().unwrap();
+        let parameters: Vec<f64> = row["parameters"].as_array().unwrap().iter().map(number).collect();
         let (u, value) = (number(&row["u"]), number(&row["value"]));
         let law = law(name, &parameters);
         let ours = law.quantile(u);
@@ -81,13 +81,13 @@ fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
 /// 30 digits (mpmath).
 #[test]
 fn quantiles_are_those_of_mpmath() {
-    let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).expect("JSON");
-    let rows = golden["rows"].as_array().expect("rows");
+    let golden: Value = serde_json::from_str(include_str!("../golden/quantiles_mpmath.json")).unwrap();
+    let rows = golden["rows"].as_array().unwrap();
     let mut worst: std::collections::BTreeMap<String, f64> = Default::default();
     let mut made: Option<(String, Vec<Distribution>)> = None;
     for row in rows {
-        let p: Vec<f64> = row[1].as_array().expect("parameters").iter().map(number).collect();
-        let (name, u, value) = (row[0].as_str().expect("a name"), number(&row[2]), number(&row[3]));
+        let p: Vec<f64> = row[1].as_array().unwrap().iter().map(number).collect();
+        let (name, u, value) = (row[0].as_str().unwrap(), number(&row[2]), number(&row[3]));
         let key = format!("{name} {p:?}");
         if made.as_ref().is_none_or(|(other, _)| *other != key) {
             made = Some((key.clone(), laws_of(name, &p)));

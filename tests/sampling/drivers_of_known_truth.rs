@@ -112,7 +112,7 @@ fn levels_are_counts() {
     let (all, name) = explained(&inputs, &y, false);
     let ranking = rankings(&all, &name, ALPHA).remove(0);
     let first = ranking.inputs[0].input;
-    let effect = first.on_events.first().expect("an effect");
+    let effect = first.on_events.first().unwrap();
     let Dependence::Levels { levels, most, ratio } = &effect.dependence else { panic!("{effect:?}") };
     let count = |value: f64, failed: bool| {
         (0..1000).filter(|row| inputs[5][*row] == value && (!failed || y[*row] == 0.0)).count() as u64
@@ -142,13 +142,13 @@ fn few_values_have_a_share_and_a_direction() {
             let y: Vec<f64> = x.iter().map(|x| of(*x) + random.uniform()).collect();
             let (all, name) = explained(&[smooth.iter().rev().copied().collect(), x.clone()], &y, false);
             let rankings = rankings(&all, &name, ALPHA);
-            let spread = rankings.last().expect("the spread");
+            let spread = rankings.last().unwrap();
             let names: Vec<&str> = spread.drivers().map(|ranked| ranked.input.input.as_str()).collect();
             assert_eq!(names, ["x1"]);
             let first = &spread.inputs[0];
             assert_eq!(first.input.direction, Some(direction));
             // four standard errors of 0.01
-            let found = first.share.expect("a share");
+            let found = first.share.unwrap();
             assert!(share.is_none_or(|share| (found.value - share).abs() < 0.04), "{found:?} {share:?}");
         }
     }
@@ -208,7 +208,7 @@ fn shifts_are_medians_and_chances() {
         let share = |_| None;
         let inputs = [TestedInput::new(&values, &ascending_order(&values))];
         let effects = on_event(&inputs, (event, &marked), share, 1, 0.95);
-        let found = &effects[0].as_ref().expect("an effect").dependence;
+        let found = &effects[0].as_ref().unwrap().dependence;
         let Dependence::Shift { chance, medians } = found else { panic!("{found:?}") };
         let of = |wanted: bool| {
             let mut of: Vec<f64> =
@@ -237,8 +237,8 @@ fn questions_are_counted() {
     let share = |_| None;
     let inputs = [TestedInput::new(&values, &ascending_order(&values))];
     let found = |asked: usize| {
-        let of_event = on_event(&inputs, (event, &marked), share, asked, 0.95)[0].as_ref().expect("an effect").p_value;
-        [of_event, on_spread(&inputs, &y, asked)[0].expect("a p-value")]
+        let of_event = on_event(&inputs, (event, &marked), share, asked, 0.95)[0].as_ref().unwrap().p_value;
+        [of_event, on_spread(&inputs, &y, asked)[0].unwrap()]
     };
     let one = found(1);
     assert!(one.iter().all(|p| *p > 0.0 && *p < 0.1), "{one:?}");

@@ -58,7 +58,7 @@ fn interval(said: &str, name: &str) -> Option<[f64; 2]> {
     let (value, rest) = rest.strip_prefix("explains ").unwrap_or(rest).split_once("% [")?;
     value.parse::<f64>().ok()?;
     let (low, high) = rest.split_once(']')?.0.split_once(", ")?;
-    Some([low, high].map(|end| end.parse::<f64>().expect("a number") / 100.0))
+    Some([low, high].map(|end| end.parse::<f64>().unwrap() / 100.0))
 }
 
 /// The count of `all` cases with the probability `p` that is passed with the probability [`ALPHA`] at most.

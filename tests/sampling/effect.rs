@@ -137,15 +137,15 @@ fn columns_are_of_commands_that_act() {
     let thrust = |text: &str| plan(text).unwrap_or_else(|error| panic!("{text}: {error}")).request().actuated.thrusters;
     assert!(thrust(&arc(0.5)) && !thrust(&arc(1.0)));
     assert!(thrust(&(arc(1.005) + &dispersed("actuators.switch_on_delay_s"))), "early in some draws");
-    assert!(plan(&arc(1.0)).expect("legal").request_over(1.5).actuated.thrusters, "in a longer run");
+    assert!(plan(&arc(1.0)).unwrap().request_over(1.5).actuated.thrusters, "in a longer run");
 }
 
 #[test]
 fn what_a_plan_alone_says_is_noted() {
     let has = |plan: Plan, says: &str| plan.notes().iter().any(|note| note.contains(says));
     let same = "all 9 samples are the nominal scene";
-    assert!(has(plan("").expect("legal"), same));
-    assert!(!has(plan(&dispersed("wheels.w1.radius_m")).expect("legal"), same));
+    assert!(has(plan("").unwrap(), same));
+    assert!(!has(plan(&dispersed("wheels.w1.radius_m")).unwrap(), same));
     for (groups, is_blind) in [
         ("[\"motion\", \"exchange\"]", true),
         ("[\"effort\", \"energies\"]", true),

@@ -39,7 +39,7 @@ fn rate(scene: &SceneInput) -> [f64; 3] {
 /// Statistics*, 2000, 10.4.1): sees a preferred direction.
 fn rayleigh(directions: &[[f64; 3]]) -> f64 {
     let n = directions.len() as f64;
-    let mean: [f64; 3] = std::array::from_fn(|i| directions.iter().map(|d| d[i]).sum::<f64>() / n);
+    let mean: [f64; 3] = from_fn(|i| directions.iter().map(|d| d[i]).sum::<f64>() / n);
     3.0 * n * dot(mean, mean)
 }
 
@@ -267,7 +267,7 @@ fn usual_mistakes_are_caught() {
 
 fn impossible(text: &str, count: u64) -> usize {
     let plan = planned(text);
-    let mut scene = Scene::resolve(&plan.nominal).expect("the nominal scene is physical");
+    let mut scene = Scene::resolve(&plan.nominal).unwrap();
     let refused = draws::seen(&plan, 1..=count, |input, _| scene.resolve_into(input).is_err());
     refused.into_iter().filter(|is_refused| *is_refused).count()
 }
@@ -308,7 +308,7 @@ fn mean_directions_follow_the_axis_in_all_octants() {
     let signs = [-1.0, 1.0];
     let mut axes: Vec<[f64; 3]> =
         signs.iter().flat_map(|x| signs.iter().flat_map(move |y| signs.map(|z| [*x, 2.0 * y, 3.0 * z]))).collect();
-    axes.extend((0..6).map(|k| std::array::from_fn(|i| if i == k / 2 { signs[k % 2] } else { 0.0 })));
+    axes.extend((0..6).map(|k| from_fn(|i| if i == k / 2 { signs[k % 2] } else { 0.0 })));
     let kappa: f64 = 20.0;
     let laws = [
         ("distribution = \"cone\"\nhalf_angle_rad = 0.8\n", 0.5 * (1.0 + libm::cos(0.8))),

@@ -9,7 +9,7 @@ const RUN: u64 = 3;
 
 fn written_again(plan: &Plan, sample: SampleId) -> Plan {
     let mut draws = SceneDraws::new(plan);
-    draws.scene(sample).expect("a physical sample");
+    draws.scene(sample).unwrap();
     let mut again = plan.clone();
     for (column, value) in plan.dispersions.columns().iter().zip(draws.applied()) {
         column.parameter.set(&mut again.nominal, column.component, *value);
@@ -27,16 +27,16 @@ fn recorded_values_written_as_a_nominal_scene_give_the_same_columns() {
     let isa = Isa::best();
     let mut with_attitude = 0;
     for file in files() {
-        let plan = Plan::load(&file, Overrides::default()).expect("a shipped file");
+        let plan = Plan::load(&file, Overrides::default()).unwrap();
         with_attitude += u32::from(plan.dispersions.columns().iter().any(|column| column.parameter.width() == 4));
         for sample in (1..plan.samples.min(SAMPLES + 1)).map(SampleId) {
             let again = written_again(&plan, sample);
-            let drawn = draw(&plan, sample).expect("a physical sample");
-            assert_eq!(draw(&again, SampleId(0)).expect("the same"), drawn, "{} {sample}", file.display());
+            let drawn = draw(&plan, sample).unwrap();
+            assert_eq!(draw(&again, SampleId(0)).unwrap(), drawn, "{} {sample}", file.display());
             // the nominal scene is what flight software knows: another one is another loop
             if sample.0 <= RUN && plan.law.is_none() {
                 let row = |plan, sample| {
-                    let run = SingleRun::new(plan, sample, again.grid.clone(), isa).expect("a physical sample");
+                    let run = SingleRun::new(plan, sample, again.grid.clone(), isa).unwrap();
                     let columns = run.request.columns();
                     let compared =
                         columns.iter().map(|column| !column.quantity.name().starts_with("attitude_from_nominal"));

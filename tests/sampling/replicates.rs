@@ -11,7 +11,7 @@ fn names() -> Vec<String> {
 }
 
 fn designs(replicates: u64) -> [Design; 3] {
-    let replicates = Replicates::of(replicates).expect("a number of replicates");
+    let replicates = Replicates::of(replicates).unwrap();
     [Design::LatinHypercube(replicates), Design::Sobol(replicates), Design::Halton(replicates)]
 }
 
@@ -23,7 +23,7 @@ fn numbers(design: &Design, seed: u64, points: u64) -> Vec<[f64; DIMENSIONS]> {
     for block in 0..=points / BLOCK as u64 {
         source.fill(block, &mut u);
         let lanes = (0..BLOCK).filter(|lane| (1..=points).contains(&(block * BLOCK as u64 + *lane as u64)));
-        found.extend(lanes.map(|lane| std::array::from_fn(|dimension| u[dimension][lane])));
+        found.extend(lanes.map(|lane| from_fn(|dimension| u[dimension][lane])));
     }
     found
 }
@@ -31,7 +31,7 @@ fn numbers(design: &Design, seed: u64, points: u64) -> Vec<[f64; DIMENSIONS]> {
 fn replicates(design: &Design, seed: u64, count: u64) -> Vec<Vec<[f64; DIMENSIONS]>> {
     let mut found = vec![Vec::new(); design.replicates() as usize];
     for (index, numbers) in numbers(design, seed, count * design.replicates()).into_iter().enumerate() {
-        let replicate = design.replicate_of(SampleId(index as u64 + 1)).expect("a dispersed sample");
+        let replicate = design.replicate_of(SampleId(index as u64 + 1)).unwrap();
         found[replicate as usize].push(numbers);
     }
     found
@@ -90,7 +90,7 @@ fn one_replicate_is_the_design() {
     }
     let text = |design: &str| format!("{HEAD}{design}{DISPERSION}");
     for kind in ["latin_hypercube", "sobol", "halton"] {
-        let plan = |extra: &str| read(&text(&format!("[design]\nkind = {kind:?}\n{extra}"))).expect("legal");
+        let plan = |extra: &str| read(&text(&format!("[design]\nkind = {kind:?}\n{extra}"))).unwrap();
         assert_eq!(plan(""), plan("replicates = 1\n"));
         let many = plan("replicates = 16\n");
         let replicates = [0, 1, 16, 17].map(|sample| many.design.replicate_of(SampleId(sample)));

@@ -20,7 +20,7 @@ fn saltelli_replaces_the_numbers_of_one_distribution_together() {
     let scratch = ScratchFolder::new("saltelli-blocks");
     scratch.file("data.csv", "a,b\n0.21,0.11\n0.24,0.12\n0.27,0.14\n0.23,0.13\n0.22,0.15\n");
     let plain = without_draws();
-    let head = &plain[..plain.find("[stop]").expect("a table")];
+    let head = &plain[..plain.find("[stop]").unwrap()];
     let head = head.replace("\nvelocity_m_s = [10, 0, 0]", "\nvelocity_m_s = [0.25, 0.25, 0.25]");
     let scalar = |parameter: &str| {
         format!("[[disperse]]\nparameter = {parameter:?}\ndistribution = \"uniform\"\nhalf_width = 0.01\n")
@@ -85,7 +85,7 @@ fn halton_permutes_the_digits_of_the_radical_inverse() {
         format!("[[disperse]]\nparameter = \"initial.{parameter}\"\ndistribution = \"uniform\"\nmin = 0.0\nmax = 1.0\n")
     };
     let plain = without_draws();
-    let head = plain[..plain.find("[stop]").expect("a table")].replace("samples = 10\n", "samples = 4097\n");
+    let head = plain[..plain.find("[stop]").unwrap()].replace("samples = 10\n", "samples = 4097\n");
     let vectors = ["position_m", "velocity_m_s", "debris_position_m", "debris_velocity_m_s"].map(uniform).concat();
     let (rows, columns) = draws(Path::new(""), &format!("{head}{vectors}[design]\nkind = \"halton\"\n"));
     assert_eq!((rows.len(), columns.len()), (4096, PRIMES.len()));

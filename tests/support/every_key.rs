@@ -35,7 +35,7 @@ pub fn distributions() -> Vec<(&'static str, String)> {
 }
 
 pub fn without_draws() -> String {
-    let at = |header: &str| EVERY_TABLE.find(header).expect("a table of the file");
+    let at = |header: &str| EVERY_TABLE.find(header).unwrap();
     [&EVERY_TABLE[..at("[design]")], &EVERY_TABLE[at("[bands]")..]].concat()
 }
 
@@ -103,7 +103,7 @@ pub fn every_scene() -> Vec<String> {
     const INERTIAL_DEBRIS: &str =
         "debris_attitude_inertial = [1, 0, 0, 0]\ndebris_angular_velocity_rad_s = [0.01, 0.02, 0.03]\n";
     let plain = without_draws();
-    let (debris, initial) = (plain.find("[debris]").expect("a debris"), plain.find("[initial]").expect("a state"));
+    let (debris, initial) = (plain.find("[debris]").unwrap(), plain.find("[initial]").unwrap());
     let arc = "[[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\nthrust_n = { p1 = 3.0 }\n";
     let with = |body: &str, part: &str, debris_keys: &str| {
         let text = format!("{}[debris]\n{debris_keys}\n{}{arc}", &plain[..debris], &plain[initial..]);

@@ -62,7 +62,7 @@ fn flights(count: usize, propagate: impl FnOnce(&mut dyn FnMut(CompletedRun<'_>)
         let run = Run { table: table.clone(), outcome: *outcome };
         flights[index] = Some(Flight { run, arcs: arcs.to_vec() });
     });
-    flights.into_iter().map(|flight| flight.expect("every run is handed over")).collect()
+    flights.into_iter().map(|flight| flight.unwrap()).collect()
 }
 
 pub fn fly_under(laws: &mut dyn LawSource, isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Flight> {

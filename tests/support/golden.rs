@@ -38,8 +38,8 @@ impl Golden {
     pub fn load(name: &str) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.json"));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let file: Value = serde_json::from_str(&text).expect("golden files are JSON");
-        let truth = file["truth"].as_array().expect("truth is a list").iter().map(row).collect();
+        let file: Value = serde_json::from_str(&text).unwrap();
+        let truth = file["truth"].as_array().unwrap().iter().map(row).collect();
         Golden { scene: scene(&file["scene"]), truth }
     }
 
@@ -50,7 +50,7 @@ impl Golden {
 
 fn number(value: &Value) -> f64 {
     match value {
-        Value::String(digits) => digits.parse().expect("a decimal number"),
+        Value::String(digits) => digits.parse().unwrap(),
         other => other.as_f64().unwrap_or_else(|| panic!("not a number: {other}")),
     }
 }
@@ -91,7 +91,7 @@ fn scene(scene: &Value) -> SceneInput {
         wheel.angle_rad = angles[i];
     }
     let mut start_s = 0.0;
-    let actuation = scene["segments"].as_array().expect("segments is a list").iter().map(|segment| {
+    let actuation = scene["segments"].as_array().unwrap().iter().map(|segment| {
         let interval = ActuationInput::idle(start_s, number(&segment["until"]))
             .with_thrust(&numbers::<3>(&segment["thrust"]))
             .with_torque(&numbers::<2>(&segment["torque"]));

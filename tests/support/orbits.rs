@@ -61,7 +61,7 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
             })
             .collect();
         let epoch = Epoch::parse("2026-06-01T00:00:00Z");
-        input.orbit.as_mut().expect("an orbit").epoch = epoch;
+        input.orbit.as_mut().unwrap().epoch = epoch;
         input.environment = EnvironmentInput {
             drag: true,
             solar_pressure: true,
@@ -80,7 +80,7 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
 pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Scene> {
     let mut u = Uniform::new(seed + 2);
     let magnetic = |(k, mut input): (usize, SceneInput)| {
-        input.orbit.as_mut().expect("an orbit").epoch = Epoch::parse("2026-06-01T00:00:00Z");
+        input.orbit.as_mut().unwrap().epoch = Epoch::parse("2026-06-01T00:00:00Z");
         input.environment = EnvironmentInput {
             magnetic_field: Some(if k.is_multiple_of(2) { FieldModel::Igrf } else { FieldModel::Dipole }),
             magnetic_dipole_a_m2: Some(u.vector(10.0)),

@@ -56,7 +56,7 @@ fn array(physical: Type, cells: Vec<Field>) -> ArrayRef {
 
 pub fn schema(reader: &SerializedFileReader<File>) -> Schema {
     let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
-    let entry = pairs.iter().find(|pair| pair.key == "ARROW:schema").expect("Arrow's schema");
-    let bytes = STANDARD.decode(entry.value.as_ref().expect("a value")).unwrap();
+    let entry = pairs.iter().find(|pair| pair.key == "ARROW:schema").unwrap();
+    let bytes = STANDARD.decode(entry.value.as_ref().unwrap()).unwrap();
     try_schema_from_ipc_buffer(&bytes).unwrap()
 }

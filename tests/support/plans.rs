@@ -37,7 +37,7 @@ pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
 
 pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
     let folder = root().join("campaigns");
-    let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a shipped campaign") + tables;
+    let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap() + tables;
     let overrides = Overrides { samples, ..Overrides::default() };
     Plan::from_text_in(&folder, name, &text, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -75,7 +75,7 @@ impl<T: Send, S: Fn(&Rows, usize) -> T + Sync> Sink for Seen<S, T> {
 
     fn take(&self, rows: &Rows) -> Result<(), Infallible> {
         let of_row = |(row, sample): (usize, SampleId)| (sample.0, (self.0)(rows, row));
-        self.1.lock().expect("no other thread panicked").extend(rows.part().samples().enumerate().map(of_row));
+        self.1.lock().unwrap().extend(rows.part().samples().enumerate().map(of_row));
         Ok(())
     }
 }
@@ -87,8 +87,8 @@ pub fn seen<T: Send>(
 ) -> Vec<(u64, T)> {
     let sink = Seen(see, Mutex::default());
     let threads = threads.and_then(NonZeroUsize::new);
-    run(campaign, Parts::of(campaign.plan().samples), threads, &sink, Supervision::progress(&|_| {})).expect("threads");
-    let mut seen = sink.1.into_inner().expect("no thread panicked");
+    run(campaign, Parts::of(campaign.plan().samples), threads, &sink, Supervision::progress(&|_| {})).unwrap();
+    let mut seen = sink.1.into_inner().unwrap();
     seen.sort_by_key(|(sample, _)| *sample);
     seen
 }

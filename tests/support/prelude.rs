@@ -47,6 +47,7 @@ pub use spindrift::{
     workflow::{Campaign, Quiet, Results, Session},
 };
 pub use std::{
+    array::from_fn,
     collections::{BTreeMap, BTreeSet, HashMap},
     f64::consts::PI,
     fs::{self, File},

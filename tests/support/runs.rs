@@ -80,7 +80,7 @@ pub const METHODS: [(Method, Control); 7] = [
 ];
 
 pub fn control_of(method: Method) -> Control {
-    METHODS.into_iter().find(|(known, _)| *known == method).expect("every method").1
+    METHODS.into_iter().find(|(known, _)| *known == method).unwrap().1
 }
 
 pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> Vec<Run> {
@@ -89,7 +89,7 @@ pub fn propagate_on(isa: Isa, plan: &PropagationSettings, scenes: &[Scene]) -> V
         let before = runs[index].replace(Run { table: table.clone(), outcome: *outcome });
         assert!(before.is_none(), "run {index} was completed twice");
     });
-    runs.into_iter().map(|run| run.expect("every run is completed")).collect()
+    runs.into_iter().map(|run| run.unwrap()).collect()
 }
 
 pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]) -> Vec<Run> {

@@ -76,7 +76,7 @@ pub fn keep_wheels(input: &mut SceneInput, present: [bool; 2]) {
 }
 
 pub fn of_most_wheels(scenes: &[Scene]) -> &Scene {
-    scenes.iter().max_by_key(|scene| scene.mass.wheels.len()).expect("there are scenes")
+    scenes.iter().max_by_key(|scene| scene.mass.wheels.len()).unwrap()
 }
 
 pub fn random(kind: Kind, seed: u64, horizon: f64) -> SceneInput {
@@ -188,7 +188,7 @@ pub fn mixed_kind(k: u64, forced: bool) -> Kind {
 
 pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
     let input = |k: u64| random(mixed_kind(k, forced), 1000 + k, horizon);
-    (0..count).map(|k| Scene::resolve(&input(k)).expect("random scenes are physical")).collect()
+    (0..count).map(|k| Scene::resolve(&input(k)).unwrap()).collect()
 }
 
 /// Numbers of wheels of [`many_wheels`].

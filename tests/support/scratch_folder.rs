@@ -176,8 +176,8 @@ pub fn column(rows: &[RecordBatch], name: &str) -> Vec<f64> {
 
 pub fn ended(rows: &[RecordBatch]) -> Vec<(u64, String)> {
     let statuses = rows.iter().flat_map(|batch| {
-        let statuses = batch.column_by_name("status").expect("statuses").as_string::<i32>();
-        statuses.iter().map(|status| status.expect("a status").to_owned()).collect::<Vec<_>>()
+        let statuses = batch.column_by_name("status").unwrap().as_string::<i32>();
+        statuses.iter().map(|status| status.unwrap().to_owned()).collect::<Vec<_>>()
     });
     column(rows, "sample_id").into_iter().map(|sample| sample as u64).zip(statuses).collect()
 }

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 fn said(scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, String) {
-    let output = command.current_dir(&scratch.0).env("COLUMNS", "80").output().expect("the program runs");
+    let output = command.current_dir(&scratch.0).env("COLUMNS", "80").output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     assert_eq!(output.status.code(), Some(code), "{command:?}\n{out}{err}");
     (out.clone(), out + &err)
@@ -30,7 +30,7 @@ fn a_campaign_fits_a_screen() {
         assert!(out.starts_with(question), "{name}:\n{out}");
 
         let summary = scratch.summary(&format!("results/{name}"));
-        let list = summary["requirements"]["list"].as_array().expect("requirements");
+        let list = summary["requirements"]["list"].as_array().unwrap();
         let count = |word: &str| list.iter().filter(|one| one["verdict"] == word).count();
         let counted = ["PASS", "FAIL", "UNDECIDED"].map(|word| (count(word), word));
         let counted = counted.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}"));
@@ -99,7 +99,7 @@ fn colour_adds_only_itself() {
     let plain = |text: &str| {
         let mut rest = text.split('\x1b');
         let first = rest.next().unwrap_or_default().to_owned();
-        rest.fold(first, |text, part| text + part.split_once('m').expect("a code ends").1)
+        rest.fold(first, |text, part| text + part.split_once('m').unwrap().1)
     };
     for (arguments, code, word) in [
         ("campaign mine.toml --out r", 0, "\x1b[32m\x1b[1mPASS\x1b[0m"),
@@ -151,7 +151,7 @@ fn the_worst_campaigns_fit_a_screen() {
     let out = run("net_launch", "--samples 3 --out three --no-report", 5);
     assert!(out.contains("6 UNDECIDED"), "{out}");
     let out = run("net_launch", "--samples 1 --out one --no-report", 5);
-    let value = out.lines().find(|line| line.contains("total impulse, N s")).expect("an outcome");
+    let value = out.lines().find(|line| line.contains("total impulse, N s")).unwrap();
     let impulse = column(&scratch.rows("one"), "impulse_total_n_s")[0];
     let numbers: Vec<f64> = value.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     assert!(numbers.len() == 1 && (numbers[0] / impulse - 1.0).abs() < 6e-3 && !out.contains("driver"), "{out}");

@@ -12,7 +12,7 @@ fn printed_commands_are_quoted() {
         scratch.outputs(scratch.command("").args(all), 0)
     };
     let said = run(&["r out", "--threads", "1", "--verbose"]);
-    let printed = said.lines().find_map(|line| Some(line.split_once("spindrift simulate ")?.1)).expect("a command");
+    let printed = said.lines().find_map(|line| Some(line.split_once("spindrift simulate ")?.1)).unwrap();
     assert!(printed.starts_with("'r out/plan.toml' --sample "), "{said}");
     let said = run(&["s out", "--shard", "1/1"]);
     assert!(said.contains("spindrift finish 's out'\n"), "{said}");

@@ -9,7 +9,7 @@ fn every_column_is_shown() {
     let scratch = folder("all-columns");
     let wide = |arguments: &str| scratch.prints_wide(arguments, 0);
     let both = wide("columns --verbose");
-    let (all, of_loops) = both.split_once("\ncontrol loop\n").expect("columns of loops");
+    let (all, of_loops) = both.split_once("\ncontrol loop\n").unwrap();
     assert_eq!(of_loops.lines().count(), OutcomeColumns::of_all_loops().len());
     let (mut group, mut shown) = ("", 0);
     for line in all.lines().filter(|line| !line.is_empty()) {
@@ -47,7 +47,7 @@ fn groups_are_listed_with_their_columns() {
         let mut counts = Vec::new();
         for line in all.lines().filter(|line| !line.is_empty()) {
             if line.starts_with("  ") {
-                *counts.last_mut().expect("a title") += 1;
+                *counts.last_mut().unwrap() += 1;
             } else {
                 titles.push(line);
                 counts.push(0);
@@ -55,7 +55,7 @@ fn groups_are_listed_with_their_columns() {
         }
         for (title, count) in titles.iter().zip(&counts) {
             let line = said.lines().find(|line| line.trim_start().starts_with(&format!("{title}  "))).expect(title);
-            let about = line.trim_start().strip_prefix(title).expect("a title").trim_start();
+            let about = line.trim_start().strip_prefix(title).unwrap().trim_start();
             assert!(about.starts_with(&format!("{count}  ")) && about.len() > 10, "{line}");
         }
         let sum = format!("{} columns in all", counts.iter().sum::<usize>());
@@ -113,13 +113,13 @@ fn columns_of_loops_are_found() {
         ("pointing_error_launch_rad", "(needs debris, and a phase with next = \"launch\")"),
     ] {
         let (_, after) = words.split_once(name).expect(name);
-        assert!(after[..after.find(')').expect("a need") + 1].ends_with(need), "{name}: {said}");
+        assert!(after[..after.find(')').unwrap() + 1].ends_with(need), "{name}: {said}");
     }
     let known = OutcomeColumns::of_all_loops();
     let mut seen = std::collections::BTreeSet::new();
     for name in ["net_launch", "slew_closed", "detumble", "no_debris", "detumble_magnetic"] {
         let file = format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let plan = Plan::load(file.as_ref(), Overrides::default()).expect("a campaign");
+        let plan = Plan::load(file.as_ref(), Overrides::default()).unwrap();
         let Some(spec) = plan.law.as_ref().and_then(|law| law.spec()) else { continue };
         let names =
             |list: &[spindrift::scene::Name]| list.iter().map(|name| name.as_str().to_owned()).collect::<Vec<_>>();

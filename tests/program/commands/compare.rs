@@ -41,7 +41,7 @@ fn results_are_compared() {
 
     scratch.prints("compare a nothing", 2);
     scratch.prints("compare a b --tolerance -1", 2);
-    std::fs::write(scratch.path("b/runs/part-000001.parquet"), "damaged").expect("written");
+    std::fs::write(scratch.path("b/runs/part-000001.parquet"), "damaged").unwrap();
     scratch.shows("compare a b", 4, "part-000001.parquet");
 }
 
@@ -94,11 +94,11 @@ fn compared(scratch: &ScratchFolder, first: &str, second: &str) -> Value {
 
 fn ended_with(scratch: &ScratchFolder, first: &str, second: &str, code: i32) -> Value {
     scratch.prints(&format!("compare {first} {second} --out c.json"), code);
-    serde_json::from_str(&scratch.text("c.json")).expect("JSON")
+    serde_json::from_str(&scratch.text("c.json")).unwrap()
 }
 
 fn row<'v>(compared: &'v Value, name: &str) -> &'v Value {
-    let rows = compared["observables"].as_array().expect("rows");
+    let rows = compared["observables"].as_array().unwrap();
     rows.iter().find(|row| row["observable"] == name).unwrap_or_else(|| panic!("no row {name}"))
 }
 
@@ -117,7 +117,7 @@ fn equal_differences_have_equal_ranks() {
     let above = rates[1..].iter().filter(|rate| **rate > 0.1).count() as f64;
     let expected = libm::erfc((2.0 * above - 599.0).abs() / libm::sqrt(2.0 * 599.0));
     let compared = compared(&scratch, "none", "signs");
-    let found = row(&compared, "sign")["p_value_moved"].as_f64().expect("a p-value");
+    let found = row(&compared, "sign")["p_value_moved"].as_f64().unwrap();
     // rounding of sums of 599 ranks
     assert!((1e-6..0.9).contains(&expected) && (found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
 }
@@ -138,8 +138,8 @@ fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
     let compared = compared(&scratch, "first", "second");
     assert_eq!(compared["pairs"], 0);
     let (mut checked, mut changed) = (0, 0);
-    for row in compared["observables"].as_array().expect("rows") {
-        let name = row["observable"].as_str().expect("a name");
+    for row in compared["observables"].as_array().unwrap() {
+        let name = row["observable"].as_str().unwrap();
         let p_value = |statuses: &[&str]| {
             let [first, second] = [0, 1].map(|which| {
                 let numbers = column(&rows[which], name).into_iter().zip(&ended[which]);
@@ -150,7 +150,7 @@ fn inaccurate_runs_have_no_part_in_the_test_of_distributions() {
                 values.sort_by(f64::total_cmp);
                 values
             });
-            kolmogorov_smirnov(&first, &second).expect("values of both").1
+            kolmogorov_smirnov(&first, &second).unwrap().1
         };
         let expected = p_value(&["ok"]);
         assert_eq!(row["p_value_distribution"].as_f64(), Some(expected), "{name}");
@@ -170,7 +170,7 @@ fn planted_shifts_are_found_by_pairs() {
     let pairs = compared(&scratch, &base, &moved);
     let rate = row(&pairs, "rate");
     assert_eq!((&pairs["pairs"], &pairs["compared_as"]), (&Value::from(599), &Value::from("pairs")));
-    let number = |key: &str| rate[key].as_f64().expect("a number");
+    let number = |key: &str| rate[key].as_f64().unwrap();
     assert!((number("mean_shift") - 0.01).abs() < 1e-15 && number("adjusted_p_value_moved") < 1e-9, "{rate}");
     assert_eq!(
         (&rate["is_moved"], &rate["is_shifted"], &rate["is_required"], &rate["differing_pairs"]),
@@ -183,7 +183,7 @@ fn planted_shifts_are_found_by_pairs() {
     let independent = compared(&scratch, &base, &other);
     let rate = row(&independent, "rate");
     assert_eq!((&independent["pairs"], &rate["is_shifted"]), (&0.into(), &0.into()));
-    assert!((rate["mean_shift"].as_f64().expect("a number") - 0.01).abs() < 4.0 * 0.029, "{rate}");
+    assert!((rate["mean_shift"].as_f64().unwrap() - 0.01).abs() < 4.0 * 0.029, "{rate}");
 
     for (results, tolerance, mark, code) in [
         (format!("{base} {far}"), "", "WORSE", 3),
@@ -191,7 +191,7 @@ fn planted_shifts_are_found_by_pairs() {
         (format!("{far} {base}"), "", "BETTER", 0),
     ] {
         let said = scratch.prints(&format!("compare {results}{tolerance}"), code);
-        let verdict = said.lines().find(|line| line.contains(mark)).expect("a verdict that differs");
+        let verdict = said.lines().find(|line| line.contains(mark)).unwrap();
         assert!(verdict.contains("PASS") && verdict.contains("FAIL") && verdict.contains("rate"), "{verdict}");
         assert_eq!(said.contains("FAIL: 1 verdict is worse than before"), code == 3, "{said}");
     }
@@ -199,7 +199,7 @@ fn planted_shifts_are_found_by_pairs() {
     assert_eq!(worse["requirements"][0]["is_worse"], true);
     assert_eq!(row(&worse, "rate")["is_shifted"], 1);
     for compared in [&pairs, &independent, &worse] {
-        let rows = compared["observables"].as_array().expect("rows");
+        let rows = compared["observables"].as_array().unwrap();
         assert_eq!(rows[0]["observable"], "rate");
         let key = |row: &Value, key: &str| row[key].as_f64();
         for pair in rows[1..].windows(2) {
@@ -220,10 +220,10 @@ fn comparisons_are_files() {
     let [base, moved] = [(0.0, 7), (0.01, 7)].map(|(nominal, seed)| with_rate(&scratch, nominal, seed, 60));
     let compared = compared(&scratch, &base, &moved);
     scratch.prints(&format!("compare {base} {moved} --out c.parquet"), 0);
-    let (rows, table) = (compared["observables"].as_array().expect("rows"), scratch.table("c.parquet"));
+    let (rows, table) = (compared["observables"].as_array().unwrap(), scratch.table("c.parquet"));
     let statistics = scratch.table(&format!("{base}/statistics.parquet")).num_rows();
     assert_eq!((rows.len(), table.num_rows()), (statistics, statistics));
-    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
     for name in
         ["adjusted_p_value", "mean_shift", "mean_first", "mean_second", "standard_deviation_second", "p95_first"]
     {
@@ -234,7 +234,7 @@ fn comparisons_are_files() {
         }
     }
     let keys: Vec<&str> =
-        compared["differing_keys"].as_array().expect("keys").iter().filter_map(|key| key["key"].as_str()).collect();
+        compared["differing_keys"].as_array().unwrap().iter().filter_map(|key| key["key"].as_str()).collect();
     assert!(keys.contains(&"initial.angular_velocity_rad_s"), "{keys:?}");
     for path in ["c.csv".to_owned(), "c".to_owned(), format!("{base}/c.json"), format!("{moved}/c.json")] {
         scratch.prints(&format!("compare {base} {moved} --out {path}"), 2);
@@ -252,20 +252,20 @@ fn verdicts_and_scales_are_those_of_their_result() {
     scratch.prints("campaign wide.toml --out wide --no-report", 3);
     let deviation = |result: &str| {
         let table = scratch.table(&format!("{result}/statistics.parquet"));
-        let names = table.column_by_name("observable").expect("names").as_string::<i32>();
-        let row = names.iter().position(|name| name == Some("exchange_w1_peak_to_peak_j")).expect("a row");
+        let names = table.column_by_name("observable").unwrap().as_string::<i32>();
+        let row = names.iter().position(|name| name == Some("exchange_w1_peak_to_peak_j")).unwrap();
         floats(&table, "standard_deviation")[row]
     };
     for (first, second) in [("plain", "wide"), ("wide", "plain")] {
         let found = compared(&scratch, first, second);
-        let verdicts = &found["requirements"].as_array().expect("a list")[..];
+        let verdicts = &found["requirements"].as_array().unwrap()[..];
         let [verdict] = verdicts else { panic!("{verdicts:?}") };
         let expected =
             if first == "wide" { [Value::from("FAIL"), Value::Null] } else { [Value::Null, Value::from("FAIL")] };
         assert_eq!([&verdict["first"], &verdict["second"]], [&expected[0], &expected[1]], "{first}, {second}");
         let row = row(&found, "exchange_w1_peak_to_peak_j");
         let number = |name: &str| row[name].as_f64().unwrap_or_else(|| panic!("{name}"));
-        let statistic = row["largest_shift_of"].as_str().expect("a name").replace([' ', '.'], "_");
+        let statistic = row["largest_shift_of"].as_str().unwrap().replace([' ', '.'], "_");
         let [before, after] = ["first", "second"].map(|side| number(&format!("{statistic}_{side}")));
         let expected = (after - before).abs() / deviation(first);
         assert!((number("largest_shift") - expected).abs() < 1e-9 * expected, "{first}, {second}: {row}");

@@ -44,7 +44,7 @@ fn a_comparison_fits_a_screen() {
         let row = |begin: &str| said.lines().find(|line| line.trim_start().starts_with(begin)).expect(begin);
         let mut lines =
             said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end <= 2000 deg/s in 90%"));
-        let verdict = lines.nth(1).expect("the verdicts");
+        let verdict = lines.nth(1).unwrap();
         assert!(verdict.ends_with(mark) && verdict.contains("PASS") && verdict.contains("FAIL"), "{said}");
         let (_, found) = template(verdict);
         assert_eq!(found.len(), 2, "{verdict}");
@@ -55,7 +55,7 @@ fn a_comparison_fits_a_screen() {
         assert!(key.contains(" 1800] deg/s") && key.contains(" 2062.6] deg/s"), "{key}");
         let mut outcome = said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end, deg/s"));
         let outcome = &outcome.by_ref().take(2).collect::<Vec<_>>().join(" ");
-        let (_, found) = template(outcome.split_once("deg/s").expect("a unit").1);
+        let (_, found) = template(outcome.split_once("deg/s").unwrap().1);
         let means = of.map(|values| mean(values) * DEGREES);
         let known = [means[0], means[1], means[1] - means[0]];
         let [first, second, shift, low, high, ..] = found[..] else { panic!("{outcome}") };
@@ -63,13 +63,13 @@ fn a_comparison_fits_a_screen() {
             assert!((found - known).abs() <= 6e-3 * known.abs(), "{outcome}: {known:?}");
         }
         assert!(low <= known[2] && known[2] <= high, "{outcome}");
-        let file: Value = serde_json::from_str(&scratch.text("c.json")).expect("JSON");
-        let observables = file["observables"].as_array().expect("observables");
+        let file: Value = serde_json::from_str(&scratch.text("c.json")).unwrap();
+        let observables = file["observables"].as_array().unwrap();
         let shifted = observables.iter().filter(|one| one["is_shifted"] == 1).count() as f64;
         let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(numbers(&words, "# of # columns are shifted"), [shifted, observables.len() as f64], "{said}");
         assert!(words.contains("compared sample by sample: 599 samples drawn alike"), "{said}");
-        let last = said.lines().last().expect("lines");
+        let last = said.lines().last().unwrap();
         let verdict = ["PASS: 1 verdict is better, none is worse", "FAIL: 1 verdict is worse than before"];
         assert_eq!(last, verdict[usize::from(code == 3)]);
     }
@@ -87,28 +87,28 @@ fn the_screen_is_the_file() {
         }
         let command = format!("compare {first} {second} --verbose --tolerance 0.01 --out c.json");
         let said = scratch.prints_at(&command, 3, 250);
-        let found: Value = serde_json::from_str(&scratch.text("c.json")).expect("JSON");
+        let found: Value = serde_json::from_str(&scratch.text("c.json")).unwrap();
         let [of_first, of_second] = runs(&scratch, [first, second]);
         for (name, known) in [(first, of_first), (second, of_second)] {
             assert_eq!(numbers(&said, &format!("{name}, # of # runs ok")), known);
         }
-        let observables = found["observables"].as_array().expect("observables");
+        let observables = found["observables"].as_array().unwrap();
         let count = |is: &dyn Fn(&Value) -> bool| observables.iter().filter(|one| is(one)).count() as f64;
         let shifted = count(&|one| one["is_shifted"] == 1);
         assert_eq!(numbers(&said, "# of # columns are shifted"), [shifted, observables.len() as f64]);
         assert_eq!(numbers(&said, "p adjusted for # tests")[0], count(&|one| !one["p_value"].is_null()));
-        let (head, table) = said.split_once("\n  column ").expect("a table");
-        for key in found["differing_keys"].as_array().expect("keys") {
-            assert!(head.contains(key["key"].as_str().expect("a key")), "{key} in:\n{head}");
+        let (head, table) = said.split_once("\n  column ").unwrap();
+        for key in found["differing_keys"].as_array().unwrap() {
+            assert!(head.contains(key["key"].as_str().unwrap()), "{key} in:\n{head}");
         }
         let rows: Vec<&str> = table.lines().skip(1).take_while(|line| line.starts_with("  ")).collect();
         for line in &rows {
             let text = line.trim_start();
-            let name = text.split([' ', ',']).next().expect("a name");
+            let name = text.split([' ', ',']).next().unwrap();
             let one = observables.iter().find(|one| one["observable"] == name).unwrap_or_else(|| panic!("{name}"));
             let unit = text.strip_prefix(name).and_then(|rest| rest.strip_prefix(", "));
             let unit = unit.and_then(|rest| rest.split("  ").next()).unwrap_or("");
-            let size = match (one["unit"].as_str().expect("a unit"), unit) {
+            let size = match (one["unit"].as_str().unwrap(), unit) {
                 ("rad", "deg") | ("rad/s", "deg/s") => DEGREES,
                 ("rad/s", "rpm") => 30.0 / std::f64::consts::PI,
                 (own, shown) => {
@@ -131,7 +131,7 @@ fn the_screen_is_the_file() {
             };
             assert_eq!(found.len(), known.len(), "{line}: {known:?}");
             assert!(found.iter().zip(&known).enumerate().all(is_same), "{line}: {known:?}");
-            assert!(line.contains(&format!(" {} by ", one["largest_shift_of"].as_str().expect("a name"))), "{line}");
+            assert!(line.contains(&format!(" {} by ", one["largest_shift_of"].as_str().unwrap())), "{line}");
             assert_eq!(line.contains("(beyond)"), known.last() > Some(&0.01), "{line}");
             let word = if one["is_shifted"] == 1 { "shifted," } else { "within chance," };
             assert!(line.contains(if is_moved { "moved," } else { word }), "{line}");
@@ -165,7 +165,7 @@ fn different_campaigns_are_named() {
     }
     let said = scratch.prints_wide("compare one two", 0);
     assert!(said.starts_with("different campaigns: one and two\nbefore: one"), "{said}");
-    let row = said.lines().find(|line| line.contains("initial.angular_velocity_rad_s")).expect("the key");
+    let row = said.lines().find(|line| line.contains("initial.angular_velocity_rad_s")).unwrap();
     assert!(row.contains("10] deg/s") && row.contains("14.324] deg/s"), "{row}");
     assert!(scratch.prints_wide("compare one one", 0).starts_with("before: one"));
 }

@@ -21,7 +21,7 @@ fn exit_codes() {
     let [equal, constant] = ["if(initial.angular_velocity_rad_s.x > 1e9, 1, 0)", "0"].map(derived);
     let stuck = campaign().replace("tolerance = 1e-10", "tolerance = 1e-10\nmax_steps = 1");
     let thin = campaign() + NEGATIVE_WALLS;
-    fs::create_dir(scratch.path("foreign")).expect("a folder");
+    fs::create_dir(scratch.path("foreign")).unwrap();
     scratch.file("foreign/thesis.tex", "precious");
     let cases: &[(&str, String, &str, i32)] = &[
         ("done", campaign(), "", 0),
@@ -54,13 +54,13 @@ fn exit_codes() {
             }
         }
     }
-    assert_eq!(fs::read_dir(scratch.path("foreign")).expect("a folder").count(), 1);
+    assert_eq!(fs::read_dir(scratch.path("foreign")).unwrap().count(), 1);
 }
 
 #[test]
 fn a_missing_result_is_bad_input() {
     let scratch = folder("no-result");
-    fs::create_dir(scratch.path("empty")).expect("a folder");
+    fs::create_dir(scratch.path("empty")).unwrap();
     scratch.file("file", "no result");
     scratch.small("--samples 20 --out there", 0);
     for missing in ["absent", "empty", "file"] {
@@ -89,7 +89,7 @@ fn a_missing_result_is_bad_input() {
 fn what_is_in_the_way_is_named() {
     let scratch = folder("in-the-way");
     scratch.file("file", "precious");
-    fs::create_dir_all(scratch.path("all/index.html")).expect("a folder");
+    fs::create_dir_all(scratch.path("all/index.html")).unwrap();
     scratch.small("--samples 20 --out all/one", 0);
     for (command, said) in [
         ("new file", "is there already, and is not replaced"),

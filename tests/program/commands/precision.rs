@@ -14,15 +14,15 @@ fn errors_follow_the_settings() {
     let wall = start.elapsed().as_secs_f64();
     assert!(said.contains("3 samples") && said.contains("us/run"), "{said}");
     let table = scratch.table("p/precision.parquet");
-    let head = said.lines().position(|line| line.starts_with("method ")).expect("heads");
-    let heads: Vec<&str> = said.lines().nth(head).expect("heads").split_whitespace().collect();
+    let head = said.lines().position(|line| line.starts_with("method ")).unwrap();
+    let heads: Vec<&str> = said.lines().nth(head).unwrap().split_whitespace().collect();
     let lines = said.lines().skip(head + 1).filter(|line| !line.starts_with(' '));
     for (row, line) in lines.take(table.num_rows()).enumerate() {
         let words: Vec<&str> = line.split_whitespace().collect();
         let number = |name: &str| floats(&table, name)[row];
         let settings = [number("tolerance"), number("step_s")];
         for (head, known) in [
-            ("setting", settings.into_iter().find(|value| !value.is_nan()).expect("one")),
+            ("setting", settings.into_iter().find(|value| !value.is_nan()).unwrap()),
             ("us/run", 1e6 * number("cpu_s")),
             ("runs/s", 1.0 / number("cpu_s")),
             ("steps", number("steps_mean")),
@@ -32,7 +32,7 @@ fn errors_follow_the_settings() {
             ("momentum", number("angular_momentum_error_max")),
         ] {
             let place = heads.iter().position(|other| *other == head).expect(head);
-            let found: f64 = words[place].trim_end_matches('s').parse().expect("a number");
+            let found: f64 = words[place].trim_end_matches('s').parse().unwrap();
             let rounding = if head == "steps" { 0.5 } else { 0.0 };
             assert!((found - known).abs() <= 0.051 * known.abs() + rounding, "{head} {found} for {known}: {line}");
         }
@@ -68,7 +68,7 @@ fn no_setting_is_lost() {
         let skipped: Vec<(&str, usize)> = said
             .lines()
             .filter_map(|line| line.strip_prefix("skipped: ")?.split_once(" at "))
-            .map(|(method, rest)| (method, rest.split(':').next().expect("settings").split(", ").count()))
+            .map(|(method, rest)| (method, rest.split(':').next().unwrap().split(", ").count()))
             .collect();
         let rows = batches(&scratch.path("p/precision.parquet"));
         let of_rows = |method: &str| {

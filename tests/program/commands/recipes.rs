@@ -11,7 +11,7 @@ const PYTHON: &str = "SPINDRIFT_PYTHON";
 fn recipes() -> Vec<String> {
     let path = root().join("docs/results.md");
     let text = std::fs::read_to_string(path).unwrap();
-    let section = text.split("\n## ").find(|section| section.starts_with("Recipes")).expect("a section of recipes");
+    let section = text.split("\n## ").find(|section| section.starts_with("Recipes")).unwrap();
     let blocks = section.split("```python\n").skip(1);
     blocks.map(|block| block.split("```").next().unwrap_or_default().to_owned()).collect()
 }
@@ -42,8 +42,8 @@ fn recipes_give_the_numbers_of_the_rows() {
     }
     errors.sort_by(f64::total_cmp);
 
-    let bands = bands_file::read(reader.store(), reader.bands(), None).unwrap().expect("bands");
-    let wheel = bands.find("exchange_w1_j").expect("bands of wheel 1");
+    let bands = bands_file::read(reader.store(), reader.bands(), None).unwrap().unwrap();
+    let wheel = bands.find("exchange_w1_j").unwrap();
     let p95 = (0..bands.times().len()).filter_map(|point| bands.quantile(wheel, point, 0.95)).fold(0.0, f64::max);
 
     let python = std::env::var(PYTHON).unwrap_or_else(|_| "python3".to_owned());
@@ -76,7 +76,7 @@ fn the_summary_has_the_keys_of_its_document() {
     let summary: serde_json::Value = serde_json::from_str(&written).unwrap();
     let path = root().join("docs/results.md");
     let document = std::fs::read_to_string(path).unwrap();
-    let section = document.split("\n### ").find(|section| section.starts_with("summary.json")).expect("a section");
+    let section = document.split("\n### ").find(|section| section.starts_with("summary.json")).unwrap();
     let section = section.split("\n## ").next().unwrap_or_default();
     let cells = section.lines().filter_map(|line| line.strip_prefix("| `")?.split(" | ").next());
     let keys: Vec<&str> = cells.flat_map(|cell| cell.split(", ")).map(|key| key.trim_matches('`')).collect();

@@ -47,10 +47,10 @@ fn sample_draws_the_rows_of_the_campaign() {
         let said = scratch.prints(&format!("sample thin.toml --sample {sample}{options}"), 0);
         assert!(said.contains("initial.angular_velocity_rad_s.x") && said.contains(line), "{line} in:\n{said}");
         let said = scratch.prints(&format!("simulate thin.toml --sample {sample}{options}"), 0);
-        let of_row = said.lines().find(|line| line.starts_with("initial.angular_velocity_rad_s.x")).expect("a line");
+        let of_row = said.lines().find(|line| line.starts_with("initial.angular_velocity_rad_s.x")).unwrap();
         let words: Vec<&str> = of_row.split_whitespace().collect();
         assert!(words[1].len() <= 11 && words[2] == shown && words[3..] == ["nominal", "0", shown], "{of_row}");
-        let found: f64 = words[1].parse().expect("a number");
+        let found: f64 = words[1].parse().unwrap();
         assert!((found / (value * factor) - 1.0).abs() < 1e-5, "{found} of {value}");
     }
     scratch.shows(&format!("sample thin.toml --sample {sample}"), 0, "principal_moment_largest_kg_m2");
@@ -68,7 +68,7 @@ fn check_has_no_line_about_what_is_not_there() {
     let said = scratch.prints_wide("check bare.toml --verbose", 0);
     assert!(said.contains("inertia of the spacecraft about its centre of mass"), "{said}");
     assert!(said.contains("angular velocity of the body: ") && said.contains("attitude quaternion: "), "{said}");
-    let listed = said.split("== Mass properties").nth(1).expect("mass properties");
+    let listed = said.split("== Mass properties").nth(1).unwrap();
     for absent in ["wheel", "debris", "thrust", "actuat", "impulse", "null_space", "there is no"] {
         let line = listed.lines().find(|line| line.contains(absent) && !line.starts_with("observed groups"));
         assert_eq!(line, None, "{said}");
@@ -138,7 +138,7 @@ fn check_fits_a_screen() {
         assert_fits(&said, 48, 80);
         assert!(said.lines().take(4).any(|line| line.starts_with(&format!("{name}: "))), "{said}");
         assert!(said.lines().last().is_some_and(|line| line.starts_with("--verbose: ")), "{said}");
-        let plan = Plan::load(&file, Overrides::default()).expect("valid");
+        let plan = Plan::load(&file, Overrides::default()).unwrap();
         let mut columns = plan.dispersions.columns().iter().peekable();
         assert!(columns.peek().is_some(), "{name}");
         for column in columns {
@@ -237,8 +237,8 @@ fn a_figure_of_samples_is_without_the_nominal_one() {
     let figure = |name: &str, options: &str| {
         scratch.prints(&format!("sample {name}.toml --plot {name}.html {options}"), 0);
         let found = Found::of_page(&scratch.text(&format!("{name}.html")));
-        let figures = found.data["figures"].as_array().expect("figures").clone();
-        let marks = figures.iter().flat_map(|figure| figure["marks"].as_array().expect("marks").clone());
+        let figures = found.data["figures"].as_array().unwrap().clone();
+        let marks = figures.iter().flat_map(|figure| figure["marks"].as_array().unwrap().clone());
         let is_nominal = |mark: &Value| mark["label"].as_str().is_some_and(|label| label.starts_with("nominal"));
         let (nominal, others): (Vec<Value>, Vec<Value>) = marks.partition(is_nominal);
         assert_eq!(nominal.len(), 2);

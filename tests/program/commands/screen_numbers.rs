@@ -17,7 +17,7 @@ pub(crate) fn template(line: &str) -> (String, Vec<f64>) {
             end = (1..=all).rev().find(|end| rest[..*end].parse::<f64>().is_ok()).unwrap_or(0);
         }
         if end > 0 {
-            numbers.push(rest[..end].parse().expect("a number"));
+            numbers.push(rest[..end].parse().unwrap());
             text.push('#');
             rest = &rest[end..];
         } else {
@@ -106,7 +106,7 @@ fn other_commands_count_what_is_there() {
     let rows = |file: &PathBuf| batches(file).iter().map(|batch| batch.num_rows()).sum::<usize>() as f64;
     assert!(parts.len() > 1 && failed > 100.0);
     let (count, all) = (parts.len() as f64, parts.iter().map(rows).sum::<f64>());
-    let size = std::fs::metadata(scratch.path("r/report.html")).expect("a page").len() as f64;
+    let size = std::fs::metadata(scratch.path("r/report.html")).unwrap().len() as f64;
     let compared = "# parts, # rows: checksums compared; # parts with # rows";
     for (command, code, pattern, known) in [
         ("verify r --fraction 1", 0, compared, vec![count, all, count, all]),

@@ -192,7 +192,7 @@ fn a_plot_of_many_wheels_names_them() {
     scratch.file("eight.toml", &eight_wheels());
     scratch.prints("simulate eight.toml --plot p.html", 0);
     let shown = Found::shown_on(&scratch.text("p.html"));
-    let (_, names) = shown.iter().find(|(title, _)| title.starts_with("Wheel rates")).expect("rates of wheels");
+    let (_, names) = shown.iter().find(|(title, _)| title.starts_with("Wheel rates")).unwrap();
     for wheel in 0..8 {
         assert!(names.contains(&format!("wheel_number_{wheel}")), "{names:?}");
     }

@@ -20,18 +20,18 @@ fn steps(document: &str) -> Vec<Step<'_>> {
         } else if let Some(name) = mark("picture: ") {
             figure = Some(name);
         } else if let Some(figure) = figure.take_if(|_| line.starts_with("![")) {
-            let picture = line.split("](").nth(1).and_then(|rest| rest.strip_suffix(')')).expect("a picture");
+            let picture = line.split("](").nth(1).and_then(|rest| rest.strip_suffix(')')).unwrap();
             steps.push(Step::Picture { figure, picture });
         } else if let Some(language) = line.strip_prefix("```") {
             let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
             match language {
                 "toml" => {
-                    let file = file.expect("the name of a file before its first block");
+                    let file = file.unwrap();
                     steps.push(Step::Write { file, text: block.join("\n") + "\n\n" });
                 }
                 "sh" => steps.extend(block.into_iter().map(|line| {
                     let (command, code) = line.split_once("# exit code ").unwrap_or((line, "0"));
-                    Step::Run { command: command.trim(), code: code.parse().expect("an exit code") }
+                    Step::Run { command: command.trim(), code: code.parse().unwrap() }
                 })),
                 "text" => steps.push(Step::Prints(block)),
                 other => panic!("a block in {other:?} is not tested"),
@@ -71,7 +71,7 @@ fn the_tutorial_does_what_it_says() {
                 counts[0] += 1;
             }
             Step::Run { command, code } => {
-                let arguments = command.strip_prefix("spindrift ").expect("a command of the program");
+                let arguments = command.strip_prefix("spindrift ").unwrap();
                 printed = scratch.prints(arguments, code);
                 counts[1] += 1;
             }

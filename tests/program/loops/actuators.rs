@@ -24,7 +24,7 @@ pub fn driven(scene: &Scene, wheel: usize, commanded: f64, rate: f64, length: f6
     let of_wheel = scene.mass.wheels[wheel];
     let axis = Vector3::from(of_wheel.axis);
     let rows = scene.mass.inertia_free.concat();
-    let inverse = Matrix3::from_row_slice(&rows).try_inverse().expect("an inertia");
+    let inverse = Matrix3::from_row_slice(&rows).try_inverse().unwrap();
     let inertia = 1.0 / (1.0 / of_wheel.axial + axis.dot(&(inverse * axis)));
     let asked = if commanded == 0.0 { 0.0 } else { model.torque_scale * commanded + model.torque_bias };
     let within = asked.abs().min(model.torque_limit) * asked.signum();

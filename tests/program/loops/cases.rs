@@ -69,8 +69,8 @@ fn saturated(timeout: f64) -> String {
 }
 
 fn without_gyro() -> String {
-    let gyro = SLEW_CLOSED.find("[[sensors]]\nname = \"gyro\"").expect("a gyro");
-    let tracker = SLEW_CLOSED.find("[[sensors]]\nname = \"tracker\"").expect("a tracker");
+    let gyro = SLEW_CLOSED.find("[[sensors]]\nname = \"gyro\"").unwrap();
+    let tracker = SLEW_CLOSED.find("[[sensors]]\nname = \"tracker\"").unwrap();
     let text = format!("{}{}", &SLEW_CLOSED[..gyro], &SLEW_CLOSED[tracker..]);
     let draws: Vec<&str> = text.split("\n\n").filter(|table| !table.contains("sensors.gyro")).collect();
     changed(

@@ -12,7 +12,7 @@ pub(crate) fn plan(text: &str) -> Plan {
 }
 
 pub(crate) fn run(plan: &Plan, sample: u64) -> SingleRun {
-    SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).expect("a physical scene")
+    SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
 }
 
 pub(crate) fn value(run: &SingleRun, name: &str) -> f64 {
@@ -66,7 +66,7 @@ fn the_arcs_flown_are_the_run() {
         for sample in [0, 3] {
             let flown = run(&plan_of_loop, sample);
             assert!(flown.arcs.len() > 500, "{} arcs", flown.arcs.len());
-            let audit = flown.audit(&plan_of_loop, Isa::best()).expect("an audit");
+            let audit = flown.audit(&plan_of_loop, Isa::best()).unwrap();
             assert!(audit.state() < 1e-12, "sample {sample}: {:e}", audit.state());
             for name in ["energy_error_max", "angular_momentum_error_max"] {
                 assert!(value(&flown, name).abs() < 1e-12, "{name} of sample {sample}: {:e}", value(&flown, name));
@@ -147,7 +147,7 @@ fn hostile_loops_end() {
         text = text.replace("tolerance = 1e-12", "tolerance = 1e-12\nmax_steps = 100000");
         let plan = plan(&text);
         for sample in [0, 1] {
-            let run = SingleRun::new(&plan, SampleId(sample), Grid::uniform(100.0, 11), Isa::best()).expect("physical");
+            let run = SingleRun::new(&plan, SampleId(sample), Grid::uniform(100.0, 11), Isa::best()).unwrap();
             assert!(run.outcome.status == Status::Done || !run.reason.is_empty(), "{to}: {:?}", run.outcome);
         }
     }

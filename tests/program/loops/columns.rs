@@ -24,7 +24,7 @@ fn axis(flown: &FlownLoop, state: &State) -> [f64; 3] {
     if norm(velocity) >= flown.control("least_debris_speed_m_s") {
         return scaled(1.0 / norm(velocity), velocity);
     }
-    let named = flown.plan.nominal.control.named("approach_axis").expect("an axis");
+    let named = flown.plan.nominal.control.named("approach_axis").unwrap();
     let named = [named[0], named[1], named[2]];
     scaled(1.0 / norm(named), named)
 }
@@ -57,14 +57,14 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
             let normal = cross(state.r_co_e, state.v_co_e);
             let o2 = scaled(-1.0 / norm(normal), normal);
             let o1 = cross(o2, o3);
-            let c_eo = std::array::from_fn(|i| [o1[i], o2[i], o3[i]]);
+            let c_eo = from_fn(|i| [o1[i], o2[i], o3[i]]);
             let q_et = hamilton(quaternion_from_dcm(c_eo), [w, x, y, z]);
             return Some(rotation_vector(hamilton(conjugate(q_et), state.q_es)));
         }
         Target::Nadir => scaled(-1.0, state.r_co_e),
         Target::OrbitalVelocity => state.v_co_e,
         Target::Sun => {
-            let epoch = flown.plan.nominal.orbit.and_then(|orbit| orbit.epoch).expect("a date");
+            let epoch = flown.plan.nominal.orbit.and_then(|orbit| orbit.epoch).unwrap();
             sun(epoch.days_since_j2000() + state.time / 86_400.0).direction
         }
         Target::LineToDebris => to_debris(state),
@@ -74,7 +74,7 @@ fn error_vector(flown: &FlownLoop, place: usize, state: &State, arrival: f64) ->
         Target::Transfer => {
             let left = match phase.thrust {
                 Maneuver::Transfer => arrival - state.time,
-                _ => flown.guidance(place, "transfer_time_s").expect("a time")[0],
+                _ => flown.guidance(place, "transfer_time_s").unwrap()[0],
             };
             if left < flown.spec().period {
                 return Some([0.0; 3]);
@@ -93,10 +93,10 @@ type Columns = BTreeMap<String, f64>;
 
 fn mission(case: &Case, found: &mut Columns) {
     let (flown, phases) = (&case.flown, case.phases());
-    let code = FAILURES.iter().position(|name| *name == case.failure).expect("a reason");
+    let code = FAILURES.iter().position(|name| *name == case.failure).unwrap();
     found.insert("failure".into(), code as f64);
     found.insert("launched".into(), if code == 0 && flown.end.is_some() { 1.0 } else { 0.0 });
-    found.insert("phase_final".into(), *phases.last().expect("ticks") as f64);
+    found.insert("phase_final".into(), *phases.last().unwrap() as f64);
     found.insert("end_time_s".into(), flown.end.unwrap_or(f64::NAN));
     for (place, phase) in flown.spec().phases.iter().enumerate() {
         let first = phases.iter().position(|other| *other == place).map(|tick| flown.ticks[tick].time);
@@ -110,7 +110,7 @@ fn pointing(case: &Case, found: &mut Columns) {
     for (tick, (place, state)) in phases.iter().zip(&flown.ticks).enumerate() {
         let begins = tick == 0 || phases[tick - 1] != *place;
         if begins && flown.spec().phases[*place].thrust == Maneuver::Transfer {
-            arrival = state.time + flown.guidance(*place, "transfer_time_s").expect("a time")[0];
+            arrival = state.time + flown.guidance(*place, "transfer_time_s").unwrap()[0];
         }
         let error = error_vector(flown, *place, state, arrival);
         all.push((state.time, error));
@@ -169,7 +169,7 @@ fn approach(case: &Case, found: &mut Columns) {
     }
     let nearest = flown.ticks.iter().map(|state| norm(to_debris(state))).fold(f64::INFINITY, f64::min);
     found.insert("debris_distance_min_m".into(), nearest);
-    let launched = (case.failure == "none" && flown.end.is_some()).then(|| flown.ticks.last().expect("ticks"));
+    let launched = (case.failure == "none" && flown.end.is_some()).then(|| flown.ticks.last().unwrap());
     let mut at = |name: &str, value: &dyn Fn(&State) -> f64| {
         found.insert(name.to_owned(), launched.map_or(f64::NAN, value));
     };
@@ -181,7 +181,7 @@ fn approach(case: &Case, found: &mut Columns) {
     at("relative_speed_launch_m_s", &|state| norm(relative_velocity(state)));
     at("body_rate_launch_rad_s", &|state| norm(state.omega_se_s));
     at("tumble_axis_angle_launch_rad", &|state| {
-        let (debris, body) = (state.debris(), flown.run.scene.mass.debris.expect("debris"));
+        let (debris, body) = (state.debris(), flown.run.scene.mass.debris.unwrap());
         let momentum = hamilton_turned(debris.q_ed, product(body.inertia, debris.omega_de_d));
         let angle = angle_between(momentum, axis(flown, state));
         angle.min(std::f64::consts::PI - angle)
@@ -263,10 +263,10 @@ fn estimation(case: &Case, found: &mut Columns) {
         .zip(ticks)
         .map(|(q, state)| norm(rotation_vector(hamilton(conjugate(*q), state.q_es))))
         .collect();
-    found.insert("attitude_estimate_error_final_rad".into(), *errors.last().expect("ticks"));
+    found.insert("attitude_estimate_error_final_rad".into(), *errors.last().unwrap());
     found.insert("attitude_estimate_error_max_rad".into(), errors.iter().copied().fold(0.0, f64::max));
     if let Some(state) = ticks.last().filter(|state| state.debris.is_some()) {
-        let last = |name: &str| *case.told_vector::<3>(name).last().expect("ticks");
+        let last = |name: &str| *case.told_vector::<3>(name).last().unwrap();
         let position = difference(last("estimated_to_debris_e_#_m"), to_debris(state));
         found.insert("relative_position_estimate_error_final_m".into(), norm(position));
         let velocity = difference(last("estimated_relative_velocity_e_#_m_s"), relative_velocity(state));
@@ -286,7 +286,7 @@ fn estimation(case: &Case, found: &mut Columns) {
             found.insert(format!("{column}_innovation_mean"), f64::NAN);
             continue;
         }
-        found.insert(format!("{column}_nees_final"), *case.told(&format!("{recorded}_nees")).last().expect("ticks"));
+        found.insert(format!("{column}_nees_final"), *case.told(&format!("{recorded}_nees")).last().unwrap());
         let squares = case.told(&format!("{recorded}_innovation_square"));
         let known: Vec<f64> = squares.into_iter().filter(|square| !square.is_nan()).collect();
         let mean = known.iter().sum::<f64>() / known.len() as f64;

@@ -78,10 +78,10 @@ static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: &|_| Att
 #[test]
 fn a_law_of_a_program_can_diverge() {
     let (scratch, quiet) = (ScratchFolder::new("diverging"), Quiet::default());
-    let session = Session::new(&quiet).expect("a session").with_attitude_law(&BRAKE);
+    let session = Session::new(&quiet).unwrap().with_attitude_law(&BRAKE);
     let text = with_law("law = \"brake\"", SLOW);
-    let results = Campaign::from_text("loop.toml", &text, session).store(scratch.path("r")).results().expect("results");
-    let replayed = results.replay(SampleId(1)).expect("a replay");
+    let results = Campaign::from_text("loop.toml", &text, session).store(scratch.path("r")).results().unwrap();
+    let replayed = results.replay(SampleId(1)).unwrap();
     assert_eq!(replayed.outcome.status, Status::Diverged, "{}", replayed.reason);
     assert!(replayed.reason.contains("guidance.p: the loop diverges"), "{}", replayed.reason);
 }

@@ -19,7 +19,7 @@ fn steady(walk: f64, t: f64, seen: Matrix2<f64>) -> Matrix2<f64> {
     let mut after = Matrix2::identity();
     for _ in 0..UPDATES {
         let before = transition * after * transition.transpose() + noise;
-        after = (before.try_inverse().expect("a covariance") + seen).try_inverse().expect("an information");
+        after = (before.try_inverse().unwrap() + seen).try_inverse().unwrap();
     }
     after
 }
@@ -45,7 +45,7 @@ fn translation_converges_to_the_riccati_solution() {
         let mut filter = TranslationFilter::new(zero, [1.0, 1.0], walk, None);
         for _ in 0..UPDATES {
             filter.propagate(&TranslationStep { acceleration_e: [0.0; 3], interval: t });
-            filter.update(&MotionObservation { motion: zero, sigmas }).expect("an innovation");
+            filter.update(&MotionObservation { motion: zero, sigmas }).unwrap();
         }
         let seen = Matrix2::new(information(sigmas[0]), 0.0, 0.0, information(sigmas[1]));
         assert_same(filter.covariance, steady(walk, t, seen));
@@ -75,7 +75,7 @@ fn a_body_at_rest_converges_to_the_riccati_solution() {
         };
         for _ in 0..UPDATES {
             filter.propagate(&BodyStep { torque: [0.0; 3], momentum: [0.0; 3], interval: t });
-            filter.update(&observation).expect("an innovation");
+            filter.update(&observation).unwrap();
         }
         let expected = steady(walk, t, Matrix2::new(information(sigma), 0.0, 0.0, information(of_rate)));
         for axis in 0..3 {

@@ -41,7 +41,7 @@ impl State {
     }
 
     pub fn debris(&self) -> Debris {
-        self.debris.expect("a scene with debris")
+        self.debris.unwrap()
     }
 }
 
@@ -57,7 +57,7 @@ impl FlownLoop {
     pub fn new(text: &str, sample: u64) -> Self {
         let plan = plan(&without(text, &["[[require]]"]));
         let first = run(&plan, sample);
-        let period = plan.law.as_ref().and_then(|law| law.spec()).expect("a loop").period;
+        let period = plan.law.as_ref().and_then(|law| law.spec()).unwrap().period;
         let duration = plan.grid.duration();
         let end = first.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start);
         let ticks: Vec<f64> = (0..)
@@ -68,8 +68,8 @@ impl FlownLoop {
         times.push(duration);
         times.sort_by(f64::total_cmp);
         times.dedup_by(|later, earlier| *later - *earlier < SAME_TIME);
-        *times.last_mut().expect("the duration") = duration;
-        let run = SingleRun::new(&plan, SampleId(sample), Grid::at(times), Isa::best()).expect("a physical scene");
+        *times.last_mut().unwrap() = duration;
+        let run = SingleRun::new(&plan, SampleId(sample), Grid::at(times), Isa::best()).unwrap();
         assert!(run.arcs == first.arcs, "the arcs do not depend on what is observed");
         let state = |time: f64| state_at(&run, time);
         let arcs = run.arcs.iter().filter(|arc| !arc.applied.ends_run).map(|arc| (*arc, state(arc.start))).collect();
@@ -77,7 +77,7 @@ impl FlownLoop {
     }
 
     pub fn spec(&self) -> &LoopSpec {
-        self.plan.law.as_ref().and_then(|law| law.spec()).expect("a loop")
+        self.plan.law.as_ref().and_then(|law| law.spec()).unwrap()
     }
 
     pub fn control(&self, key: &str) -> f64 {
@@ -101,7 +101,7 @@ impl FlownLoop {
 
     pub fn told_vector<const N: usize>(&self, name: &str) -> Vec<[f64; N]> {
         let letters = if N == 4 { ["w", "x", "y", "z"] } else { ["x", "y", "z", ""] };
-        let columns: [Vec<f64>; N] = std::array::from_fn(|i| self.told(&name.replace('#', letters[i])));
+        let columns: [Vec<f64>; N] = from_fn(|i| self.told(&name.replace('#', letters[i])));
         (0..columns[0].len()).map(|tick| columns.each_ref().map(|column| column[tick])).collect()
     }
 }
@@ -147,7 +147,7 @@ pub fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let [a, b] = [a, b].map(|v| v.map(|x| x / size(v)));
     // W. Kahan: accurate at any angle
-    let [apart, together] = [-1.0, 1.0].map(|sign| size(std::array::from_fn(|i| a[i] + sign * b[i])));
+    let [apart, together] = [-1.0, 1.0].map(|sign| size(from_fn(|i| a[i] + sign * b[i])));
     2.0 * apart.atan2(together)
 }
 

@@ -79,7 +79,7 @@ fn each_sensor_lowers_the_error_as_theory_says() {
         (SECOND.into(), [none, second]),
         (format!("{SUN}{SECOND}"), [sun, second]),
     ] {
-        let variances: [f64; 3] = std::array::from_fn(|axis| 1.0 / (coarse[axis] + added[0][axis] + added[1][axis]));
+        let variances: [f64; 3] = from_fn(|axis| 1.0 / (coarse[axis] + added[0][axis] + added[1][axis]));
         let mean = variances.iter().sum::<f64>();
         assert_theory(&plan(&format!("{AT_REST}{sensors}")), mean, variances.iter().map(|v| v * v).sum(), &sensors);
         expected.push(mean);
@@ -122,9 +122,9 @@ fn directions_of_an_orbit_lower_the_error_as_theory_says() {
         (format!("{horizon}{field}"), [1.0; 2]),
     ] {
         let plan = plan(&on_orbit(&sensors));
-        let nominal = Scene::resolve(&plan.nominal).expect("physical");
-        let orbit = KeplerOrbit::new(nominal.orbit.as_ref().expect("an orbit"));
-        let magnetic = MagneticField::of(&nominal).expect("a field");
+        let nominal = Scene::resolve(&plan.nominal).unwrap();
+        let orbit = KeplerOrbit::new(nominal.orbit.as_ref().unwrap());
+        let magnetic = MagneticField::of(&nominal).unwrap();
         let mut all = [[0.0; 3]; 3];
         for (axis, row) in all.iter_mut().enumerate() {
             row[axis] = tracker[axis];
@@ -141,7 +141,7 @@ fn directions_of_an_orbit_lower_the_error_as_theory_says() {
                 }
             }
         }
-        let covariance = nalgebra::Matrix3::from_fn(|i, j| all[i][j]).try_inverse().expect("all axes are measured");
+        let covariance = nalgebra::Matrix3::from_fn(|i, j| all[i][j]).try_inverse().unwrap();
         let mean = covariance.trace();
         assert_theory(&plan, mean, (covariance * covariance).trace(), &sensors);
         means.push(mean);

@@ -5,7 +5,7 @@ use crate::prelude::*;
 /// `net_launch.toml` without phases and draws, with one phase that turns to an attitude and stops the motion
 /// `along_s3`, m/s.
 fn braking(estimator: &str, along_s3: f64) -> String {
-    let start = NET_LAUNCH.find("[[guidance]]").expect("phases");
+    let start = NET_LAUNCH.find("[[guidance]]").unwrap();
     let text = match estimator {
         "mekf" => NET_LAUNCH[..start].to_owned(),
         other => without_filters(&NET_LAUNCH[..start], other),
@@ -36,7 +36,7 @@ fn first_commands(text: &str) -> (Vec<f64>, bool) {
         "commanded_thrust_p2_n",
         "commanded_thrust_p3_n",
     ];
-    let nominal = Scene::resolve(&flown.plan.nominal).expect("physical");
+    let nominal = Scene::resolve(&flown.plan.nominal).unwrap();
     let (drawn, nominal) = (&flown.run.scene, &nominal);
     let is_drawn =
         drawn.mass != nominal.mass || drawn.thrusters != nominal.thrusters || drawn.actuators != nominal.actuators;
@@ -119,7 +119,7 @@ fn filters_predict_with_commands_and_nominal_numbers() {
             text += &offset(parameter, by);
         }
         let flown = FlownLoop::new(&text, 1);
-        let nominal = Scene::resolve(&flown.plan.nominal).expect("physical");
+        let nominal = Scene::resolve(&flown.plan.nominal).unwrap();
         assert!(flown.run.scene.mass.total > 1.1 * nominal.mass.total);
         let period = flown.spec().period;
         let thrusts = ["p1", "p2", "p3"]

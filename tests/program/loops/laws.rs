@@ -36,7 +36,7 @@ fn file(law: &str, keys: &str, target: &str) -> String {
          center_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = {INERTIA:?}\nincludes_wheels = true\n"
     );
     for (i, axial) in AXIAL.iter().enumerate() {
-        let axis: [i32; 3] = std::array::from_fn(|j| i32::from(i == j));
+        let axis: [i32; 3] = from_fn(|j| i32::from(i == j));
         let _ = write!(
             text,
             "[[wheels]]\nname = \"w{i}\"\naxis = {axis:?}\nmass_kg = 5\naxial_inertia_kg_m2 = \
@@ -98,8 +98,7 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
 /// Law: every law of the program commands the torque of docs/control-formulas.md from the estimates of the tick.
 #[test]
 fn every_law_is_its_formula() {
-    let rotating: [[f64; 3]; 3] =
-        std::array::from_fn(|i| std::array::from_fn(|j| INERTIA[i][j] - if i == j { AXIAL[i] } else { 0.0 }));
+    let rotating: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| INERTIA[i][j] - if i == j { AXIAL[i] } else { 0.0 }));
     let mut clamped = 0;
     for kind in KINDS {
         let keys: String = NUMBERS
@@ -138,7 +137,7 @@ fn every_law_is_its_formula() {
                         (if q[0] < 0.0 { q.map(|x| -x) } else { q }, [0.0; 3])
                     };
                     assert!(norm(rotation_vector(q_ts)) > 1e-3);
-                    let of_wheels: [f64; 3] = std::array::from_fn(|wheel| AXIAL[wheel] * speeds[wheel][tick]);
+                    let of_wheels: [f64; 3] = from_fn(|wheel| AXIAL[wheel] * speeds[wheel][tick]);
                     let momentum = sum(product(INERTIA, omega), of_wheels);
                     let seen = Seen { q_ts, omega, omega_te_s, momentum, rotating };
                     let terms = terms(kind.name, &seen, &mut integral, is_first);
@@ -149,7 +148,7 @@ fn every_law_is_its_formula() {
                     assert!(off < AGREED, "{} {target}, {sample}, {tick}: {found:?} for {expected:?}", kind.name);
                     clamped += usize::from(integral.iter().any(|one| one.abs() == number("integral_limit_n_m_s")));
                 }
-                assert_eq!(*phases.last().expect("ticks"), 1.0, "both phases are flown");
+                assert_eq!(*phases.last().unwrap(), 1.0, "both phases are flown");
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::prelude::*;
 
 /// `net_launch.toml` at rest, with perfect knowledge and throttled thrusters whose commands act after `delay` seconds.
 fn maneuver(delay: f64, duration: f64, velocity: [f64; 3], phases: &str) -> FlownLoop {
-    let head = &NET_LAUNCH[..NET_LAUNCH.find("[[guidance]]").expect("phases")];
+    let head = &NET_LAUNCH[..NET_LAUNCH.find("[[guidance]]").unwrap()];
     let text = changed(
         &without_filters(head, "perfect"),
         &[

@@ -8,12 +8,12 @@ fn ends_are_those_of_the_rows() {
     let scratch = ScratchFolder::new("missions");
     scratch.file("c.toml", &DETUMBLE.replace("timeout_s = 500.0", "timeout_s = 40.0"));
     let mut command = scratch.command("campaign c.toml --samples 40 --out r --verbose --no-report");
-    let output = command.env("COLUMNS", "200").output().expect("the program starts");
+    let output = command.env("COLUMNS", "200").output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     let rows = scratch.rows("r");
     let (failures, ended) = (column(&rows, "failure"), ended(&rows));
     let ok: Vec<usize> = (1..40).filter(|row| ended[*row].1 == "ok").collect();
-    let missions = scratch.summary("r")["missions"].as_array().expect("missions").clone();
+    let missions = scratch.summary("r")["missions"].as_array().unwrap().clone();
     assert_eq!(missions.len(), 2);
     let mut all = 0;
     for (end, code, words) in

@@ -93,8 +93,8 @@ fn motors_give_what_schedules_and_failures_leave() {
     ] {
         let instants = case.instants();
         let plan = plan(&case.text());
-        let run = SingleRun::new(&plan, SampleId(0), Grid::at(instants.clone()), Isa::best()).expect("physical");
-        let torques = &run.series.iter().find(|(series, _)| *series == Series::MotorTorque.of_wheel(0)).expect("it").1;
+        let run = SingleRun::new(&plan, SampleId(0), Grid::at(instants.clone()), Isa::best()).unwrap();
+        let torques = &run.series.iter().find(|(series, _)| *series == Series::MotorTorque.of_wheel(0)).unwrap().1;
         let mut saturated = 0.0;
         assert_eq!(run.arcs.len(), instants.len() - 1, "{case:?}: {:?}", run.arcs);
         for (place, (rate, on_wheel, is_cut)) in case.simulated().into_iter().enumerate() {

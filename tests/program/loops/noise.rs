@@ -50,7 +50,7 @@ fn said(text: &str, outcome: &str) -> [f64; 3] {
         .unwrap_or_else(|| panic!("{text}"));
     let (_, numbers) = line.split_once("noise within the loop is ").unwrap();
     let mut numbers = numbers.split(['%', '[', ',', ']']).filter_map(|word| word.trim().parse::<f64>().ok());
-    std::array::from_fn(|_| numbers.next().unwrap())
+    from_fn(|_| numbers.next().unwrap())
 }
 
 fn variance(values: &[f64]) -> f64 {

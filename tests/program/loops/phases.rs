@@ -14,8 +14,8 @@ fn changes(flown: &FlownLoop) -> Vec<(f64, usize)> {
 #[test]
 fn a_hold_starts_with_its_phase() {
     let (holds, period) = ([4.0, 6.0], 0.25);
-    let start = SLEW_CLOSED.find("[[guidance]]").expect("phases");
-    let end = SLEW_CLOSED.find("[[disperse]]").expect("draws");
+    let start = SLEW_CLOSED.find("[[guidance]]").unwrap();
+    let end = SLEW_CLOSED.find("[[disperse]]").unwrap();
     let phase = |name: &str, hold: &str| {
         format!("[[guidance]]\nphase = \"{name}\"\nlaw = \"rate_damping\"\ngain_n_m_s = 1.5\n{hold}\n")
     };
@@ -36,7 +36,7 @@ fn a_hold_starts_with_its_phase() {
     for (place, hold) in holds.iter().enumerate() {
         let count = (hold / period) as usize;
         let ends = |tick: &usize| *tick >= asked + count && met[tick - count..=*tick].iter().all(|met| *met);
-        begin = (begin..met.len()).find(ends).expect("it ends");
+        begin = (begin..met.len()).find(ends).unwrap();
         asked = begin + 1;
         expected.push((flown.ticks[begin].time, place + 1));
     }
@@ -59,8 +59,8 @@ fn the_age_of_the_camera_contains_its_latency() {
         );
         let flown = FlownLoop::new(&text, 0);
         let seen = flown.told("measured_q_sd_w");
-        let last = seen.iter().rposition(|value| !value.is_nan()).expect("seen at the start");
-        let taken = flown.ticks[last].time - latency.parse::<f64>().expect("a number");
+        let last = seen.iter().rposition(|value| !value.is_nan()).unwrap();
+        let taken = flown.ticks[last].time - latency.parse::<f64>().unwrap();
         let expected = flown.ticks.iter().map(|state| state.time).find(|time| time - taken > 12.0);
         assert!(last > 3, "{last}");
         assert_eq!(flown.end, expected, "latency {latency}");

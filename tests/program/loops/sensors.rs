@@ -45,9 +45,8 @@ fn sun_sensor() -> String {
 }
 
 fn file() -> String {
-    let (start, end) =
-        (NET_LAUNCH.find("[[sensors]]").expect("sensors"), NET_LAUNCH.find("[[guidance]]").expect("phases"));
-    let draws = NET_LAUNCH.find("# the first state").expect("draws");
+    let (start, end) = (NET_LAUNCH.find("[[sensors]]").unwrap(), NET_LAUNCH.find("[[guidance]]").unwrap());
+    let draws = NET_LAUNCH.find("# the first state").unwrap();
     let sensors = format!(
         "[[sensors]]\nname = \"gyro\"\nkind = \"rate_gyro\"\nbias_rad_s = {GYRO_BIAS:?}\nscale = \
         {GYRO_SCALE:?}\nmisalignment_rad = {MISALIGNMENT:?}\n\
@@ -159,7 +158,7 @@ fn expected(kind: &str, flown: &FlownLoop, tick: usize) -> Option<Vec<f64>> {
         }
         "magnetometer" => {
             let state = delivered(flown, tick, FIELD)?;
-            let field = MagneticField::of(&flown.run.scene).expect("a field").at(state.time, state.r_co_e);
+            let field = MagneticField::of(&flown.run.scene).unwrap().at(state.time, state.r_co_e);
             let along = misaligned(state.to_s(field));
             Some((0..3).map(|i| FIELD_SCALE[i] * along[i] + FIELD_BIAS[i]).collect())
         }
@@ -274,7 +273,7 @@ fn every_sensor_measures_the_true_state() {
 fn raw_estimates_are_the_last_measurements() {
     let text = without_filters(&file().replace(&sun_sensor(), ""), "raw");
     let flown = FlownLoop::new(&text, 2);
-    let nominal = Scene::resolve(&flown.plan.nominal).expect("physical");
+    let nominal = Scene::resolve(&flown.plan.nominal).unwrap();
     let (attitudes, rates) =
         (flown.told_vector::<4>("measured_q_es_#"), flown.told_vector::<3>("measured_rate_s_#_rad_s"));
     let [own, own_velocity, debris, debris_velocity] =
@@ -329,8 +328,8 @@ fn raw_estimates_are_the_last_measurements() {
 #[test]
 fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     let text = file_on_orbit();
-    let (start, end) = (text.find("[initial]").expect("a state"), text.find("[orbit]").expect("an orbit"));
-    let tail = text.find("[control]").expect("a loop");
+    let (start, end) = (text.find("[initial]").unwrap(), text.find("[orbit]").unwrap());
+    let tail = text.find("[control]").unwrap();
     let sun_e = spindrift::dynamics::environment::sun::sun(9823.5).direction;
     let (half, across) = (0.5 * sun_e[2].acos(), scaled(1.0 / sun_e[0].hypot(sun_e[1]), [-sun_e[1], sun_e[0], 0.0]));
     let attitude = [half.cos(), half.sin() * across[0], half.sin() * across[1], 0.0];
@@ -345,7 +344,7 @@ fn a_sun_sensor_sees_the_sun_of_the_date_and_no_sun_in_the_shadow() {
     let flown = FlownLoop::new(&text, 0);
     let [a, b] = ["x", "y"].map(|axis| flown.told(&format!("measured_sun_angle_{axis}_rad")));
     let error = flown.told("estimated_pointing_error_rad");
-    let radius = flown.run.scene.orbit.expect("an orbit").body_radius;
+    let radius = flown.run.scene.orbit.unwrap().body_radius;
     let (mut dark, mut edges) = (0, 0);
     for (tick, state) in flown.ticks.iter().enumerate() {
         let along = dot(state.r_co_e, sun_e);

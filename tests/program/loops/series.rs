@@ -12,11 +12,11 @@ fn rotation(a: [f64; 4], b: [f64; 4]) -> [f64; 3] {
 }
 fn at_ticks(text: &str, sample: u64) -> SingleRun {
     let grid = Grid::uniform(TICKS as f64 * PERIOD, TICKS + 1);
-    SingleRun::new(&plan(text), SampleId(sample), grid, Isa::best()).expect("a physical scene")
+    SingleRun::new(&plan(text), SampleId(sample), grid, Isa::best()).unwrap()
 }
 
 fn series(run: &SingleRun, of: Series) -> &[f64] {
-    &run.series.iter().find(|(series, _)| *series == of).expect("the loop records it").1
+    &run.series.iter().find(|(series, _)| *series == of).unwrap().1
 }
 
 fn errors(run: &SingleRun) -> Vec<[f64; 3]> {
@@ -38,18 +38,18 @@ fn quantities_over_time_are_those_of_the_run() {
         let (q, omega) = (place("estimated_q_es_w"), place("estimated_omega_se_s_x_rad_s"));
         for (tick, error) in pointing.iter().enumerate() {
             let row = &telemetry.rows[tick];
-            let estimated: [f64; 4] = std::array::from_fn(|i| row[q + i]);
+            let estimated: [f64; 4] = from_fn(|i| row[q + i]);
             let rate: [f64; 3] = run.table.at(StateField::Rate, tick);
             for (of, expected) in [
                 (Series::PointingError, norm(*error)),
                 (Series::AttitudeEstimateError, norm(rotation(estimated, run.table.at(StateField::Attitude, tick)))),
-                (Series::RateEstimateError, norm(std::array::from_fn(|i| row[omega + i] - rate[i]))),
+                (Series::RateEstimateError, norm(from_fn(|i| row[omega + i] - rate[i]))),
             ] {
                 let found = series(&run, of)[tick];
                 assert!((found - expected).abs() < ROUNDING, "{of:?} at tick {tick}: {found} {expected}");
             }
             let time = tick as f64 * PERIOD;
-            let arc = run.arcs.iter().rfind(|arc| arc.start < time + 1e-9).expect("an arc");
+            let arc = run.arcs.iter().rfind(|arc| arc.start < time + 1e-9).unwrap();
             for wheel in 0..4 {
                 assert_eq!(series(&run, Series::MotorTorque.of_wheel(wheel))[tick], arc.applied.motor_torque[wheel]);
             }
@@ -58,7 +58,7 @@ fn quantities_over_time_are_those_of_the_run() {
         assert_ne!(series(&run, Series::PointingError)[TICKS], series(&run, Series::PointingError)[TICKS - 1]);
     }
     let text = SLEW_CLOSED;
-    let between = SingleRun::new(&plan(text), SampleId(3), Grid::uniform(180.0, 1801), Isa::best()).expect("physical");
+    let between = SingleRun::new(&plan(text), SampleId(3), Grid::uniform(180.0, 1801), Isa::best()).unwrap();
     let ticks = at_ticks(text, 3);
     for (point, found) in series(&between, Series::PointingError).iter().enumerate() {
         assert_eq!(*found, series(&ticks, Series::PointingError)[2 * point / 5], "{point}");
@@ -72,10 +72,10 @@ fn the_way_to_the_debris_is_that_of_the_run() {
     const TICKS: usize = 600;
     for sample in [0, 5] {
         let grid = Grid::uniform(TICKS as f64 * PERIOD, TICKS + 1);
-        let run = SingleRun::new(&plan(NET_LAUNCH), SampleId(sample), grid, Isa::best()).expect("a physical scene");
+        let run = SingleRun::new(&plan(NET_LAUNCH), SampleId(sample), grid, Isa::best()).unwrap();
         let apart = |tick: usize, debris: StateField, own: StateField| {
             let [a, b]: [[f64; 3]; 2] = [debris, own].map(|field| run.table.at(field, tick));
-            norm(std::array::from_fn(|i| a[i] - b[i]))
+            norm(from_fn(|i| a[i] - b[i]))
         };
         for tick in 0..=TICKS {
             for (of, expected) in [

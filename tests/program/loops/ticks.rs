@@ -40,9 +40,8 @@ fn a_row_shows_the_tick_of_its_time() {
 fn the_last_tick_is_that_of_a_longer_run() {
     let plan = plan(SLEW_CLOSED);
     for duration in [10.0, 12.25, 20.0] {
-        let flown = |duration: f64| {
-            SingleRun::new(&plan, SampleId(3), Grid::uniform(duration, 11), Isa::best()).expect("a physical scene")
-        };
+        let flown =
+            |duration: f64| SingleRun::new(&plan, SampleId(3), Grid::uniform(duration, 11), Isa::best()).unwrap();
         let (short, long) = (flown(duration), flown(2.0 * duration));
         let ticks = short.telemetry.times.len();
         assert!((short.telemetry.times[ticks - 1] - duration).abs() < 1e-9, "{:?}", short.telemetry.times.last());
@@ -89,7 +88,7 @@ fn phases_last_whole_ticks() {
         [[sensors]]\nname = \"tracker\"\nkind = \"star_tracker\"\n";
     let mut is_ambiguous = false;
     for (period, lasting, ticks) in [("0.1", "0.3", 3), ("0.7", "2.1", 3), ("0.05", "0.35", 7)] {
-        let number: f64 = period.parse().expect("a number");
+        let number: f64 = period.parse().unwrap();
         for sensors in [String::new(), fast.replace("PERIOD", &format!("{:?}", number / 10.0))] {
             let control = format!(
                 "[control]\nperiod_s = {period}\nwheels = [\"w1\", \"w2\", \"w3\"]\n{sensors}\
@@ -110,7 +109,7 @@ fn phases_last_whole_ticks() {
             assert_eq!((changes[0], &lasted), (ticks, &expected), "{period}");
             assert!(lasted.len() > 15);
             let at = |tick: usize| tick as f64 * number;
-            let limit: f64 = lasting.parse().expect("a number");
+            let limit: f64 = lasting.parse().unwrap();
             let short = changes.iter().filter(|tick| at(**tick + ticks) - at(**tick) < limit).count();
             is_ambiguous |= short > 3 && short + 3 < changes.len();
         }
@@ -130,7 +129,7 @@ fn the_end_of_a_run_is_observed_on_every_grid() {
         let grid = Grid::uniform(duration, intervals + 1);
         let time = grid.times()[place];
         assert!((time - 3.1).abs() < 1e-14);
-        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).expect("a physical scene");
+        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).unwrap();
         assert_eq!(value(&run, "end_time_s"), 31.0 * 0.1);
         assert_eq!(run.outcome.points, place + 1, "{duration} s in {intervals} intervals");
         beside[if time < 31.0 * 0.1 { 0 } else { 1 + usize::from(time > 31.0 * 0.1) }] += 1;

@@ -71,17 +71,17 @@ impl Craft {
 }
 
 fn field_e(flown: &FlownLoop, state: &State) -> [f64; 3] {
-    MagneticField::of(&flown.run.scene).expect("a field").at(state.time, state.r_co_e)
+    MagneticField::of(&flown.run.scene).unwrap().at(state.time, state.r_co_e)
 }
 
 fn dipole(flown: &FlownLoop, state: &State) -> [f64; 3] {
     let arc = flown.arcs.iter().find(|(arc, _)| (arc.start - state.time).abs() < 1e-6);
-    arc.expect("an arc").0.applied.dipole
+    arc.unwrap().0.applied.dipole
 }
 
 fn momenta(state: &State) -> [[f64; 3]; 2] {
-    let wheels = std::array::from_fn(|i| WHEEL * state.wheel_rates.get(i).copied().unwrap_or_default());
-    [state.to_e(std::array::from_fn(|i| MOMENTS[i] * state.omega_se_s[i])), state.to_e(wheels)]
+    let wheels = from_fn(|i| WHEEL * state.wheel_rates.get(i).copied().unwrap_or_default());
+    [state.to_e(from_fn(|i| MOMENTS[i] * state.omega_se_s[i])), state.to_e(wheels)]
 }
 
 /// Law: B-dot commands -k times the rate of the measured field, scaled as a whole at a limit.

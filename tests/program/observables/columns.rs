@@ -76,7 +76,7 @@ fn every_column_of_every_kind_of_scene_has_a_value() {
         let q = rotation([0.0, 0.6, 0.8], 3.0 * time);
         let c = dcm_from_quaternion(q);
         table.set(StateField::Attitude, point, q);
-        table.set::<9>(StateField::Dcm, point, std::array::from_fn(|k| c[k % 3][k / 3]));
+        table.set::<9>(StateField::Dcm, point, from_fn(|k| c[k % 3][k / 3]));
         table.set(StateField::Rate, point, [0.1, 1.8, 2.4 + 0.1 * libm::sin(*time)]);
         table.set(StateField::WheelRates, point, [40.0 + time, 50.0]);
         table.set(StateField::ComVelocity, point, [1.0, 2.0, 3.0 + 0.1 * time]);

@@ -110,7 +110,7 @@ fn mass_errors_move_point_masses() {
         for (number, (mass, offset)) in POINTS.into_iter().enumerate() {
             for (side, sign) in [("a", 1.0), ("b", -1.0)] {
                 let r = moved(errors, offset);
-                let position: [f64; 3] = std::array::from_fn(|i| CENTER[i] + sign * r[i]);
+                let position: [f64; 3] = from_fn(|i| CENTER[i] + sign * r[i]);
                 text += &format!(
                     "[[body.parts]]\nname = \"p{side}{number}\"\nshape = \"point_mass\"\nmass_kg = \
                     {mass:?}\nposition_m = {position:?}\n"
@@ -155,16 +155,16 @@ fn what_includes_the_wheels_is_the_whole() {
             );
             for wheel in 0..3usize {
                 let mode = modes[combination / 3usize.pow(wheel as u32) % 3];
-                let axis: [f64; 3] = std::array::from_fn(|i| if i == wheel { 1.0 } else { 0.25 });
-                let position: [f64; 3] = std::array::from_fn(|i| if i == wheel { 0.2 } else { -0.1 });
+                let axis: [f64; 3] = from_fn(|i| if i == wheel { 1.0 } else { 0.25 });
+                let position: [f64; 3] = from_fn(|i| if i == wheel { 0.2 } else { -0.1 });
                 text += &format!(
                     "[[wheels]]\nname = \"w{wheel}\"\naxis = {axis:?}\nposition_m = {position:?}\nmass_kg = {}.0\n\
                     axial_inertia_kg_m2 = 0.5\ntransverse_inertia_kg_m2 = 0.3\nmode = {mode:?}\n",
                     10 + 5 * wheel
                 );
             }
-            let center = std::array::from_fn(|i| CENTER[i] + OFFSET[i]);
-            let entries = std::array::from_fn(|i| std::array::from_fn(|j| expected[(i, j)]));
+            let center = from_fn(|i| CENTER[i] + OFFSET[i]);
+            let entries = from_fn(|i| from_fn(|j| expected[(i, j)]));
             assert_same(&nominal(&text), SCALE[0] * MASS, center, entries, &text);
         }
     }

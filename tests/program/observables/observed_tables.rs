@@ -13,7 +13,7 @@ pub type Motion<'a> = &'a dyn Fn(f64) -> ([f64; 4], [f64; 3], [f64; 2], [f64; 3]
 
 pub fn table1() -> (Golden, Scene) {
     let golden = Golden::load("table1");
-    let scene = Scene::resolve(&golden.scene).expect("Berdoz's scene");
+    let scene = Scene::resolve(&golden.scene).unwrap();
     (golden, scene)
 }
 

@@ -34,23 +34,23 @@ fn plain(markup: &str) -> String {
 
 fn answers(page: &str) -> Vec<(&str, &str)> {
     let list = page.split("<details class=\"answer ").skip(1);
-    list.map(|row| row.split_once("</details>").expect("an end").0.split_once('"').expect("a class")).collect()
+    list.map(|row| row.split_once("</details>").unwrap().0.split_once('"').unwrap()).collect()
 }
 
 /// Number, ends and unit of an answer, and the places of its dot and of its limit on the scale.
 fn answer_shows(row: &str, name: &str, value: &Value, interval: &Value, limit: Option<(&Value, bool)>) {
     let cell = between(row, "<span class=\"number\">", "</span></span><span>").replace("<br>", "|");
     let said = plain(&cell);
-    let (number, statistic) = said.split_once('|').expect("what it is");
+    let (number, statistic) = said.split_once('|').unwrap();
     assert_eq!(statistic, name, "{row}");
     let (estimate, ends) = number.split_once(" [").unwrap_or((number, "?, ?]"));
-    let (ends, unit) = ends.split_once(']').expect("one notation");
+    let (ends, unit) = ends.split_once(']').unwrap();
     let unit = if estimate.ends_with('%') { "%".to_owned() } else { unit.to_owned() };
     let with = |text: &str| {
         if text == "?" || text.ends_with('%') { text.to_owned() } else { format!("{}{unit}", text.trim()) }
     };
     same(&with(estimate), value, name);
-    let (low, high) = ends.split_once(", ").expect("two ends");
+    let (low, high) = ends.split_once(", ").unwrap();
     for (place, (text, sign)) in [(low, 1.0), (high, -1.0)].into_iter().enumerate() {
         let (shown, found) = (si(&with(text)), interval[place].as_f64().unwrap_or(f64::NAN));
         let beyond = sign * (found - shown);
@@ -62,10 +62,10 @@ fn answer_shows(row: &str, name: &str, value: &Value, interval: &Value, limit: O
     let scale = between(row, "<svg class=\"scale\"", "</svg>");
     let place = |class: &str, key: &str| -> f64 {
         let mark = between(scale, &format!("class=\"{class}\" "), "/>");
-        between(mark, &format!("{key}=\""), "\"").parse().expect("a place")
+        between(mark, &format!("{key}=\""), "\"").parse().unwrap()
     };
     let (dot, line) = (place("dot", "cx"), place("limit", "x1"));
-    let beyond = limit.as_f64().expect("a limit") - value.as_f64().expect("a value");
+    let beyond = limit.as_f64().unwrap() - value.as_f64().unwrap();
     assert!(beyond * (line - dot) >= 0.0, "the limit is on the other side: {scale}");
     if scale.contains("class=\"whisker\"") {
         assert!(place("whisker", "x1") <= dot && dot <= place("whisker", "x2"), "{scale}");
@@ -82,20 +82,20 @@ fn answers_are_the_summary() {
     for (name, text) in [("answers", more), ("answers-failing", failing())] {
         let found = found(name, &text);
         let (summary, page) = (found.scratch.summary("r"), found.visible());
-        let list = summary["requirements"]["list"].as_array().expect("requirements");
-        let confidence = summary["requirements"]["confidence_of_intervals"].as_f64().expect("one of all");
+        let list = summary["requirements"]["list"].as_array().unwrap();
+        let confidence = summary["requirements"]["confidence_of_intervals"].as_f64().unwrap();
         let said = format!("in brackets: two-sided {}% intervals", 100.0 * confidence);
         assert_eq!(page.matches(&said).count(), 1, "{said}");
         let rows = answers(&page);
         assert_eq!(rows.len(), list.len());
         let classes: Vec<&str> = rows.iter().map(|(class, _)| *class).collect();
         let order = ["fail", "undecided", "pass"];
-        let places = classes.iter().map(|class| order.iter().position(|one| one == class).expect("a verdict"));
+        let places = classes.iter().map(|class| order.iter().position(|one| one == class).unwrap());
         assert!(places.clone().is_sorted(), "{classes:?}");
         for (class, row) in rows {
-            let place: usize = between(row, "id=\"answer_requirement_", "\"").parse().expect("a place");
+            let place: usize = between(row, "id=\"answer_requirement_", "\"").parse().unwrap();
             let one = &list[place - 1];
-            let verdict = one["verdict"].as_str().expect("a verdict");
+            let verdict = one["verdict"].as_str().unwrap();
             assert!(
                 class == verdict.to_lowercase() && row.contains(&format!("<b class=\"word\">{verdict}</b>")),
                 "{row}"
@@ -103,12 +103,8 @@ fn answers_are_the_summary() {
             let (side, is_most) = if one["at_most"].is_null() { ("at_least", false) } else { ("at_most", true) };
             let number = |key: &str| one[key].as_f64().unwrap_or_else(|| panic!("{key}: {one}"));
             let asked = plain(between(row, "<span class=\"asked\">", "</span>"));
-            let (_, limit) = asked.split_once(if is_most { "\u{2264} " } else { "\u{2265} " }).expect("a limit");
-            same(
-                limit.split(" in ").next().and_then(|text| text.split(", ").next()).expect("a number"),
-                &one[side],
-                &asked,
-            );
+            let (_, limit) = asked.split_once(if is_most { "\u{2264} " } else { "\u{2265} " }).unwrap();
+            same(limit.split(" in ").next().and_then(|text| text.split(", ").next()).unwrap(), &one[side], &asked);
             let share = Value::from(one["target"].as_f64().map_or(f64::NAN, |target| {
                 if one["statement"] == "quantile" && !is_most { 1.0 - target } else { target }
             }));
@@ -119,7 +115,7 @@ fn answers_are_the_summary() {
                     answer_shows(row, "mean", &one["estimate"], &one["interval"], Some((&one[side], is_most)));
                 }
                 Some("quantile") if !one["value"].is_null() => {
-                    let quantile = found.quantile(one["observable"].as_str().expect("a name"), &one["target"]);
+                    let quantile = found.quantile(one["observable"].as_str().unwrap(), &one["target"]);
                     let name = format!("p{}", 100.0 * number("target"));
                     answer_shows(row, &name, &one["value"], &quantile["interval"], Some((&one[side], is_most)));
                 }
@@ -143,7 +139,7 @@ const SHOWN: [(&str, &str, bool); 4] = [
 
 fn found_outcomes(name: &str) -> Found {
     let columns: Vec<String> = SHOWN.iter().map(|(_, column, _)| format!("{column:?}")).collect();
-    let text = motion().replace(RADIANS, "").split("[audit]").next().expect("a campaign").to_owned()
+    let text = motion().replace(RADIANS, "").split("[audit]").next().unwrap().to_owned()
         + &format!("[summary]\ncolumns = [{}]\n[display]\nunits = [\"deg\", \"deg/s\"]\n", columns.join(", "));
     found(name, &text)
 }
@@ -164,8 +160,8 @@ fn outcomes_are_the_summary() {
     }
     let example = plain(between(&page, "<details class=\"example\">", "</code>"));
     let example = example.replace("&#10;", "\n").replace("&quot;", "\"");
-    let (_, example) = example.split_once("[[require]]").expect("an example");
-    let text = motion().split("[[require]]").next().expect("a campaign").to_owned() + "[[require]]" + example + "\n";
+    let (_, example) = example.split_once("[[require]]").unwrap();
+    let text = motion().split("[[require]]").next().unwrap().to_owned() + "[[require]]" + example + "\n";
     found.scratch.file("example.toml", &text);
     found.scratch.prints("check example.toml", 0);
 }
@@ -175,11 +171,11 @@ fn outcomes_are_the_summary() {
 fn small_pictures_are_the_figures() {
     let found = found("answers-pictures", &motion().replace("2100 deg/s", "1500 deg/s"));
     let page = found.visible();
-    let (_, row) = answers(&page).into_iter().find(|(_, row)| row.contains("answer_requirement_1\"")).expect("a row");
+    let (_, row) = answers(&page).into_iter().find(|(_, row)| row.contains("answer_requirement_1\"")).unwrap();
     let picture = between(row, "<svg class=\"small\"", "</svg>");
     let figure = found.figure("histogram_angular_rate_final_rad_s");
     let bars = |kind: &str| {
-        let marks = figure["marks"].as_array().expect("marks").iter().filter(|mark| mark["kind"] == "bars");
+        let marks = figure["marks"].as_array().unwrap().iter().filter(|mark| mark["kind"] == "bars");
         let missed = marks.filter(|mark| (mark["label"] == "runs") == (kind == "runs"));
         missed.flat_map(|mark| found.array(&mark["heights"])).filter(|height| *height > 0.0).count()
     };
@@ -221,7 +217,7 @@ fn listed_runs_have_their_ranks() {
         for row in between(&page, "id=\"worst\"", "</section>").split("<tr>").skip(2) {
             let sample = between(row, "<th scope=\"row\">", "</th>");
             assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
-            let why = between(row, "<td class=\"text\">", "</td>").split("<p").next().expect("why").to_lowercase();
+            let why = between(row, "<td class=\"text\">", "</td>").split("<p").next().unwrap().to_lowercase();
             let why = why.as_str();
             if let Some((what, value)) = why.split_once(" (") {
                 // the rank says what a maximum or a minimum is
@@ -230,7 +226,7 @@ fn listed_runs_have_their_ranks() {
                 };
                 let of = |(words, ..): &&(&'static str, &str, bool)| what.ends_with(short(words));
                 let (words, column, is_low) = outcomes.iter().find(of).unwrap_or_else(|| panic!("{what}"));
-                let rank = what.strip_suffix(short(words)).expect("a rank").trim_end();
+                let rank = what.strip_suffix(short(words)).unwrap().trim_end();
                 assert!(!rank.ends_with("maximum") && !rank.ends_with("minimum"), "{what}");
                 let side = if *is_low { "smallest" } else { "largest" };
                 let place = rank.strip_suffix(side).expect(side).trim_end();
@@ -248,18 +244,18 @@ fn listed_runs_have_their_ranks() {
             if sample == "0" {
                 continue;
             }
-            let sample: usize = sample.parse().expect("a sample");
+            let sample: usize = sample.parse().unwrap();
             let mut last = f64::INFINITY;
             for input in between(row, "<td class=\"text small\">", "</td>").split("<br>") {
                 let place = inputs.iter().position(|(one, _)| input.starts_with(&format!("{one} ")));
                 let place = place.unwrap_or_else(|| panic!("{input}"));
                 let name = &inputs[place].0;
                 let (values, nominal) = (&columns[place], columns[place][0]);
-                let (value, rest) = input[name.len() + 1..].split_once(" (").expect("a value");
-                let rest = rest.strip_suffix("\u{a0}\u{3c3})").expect("sigmas");
+                let (value, rest) = input[name.len() + 1..].split_once(" (").unwrap();
+                let rest = rest.strip_suffix("\u{a0}\u{3c3})").unwrap();
                 let (known, sigmas) = rest.rsplit_once(", ").unwrap_or(("nominal 0", rest));
                 same(value, &values[sample].into(), name);
-                same(known.strip_prefix("nominal ").expect("the nominal value"), &nominal.into(), name);
+                same(known.strip_prefix("nominal ").unwrap(), &nominal.into(), name);
                 let squares: f64 = values.iter().map(|value| (value - nominal).powi(2)).sum();
                 let distance = (values[sample] - nominal).abs() / squares.sqrt();
                 let spread = (squares / (values.len() - 1) as f64).sqrt();

@@ -10,7 +10,7 @@ fn page(scratch: &ScratchFolder, result: &str) -> String {
 }
 
 fn visible(page: &str) -> &str {
-    page.split_once("<script").expect("a page has scripts").0
+    page.split_once("<script").unwrap().0
 }
 
 /// Law: `--no-report` leaves the page out, and `--figures` writes its figures as a page of their own.
@@ -23,7 +23,7 @@ fn figures_are_files_too() {
     assert!(said.contains("figures.html") && said.contains("spindrift-figures"), "{said}");
     let data = |page: &str| Found::data_of(&scratch.text(page))["figures"].clone();
     let name = |one: &Value| one["name"].as_str().unwrap_or_default().to_owned();
-    let names = |figures: &Value| figures.as_array().expect("figures").iter().map(name).collect::<Vec<_>>();
+    let names = |figures: &Value| figures.as_array().unwrap().iter().map(name).collect::<Vec<_>>();
     let written = names(&data("figures/figures.html"));
     assert_eq!(written, names(&data("plain/report.html")));
     for expected in ["drift_energy", "energy_transfer", "tail_energy_error_max", "correlation_achieved"] {
@@ -125,7 +125,7 @@ fn the_page_answers_first() {
         let page = page(&scratch, "r");
         let visible = visible(&page);
         assert!(visible.contains(&format!("<title>{word}: small - spindrift</title>")), "{word}");
-        let head = visible.split_once("<h1>").expect("a name").1.split_once("</h1>").expect("an end").0;
+        let head = visible.split_once("<h1>").unwrap().1.split_once("</h1>").unwrap().0;
         assert!(
             head.starts_with("small") && head.contains(&format!(">{word}</span>")) && head.contains(counts),
             "{head}"
@@ -137,9 +137,9 @@ fn the_page_answers_first() {
         assert!(places.is_sorted(), "{places:?}");
         for folded in ["inputs", "statistics"] {
             let section = visible.split_once(&format!("<section id=\"{folded}\">")).expect(folded).1;
-            let section = section.split_once("</section>").expect("an end").0;
-            let fold = section.find("<details class=\"fold\">").expect("a fold that is closed");
-            let content = section.find("class=\"figures\"").expect("figures");
+            let section = section.split_once("</section>").unwrap().0;
+            let fold = section.find("<details class=\"fold\">").unwrap();
+            let content = section.find("class=\"figures\"").unwrap();
             assert!(fold < content, "{folded}");
         }
     }

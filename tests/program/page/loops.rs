@@ -16,25 +16,25 @@ fn page(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("loop-page-{name}"));
     scratch.file("slew_closed.toml", SLEW_CLOSED);
     scratch.file("c.toml", &(text.to_owned() + RADIANS));
-    scratch.command(&format!("campaign c.toml --samples {SAMPLES} --out r")).output().expect("the program starts");
+    scratch.command(&format!("campaign c.toml --samples {SAMPLES} --out r")).output().unwrap();
     Found::read(scratch, String::new())
 }
 
 fn over_time(found: &Found) -> Vec<&Value> {
-    let figures = found.data["figures"].as_array().expect("figures");
+    let figures = found.data["figures"].as_array().unwrap();
     figures.iter().filter(|figure| figure["section"] == "time").collect()
 }
 
 fn name(figure: &Value) -> &str {
-    figure["name"].as_str().expect("a name")
+    figure["name"].as_str().unwrap()
 }
 
 fn marks<'v>(figure: &'v Value, kind: &'v str) -> impl Iterator<Item = &'v Value> {
-    figure["marks"].as_array().expect("marks").iter().filter(move |mark| mark["kind"] == kind)
+    figure["marks"].as_array().unwrap().iter().filter(move |mark| mark["kind"] == kind)
 }
 
 fn limits(figure: &Value) -> Vec<(String, f64)> {
-    let limit = |mark: &Value| (mark["label"].as_str().unwrap_or("").to_owned(), mark["at"].as_f64().expect("a place"));
+    let limit = |mark: &Value| (mark["label"].as_str().unwrap_or("").to_owned(), mark["at"].as_f64().unwrap());
     marks(figure, "limit").map(limit).collect()
 }
 
@@ -138,7 +138,7 @@ fn events_are_marked_at_their_medians() {
             let found: Vec<&Value> = marks(figure, "limit").filter(is_of_event).collect();
             let all: Vec<&Value> = marks(figure, "limit").map(|mark| &mark["label"]).collect();
             assert_eq!(found.len(), 1, "{label:?} in {}: {all:?}", name(figure));
-            let at = found[0]["at"].as_f64().expect("a time");
+            let at = found[0]["at"].as_f64().unwrap();
             assert!(middle.contains(&at), "{event}: {at} of {middle:?}");
         }
     }
@@ -162,13 +162,10 @@ fn bands_end_with_their_runs() {
             assert_eq!(*count, left(*time) as f64, "{} at {time} s", name(figure));
         }
         assert!(counts[0] == ends.len() as f64 && counts[counts.len() - 1] < 20.0);
-        let axis = figure["x"]["range"][1].as_f64().expect("an end");
+        let axis = figure["x"]["range"][1].as_f64().unwrap();
         let last = times.iter().copied().find(|time| left(*time) as f64 <= 0.01 * ends.len() as f64);
         let run = nominal[0];
-        assert!(
-            axis >= last.expect("all end") - 1e-9 && axis <= last.unwrap().max(run) + 1e-9,
-            "{axis} {last:?} {run}"
-        );
+        assert!(axis >= last.unwrap() - 1e-9 && axis <= last.unwrap().max(run) + 1e-9, "{axis} {last:?} {run}");
         for mark in marks(figure, "band").filter(|mark| mark["label"].as_str().is_some_and(|label| label.contains('%')))
         {
             bands += 1;
@@ -180,7 +177,7 @@ fn bands_end_with_their_runs() {
         }
     }
     assert!(bands > 15, "{bands} bands");
-    let last = |figure: &str, label: &str| *found.array(&found.mark(figure, label)["y"]).last().expect("points");
+    let last = |figure: &str, label: &str| *found.array(&found.mark(figure, label)["y"]).last().unwrap();
     for (found, expected) in
         [(last("impulse_n_s", "nominal run"), nominal[1]), (last("propellant", "nominal run"), nominal[2])]
     {
@@ -192,7 +189,7 @@ fn bands_end_with_their_runs() {
 #[test]
 fn bounds_are_of_the_filter() {
     let found = page("bounds", NET_LAUNCH);
-    let plan = Plan::from_text("net_launch", NET_LAUNCH, Overrides::default()).expect("valid");
+    let plan = Plan::from_text("net_launch", NET_LAUNCH, Overrides::default()).unwrap();
     let start = 3.0 * 3.0_f64.sqrt();
     for (figure, column, expected) in [
         ("attitude_estimate_error_rad", "attitude_expected_error_rad", start * 2.0_f64.to_radians()),
@@ -203,8 +200,8 @@ fn bounds_are_of_the_filter() {
         let [x, y] = ["x", "y"].map(|key| found.array(&mark[key]));
         assert!((y[0] / expected - 1.0).abs() < 1e-6, "{figure}: {} {expected}", y[0]);
         let grid = Grid::at(x.clone());
-        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).expect("physical");
-        let place = run.telemetry.quantities.iter().position(|one| one.name() == column).expect("recorded");
+        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).unwrap();
+        let place = run.telemetry.quantities.iter().position(|one| one.name() == column).unwrap();
         let held = &run.telemetry.held_at(&x)[place];
         for (point, (bound, known)) in y.iter().zip(held).enumerate() {
             assert!((bound / (3.0 * known) - 1.0).abs() < 1e-6, "{figure} at {} s: {bound} {known}", x[point]);
@@ -237,7 +234,7 @@ fn simulate_shows_what_the_scene_calls_for() {
         assert!(!has(list, "Kinetic energy") && !has(list, "Attitude quaternion"));
     }
     let said = scratch.prints("simulate slew.toml", 0);
-    let header = said.lines().next().expect("a header").split_whitespace().collect::<Vec<_>>();
+    let header = said.lines().next().unwrap().split_whitespace().collect::<Vec<_>>();
     assert_eq!(header[..3], ["time", "phase", "pointing"], "{said}");
     assert!(!header.contains(&"q_es_w"), "{said}");
 }
@@ -251,7 +248,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
         let squares = &column(&found.scratch.rows("r"), "attitude_nees_final")[1..];
         let median = numbers::quantile(squares, 0.5);
         let summary = found.scratch.summary("r");
-        let notes = summary["notes"].as_array().expect("notes");
+        let notes = summary["notes"].as_array().unwrap();
         assert_eq!(notes.len(), usize::from(is_named), "{notes:?}, a median of {median}");
         let html = found.scratch.text("r/report.html");
         let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
@@ -259,7 +256,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
         if is_named {
             let factor = "attitude and gyro bias typically end # sigma off";
             assert!(median > 2.0, "{median}");
-            for said in [notes[0].as_str().expect("a note"), &found.said, &html.to_lowercase()] {
+            for said in [notes[0].as_str().unwrap(), &found.said, &html.to_lowercase()] {
                 let of = screen_numbers::numbers(said, factor);
                 assert!((of[0] / median.sqrt() - 1.0).abs() < 6e-3, "{of:?} for {median}");
             }
@@ -272,7 +269,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
 /// Law: a run whose mission failed misses what the campaign requires, even within every limit.
 #[test]
 fn failed_missions_are_missed() {
-    let (mission, _) = NET_LAUNCH.split_once("[[require]]").expect("requirements");
+    let (mission, _) = NET_LAUNCH.split_once("[[require]]").unwrap();
     let mission = mission.replace("timeout_s = 600.0", "timeout_s = 300.0");
     let found =
         page("fates", &(mission + "[[require]]\nobservable = \"impulse_total_n_s\"\nquantile = 0.9\nat_most = 1e5\n"));
@@ -290,7 +287,7 @@ fn failed_missions_are_missed() {
 fn bands_of_wheels_are_those_of_the_file() {
     let found = page("wheel-bands", SLEW_CLOSED);
     let bands = found.scratch.table("r/bands.parquet");
-    let series = bands.column_by_name("series").expect("names").as_string::<i32>().clone();
+    let series = bands.column_by_name("series").unwrap().as_string::<i32>().clone();
     let [times, p05, p50, p95] = ["time_s", "p05", "p50", "p95"].map(|name| floats(&bands, name));
     let mut seen = 0;
     for (figure, column) in [("wheel_speed", "speed_{}_rad_s"), ("wheel_torque", "torque_{}_n_m")] {
@@ -333,10 +330,10 @@ fn a_quantile_without_a_number_is_a_share() {
     assert!(one["value"].is_null(), "{one}");
     let runs = ["runs", "violations"].map(|key| one[key].as_f64().expect(key));
     let share = 100.0 * (runs[0] - runs[1]) / runs[0];
-    let row = found.said.lines().find(|line| line.contains("time until phase rest (in ")).expect("a row");
+    let row = found.said.lines().find(|line| line.contains("time until phase rest (in ")).unwrap();
     assert!(row.contains(&format!(" of {} runs)", runs[0])), "{row}");
     let page = found.visible();
-    let row = page.split("<details class=\"answer ").nth(1).expect("a row");
+    let row = page.split("<details class=\"answer ").nth(1).unwrap();
     let shown = numbers::read_number(between(row, "<span class=\"number\"><b>", "%</b>"));
     assert!((shown - share).abs() < 0.051 && row.contains("runs within the limit</span>"), "{share}: {row}");
     assert!(row.contains(">95%</text>"), "{row}");

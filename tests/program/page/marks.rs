@@ -30,8 +30,8 @@ fn the_replay_moves_as_the_run() {
     let (rates, attitudes) = (found.all(&names), found.all(&quaternion));
     let wheels = found.all(&["rate_w1_final_rad_s", "rate_w2_final_rad_s"]);
     let momentum = found.all(&["angular_momentum_initial_n_m_s"]);
-    for run in found.data["replay"]["runs"].as_array().expect("runs") {
-        let row = run["sample"].as_u64().expect("a sample") as usize;
+    for run in found.data["replay"]["runs"].as_array().unwrap() {
+        let row = run["sample"].as_u64().unwrap() as usize;
         let [omega, attitude, angles, times, h] =
             ["omega", "attitude", "angles", "times", "momentum"].map(|key| found.array(&run[key]));
         let points = times.len();
@@ -65,8 +65,8 @@ fn the_replay_moves_as_the_run() {
 fn correlations_have_their_signs() {
     let found = found("signs", &motion());
     let figure = found.figure("correlation_achieved");
-    let names = figure["y"]["names"].as_array().expect("names").iter();
-    let names: Vec<String> = names.map(|name| name.as_str().expect("a name").to_owned()).collect();
+    let names = figure["y"]["names"].as_array().unwrap().iter();
+    let names: Vec<String> = names.map(|name| name.as_str().unwrap().to_owned()).collect();
     let column = |name: &String| dispersed(&found, &found.column_called(name));
     let columns: Vec<Vec<f64>> = names.iter().map(column).collect();
     assert_eq!(columns.len(), 3);
@@ -88,11 +88,11 @@ fn every_named_driver_has_its_direction() {
         "initial.angular_velocity_rad_s.y - 0.3 * initial.angular_velocity_rad_s.z",
     );
     let found = found("directions", &text);
-    let start = found.said.find("\n  drivers").expect("drivers");
-    let said = &found.said[start..start + found.said[start..].find("\n\n").expect("an end")];
+    let start = found.said.find("\n  drivers").unwrap();
+    let said = &found.said[start..start + found.said[start..].find("\n\n").unwrap()];
     let mut seen = [0; 2];
     for line in said.lines().skip(1).filter(|line| line.contains("with it")) {
-        let (outcome, drivers) = line.trim_start().split_once("  ").expect("an outcome");
+        let (outcome, drivers) = line.trim_start().split_once("  ").unwrap();
         let ordinates = if outcome == "spin ratio" {
             let [y, z] = ["y", "z"].map(|axis| dispersed(&found, &format!("initial_angular_velocity_{axis}_rad_s")));
             y.iter().zip(z).map(|(y, z)| y - 0.3 * z).collect()
@@ -100,10 +100,10 @@ fn every_named_driver_has_its_direction() {
             dispersed(&found, &found.column_called(outcome))
         };
         for driver in drivers.split("), ").filter(|driver| driver.contains("with it")) {
-            let (input, _) = driver.trim_start().split_once(" (").expect("an input");
+            let (input, _) = driver.trim_start().split_once(" (").unwrap();
             let input = input
                 .split_once("% [")
-                .map_or(input, |(before, _)| before.rsplit_once(' ').expect("a share").0.trim_end_matches(" explains"));
+                .map_or(input, |(before, _)| before.rsplit_once(' ').unwrap().0.trim_end_matches(" explains"));
             let rises = spearman(&dispersed(&found, &found.column_called(input)), &ordinates) > 0.0;
             assert!(driver.contains(if rises { "rises with it" } else { "falls with it" }), "{line}");
             seen[usize::from(rises)] += 1;
@@ -121,16 +121,16 @@ fn the_dominant_frequency_is_that_of_the_peak() {
     );
     let curve = found.mark("energy_spectrum", "amplitude");
     let [x, y] = ["x", "y"].map(|key| found.array(&curve[key]));
-    let top = (0..y.len()).max_by(|a, b| y[*a].total_cmp(&y[*b])).expect("a peak");
-    let marks = found.figure("energy_spectrum")["marks"].as_array().expect("marks");
-    let limit = marks.iter().find(|mark| mark["kind"] == "limit").expect("a mark");
-    let at = limit["at"].as_f64().expect("a place");
+    let top = (0..y.len()).max_by(|a, b| y[*a].total_cmp(&y[*b])).unwrap();
+    let marks = found.figure("energy_spectrum")["marks"].as_array().unwrap();
+    let limit = marks.iter().find(|mark| mark["kind"] == "limit").unwrap();
+    let at = limit["at"].as_f64().unwrap();
     let of_row = found.all(&["exchange_frequency_hz"])[0][0];
     for expected in [x[top], of_row] {
         assert!((at - expected).abs() <= x[1] - x[0], "{at} for {expected}");
     }
-    let said = limit["label"].as_str().expect("a label").trim_start_matches("dominant: ").trim_end_matches(" Hz");
-    assert!((said.parse::<f64>().expect("a number") / at - 1.0).abs() < 1e-3, "{said} for {at}");
+    let said = limit["label"].as_str().unwrap().trim_start_matches("dominant: ").trim_end_matches(" Hz");
+    assert!((said.parse::<f64>().unwrap() / at - 1.0).abs() < 1e-3, "{said} for {at}");
 }
 
 /// Law: the energy of a body over time reaches the largest value of its row, within its points.
@@ -142,7 +142,7 @@ fn energies_are_of_their_bodies() {
         let curve = found.array(&found.mark(&format!("energy_{body}_j"), "nominal run")["y"]);
         let top = curve.into_iter().fold(0.0, f64::max);
         assert!(top >= largest * (1.0 - 1e-6) && top < 1.05 * largest, "{body}: {top} for {largest}");
-        let title = found.figure(&format!("energy_{body}_j"))["title"].as_str().expect("a title").to_owned();
+        let title = found.figure(&format!("energy_{body}_j"))["title"].as_str().unwrap().to_owned();
         assert!(title.ends_with(&format!(" {body}")), "{title} of energy_{body}_j");
     }
 }

@@ -46,28 +46,27 @@ fn shown_names_are_words_and_unique() {
     let scratch = ScratchFolder::new("page-names");
     let folder = root().join("campaigns");
     let mut seen = 0;
-    for entry in fs::read_dir(&folder).expect("campaigns") {
-        let path = entry.expect("an entry").path();
+    for entry in fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
-        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let command = format!("campaign {} --samples 12 --out {name}", path.display());
-        let output = scratch.command(&command).output().expect("the program starts");
+        let output = scratch.command(&command).output().unwrap();
         assert!(matches!(output.status.code(), Some(0 | 1 | 3 | 5)), "{name}: {output:?}");
         let page = scratch.text(&format!("{name}/report.html"));
         let data = Found::data_of(&page);
-        let file =
-            format!("{}{}", fs::read_to_string(&path).expect("a file"), scratch.text(&format!("{name}/plan.toml")));
+        let file = format!("{}{}", fs::read_to_string(&path).unwrap(), scratch.text(&format!("{name}/plan.toml")));
         let is_phase = |word: &String| file.contains(&format!("phase = \"{word}\""));
 
         let mut wrong: Vec<String> = Vec::new();
-        let figures = data["figures"].as_array().expect("figures");
+        let figures = data["figures"].as_array().unwrap();
         let mut titles: BTreeMap<String, String> = BTreeMap::new();
         for figure in figures {
-            let of = figure["name"].as_str().expect("a name");
+            let of = figure["name"].as_str().unwrap();
             wrong.extend(names_of(figure).iter().flat_map(|name| technical(name)).map(|word| format!("{of}: {word}")));
-            let title = figure["title"].as_str().expect("a title").to_owned();
+            let title = figure["title"].as_str().unwrap().to_owned();
             if let Some(other) = titles.insert(title.clone(), of.to_owned()) {
                 wrong.push(format!("{other} and {of} are both called {title}"));
             }
@@ -92,8 +91,8 @@ fn shown_names_are_words_and_unique() {
                 wrong.extend(technical(number["name"].as_str().unwrap_or_default()));
             }
         }
-        let visible = page.split_once("<script").expect("scripts").0;
-        let (_, statistics) = visible.split_once("id=\"statistics\"").expect("statistics");
+        let visible = page.split_once("<script").unwrap().0;
+        let (_, statistics) = visible.split_once("id=\"statistics\"").unwrap();
         let mut rows: BTreeMap<&str, &str> = BTreeMap::new();
         for row in statistics.split("<th scope=\"row\" title=\"").skip(1) {
             let Some((title, rest)) = row.split_once("\">") else { continue };
@@ -103,7 +102,7 @@ fn shown_names_are_words_and_unique() {
                 wrong.push(format!("{other} and {column} are both called {shown}"));
             }
         }
-        let sentences = visible.split("<section id=\"provenance\"").next().expect("a page");
+        let sentences = visible.split("<section id=\"provenance\"").next().unwrap();
         wrong.extend(texts(sentences).iter().flat_map(|text| technical(text)));
         wrong.retain(|word| !is_phase(&word.rsplit(' ').next().unwrap_or_default().to_owned()));
         assert!(wrong.is_empty(), "{name}: {wrong:#?}");

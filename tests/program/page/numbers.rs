@@ -38,10 +38,10 @@ pub(crate) struct Found {
 
 fn unpacked(page: &str, id: &str) -> Vec<u8> {
     let start = page.find(&format!("id=\"{id}\">")).unwrap_or_else(|| panic!("no block {id}")) + id.len() + 6;
-    let text = &page[start..start + page[start..].find('<').expect("an end")];
-    let compressed = base64::engine::general_purpose::STANDARD.decode(text).expect("Base64");
+    let text = &page[start..start + page[start..].find('<').unwrap()];
+    let compressed = base64::engine::general_purpose::STANDARD.decode(text).unwrap();
     let mut bytes = Vec::new();
-    flate2::read::GzDecoder::new(&compressed[..]).read_to_end(&mut bytes).expect("gzip");
+    flate2::read::GzDecoder::new(&compressed[..]).read_to_end(&mut bytes).unwrap();
     bytes
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn found(name: &str, text: &str) -> Found {
     let scratch = ScratchFolder::new(&format!("page-{name}"));
     scratch.file("c.toml", text);
     let mut command = scratch.command("campaign c.toml --out r --junit junit.xml --verbose");
-    let output = command.env("COLUMNS", "200").output().expect("the program starts");
+    let output = command.env("COLUMNS", "200").output().unwrap();
     let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     Found::read(scratch, said)
 }
@@ -63,9 +63,9 @@ impl Found {
     }
 
     pub fn column_called(&self, words: &str) -> String {
-        let columns = self.data["pairs"]["columns"].as_array().expect("columns");
+        let columns = self.data["pairs"]["columns"].as_array().unwrap();
         let column = columns.iter().find(|column| column["name"] == words).unwrap_or_else(|| panic!("no {words}"));
-        column["column"].as_str().expect("a column").to_owned()
+        column["column"].as_str().unwrap().to_owned()
     }
 
     pub fn of_page(page: &str) -> Self {
@@ -74,20 +74,20 @@ impl Found {
     }
 
     pub fn data_of(page: &str) -> Value {
-        serde_json::from_slice(&unpacked(page, "data")).expect("JSON")
+        serde_json::from_slice(&unpacked(page, "data")).unwrap()
     }
 
     pub fn shown_on(page: &str) -> Vec<(String, Vec<String>)> {
         let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
         let labels =
-            |figure: &Value| figure["marks"].as_array().expect("marks").iter().map(|one| text(&one["label"])).collect();
+            |figure: &Value| figure["marks"].as_array().unwrap().iter().map(|one| text(&one["label"])).collect();
         let data = Found::data_of(page);
-        let figures = data["figures"].as_array().expect("figures");
+        let figures = data["figures"].as_array().unwrap();
         figures.iter().map(|figure| (text(&figure["title"]), labels(figure))).collect()
     }
 
     pub fn array(&self, place: &Value) -> Vec<f64> {
-        let [at, count, width] = [0, 1, 2].map(|k| usize::try_from(place[k].as_u64().expect("a place")).unwrap());
+        let [at, count, width] = [0, 1, 2].map(|k| usize::try_from(place[k].as_u64().unwrap()).unwrap());
         let bytes = &self.bytes[at..at + count * width];
         match width {
             8 => bytes.chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect(),
@@ -96,12 +96,12 @@ impl Found {
     }
 
     pub fn figure(&self, name: &str) -> &Value {
-        let figures = self.data["figures"].as_array().expect("figures");
+        let figures = self.data["figures"].as_array().unwrap();
         figures.iter().find(|figure| figure["name"] == name).unwrap_or_else(|| panic!("no figure {name}"))
     }
 
     pub fn mark(&self, figure: &str, label: &str) -> &Value {
-        let marks = self.figure(figure)["marks"].as_array().expect("marks");
+        let marks = self.figure(figure)["marks"].as_array().unwrap();
         marks.iter().find(|mark| mark["label"] == label).unwrap_or_else(|| panic!("no {label} in {figure}: {marks:?}"))
     }
 
@@ -111,20 +111,19 @@ impl Found {
 
     pub fn all(&self, names: &[&str]) -> Vec<Vec<f64>> {
         let watch = Quiet::default();
-        let results =
-            Results::open(self.scratch.path("r"), Session::new(&watch).expect("a session")).expect("a result");
+        let results = Results::open(self.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
         let derived = |name: &str| scratch_folder::column(&batches(&self.scratch.path("r/observables.parquet")), name);
         names.iter().map(|name| results.column(name).unwrap_or_else(|_| derived(name))).collect()
     }
 
     pub fn quantile(&self, name: &str, p: &Value) -> Value {
         let list = self.scratch.summary("r")["observables"].take();
-        let one = list.as_array().expect("a list").iter().find(|one| one["name"] == name).expect(name);
-        one["quantiles"].as_array().expect("quantiles").iter().find(|one| one["p"] == *p).expect("a quantile").clone()
+        let one = list.as_array().unwrap().iter().find(|one| one["name"] == name).expect(name);
+        one["quantiles"].as_array().unwrap().iter().find(|one| one["p"] == *p).unwrap().clone()
     }
 
     pub fn visible(&self) -> String {
-        self.scratch.text("r/report.html").split_once("<script").expect("scripts").0.to_owned()
+        self.scratch.text("r/report.html").split_once("<script").unwrap().0.to_owned()
     }
 
     pub fn rows(&self, names: &[&str]) -> Vec<(u64, Vec<f64>)> {
@@ -196,10 +195,7 @@ fn screen_and_junit_say_what_the_summary_has() {
     let found = found("screen", &motion());
     let summary = found.scratch.summary("r");
     let said = &found.said;
-    assert!(
-        said.find("requirement").expect("verdicts") < said.find("runs were computed").unwrap(),
-        "verdicts first: {said}"
-    );
+    assert!(said.find("requirement").unwrap() < said.find("runs were computed").unwrap(), "verdicts first: {said}");
     assert!(said.find("runs were computed").unwrap() < said.find("outcome").unwrap());
     for absent in ["q_es_w_final", "time_reached_s", "steps"] {
         assert!(!said.contains(absent), "{absent}: {said}");
@@ -212,7 +208,7 @@ fn screen_and_junit_say_what_the_summary_has() {
     let all = numbers(said.lines().nth(line).unwrap());
     let (values, ends) = ([0, 3, 6].map(|place| all[place]), [all[1], all[2]]);
     assert!(said.lines().nth(line).unwrap().contains("deg/s"));
-    let head = said.lines().find(|line| line.contains("median")).expect("a head");
+    let head = said.lines().find(|line| line.contains("median")).unwrap();
     let order: Vec<&str> = head.split_whitespace().skip(1).collect();
     assert_eq!(order, ["median", "p5", "p95", "mean", "min", "max"]);
     let of = |name: &str| {
@@ -250,7 +246,7 @@ fn screen_and_junit_say_what_the_summary_has() {
             .find(|case| case.contains(&sentence.replace('<', "&lt;").replace('>', "&gt;")))
             .unwrap_or_else(|| panic!("{junit}"));
         let expected = [("PASS", [false, false]), ("FAIL", [true, false]), ("UNDECIDED", [false, true])];
-        let (_, expected) = expected.iter().find(|(word, _)| *word == verdict).expect("a verdict");
+        let (_, expected) = expected.iter().find(|(word, _)| *word == verdict).unwrap();
         assert_eq!([case.contains("<failure"), case.contains("<error")], *expected, "{case}");
         if sentence.contains("p95") {
             assert!(sentence.contains("<= 2100 deg/s"), "{sentence}");
@@ -266,7 +262,7 @@ fn an_undecided_requirement_is_an_error() {
     let text = motion().replace("quantile = 0.95", "quantile = 0.5").replace("\"2100 deg/s\"", &format!("{median:?}"));
     let found = found("undecided", &text);
     let junit = found.scratch.text("junit.xml");
-    let case = junit.split("<testcase").find(|case| case.contains("p50 of")).expect("the case");
+    let case = junit.split("<testcase").find(|case| case.contains("p50 of")).unwrap();
     assert!(case.contains("<error type=\"undecided\"") && !case.contains("<failure"), "{case}");
     assert!(found.said.contains("UNDECIDED  p50 of"), "{}", found.said);
     let [_, failures, errors] = junit_counts(&junit);
@@ -290,20 +286,17 @@ pub(crate) fn read_number(text: &str) -> f64 {
 fn static_numbers_are_those_of_the_rows() {
     let found = found("static", &motion());
     let page = found.scratch.text("r/report.html");
-    let visible = page.split_once("<script").expect("scripts").0;
+    let visible = page.split_once("<script").unwrap().0;
     assert!(visible.contains(">2100 deg/s</text>"), "the limit on the scale");
-    let sentence = visible.split_once("Largest numerical errors, relative: energy ").expect("a sentence").1;
+    let sentence = visible.split_once("Largest numerical errors, relative: energy ").unwrap().1;
     let largest = found.column("energy_error_max").into_iter().fold(0.0, f64::max);
     let shown = read_number(sentence.split(", angular").next().unwrap());
     assert!((shown / largest - 1.0).abs() < 0.02, "{shown} for {largest}");
     let rates: Vec<f64> = found.column("angular_rate_final_rad_s").into_iter().map(degrees).collect();
-    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).expect("a row");
+    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).unwrap();
     assert!(row.contains("<td class=\"unit\">deg/s</td>"), "{row}");
-    let cells: Vec<f64> = row
-        .split("data-value=\"")
-        .skip(1)
-        .map(|cell| cell.split('"').next().unwrap().parse().expect("a number"))
-        .collect();
+    let cells: Vec<f64> =
+        row.split("data-value=\"").skip(1).map(|cell| cell.split('"').next().unwrap().parse().unwrap()).collect();
     let mean = rates.iter().sum::<f64>() / rates.len() as f64;
     let deviation = (rates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (rates.len() - 1) as f64).sqrt();
     let ends = [f64::min, f64::max].map(|end| rates.iter().copied().reduce(end).unwrap());
@@ -325,9 +318,9 @@ fn runs_that_failed_are_left_out() {
     scratch.file("c.toml", &(mixed_failures().replace("samples = 600", "samples = 200") + derived));
     let said = scratch.prints("campaign c.toml --out r --verbose", 1);
     let summary = scratch.summary("r");
-    let ok = summary["statuses"]["ok"].as_u64().expect("a count");
+    let ok = summary["statuses"]["ok"].as_u64().unwrap();
     let nominal = 1;
-    let treatment = summary["statistics"]["failed_runs"].as_str().expect("a text");
+    let treatment = summary["statistics"]["failed_runs"].as_str().unwrap();
     assert!(treatment.starts_with(&format!("{} of 199", 199 + nominal - ok)), "{treatment}: {ok} of 200 are ok");
     assert!(said.contains(treatment) && said.contains(&format!("{ok} of 200 runs were computed")), "{said}");
     let mut listed = [0; 2];
@@ -343,12 +336,12 @@ fn runs_that_failed_are_left_out() {
     let reasons = summary["failure_reasons"].as_array().unwrap();
     let reason = |status: &str| reasons.iter().find(|one| one["status"] == status).unwrap()["reason"].as_str().unwrap();
     let page = scratch.text("r/report.html");
-    let visible = page.split_once("<script").expect("scripts").0;
+    let visible = page.split_once("<script").unwrap().0;
     let escaped =
         reason("invalid_sample").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
-    let (key, rest) = escaped.trim_end_matches('.').split_once(" = ").expect("a value");
-    let (value, why) = rest.split_once(": ").expect("why");
-    let value: f64 = value.parse().expect("a number");
+    let (key, rest) = escaped.trim_end_matches('.').split_once(" = ").unwrap();
+    let (value, why) = rest.split_once(": ").unwrap();
+    let value: f64 = value.parse().unwrap();
     let is_said = visible.split(&format!("{key} = ")).skip(1).any(|shown| {
         let Some((shown, _)) = shown.split_once(&format!(": {why}")) else { return false };
         shown.len() < 12 && shown.parse::<f64>().is_ok_and(|shown| (shown - value).abs() < 1e-5 * value.abs())
@@ -378,7 +371,7 @@ fn derived_observables_are_a_file() {
         tables().into_iter().flat_map(|table| of(table).iter().collect::<Vec<_>>()).collect();
     let ratio = column("spin_ratio");
     for (sample, row) in &rows {
-        let place = samples.iter().position(|one| *one == i64::try_from(*sample).ok()).expect("the sample");
+        let place = samples.iter().position(|one| *one == i64::try_from(*sample).ok()).unwrap();
         assert_eq!(ratio[place], row[0] / row[1], "sample {sample}");
     }
     let before = found.scratch.parts("r");
@@ -386,7 +379,7 @@ fn derived_observables_are_a_file() {
         "c.toml",
         &motion().replace("omega_se_s_z_final_rad_s / angular_rate", "2 * omega_se_s_z_final_rad_s / angular_rate"),
     );
-    found.scratch.command("campaign c.toml --out r").output().expect("the program starts");
+    found.scratch.command("campaign c.toml --out r").output().unwrap();
     assert_eq!(found.scratch.parts("r"), before, "no run is repeated");
     assert_eq!(column("spin_ratio"), ratio.iter().map(|value| 2.0 * value).collect::<Vec<_>>());
     let without = motion().replace(
@@ -394,7 +387,7 @@ fn derived_observables_are_a_file() {
         "",
     );
     found.scratch.file("c.toml", &without);
-    found.scratch.command("campaign c.toml --out r").output().expect("the program starts");
+    found.scratch.command("campaign c.toml --out r").output().unwrap();
     assert!(!found.scratch.path("r/observables.parquet").exists());
 }
 

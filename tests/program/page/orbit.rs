@@ -11,7 +11,7 @@ const DURATION: f64 = 12_000.0;
 const DAYS: f64 = 9_823.5;
 
 fn shipped(name: &str) -> String {
-    fs::read_to_string(format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"))).expect("a campaign")
+    fs::read_to_string(format!("{}/campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
 fn text() -> String {
@@ -57,7 +57,7 @@ fn field(time: f64, position: [f64; 3]) -> [f64; 3] {
     let (s, c) = greenwich(time).to_radians().sin_cos();
     let m = [c * m[0] - s * m[1], s * m[0] + c * m[1], m[2]];
     let u = unit(position);
-    unit(std::array::from_fn(|i| 3.0 * dot(m, u) * u[i] - m[i]))
+    unit(from_fn(|i| 3.0 * dot(m, u) * u[i] - m[i]))
 }
 
 fn apart(a: f64, b: f64) -> f64 {
@@ -65,7 +65,7 @@ fn apart(a: f64, b: f64) -> f64 {
 }
 
 fn runs(found: &Found) -> &Vec<Value> {
-    found.data["replay"]["runs"].as_array().expect("runs")
+    found.data["replay"]["runs"].as_array().unwrap()
 }
 
 /// Law: the arrows are nadir, velocity, Sun and the field of a tilted dipole at the states of `simulate`, no farther
@@ -113,7 +113,7 @@ fn arrows_point_where_the_run_has_them() {
 fn observed(sample: u64, times: &[f64]) -> SingleRun {
     let plan = planned(&text());
     let grid = Grid::at(times.to_vec());
-    SingleRun::with_series(&plan, SampleId(sample), grid, Isa::best(), &[Group::Orbit, Group::Attitude]).expect("a run")
+    SingleRun::with_series(&plan, SampleId(sample), grid, Isa::best(), &[Group::Orbit, Group::Attitude]).unwrap()
 }
 
 fn series(run: &SingleRun, wanted: Series) -> &[f64] {
@@ -127,10 +127,10 @@ fn shadow_is_that_of_the_column() {
     let mut seen = [0; 2];
     for run in runs(found).iter().take(3) {
         let times = found.array(&run["times"]);
-        let columns = observed(run["sample"].as_u64().expect("a sample"), &times);
+        let columns = observed(run["sample"].as_u64().unwrap(), &times);
         let hidden = found.array(&run["orbit"]["hidden"]);
-        let live = run["live"].as_array().expect("numbers").iter().find(|number| number["name"] == "Sunlight");
-        let live = live.expect("sunlight");
+        let live = run["live"].as_array().unwrap().iter().find(|number| number["name"] == "Sunlight");
+        let live = live.unwrap();
         assert_eq!(live["words"], serde_json::json!(["full", "part shadow", "in shadow"]));
         assert!(live["held"] == true && found.array(&live["values"]) == hidden);
         for (value, column) in hidden.iter().zip(series(&columns, Series::SunHidden)) {
@@ -146,9 +146,9 @@ fn track(found: &Found) -> Vec<(String, Vec<f64>, Vec<f64>)> {
     assert_eq!([&figure["x"]["range"], &figure["x"]["step"]], [&serde_json::json!([-180.0, 180.0]), &30.0.into()]);
     let part = |mark: &Value| {
         let [x, y] = ["x", "y"].map(|key| found.array(&mark[key]));
-        (mark["label"].as_str().expect("a label").to_owned(), x, y)
+        (mark["label"].as_str().unwrap().to_owned(), x, y)
     };
-    figure["marks"].as_array().expect("marks").iter().map(part).filter(|(label, ..)| label != "start").collect()
+    figure["marks"].as_array().unwrap().iter().map(part).filter(|(label, ..)| label != "start").collect()
 }
 
 /// Law: the track starts at the node, reaches the inclination in latitude, and every state of the run is on it.

@@ -4,11 +4,10 @@ use crate::prelude::*;
 use std::sync::LazyLock;
 
 static MISSIONS: LazyLock<Found> = LazyLock::new(|| {
-    let text =
-        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/campaigns/net_launch.toml")).expect("a campaign");
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/campaigns/net_launch.toml")).unwrap();
     let scratch = ScratchFolder::new("page-missions");
     scratch.file("c.toml", &text.replace("samples = 1024 ", "samples = 40 "));
-    scratch.command("campaign c.toml --out r").output().expect("the program starts");
+    scratch.command("campaign c.toml --out r").output().unwrap();
     Found::read(scratch, String::new())
 });
 
@@ -21,10 +20,10 @@ fn near(found: f64, expected: f64, scale: f64, what: &str) {
 #[test]
 fn live_numbers_are_those_of_simulate() {
     let found = &*MISSIONS;
-    let runs = found.data["replay"]["runs"].as_array().expect("runs");
+    let runs = found.data["replay"]["runs"].as_array().unwrap();
     let [propellants, ends] = ["propellant_kg", "end_time_s"].map(|name| found.all(&[name]).remove(0));
     for run in runs.iter().take(3) {
-        let sample = run["sample"].as_u64().expect("a sample");
+        let sample = run["sample"].as_u64().unwrap();
         let times = found.array(&run["times"]);
         let places = [0, times.len() / 3, times.len() / 2, times.len() - 1];
         let list: Vec<String> = places.iter().map(|place| format!("{}", times[*place])).collect();
@@ -32,11 +31,11 @@ fn live_numbers_are_those_of_simulate() {
             .scratch
             .prints(&format!("simulate c.toml --sample {sample} --times {} --out s.parquet", list.join(",")), 0);
         let table = found.scratch.table("s.parquet");
-        let live = run["live"].as_array().expect("numbers");
+        let live = run["live"].as_array().unwrap();
         let shown = |name: &str, component: usize, place: usize| {
             let number =
                 live.iter().find(|number| number["name"] == name).unwrap_or_else(|| panic!("{name}: {live:?}"));
-            let width = number["components"].as_array().expect("components").len().max(1);
+            let width = number["components"].as_array().unwrap().len().max(1);
             found.array(&number["values"])[width * place + component]
         };
         let watch = Quiet::default();
@@ -84,8 +83,7 @@ fn live_numbers_are_those_of_simulate() {
 fn pointing_errors_are_those_of_the_run() {
     let found = &*MISSIONS;
     let run = &found.data["replay"]["runs"][0];
-    let live =
-        run["live"].as_array().expect("numbers").iter().find(|number| number["name"] == "Pointing error").expect("it");
+    let live = run["live"].as_array().unwrap().iter().find(|number| number["name"] == "Pointing error").unwrap();
     let (times, shown) = (found.array(&run["times"]), found.array(&live["values"]));
     let known: Vec<usize> = (0..times.len()).filter(|place| shown[*place].is_finite()).step_by(3).collect();
     assert!(known.len() > 10 && live["held"] == true);
@@ -108,27 +106,26 @@ fn pointing_errors_are_those_of_the_run() {
 #[test]
 fn phase_marks_are_at_the_times_of_the_rows() {
     let found = &*MISSIONS;
-    let runs = found.data["replay"]["runs"].as_array().expect("runs");
-    let phases = runs[0]["loop"]["phases"].as_array().expect("phases");
+    let runs = found.data["replay"]["runs"].as_array().unwrap();
+    let phases = runs[0]["loop"]["phases"].as_array().unwrap();
     let (mut failed, mut ended) = (0, 0);
     for run in runs {
-        let row = run["sample"].as_u64().expect("a sample") as usize;
+        let row = run["sample"].as_u64().unwrap() as usize;
         let mut expected = Vec::new();
         for phase in phases {
-            let name = phase.as_str().expect("a name");
+            let name = phase.as_str().unwrap();
             expected.push((found.all(&[&format!("phase_{name}_begin_s")])[0][row], name.to_owned()));
         }
         let [launched, end, failure] = ["launched", "end_time_s", "failure"].map(|name| found.all(&[name])[0][row]);
-        let marks = run["marks"].as_array().expect("marks").iter();
-        let marks: Vec<(f64, String)> = marks
-            .map(|mark| (mark["time"].as_f64().expect("a time"), mark["name"].as_str().expect("a name").to_owned()))
-            .collect();
+        let marks = run["marks"].as_array().unwrap().iter();
+        let marks: Vec<(f64, String)> =
+            marks.map(|mark| (mark["time"].as_f64().unwrap(), mark["name"].as_str().unwrap().to_owned())).collect();
         assert!(marks.windows(2).all(|pair| pair[0].0 <= pair[1].0), "{marks:?}");
         let begun: Vec<_> = expected.into_iter().filter(|(time, _)| time.is_finite()).collect();
         assert!(begun.iter().all(|mark| marks.contains(mark)), "{begun:?} in {marks:?}");
         assert_eq!(marks.len(), begun.len() + usize::from(end.is_finite()), "{marks:?}");
         if end.is_finite() {
-            let (time, name) = marks.last().expect("an end");
+            let (time, name) = marks.last().unwrap();
             assert!(*time == end && (name == "launched") == (launched == 1.0), "{marks:?}");
             ended += 1;
         }
@@ -145,13 +142,13 @@ fn the_goal_of_an_approach_is_that_of_the_file() {
     let watch = Quiet::default();
     let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
     assert_eq!(found.data["replay"]["scene"]["keep_out"], 5.0);
-    for run in found.data["replay"]["runs"].as_array().expect("runs") {
-        let table = results.replay(SampleId(run["sample"].as_u64().expect("a sample"))).unwrap().table;
+    for run in found.data["replay"]["runs"].as_array().unwrap() {
+        let table = results.replay(SampleId(run["sample"].as_u64().unwrap())).unwrap().table;
         let velocity: [f64; 3] = table.at(StateField::DebrisVelocity, 0);
         let speed = velocity.map(|v| v * v).iter().sum::<f64>().sqrt();
         assert_eq!(run["goal"]["distance"], 10.0);
         for (axis, v) in velocity.into_iter().enumerate() {
-            near(run["goal"]["axis"][axis].as_f64().expect("a number"), v / speed, 1.0, "axis");
+            near(run["goal"]["axis"][axis].as_f64().unwrap(), v / speed, 1.0, "axis");
         }
     }
 }
@@ -162,14 +159,14 @@ fn the_drawn_path_is_the_recorded_one() {
     let found = found("debris", &campaign());
     let watch = Quiet::default();
     let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
-    for run in found.data["replay"]["runs"].as_array().expect("runs") {
-        let sample = SampleId(run["sample"].as_u64().expect("a sample"));
+    for run in found.data["replay"]["runs"].as_array().unwrap() {
+        let sample = SampleId(run["sample"].as_u64().unwrap());
         let recorded = results.replay(sample).unwrap();
         let (times, shown) = (found.array(&run["times"]), found.array(&run["debris"]["relative"]));
         assert_eq!(shown.len(), 3 * times.len());
         let mut seen = 0;
         for (point, time) in recorded.grid.times().iter().enumerate() {
-            let place = times.iter().position(|other| (other - time).abs() < 1e-6).expect("the time of a row");
+            let place = times.iter().position(|other| (other - time).abs() < 1e-6).unwrap();
             let [debris, com]: [[f64; 3]; 2] =
                 [StateField::DebrisPosition, StateField::ComPosition].map(|field| recorded.table.at(field, point));
             for axis in 0..3 {

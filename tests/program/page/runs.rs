@@ -9,11 +9,11 @@ fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
 }
 
 fn ends(values: &[f64]) -> [f64; 2] {
-    [f64::min, f64::max].map(|end| values.iter().copied().reduce(end).expect("values"))
+    [f64::min, f64::max].map(|end| values.iter().copied().reduce(end).unwrap())
 }
 
 fn last(values: &[f64]) -> f64 {
-    *values.last().expect("values")
+    *values.last().unwrap()
 }
 
 /// Law: the numbers beside a replayed run are those of its row, in the unit shown, derived ones included.
@@ -22,10 +22,10 @@ fn numbers_beside_the_replay_are_of_the_row() {
     let found = found("replay", &motion());
     let names = ["angular_rate_final_rad_s", "nutation_angle_min_rad", "omega_se_s_z_final_rad_s"];
     let columns = found.all(&names);
-    let runs = found.data["replay"]["runs"].as_array().expect("runs");
+    let runs = found.data["replay"]["runs"].as_array().unwrap();
     assert_eq!(runs.len(), 11, "the nominal run and ten");
     let sizes = |list: &str, key: &str| -> Vec<Value> {
-        let list = found.data["replay"]["scene"][list].as_array().expect("shapes").iter();
+        let list = found.data["replay"]["scene"][list].as_array().unwrap().iter();
         list.map(|shape| shape[key].clone()).collect()
     };
     assert_eq!(sizes("parts", "size"), [serde_json::json!([1.0, 3.0])]);
@@ -35,12 +35,12 @@ fn numbers_beside_the_replay_are_of_the_row() {
     );
     assert_eq!(found.data["replay"]["scene"]["debris"], serde_json::json!([0.2, 0.2, 0.2]));
     for run in runs {
-        let row = run["sample"].as_u64().expect("a sample") as usize;
+        let row = run["sample"].as_u64().unwrap() as usize;
         let [rate, nutation, spin] = [0, 1, 2].map(|column| columns[column][row]);
         let shown = |title: &str| -> String {
-            let list = run["numbers"].as_array().expect("numbers");
+            let list = run["numbers"].as_array().unwrap();
             let one = list.iter().find(|one| one[0] == title).unwrap_or_else(|| panic!("{title}: {list:?}"));
-            one[1].as_str().expect("a text").to_owned()
+            one[1].as_str().unwrap().to_owned()
         };
         for (title, unit, expected) in [
             ("Angular rate at the end", "deg/s", degrees(rate)),
@@ -91,7 +91,7 @@ fn nominal_is_nominal() {
     near(y.iter().sum(), 299.0, 0.02, "expected samples");
     near(center(&x, &y), degrees(columns[2][0]), 0.01, "centre");
     let said = found.scratch.prints_wide("check c.toml --verbose", 0);
-    let row = said.lines().find(|line| line.starts_with("  initial.angular_velocity_rad_s.z ")).expect("a row");
+    let row = said.lines().find(|line| line.starts_with("  initial.angular_velocity_rad_s.z ")).unwrap();
     let words: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(words[1], "deg/s", "{row}");
     near(words[2].parse().unwrap(), degrees(columns[2][0]), 1e-3, "nominal");
@@ -103,7 +103,7 @@ fn nominal_is_nominal() {
 #[test]
 fn intervals_are_in_order() {
     let visible = found("intervals", &motion()).visible();
-    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).expect("a row");
+    let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).unwrap();
     let cells: Vec<&str> = row.split("<td data-value").filter(|cell| cell.contains(" [")).collect();
     assert!(cells.len() >= 5, "{row}");
     for cell in cells {
@@ -123,14 +123,14 @@ fn bars_of_influence_descend() {
         let figure = format!("influence_{outcome}");
         let shares = found.array(&found.mark(&figure, "95% interval")["x"]);
         assert!(shares.windows(2).all(|pair| pair[0] >= pair[1]), "{shares:?}");
-        let first = found.figure(&figure)["y"]["names"][0].as_str().expect("a name");
+        let first = found.figure(&figure)["y"]["names"][0].as_str().unwrap();
         let line = found.said.lines().find(|line| line.trim_start().starts_with(words) && line.contains("with it"));
         let line = line.unwrap_or_else(|| panic!("{outcome}: {}", found.said));
         let (_, said) = line.split_once(&format!("{first} explains ")).expect(line);
-        let share: f64 = said.split('%').next().expect("a share").parse().expect("a number");
+        let share: f64 = said.split('%').next().unwrap().parse().unwrap();
         assert!((0.01 * share - shares[0]).abs() < 0.006, "{share}: {shares:?}");
         assert_eq!(found.figure(&figure)["x"]["quantity"], "share of the variance");
-        says(found.figure(&figure)["caption"].as_str().expect("a caption"), "Of # runs", &[299.0]);
+        says(found.figure(&figure)["caption"].as_str().unwrap(), "Of # runs", &[299.0]);
     }
 }
 
@@ -144,14 +144,14 @@ fn two_statuses_are_told_apart() {
     let found = Found::read(scratch, String::new());
     let summary = found.scratch.summary("r");
     let page = found.scratch.text("r/report.html");
-    let visible = page.split_once("<script").expect("scripts").0;
+    let visible = page.split_once("<script").unwrap().0;
     let worst = crate::page::answers::between(visible, "id=\"worst\"", "</section>");
     let rows: Vec<&str> = worst.split("<tr>").collect();
     for (status, said) in [("invalid_sample", "Invalid: not physical"), ("inaccurate", "Inaccurate")] {
         let reasons = summary["failure_reasons"].as_array().unwrap();
         let of = reasons.iter().filter(|one| one["status"] == status);
-        let sample = of.map(|one| one["sample"].as_u64().expect("a sample")).min().expect("a reason");
-        let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).expect("a row");
+        let sample = of.map(|one| one["sample"].as_u64().unwrap()).min().unwrap();
+        let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).unwrap();
         assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
         let counts = reasons.iter().filter(|one| one["status"] == status);
@@ -170,10 +170,10 @@ fn two_statuses_are_told_apart() {
         .unwrap()
         .iter()
         .find(|figure| figure["name"].as_str().is_some_and(|name| name.starts_with("scatter_")));
-    let marks = scatter.expect("a figure")["marks"].as_array().unwrap();
+    let marks = scatter.unwrap()["marks"].as_array().unwrap();
     let samples = |label: &str| -> Vec<f64> {
         let mark = marks.iter().find(|mark| mark["label"].as_str().is_some_and(|name| name.starts_with(label)));
-        found.array(&mark.expect("a mark")["samples"])
+        found.array(&mark.unwrap()["samples"])
     };
     let ok = summary["statuses"]["ok"].as_u64().unwrap();
     let dispersed_ok = ok - 1; // the nominal run is ok

@@ -6,7 +6,7 @@ use crate::page::answers::same;
 use crate::page::numbers::{failing, quantile};
 
 fn scale(axis: &Value) -> f64 {
-    if axis["unit"].as_str().expect("a unit").starts_with("deg") { degrees(1.0) } else { 1.0 }
+    if axis["unit"].as_str().unwrap().starts_with("deg") { degrees(1.0) } else { 1.0 }
 }
 
 fn text<'v>(value: &'v Value, key: &str) -> &'v str {
@@ -40,11 +40,11 @@ fn bars_are(found: &Found, mark: &Value, values: &[f64], what: &str) {
 
 fn limits_on(found: &Found, column: &str) -> Vec<(f64, f64)> {
     let summary = found.scratch.summary("r");
-    let list = summary["requirements"]["list"].as_array().expect("requirements").clone();
+    let list = summary["requirements"]["list"].as_array().unwrap().clone();
     let of_column = list.iter().filter(|one| one["observable"] == column && one["statement"] != "mean");
     let limit = |one: &Value| match one["at_most"].as_f64() {
         Some(limit) => (limit, 1.0),
-        None => (one["at_least"].as_f64().expect("a limit"), -1.0),
+        None => (one["at_least"].as_f64().unwrap(), -1.0),
     };
     of_column.map(limit).collect()
 }
@@ -71,14 +71,14 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
             assert_eq!(missed.iter().sum::<f64>(), beyond.count() as f64, "{what}: {limits:?}");
             assert!(missed.iter().sum::<f64>() > 0.0, "{what}");
         }
-        ("histogram_", "limit", "nominal") => near(mark["at"].as_f64().expect("a place"), nominal, 1e-9, &what),
+        ("histogram_", "limit", "nominal") => near(mark["at"].as_f64().unwrap(), nominal, 1e-9, &what),
         ("histogram_" | "cumulative_", "limit", _) => {
-            let at = mark["at"].as_f64().expect("a place") / factor;
+            let at = mark["at"].as_f64().unwrap() / factor;
             let (side, value) = label.split_at(if label.starts_with("at most") { 7 } else { 8 });
             same(value.trim_start(), &at.into(), &what);
             let summary = found.scratch.summary("r");
             let of_column = |one: &&Value| one["observable"] == column && one[side.replace(' ', "_")].is_number();
-            let list = summary["requirements"]["list"].as_array().expect("requirements");
+            let list = summary["requirements"]["list"].as_array().unwrap();
             let limits = list.iter().filter(of_column).map(|one| one[side.replace(' ', "_")].as_f64().unwrap());
             assert!(limits.into_iter().any(|limit| (limit / at - 1.0).abs() < 1e-9), "{what}: {at}");
         }
@@ -99,7 +99,7 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
         ("tail_", "points", "largest") => {
             near(of("x")[0], high, BUCKET, &what);
             let rows = found.rows(&[column]);
-            let largest = rows.iter().max_by(|a, b| a.1[0].abs().total_cmp(&b.1[0].abs())).expect("rows");
+            let largest = rows.iter().max_by(|a, b| a.1[0].abs().total_cmp(&b.1[0].abs())).unwrap();
             assert_eq!((of("y"), of("samples")), (vec![1.0 / count], vec![largest.0 as f64]), "{what}");
         }
         ("cumulative_" | "tail_", "band", "95% interval") => {
@@ -111,25 +111,25 @@ fn series_is(found: &Found, kind: &str, column: &str, (mark, factor): (&Value, f
             }
         }
         ("convergence_", "band", "95% interval") => {
-            let [low, high] = ["low", "high"].map(|key| *of(key).last().expect("values"));
+            let [low, high] = ["low", "high"].map(|key| *of(key).last().unwrap());
             let [from, to] = interval_of(0.99);
             near(low, from, BUCKET, &what);
             near(high, to, BUCKET, &what);
         }
         ("convergence_", "line", _) => {
-            let p = probability(label).expect("a quantile");
+            let p = probability(label).unwrap();
             for (runs, y) in of("x").into_iter().zip(of("y")) {
                 near(y, quantile(&values[..runs as usize], p), BUCKET, &format!("{what} from {runs} runs"));
             }
             assert_eq!(of("x").last(), Some(&count));
         }
         ("cumulative_", "points", _) => {
-            let p = probability(label).expect("a quantile");
+            let p = probability(label).unwrap();
             near(of("x")[0], quantile(values, p), BUCKET, &what);
             assert_eq!(of("y"), [p]);
         }
         ("cumulative_", "line", _) => {
-            let p = probability(label).expect("a quantile");
+            let p = probability(label).unwrap();
             let [from, to] = interval_of(p);
             assert_eq!((of("y"), from < to), (vec![p; 2], true), "{what}");
             near(of("x")[0], from, BUCKET, &what);
@@ -149,7 +149,7 @@ const LAST: [(&str, &str); 4] = [
 /// Law: each band over time contains the narrower one, and ends as the rows do.
 pub(crate) fn bands_are(found: &Found, figure: &Value) {
     let name = text(figure, "name");
-    let marks = figure["marks"].as_array().expect("marks");
+    let marks = figure["marks"].as_array().unwrap();
     let named = |label: &str, key: &str| -> Vec<f64> {
         let mark = marks.iter().find(|mark| text(mark, "label").ends_with(label));
         found.array(&mark.unwrap_or_else(|| panic!("no {label} in {name}"))[key])
@@ -170,7 +170,7 @@ pub(crate) fn bands_are(found: &Found, figure: &Value) {
     let values: Vec<f64> = found.column(last).into_iter().map(|value| value * scale(&figure["y"])).collect();
     let spread = quantile(&values, 0.95) - quantile(&values, 0.05);
     for (series, p) in five.iter().zip([0.05, 0.25, 0.5, 0.75, 0.95]) {
-        let (end, known) = (*series.last().expect("points"), quantile(&values, p));
+        let (end, known) = (*series.last().unwrap(), quantile(&values, p));
         assert!((end - known).abs() < 1e-2 * spread, "{p} of {name}: {end} for {known}");
     }
 }
@@ -179,20 +179,20 @@ pub(crate) fn bands_are(found: &Found, figure: &Value) {
 fn shares_are(found: &Found, figure: &Value) {
     let mark = &figure["marks"][0];
     let [x, low, high] = ["x", "low", "high"].map(|key| found.array(&mark[key]));
-    let counts = figure["y"]["names"].as_array().expect("names").iter().map(|name| {
-        let (_, counts) = name.as_str().and_then(|name| name.rsplit_once(": ")).expect("counts");
-        let (events, runs) = counts.split_once(" of ").expect("two counts");
-        [events, runs].map(|count| count.parse::<f64>().expect("a count"))
+    let counts = figure["y"]["names"].as_array().unwrap().iter().map(|name| {
+        let (_, counts) = name.as_str().and_then(|name| name.rsplit_once(": ")).unwrap();
+        let (events, runs) = counts.split_once(" of ").unwrap();
+        [events, runs].map(|count| count.parse::<f64>().unwrap())
     });
     let counts: Vec<[f64; 2]> = counts.collect();
     for (place, [events, runs]) in counts.iter().enumerate() {
         assert_eq!(x[place], events / runs, "{figure}");
         assert!(low[place].is_nan() || low[place] <= x[place] && x[place] <= high[place], "{figure}");
     }
-    let name = text(figure, "name").strip_prefix("shares_").expect("a name").to_owned();
+    let name = text(figure, "name").strip_prefix("shares_").unwrap().to_owned();
     let summary = found.scratch.summary("r");
-    let outcomes = summary["observables"].as_array().expect("observables").iter().map(|one| text(one, "name"));
-    let column = outcomes.filter(|one| name.starts_with(one)).max_by_key(|one| one.len()).expect("an outcome");
+    let outcomes = summary["observables"].as_array().unwrap().iter().map(|one| text(one, "name"));
+    let column = outcomes.filter(|one| name.starts_with(one)).max_by_key(|one| one.len()).unwrap();
     let mut rows = found.rows(&[&name[column.len() + 1..], column]);
     assert_eq!(counts.iter().map(|[_, runs]| runs).sum::<f64>(), rows.len() as f64, "{figure}");
     rows.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
@@ -210,15 +210,15 @@ fn shares_are(found: &Found, figure: &Value) {
 
 /// Law: each point of an outcome against an input is the run of its sample, and a failed one is at the lower edge.
 fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
-    let name = text(figure, "name").strip_prefix("scatter_").expect("a scatter plot");
+    let name = text(figure, "name").strip_prefix("scatter_").unwrap();
     let is_of = |outcome: &&&str| name.strip_prefix(**outcome).is_some_and(|rest| rest.starts_with('_'));
-    let outcome = outcomes.iter().filter(is_of).max_by_key(|outcome| outcome.len()).expect("an outcome");
+    let outcome = outcomes.iter().filter(is_of).max_by_key(|outcome| outcome.len()).unwrap();
     let columns = found.all(&[&name[outcome.len() + 1..], outcome]);
     let ok: Vec<f64> = found.rows(&[]).into_iter().map(|(sample, _)| sample as f64).collect();
     let scales = ["x", "y"].map(|axis| scale(&figure[axis]));
     let mut lowest = f64::INFINITY;
     let mut all = Vec::new();
-    for mark in figure["marks"].as_array().expect("marks") {
+    for mark in figure["marks"].as_array().unwrap() {
         let is_ok = ["computed", "meets its limit", "misses its limit"].contains(&text(mark, "label"));
         let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&mark[key]));
         for (k, sample) in samples.iter().enumerate() {
@@ -244,13 +244,13 @@ fn thinned_points_are_of_their_samples() {
     const SAMPLES: usize = 17_000;
     let campaign = crate::small_campaign::campaign().replace("samples = 600", &format!("samples = {SAMPLES}"));
     let found = found("series-thinned", &campaign);
-    let figures = found.data["figures"].as_array().expect("figures");
+    let figures = found.data["figures"].as_array().unwrap();
     let mut points = 0;
     for figure in figures.iter().filter(|figure| text_of_scatter(figure).is_some()) {
-        let (outcome, input) = text_of_scatter(figure).expect("a scatter plot");
+        let (outcome, input) = text_of_scatter(figure).unwrap();
         let columns = found.all(&[&input, &outcome]);
         let scales = ["x", "y"].map(|axis| scale(&figure[axis]));
-        for mark in figure["marks"].as_array().expect("marks").iter().filter(|mark| text(mark, "kind") == "points") {
+        for mark in figure["marks"].as_array().unwrap().iter().filter(|mark| text(mark, "kind") == "points") {
             let [samples, x, y] = ["samples", "x", "y"].map(|key| found.array(&mark[key]));
             assert!(samples.iter().any(|sample| *sample > 16_384.0), "of all runs");
             for ((sample, x), y) in samples.iter().zip(x).zip(y) {
@@ -281,7 +281,7 @@ fn chosen_columns_are_of_the_rows() {
         let is_ok = *sample == 0.0 || ok.iter().any(|(one, _)| *one as f64 == *sample);
         assert_eq!(fate == 2.0, !is_ok, "{sample}");
     }
-    let columns = pairs["columns"].as_array().expect("columns");
+    let columns = pairs["columns"].as_array().unwrap();
     for column in columns {
         let name = text(column, "column");
         let (values, rows) = (found.array(&column["values"]), found.all(&[name]).swap_remove(0));
@@ -308,10 +308,10 @@ fn every_series_is_of_its_label() {
         let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
         let summary = found.scratch.summary("r");
         let outcomes: Vec<&str> =
-            summary["observables"].as_array().expect("observables").iter().map(|one| text(one, "name")).collect();
-        for figure in found.data["figures"].as_array().expect("figures") {
+            summary["observables"].as_array().unwrap().iter().map(|one| text(one, "name")).collect();
+        for figure in found.data["figures"].as_array().unwrap() {
             let name = text(figure, "name");
-            let marks = figure["marks"].as_array().expect("marks");
+            let marks = figure["marks"].as_array().unwrap();
             if marks.iter().any(|mark| text(mark, "label").ends_with("5 to 95%")) {
                 bands_are(&found, figure);
                 *seen.entry("bands").or_default() += 1;

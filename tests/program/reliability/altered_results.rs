@@ -120,7 +120,7 @@ fn what_is_not_compared_is_named() {
     let whole = contents(&scratch.path("r"));
     ["r/manifest.json", "r/_SUCCESS"].into_iter().for_each(|name| fs::remove_file(scratch.path(name)).unwrap());
     let said = scratch.prints_wide("verify r --fraction 1", 5);
-    let (_, named) = said.split_once("not compared, since nothing says what should be in them: ").expect("named");
+    let (_, named) = said.split_once("not compared, since nothing says what should be in them: ").unwrap();
     let top = ["dataset.json", "plan.toml", "manifest.json", "_SUCCESS"];
     for name in whole.keys() {
         let is_compared =

@@ -42,7 +42,7 @@ fn indexed_jobs_make_the_bytes_of_one_process() {
                 .env(variable, index.to_string())
                 .current_dir(scratch.path(""))
                 .output()
-                .expect("a shell");
+                .unwrap();
             assert!(shell.status.success(), "{command}: {}", String::from_utf8_lossy(&shell.stderr));
         }
         scratch.prints(&format!("finish {variable}"), 0);
@@ -70,7 +70,7 @@ fn slurm_task(scratch: &ScratchFolder, task: u32, restarts: u32) -> Child {
     let mut shell = Command::new("bash");
     shell.arg("array.sh").current_dir(scratch.path("")).stdout(Stdio::null()).stderr(Stdio::null());
     shell.envs(numbers.map(|(name, number)| (name, number.to_string())));
-    shell.env("SLURM_JOB_ID", "101").env("SLURM_RESTART_COUNT", restarts.to_string()).spawn().expect("bash")
+    shell.env("SLURM_JOB_ID", "101").env("SLURM_RESTART_COUNT", restarts.to_string()).spawn().unwrap()
 }
 
 /// Law: the tasks of the array make the rows of one process, and a task that ends by itself is not requeued.
@@ -81,7 +81,7 @@ fn the_slurm_array_makes_the_bytes_of_one_process() {
     assert!(script.contains("--signal=B:USR1@60 --requeue"), "{script}");
     scratch.small("--samples 9000 --out one", 0);
     for task in [2, 1, 1] {
-        assert_eq!(slurm_task(&scratch, task, 0).wait().expect("ended").code(), Some(0), "task {task}");
+        assert_eq!(slurm_task(&scratch, task, 0).wait().unwrap().code(), Some(0), "task {task}");
     }
     scratch.prints("finish sharded", 0);
     assert!(contents(&scratch.path("sharded")) == contents(&scratch.path("one")));
@@ -111,8 +111,8 @@ fn a_slurm_task_that_was_stopped_is_put_back() {
         let children = format!("/proc/{0}/task/{0}/children", task.id());
         let program = || fs::read_to_string(&children).ok()?.split_whitespace().next()?.parse().ok();
         wait(Box::new(|| parts() > before && program().is_some()));
-        send(signal, if signal == "USR1" { task.id() } else { program().expect("it runs") });
-        assert_eq!(task.wait().expect("ended").code(), Some(code), "{signal}");
+        send(signal, if signal == "USR1" { task.id() } else { program().unwrap() });
+        assert_eq!(task.wait().unwrap().code(), Some(code), "{signal}");
         requeued += usize::from(is_back);
         let asked = fs::read_to_string(scratch.path("scontrol.log")).unwrap_or_default();
         assert_eq!(asked, "requeue 101\n".repeat(requeued), "{signal}, {restarts} restarts");

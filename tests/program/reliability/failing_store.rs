@@ -19,7 +19,7 @@ pub fn whole_parts(root: &Path) -> usize {
         // a part that is made again is removed first
         let Ok(bytes) = fs::read(&path) else { return };
         assert!(sealed(&bytes).is_some(), "{} is not whole", path.display());
-        let rows = RowsMetadata::of(bytes.into()).expect("rows");
+        let rows = RowsMetadata::of(bytes.into()).unwrap();
         if let Ok(bands) = fs::read(root.join("bands").join(path.file_name().unwrap())) {
             assert!(rows.bands == Some(sha256(&bands)), "{}: of other bands", path.display());
         }
@@ -170,7 +170,7 @@ impl Store for Failing {
 pub fn on(plot: &Arc<Plot>, work: impl FnOnce(&Session<'_>) -> Result<(), Failure>) -> Result<(), Failure> {
     let folders = |root: &Path| -> Arc<dyn Store> { Arc::new(Failing { plot: plot.clone(), disk: folder(root) }) };
     let watch = Quiet::default();
-    let session = Session::new(&watch).expect("an instruction set").on_threads(NonZeroUsize::new(1));
+    let session = Session::new(&watch).unwrap().on_threads(NonZeroUsize::new(1));
     work(&Session { folders: &folders, ..session })
 }
 
@@ -197,7 +197,7 @@ impl Making {
             let campaign = Campaign::from_text("small.toml", &text, *session).samples(self.samples).seed(self.seed);
             let campaign = campaign.store(root).outputs(outputs);
             let campaign = if self.overwrite { campaign.overwrite() } else { campaign };
-            campaign.prepare()?.expect("a campaign").run().map(|_| ())
+            campaign.prepare()?.unwrap().run().map(|_| ())
         })
     }
 }

@@ -15,7 +15,7 @@ pub fn alter(scratch: &ScratchFolder, files: &[(&str, &[u8])]) {
         manifest.files.into_iter().map(|file| (file.name.clone(), file)).collect();
     for (name, bytes) in files {
         fs::write(root.join(name), bytes).unwrap();
-        listed.insert((*name).to_owned(), FileRecord::of(name, bytes)).expect("a file that is listed");
+        listed.insert((*name).to_owned(), FileRecord::of(name, bytes)).unwrap();
     }
     manifest.files = listed.into_values().collect();
     fs::write(root.join("manifest.json"), manifest.bytes()).unwrap();
@@ -62,7 +62,7 @@ fn any_fraction_computes_a_part() {
     let [rows, bands] = ["runs", "bands"].map(|folder| format!("{folder}/part-000000.parquet"));
     let mut altered = whole[&rows].clone();
     let [mine, others] = [&whole, &other].map(|files| sha256(&files[&bands]));
-    let at = altered.windows(mine.len()).position(|some| some == mine.as_bytes()).expect("names its bands");
+    let at = altered.windows(mine.len()).position(|some| some == mine.as_bytes()).unwrap();
     altered[at..at + mine.len()].copy_from_slice(others.as_bytes());
     seal(&mut altered);
     alter(&scratch, &[(&rows, &altered), (&bands, &other[&bands])]);

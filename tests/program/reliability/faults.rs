@@ -22,7 +22,7 @@ fn fail_everywhere(scratch: &ScratchFolder, has_page: bool, persists: bool, faul
     assert_eq!(whole.keys().filter(|name| name.starts_with("trajectories/")).count(), 2);
     let operations = counted.done();
     assert!(operations.len() > 25, "{} operations", operations.len());
-    let page = operations.iter().position(|(_, path)| path.ends_with("report.html")).expect("put or removed");
+    let page = operations.iter().position(|(_, path)| path.ends_with("report.html")).unwrap();
     let mut errors = 0;
     for (fails, fault) in (0..operations.len()).zip(faults.iter().cycle()).skip(if has_page { page } else { 0 }) {
         let root = scratch.path("r");

@@ -90,10 +90,10 @@ fn audits(plan: &Plan) -> Vec<Audit> {
 fn a_wrong_debris_is_caught() {
     let mut plan = plan("spin_sweep", 1, 1.0);
     plan.nominal.debris = Some(DebrisInput::Box { size_m: [0.2, 0.3, 0.4], density_kg_m3: 2700.0 });
-    let mut scene = Scene::resolve(&plan.nominal).expect("physical");
+    let mut scene = Scene::resolve(&plan.nominal).unwrap();
     scene.initial.omega_de_d = [0.0, 1.0, 1e-3];
     let mut wrong = scene.clone();
-    wrong.mass.debris.as_mut().expect("a debris").inertia[0][0] *= 1.0 + 1e-4;
+    wrong.mass.debris.as_mut().unwrap().inertia[0][0] *= 1.0 + 1e-4;
     let mut auditor = Auditor::new(&plan, Isa::best(), &plan.grid);
     let (right, caught) = (auditor.audit(&scene).unwrap(), auditor.compare(&wrong, &scene).unwrap());
     // measured: 8.0e-10 and 9.6e-6; the right one is a rounding that the instability amplifies
@@ -112,7 +112,7 @@ fn a_wrong_debris_is_caught() {
             && caught.value(AuditValue::DebrisEstimate) < 0.01 * caught.value(AuditValue::Debris)
     );
     let without = Plan { nominal: SceneInput { debris: None, ..plan.nominal.clone() }, ..plan };
-    let scene = Scene::resolve(&without.nominal).expect("physical");
+    let scene = Scene::resolve(&without.nominal).unwrap();
     let audit = Auditor::new(&without, Isa::best(), &without.grid).audit(&scene).unwrap();
     // measured: 2.3e-11
     assert!(
@@ -126,7 +126,7 @@ fn a_wrong_debris_is_caught() {
 fn a_long_run_is_audited_in_plain_doubles() {
     let mut plan = plan("spin_sweep", 1, 1.0);
     plan.tolerance = Tolerance { relative: 1e-8, absolute: 1e-8 };
-    let scene = Scene::resolve(&plan.nominal).expect("physical");
+    let scene = Scene::resolve(&plan.nominal).unwrap();
     let truth_of = |duration: f64| {
         let grid = spindrift::run::Grid::uniform(duration, 11);
         Auditor::new(&plan, Isa::best(), &grid).audit(&scene).unwrap()
@@ -152,7 +152,7 @@ fn air_and_sunlight_are_audited() {
         assert_eq!(audit.value(AuditValue::Tolerance), 1e-17);
         assert!(audit.state() > 0.0 && audit.state() < 1e-6, "{:e}", audit.state());
     }
-    let scene = Scene::resolve(&plan.nominal).expect("physical");
+    let scene = Scene::resolve(&plan.nominal).unwrap();
     let grid = Grid::uniform(4e6, 2);
     let refused = Auditor::new(&plan, Isa::best(), &grid).audit(&scene).expect_err("it is too long");
     assert!(refused.to_string().starts_with("the spacecraft turns for"), "{refused}");
@@ -259,7 +259,7 @@ fn the_summary_of_the_audits_is_that_of_the_files() {
         assert!(count > 1000, "{count}");
         assert_eq!(audit["audited"].as_u64(), Some(count as u64));
         for (level, p) in [("median", 0.5), ("p95", 0.95)] {
-            let exact = quantile(&errors, p).expect("errors");
+            let exact = quantile(&errors, p).unwrap();
             let found = audit[key][level].as_f64().unwrap_or_else(|| panic!("{key}: {}", audit[key]));
             assert!((found - exact).abs() <= exact / 2048.0, "{name} {level}: {found:e} for {exact:e}");
         }

@@ -34,6 +34,6 @@ fn audits_know_where_a_run_has_ended() {
     scratch.prints("campaign c.toml --samples 200 --audit 1 --out r --no-report", 0);
     let audit = &scratch.summary("r")["audit"];
     assert_eq!((audit["audited"].as_u64(), audit["failed"].as_u64()), (Some(199), Some(0)));
-    assert!(audit["estimate"]["coverage"].as_f64().expect("a share") >= 0.95, "{audit}");
-    assert!(audit["state_error"]["max"].as_f64().expect("an error") < 5e-14, "{audit}");
+    assert!(audit["estimate"]["coverage"].as_f64().unwrap() >= 0.95, "{audit}");
+    assert!(audit["state_error"]["max"].as_f64().unwrap() < 5e-14, "{audit}");
 }

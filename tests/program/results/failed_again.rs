@@ -171,7 +171,7 @@ fn printed_commands_give_the_rows() {
                 let line =
                     run.lines().find(|line| line.starts_with(&format!("initial.angular_velocity_rad_s.{axis} ")));
                 let value = line.and_then(|line| line.split_whitespace().nth(1)).map(|value| value.parse());
-                let value: f64 = value.expect("a value").expect("a number");
+                let value: f64 = value.unwrap().unwrap();
                 assert!((value - drawn[row]).abs() <= 5e-6 * drawn[row].abs(), "{options}: {command}: {value}");
             }
         }

@@ -5,17 +5,15 @@ use crate::prelude::*;
 use crate::commands::screen_numbers::junit_counts;
 
 fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
-    let statuses = batch.column_by_name("status").expect("a status").as_string::<i32>();
-    let reasons = batch.column_by_name("reason").expect("a reason").as_string::<i32>();
+    let statuses = batch.column_by_name("status").unwrap().as_string::<i32>();
+    let reasons = batch.column_by_name("reason").unwrap().as_string::<i32>();
     let text = |row: usize| (!reasons.is_null(row)).then(|| reasons.value(row).to_owned());
     (0..batch.num_rows()).map(|row| (statuses.value(row).to_owned(), text(row))).collect()
 }
 
 fn reasons<'s>(said: &'s str, status: &str) -> Vec<(usize, &'s str)> {
     let lines = said.lines().filter(|line| line.starts_with("    ") && line.contains(&format!(" {status}: ")));
-    lines
-        .map(|line| (line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a count"), line))
-        .collect()
+    lines.map(|line| (line.split_whitespace().next().and_then(|word| word.parse().ok()).unwrap(), line)).collect()
 }
 
 #[test]
@@ -72,7 +70,7 @@ fn garbage_is_inaccurate() {
     let balances = ["energy_error_max", "angular_momentum_error_max"].map(|name| (name, floats(batch, name)));
     for (row, (status, reason)) in ends(batch).into_iter().enumerate() {
         assert_eq!(status, "inaccurate", "row {row}");
-        let reason = reason.expect("a run that is not ok has a reason");
+        let reason = reason.unwrap();
         assert_eq!(reason.contains("state_error_estimate"), estimates[row] >= 0.1, "row {row}: {reason}");
         for (name, values) in &balances {
             assert_eq!(reason.contains(name), values[row] >= 1e-2, "row {row}: {reason}");
@@ -110,7 +108,7 @@ fn failed_runs_violate_what_their_values_keep() {
     let failed_with_value = population.iter().filter(|(status, rate)| *status != "ok" && !rate.is_nan()).count();
     assert!(failed_with_value > 20, "{failed_with_value} runs failed and have a value");
     let summary = scratch.summary("r");
-    let list = summary["requirements"]["list"].as_array().expect("a list");
+    let list = summary["requirements"]["list"].as_array().unwrap();
     let runs: Vec<_> = population.iter().filter(|(status, _)| *status != "invalid_sample").collect();
     let outside = &summary["requirements"]["samples_that_are_not_physical"];
     assert_eq!((&summary["requirements"]["samples"], outside), (&299.into(), &(299 - runs.len()).into()));
@@ -118,7 +116,7 @@ fn failed_runs_violate_what_their_values_keep() {
         let is_within = |rate: f64| if side == "at_most" { rate <= limit } else { rate >= limit };
         let violations = runs.iter().filter(|(status, rate)| *status != "ok" || !is_within(*rate)).count();
         let failed = runs.iter().filter(|(status, _)| *status != "ok").count();
-        let counts = ["runs", "violations", "failed_runs"].map(|name| found[name].as_u64().expect("a count") as usize);
+        let counts = ["runs", "violations", "failed_runs"].map(|name| found[name].as_u64().unwrap() as usize);
         assert_eq!(counts, [runs.len(), violations, failed], "{statement} {side} {limit}");
     }
     assert!(list[..3].iter().all(|one| one["verdict"] == "FAIL"), "{list:?}");
@@ -141,7 +139,7 @@ fn failed_rows_have_reasons() {
     scratch.prints("campaign thin.toml --samples 100 --out thin", 1);
     let batch = &scratch.table("thin/runs/part-000000.parquet");
     let walls = floats(batch, "body_parts_fuselage_wall_thickness_m");
-    let errors = batch.column_by_name("energy_error_max").expect("an error");
+    let errors = batch.column_by_name("energy_error_max").unwrap();
     let ends = ends(batch);
     for (row, (status, reason)) in ends.iter().enumerate() {
         let is_physical = walls[row] > 0.0;
@@ -153,9 +151,9 @@ fn failed_rows_have_reasons() {
     let invalid = ends.iter().filter(|(status, _)| status == "invalid_sample").count();
     assert!((10..60).contains(&invalid), "{invalid} of 100");
     assert_eq!(scratch.summary("thin")["statuses"]["invalid_sample"], invalid);
-    let row = ends.iter().position(|(status, _)| status == "invalid_sample").expect("one");
+    let row = ends.iter().position(|(status, _)| status == "invalid_sample").unwrap();
     let said = scratch.prints(&format!("simulate thin.toml --sample {row}"), 2);
-    let reason = said.lines().find(|line| line.starts_with("  ")).expect("a reason");
+    let reason = said.lines().find(|line| line.starts_with("  ")).unwrap();
     assert!(said.contains("invalid_sample") && reason.contains("wall_thickness_m"), "{said}");
     scratch.shows(&format!("sample thin.toml --sample {row}"), 0, reason);
 
@@ -163,10 +161,10 @@ fn failed_rows_have_reasons() {
     scratch.prints("campaign short.toml --samples 5 --out short", 1);
     let batch = &scratch.table("short/runs/part-000000.parquet");
     for (status, reason) in self::ends(batch) {
-        let reason = reason.expect("a reason");
+        let reason = reason.unwrap();
         assert!(status == "step_limit" && reason.starts_with("integrator.max_steps does not suffice"), "{reason}");
     }
-    assert_eq!(batch.column_by_name("energy_error_max").expect("an error").null_count(), 5);
+    assert_eq!(batch.column_by_name("energy_error_max").unwrap().null_count(), 5);
     scratch.prints("simulate short.toml", 1);
 }
 
@@ -186,7 +184,7 @@ fn a_run_ends_with_its_debris() {
             let batch = &scratch.table("r/runs/part-000000.parquet");
             let found = ends(batch);
             assert!(found.iter().all(|(found, _)| found == status), "{method}, {steps}: {found:?}");
-            let energy = batch.column_by_name("energy_error_max").expect("an error");
+            let energy = batch.column_by_name("energy_error_max").unwrap();
             assert_eq!(energy.null_count(), if status == "ok" { 0 } else { 3 }, "{method}, {steps}");
         }
     }

@@ -13,7 +13,7 @@ fn number(summary: &Value, path: &str) -> f64 {
 #[test]
 fn a_loss_is_said_first_and_is_not_random() {
     let scratch = ScratchFolder::new("lost-runs");
-    let alone = DETUMBLE.split("[[require]]").next().expect("a campaign");
+    let alone = DETUMBLE.split("[[require]]").next().unwrap();
     let stepped = alone.replace("method = \"auto\"", "method = \"dop853\"");
     let short = stepped.replace("\"10 min\"", "\"60 s\"").replace("samples = 1024", &format!("samples = {RUNS}"));
     let text = short + "\n[[require]]\nobservable = \"angular_rate_final_rad_s\"\nquantile = 0.95\nat_most = 4000.0\n";
@@ -42,11 +42,11 @@ fn a_loss_is_said_first_and_is_not_random() {
         "NOT COMPUTED: # of # dispersed runs, #% (step_limit #)",
         &[missing as f64, runs as f64, share, missing as f64],
     );
-    let warning = said.find("NOT COMPUTED").expect("a warning");
-    assert!(warning < said.find("requirement,").expect("requirements"), "{said}");
+    let warning = said.find("NOT COMPUTED").unwrap();
+    assert!(warning < said.find("requirement,").unwrap(), "{said}");
     let summary = scratch.summary("lost");
-    let warnings = summary["warnings"].as_array().expect("warnings");
-    let first = warnings[0].as_str().expect("a text");
+    let warnings = summary["warnings"].as_array().unwrap();
+    let first = warnings[0].as_str().unwrap();
     assert!(first.contains("What decides it: initial"), "{first}");
     let page = scratch.text("lost/report.html");
     let place = |anchor: &str| page.find(&format!("<section id=\"{anchor}\"")).unwrap_or_else(|| panic!("{anchor}"));
@@ -56,8 +56,8 @@ fn a_loss_is_said_first_and_is_not_random() {
     let failures = column(&rows, "failure");
     let ok = (1..RUNS).filter(|row| ended[*row].1 == "ok");
     let failed = ok.clone().filter(|row| failures[*row] != 0.0).count();
-    let ends = summary["missions"].as_array().expect("missions");
-    let none = ends.iter().find(|end| end["end"] == "not_failed").expect("some did not fail");
+    let ends = summary["missions"].as_array().unwrap();
+    let none = ends.iter().find(|end| end["end"] == "not_failed").unwrap();
     let count = ok.count() - failed;
     assert_eq!(
         [&none["count"], &none["runs"], &none["not_computed"]].map(Value::as_u64),
@@ -70,17 +70,17 @@ fn a_loss_is_said_first_and_is_not_random() {
     says(&said, "# of # missions did not fail: #% to #% [#, #]", &known);
 
     // no interval takes the loss for random, and no number contradicts a verdict
-    for line in summary["observables"].as_array().expect("observables") {
-        assert!(line["mean_interval"].as_array().expect("two").iter().all(Value::is_null), "{line}");
-        for quantile in line["quantiles"].as_array().expect("quantiles") {
-            assert!(quantile["interval"].as_array().expect("two").iter().all(Value::is_null), "{line}");
+    for line in summary["observables"].as_array().unwrap() {
+        assert!(line["mean_interval"].as_array().unwrap().iter().all(Value::is_null), "{line}");
+        for quantile in line["quantiles"].as_array().unwrap() {
+            assert!(quantile["interval"].as_array().unwrap().iter().all(Value::is_null), "{line}");
         }
     }
     let one = &summary["requirements"]["list"][0];
     assert_eq!((&one["verdict"], &one["value"]), (&"FAIL".into(), &Value::Null));
     assert_eq!(number(one, "/runs_without_a_value"), missing as f64);
     for text in [&said, &scratch.text("lost.xml")] {
-        let found = text.split_once("p95 is among the runs without a value; ").expect("no number").1;
+        let found = text.split_once("p95 is among the runs without a value; ").unwrap().1;
         let interval = interval((runs - missing) as u64, runs as u64, 0.95).map(|end| 100.0 * end);
         let known = [(runs - missing) as f64, runs as f64, 100.0 - share, interval[0], interval[1], missing as f64];
         says(found, "# of # runs within the limit: #% [#, #]; # runs without a value count as violations", &known);
@@ -148,23 +148,23 @@ fn intervals_hold_whatever_lost_runs_are() {
         let set =
             format!("--set campaign.seed={seed} --set integrator.max_steps={steps} --no-report --out {file}{steps}");
         let mut command = scratch.command(&format!("campaign {file}.toml --overwrite {set}"));
-        let out = command.output().expect("it runs");
+        let out = command.output().unwrap();
         assert!([0, 1, 3, 5].contains(&out.status.code().unwrap_or(-1)), "{out:?}");
         let summary = scratch.summary(&format!("{file}{steps}"));
-        let lines = summary["observables"].as_array().expect("observables");
-        let line = lines.iter().find(|line| line["name"] == "rate").expect("the rate").clone();
+        let lines = summary["observables"].as_array().unwrap();
+        let line = lines.iter().find(|line| line["name"] == "rate").unwrap().clone();
         let rows = ended(&scratch.rows(&format!("{file}{steps}")));
         (line, rows.iter().filter(|(_, status)| status == "step_limit").count())
     };
     let ends = |value: &Value| {
-        let ends = value.as_array().expect("two");
+        let ends = value.as_array().unwrap();
         [ends[0].as_f64().unwrap_or(f64::NEG_INFINITY), ends[1].as_f64().unwrap_or(f64::INFINITY)]
     };
     for seed in 1..=6 {
         let (few, lost) = outcome("open", seed, 27);
         let (all, none) = outcome("open", seed, 100);
         assert!((1..20).contains(&lost) && none == 0, "seed {seed}: {lost} of 400 lost");
-        let quantiles = |line: &Value| line["quantiles"].as_array().expect("quantiles").clone();
+        let quantiles = |line: &Value| line["quantiles"].as_array().unwrap().clone();
         let (mut bounded, mut wider) = (0, 0);
         for (one, other) in quantiles(&few).iter().zip(&quantiles(&all)) {
             assert_eq!(one["p"], other["p"]);
@@ -225,10 +225,10 @@ fn an_audit_that_fails_is_no_success() {
     assert!(covered < 10 && errors.iter().all(|error| *error < 0.1), "{covered} of {}", errors.len());
     let words = format!("AUDIT FAILED: state error estimate covers the true error in {covered} of {}", errors.len());
     let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(flat.find(&words).expect("the word") < flat.find("outcome").expect("numbers"), "{said}");
+    assert!(flat.find(&words).unwrap() < flat.find("outcome").unwrap(), "{said}");
     assert!(scratch.summary("few")["warnings"][0].as_str().is_some_and(|text| text.starts_with(&words)));
     let page = scratch.text("few/report.html");
-    assert!(page.find("<b>AUDIT FAILED:</b>").expect("the word") < page.find("id=\"status\"").expect("statuses"));
+    assert!(page.find("<b>AUDIT FAILED:</b>").unwrap() < page.find("id=\"status\"").unwrap());
     assert_eq!(scratch.text("few.xml").matches("<failure type=\"audit\"").count(), 1);
     for again in ["campaign few.toml --out few", "finish few"] {
         assert!(scratch.prints(again, 1).contains("AUDIT FAILED"), "{again}");

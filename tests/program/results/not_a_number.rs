@@ -64,7 +64,7 @@ fn what_is_not_a_number_passes_nothing() {
         assert_eq!(rows.iter().all(is_null), *name != "tipped_count", "{name}");
     }
     let summary = scratch.summary("r");
-    let list = summary["requirements"]["list"].as_array().expect("requirements");
+    let list = summary["requirements"]["list"].as_array().unwrap();
     for (one, (name, more, word)) in list.iter().zip(&requirements) {
         assert_eq!(one["verdict"], *word, "{name} {more}: {one}");
         let reason = one["reason"].as_str().unwrap_or_default();

@@ -46,7 +46,7 @@ at_most = "100 deg/s"
 fn campaign(name: &str, arguments: &str) -> ScratchFolder {
     let scratch = ScratchFolder::new(&format!("run-ends-{name}"));
     scratch.file("c.toml", ENDS);
-    scratch.command(&format!("campaign c.toml --out r {arguments}")).output().expect("the program starts");
+    scratch.command(&format!("campaign c.toml --out r {arguments}")).output().unwrap();
     scratch
 }
 
@@ -64,27 +64,23 @@ fn everything_ends_where_the_row_does() {
         assert!(tipped[row].is_nan() || (angle[row] - 0.7).abs() < 1e-9, "{row}: {}", angle[row]);
         assert_eq!(rate[row].is_nan(), end < 2.0, "{row}");
     }
-    for sample in [0, ended[0], ended[200], (0..600).find(|row| ended_by[*row] == 0.0).expect("one goes on")] {
+    for sample in [0, ended[0], ended[200], (0..600).find(|row| ended_by[*row] == 0.0).unwrap()] {
         found.scratch.prints(&format!("simulate c.toml --sample {sample} --out s.parquet"), 0);
         let times = floats(&found.scratch.table("s.parquet"), "time_s");
         let before = (0..121).filter(|point| f64::from(*point) * 0.5 < reached[sample]).count();
         assert_eq!((times.last(), times.len()), (Some(&reached[sample]), before + 1), "sample {sample}");
     }
-    for run in found.data["replay"]["runs"].as_array().expect("runs") {
-        let sample = run["sample"].as_u64().expect("a sample") as usize;
-        let last = *found.array(&run["times"]).last().expect("times");
+    for run in found.data["replay"]["runs"].as_array().unwrap() {
+        let sample = run["sample"].as_u64().unwrap() as usize;
+        let last = *found.array(&run["times"]).last().unwrap();
         assert!((last - reached[sample]).abs() < 1e-5 * reached[sample], "sample {sample}: {last}");
         let marks: Vec<&str> =
-            run["marks"].as_array().expect("marks").iter().filter_map(|mark| mark["name"].as_str()).collect();
+            run["marks"].as_array().unwrap().iter().filter_map(|mark| mark["name"].as_str()).collect();
         assert_eq!(marks, if ended_by[sample] == 1.0 { vec!["ended by tipped"] } else { vec![] });
     }
     let summary = found.scratch.summary("r");
-    let verdicts: Vec<&str> = summary["requirements"]["list"]
-        .as_array()
-        .expect("requirements")
-        .iter()
-        .filter_map(|one| one["verdict"].as_str())
-        .collect();
+    let verdicts: Vec<&str> =
+        summary["requirements"]["list"].as_array().unwrap().iter().filter_map(|one| one["verdict"].as_str()).collect();
     let share = |is_met: &dyn Fn(usize) -> bool| (1..600).filter(|row| is_met(*row)).count() as f64 / 599.0;
     assert!(share(&|row| ended_by[row] < 1.0) < 0.4 && share(&|row| reached[row] >= 30.0) > 0.05);
     assert_eq!(verdicts, ["FAIL", "PASS", "PASS"], "{summary}");

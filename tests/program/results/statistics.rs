@@ -45,7 +45,7 @@ fn statistics_are_those_of_the_files() {
     let rows = scratch.rows("r");
     let ok = ended(&rows).iter().filter(|(sample, status)| *sample > 0 && status == "ok").count();
     let table = scratch.table("r/statistics.parquet");
-    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
     assert!(table.num_rows() > 100);
     let mut checked = 0;
     for row in 0..table.num_rows() {
@@ -78,8 +78,8 @@ fn statistics_are_those_of_the_files() {
         let mean = x.iter().sum::<f64>() / n as f64;
         let deviation = (x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1) as f64).sqrt();
         let scale = 1e-12 * mean.abs().max(deviation);
-        assert!((of("mean").expect("a mean") - mean).abs() <= scale, "{name}");
-        assert!((of("standard_deviation").expect("one") - deviation).abs() <= scale, "{name}");
+        assert!((of("mean").unwrap() - mean).abs() <= scale, "{name}");
+        assert!((of("standard_deviation").unwrap() - deviation).abs() <= scale, "{name}");
         for (column, p) in [("p0_1", 0.001), ("p5", 0.05), ("p50", 0.5), ("p99_9", 0.999)] {
             let place = (n - 1) as f64 * p;
             let (low, part) = (x[place as usize], place.fract());
@@ -94,7 +94,7 @@ fn statistics_are_those_of_the_files() {
         // some 400 runs bound the median, and p99.9 from below only
         assert!(of("p50_lower") <= of("p50") && of("p50") <= of("p50_upper"), "{name}");
         assert!(of("p99_9_lower").is_some() && of("p99_9_upper").is_none() && of("p0_1_lower").is_none(), "{name}");
-        let notes = table.column_by_name("p99_9_note").expect("notes").as_string::<i32>();
+        let notes = table.column_by_name("p99_9_note").unwrap().as_string::<i32>();
         // ln 0.025 / ln 0.999 = 3687.04, ln 0.05 / ln 0.999 = 2994.2
         assert_eq!(notes.value(row), "p99.9 with 95% confidence needs 3688 runs (2995 for a bound on one side)");
         checked += 1;
@@ -123,11 +123,10 @@ fn designs_without_independent_samples_have_no_intervals() {
         scratch.file("design.toml", &format!("{text}[design]\n{design}\n"));
         let screens = ["", " --verbose"].map(|more| {
             let mut command = scratch.command(&format!("campaign design.toml --out r --overwrite{more}"));
-            String::from_utf8(command.env("COLUMNS", "1000").output().expect("the program starts").stdout)
-                .expect("text")
+            String::from_utf8(command.env("COLUMNS", "1000").output().unwrap().stdout).unwrap()
         });
         let table = scratch.table("r/statistics.parquet");
-        let intervals = table.column_by_name("intervals").expect("intervals").as_string::<i32>();
+        let intervals = table.column_by_name("intervals").unwrap().as_string::<i32>();
         assert!(
             intervals.value(0).starts_with("none: ") && intervals.value(0).contains(says),
             "{}",
@@ -140,10 +139,10 @@ fn designs_without_independent_samples_have_no_intervals() {
             }
         }
         let inputs = scratch.table("r/sensitivity.parquet");
-        let total = inputs.column_by_name("total").expect("total");
+        let total = inputs.column_by_name("total").unwrap();
         assert_eq!(total.null_count() == total.len(), !design.contains("saltelli"), "{design}");
         // 64 points of one Sobol sequence bind five inputs to each other
-        let first = inputs.column_by_name("first_order").expect("first_order");
+        let first = inputs.column_by_name("first_order").unwrap();
         let is_bound = design.contains("sobol");
         assert!(first.null_count() == first.len() || !is_bound, "{design}");
         let [short, long] = screens;
@@ -179,24 +178,24 @@ quantile = 0.9
         inputs.column_by_name(column).expect(column).as_string::<i32>().value(row).to_owned()
     };
     let rows: Vec<usize> = (0..inputs.num_rows()).filter(|row| name("observable", *row) == "cross_spin").collect();
-    let drives = |row: usize| number(&inputs, "first_order_lower", row).expect("an interval") > 0.0;
+    let drives = |row: usize| number(&inputs, "first_order_lower", row).unwrap() > 0.0;
     let mut drivers: Vec<usize> = rows.into_iter().filter(|row| drives(*row)).collect();
     drivers.sort_by(|a, b| {
-        let influence = |row: &usize| number(&inputs, "first_order", *row).expect("a share");
+        let influence = |row: &usize| number(&inputs, "first_order", *row).unwrap();
         influence(b).total_cmp(&influence(a))
     });
     let names: Vec<String> = drivers.iter().map(|row| name("input", *row)).collect();
     for axis in ["x", "y"] {
         assert!(names.contains(&format!("initial_angular_velocity_{axis}_rad_s")), "{names:?}");
     }
-    let share = number(&inputs, "first_order", drivers[0]).expect("a share");
+    let share = number(&inputs, "first_order", drivers[0]).unwrap();
     let said = |name: &str| name.strip_suffix("_rad_s").unwrap_or(name).replace('_', " ");
     let words = format!("{} explains ", said(&names[0]));
     let page = scratch.text("r/report.html");
     let line = screen.lines().find(|line| line.contains(&words)).unwrap_or_else(|| panic!("{words}: {screen}"));
     let drivers = line.trim_start().trim_start_matches("cross spin").trim();
-    let (_, found) = line.split_once(&words).expect("a share");
-    let found: f64 = found.split('%').next().expect("a share").parse().expect("a number");
+    let (_, found) = line.split_once(&words).unwrap();
+    let found: f64 = found.split('%').next().unwrap().parse().unwrap();
     assert!((0.01 * found - share).abs() < 0.006, "{found}: {share}");
     assert!(page.contains(&drivers[1..]) && drivers.contains(&said(&names[1])), "{drivers}");
 }
@@ -210,7 +209,7 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     scratch.prints("campaign many.toml --out r --no-report", 0);
     let rows = scratch.rows("r");
     let table = scratch.table("r/statistics.parquet");
-    let names = table.column_by_name("observable").expect("names").as_string::<i32>();
+    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
     let mut checked = 0;
     for row in 0..table.num_rows() {
         let name = names.value(row);
@@ -223,9 +222,9 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
             |first: usize| x[first..].iter().step_by(REPLICATES).sum::<f64>() / (600 / REPLICATES) as f64;
         let means: Vec<f64> = (0..REPLICATES).map(of_replicate).collect();
         let (of_means, whole) = (Moments::of(means.iter().copied()), Moments::of(x));
-        let error = of_means.mean_error().expect("replicates");
+        let error = of_means.mean_error().unwrap();
         // a spread of rounding errors is left out
-        if error <= 1e-9 * whole.mean().expect("runs").abs() {
+        if error <= 1e-9 * whole.mean().unwrap().abs() {
             continue;
         }
         for (column, end) in ["mean_lower", "mean_upper"].into_iter().zip(mean_bounds(&means, &whole, 0.975)) {
@@ -237,7 +236,7 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
                 "{name} {column}: {found:?} for {end}"
             );
         }
-        let found = number(&table, "mean_standard_error", row).expect("an error");
+        let found = number(&table, "mean_standard_error", row).unwrap();
         assert!((found / error - 1.0).abs() < 1e-6, "{name}: {found} for {error}");
         checked += 1;
     }
@@ -269,7 +268,7 @@ fn a_negative_correlation_is_one_too() {
             };
             assert_eq!(&text("correlated_with", row), partner, "{r}: {of}");
             // the standard error of 599 pairs without correlation is 0.041
-            let found = number(&table, "largest_correlation", row).expect("a correlation");
+            let found = number(&table, "largest_correlation", row).unwrap();
             assert!((found - expected).abs() < 0.16, "{r}: {of}: {found}");
         }
     }

@@ -44,10 +44,10 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     assert_eq!((&never["samples"], &never["stop"]["look"]), (&Value::from(2400), &Value::from(4)));
     assert_eq!(never["stop"]["precise_enough"], false);
     for said in [&said, &missed] {
-        let at = |key: &str| never["stop"][key].as_f64().expect("a number");
+        let at = |key: &str| never["stop"][key].as_f64().unwrap();
         let found = numbers(said, "look # of at most #, # samples: p50 of ");
         assert_eq!(found, ["look", "looks", "samples"].map(at));
-        let [low, high] = [0, 1].map(|end| never["stop"]["interval"][end].as_f64().expect("an end"));
+        let [low, high] = [0, 1].map(|end| never["stop"]["interval"][end].as_f64().unwrap());
         let known = [at("estimate"), low, high, 100.0 * at("confidence"), 1e-30];
         says(said, " = # [#, #] J at #% confidence, wanted half width # J", &known);
     }
