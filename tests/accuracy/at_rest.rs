@@ -129,9 +129,7 @@ fn family((name, make): Regime, count: u64) -> Family {
 
 fn settings_at_rest(method: Method) -> Vec<(f64, Control)> {
     match method {
-        Method::Gyrostat(Integrator::RungeKutta4) | Method::Gyrostat(Integrator::GaussLegendre) => {
-            [0.5, 0.05].map(|step| (step, fixed(step))).to_vec()
-        }
+        RUNGE_KUTTA | GAUSS_LEGENDRE => [0.5, 0.05].map(|step| (step, fixed(step))).to_vec(),
         Method::NullSpace => [1e-4, 1e-6].map(|tolerance| (tolerance, adaptive(tolerance))).to_vec(),
         other => settings(other),
     }
@@ -170,7 +168,7 @@ fn a_slew_that_is_wrong_is_inaccurate() {
         Scene::resolve(&input).unwrap()
     };
     let family = Family::new("biased slew", Grid::uniform(DURATION, 41), (0..16).map(scene).collect());
-    let runs = found(&family, Method::Gyrostat(Integrator::RungeKutta4), fixed(0.5));
+    let runs = found(&family, RUNGE_KUTTA, fixed(0.5));
     let wrong: Vec<&Found> = runs.iter().filter(|run| run.error > 0.1).collect();
     assert!(wrong.len() >= 8, "the steps are too long: {runs:?}");
     for run in wrong {

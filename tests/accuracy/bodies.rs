@@ -25,7 +25,7 @@ fn draws_that_pull_or_turn_inside_out_are_invalid() {
         let dispersed: String = keys.iter().map(|key| disperse(key, std)).collect();
         let burn = "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\nthrust_n = { p1 = 10, p2 = 20, p3 = 30 }\n";
         let plan = plan("side_m = 0.2\ndensity_kg_m3 = 2700.0", &format!("{burn}{dispersed}"));
-        let plan = plan.unwrap_or_else(|e| panic!("{e}"));
+        let plan = plan.unwrap();
         const COUNT: u64 = 2000;
         let refused = draws::seen(&plan, 1..=COUNT, |input, _| Scene::resolve(input).err());
         let refused: Vec<_> = refused.into_iter().flatten().collect();

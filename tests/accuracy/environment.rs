@@ -7,10 +7,10 @@ use crate::support::prelude::*;
 const METHODS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 5e-14),
     (Method::Taylor, adaptive(1e-16), 5e-14),
-    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-13), 5e-12),
-    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-12), 1e-10),
-    (Method::Gyrostat(Integrator::GaussLegendre), fixed(1e-3), 5e-14),
-    (Method::Gyrostat(Integrator::RungeKutta4), fixed(1e-3), 1e-7),
+    (DOP853, adaptive(1e-13), 5e-12),
+    (DORMAND_PRINCE, adaptive(1e-12), 1e-10),
+    (GAUSS_LEGENDRE, fixed(1e-3), 5e-14),
+    (RUNGE_KUTTA, fixed(1e-3), 1e-7),
     (Method::NullSpace, adaptive(1e-11), 5e-10),
 ];
 

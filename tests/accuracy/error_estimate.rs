@@ -24,27 +24,23 @@ fn too_large(method: Method, family: &str) -> f64 {
         (Method::NullSpace, "mixed, forced") => 200.0,
         (Method::NullSpace, "zero momentum") => 1e7,
         (Method::NullSpace, "slew by thrusters") => 1e3,
-        (
-            Method::Gyrostat(Integrator::RungeKutta4),
-            "zero momentum, driven" | "slew by wheels" | "slew by thrusters" | "thrust from rest",
-        ) => 3e3,
-        (Method::Gyrostat(Integrator::GaussLegendre), "slew by thrusters") => 200.0,
+        (RUNGE_KUTTA, "zero momentum, driven" | "slew by wheels" | "slew by thrusters" | "thrust from rest") => 3e3,
+        (GAUSS_LEGENDRE, "slew by thrusters") => 200.0,
         (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
         (Method::Auto | Method::Taylor, LIBRATING | SPINNING | "separatrix" | "on the separatrix") => 200.0,
-        (Method::Gyrostat(Integrator::RungeKutta4), "separatrix" | "eccentric, any") => 2e3,
+        (RUNGE_KUTTA, "separatrix" | "eccentric, any") => 2e3,
         (_, "eccentric, flat" | "eccentric, any" | "eccentric, dipole" | "eccentric, in air") => 500.0,
         (Method::Gyrostat(Integrator::DormandPrince | Integrator::Dop853), TURNING_FAST | SPINNING) => 400.0,
-        (Method::Gyrostat(Integrator::RungeKutta4), SPINNING) => 300.0,
-        (Method::Gyrostat(Integrator::GaussLegendre), "gravity gradient") => 600.0,
-        (Method::Gyrostat(Integrator::GaussLegendre), SPINNING) => 3e3,
+        (RUNGE_KUTTA, SPINNING) => 300.0,
+        (GAUSS_LEGENDRE, "gravity gradient") => 600.0,
+        (GAUSS_LEGENDRE, SPINNING) => 3e3,
         _ => 100.0,
     }
 }
 
 /// Below 1e-12 the unknown rounding of drag and light counts, and `gauss_legendre_6` leaves only rounding.
 fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
-    (IN_AIR.contains(&family) && setting < 1e-12)
-        || (method == Method::Gyrostat(Integrator::GaussLegendre) && family == LIBRATING && setting < 5e-3)
+    (IN_AIR.contains(&family) && setting < 1e-12) || (method == GAUSS_LEGENDRE && family == LIBRATING && setting < 5e-3)
 }
 
 const FLOOR: f64 = 1e-15;
@@ -241,12 +237,12 @@ fn quantile(values: &[f64], p: f64) -> f64 {
 
 pub(super) fn settings(method: Method) -> Vec<(f64, Control)> {
     let tolerances: &[f64] = match method {
-        Method::Gyrostat(Integrator::RungeKutta4) | Method::Gyrostat(Integrator::GaussLegendre) => {
+        RUNGE_KUTTA | GAUSS_LEGENDRE => {
             return [1e-2, 3e-3, 1e-3].map(|step| (step, fixed(step))).to_vec();
         }
         Method::Auto | Method::Taylor => &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16],
-        Method::Gyrostat(Integrator::DormandPrince) => &[1e-4, 1e-6, 1e-8, 1e-10],
-        Method::Gyrostat(Integrator::Dop853) => &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
+        DORMAND_PRINCE => &[1e-4, 1e-6, 1e-8, 1e-10],
+        DOP853 => &[1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
         Method::NullSpace => &[1e-4, 1e-6, 1e-8],
     };
     tolerances.iter().map(|tolerance| (*tolerance, adaptive(*tolerance))).collect()
@@ -297,7 +293,7 @@ pub(super) fn of_families(families: &[Family], methods: &[Method], count: u64) -
                     continue; // minutes, for what the long version tests
                 }
                 let is_long = family.grid.duration() > 30.0 && !is_slow && setting < 2e-3;
-                if method == Method::Gyrostat(Integrator::GaussLegendre) && is_long && count < 100 {
+                if method == GAUSS_LEGENDRE && is_long && count < 100 {
                     continue; // 60,000 implicit steps a run, which the long version has
                 }
                 let runs = found(family, method, control);

@@ -9,10 +9,10 @@ const HORIZON: f64 = 3.1;
 const BOUNDS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(1e-16), 2e-14),
     (Method::Taylor, adaptive(1e-16), 2e-14),
-    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-13), 1e-12),
-    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-12), 2e-11),
-    (Method::Gyrostat(Integrator::GaussLegendre), fixed(1e-3), 2e-14),
-    (Method::Gyrostat(Integrator::RungeKutta4), fixed(1e-3), 5e-10),
+    (DOP853, adaptive(1e-13), 1e-12),
+    (DORMAND_PRINCE, adaptive(1e-12), 2e-11),
+    (GAUSS_LEGENDRE, fixed(1e-3), 2e-14),
+    (RUNGE_KUTTA, fixed(1e-3), 5e-10),
     (Method::NullSpace, adaptive(1e-11), 2e-10),
 ];
 

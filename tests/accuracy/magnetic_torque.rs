@@ -40,10 +40,10 @@ fn a_whole_run_is_that_of_scipy() {
     for (method, control) in [
         (Method::Auto, adaptive(1e-16)),
         (Method::Taylor, adaptive(1e-14)),
-        (Method::Gyrostat(Integrator::Dop853), adaptive(1e-14)),
-        (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-14)),
-        (Method::Gyrostat(Integrator::GaussLegendre), fixed(5.0)),
-        (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.2)),
+        (DOP853, adaptive(1e-14)),
+        (DORMAND_PRINCE, adaptive(1e-14)),
+        (GAUSS_LEGENDRE, fixed(5.0)),
+        (RUNGE_KUTTA, fixed(0.2)),
     ] {
         let (attitude, rate) = off(FieldModel::Igrf, method, control);
         // measured 1.8e-10 and 5.2e-13: the error of SciPy, and the Earth's angle, rounded to 1e-10 rad
@@ -68,11 +68,8 @@ fn rods_add_to_the_residual_dipole() {
     let mut partly = with_rods.clone();
     partly.schedule[2].applied.until -= 600.0;
     let scenes = [alone, with_rods, partly];
-    for (method, control) in [
-        (Method::Auto, adaptive(1e-15)),
-        (Method::Gyrostat(Integrator::Dop853), adaptive(1e-13)),
-        (Method::Gyrostat(Integrator::GaussLegendre), fixed(5.0)),
-    ] {
+    for (method, control) in [(Method::Auto, adaptive(1e-15)), (DOP853, adaptive(1e-13)), (GAUSS_LEGENDRE, fixed(5.0))]
+    {
         let q =
             propagate(method, control, &grid, &scenes).into_iter().map(|run| run.table.at(StateField::Attitude, 60));
         let q: Vec<[f64; 4]> = q.collect();

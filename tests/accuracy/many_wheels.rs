@@ -23,10 +23,10 @@ const POINTS: usize = 9;
 const METHODS: [(Method, Control, f64); 7] = [
     (Method::Auto, adaptive(TAYLOR_TOLERANCE), 1e-14),
     (Method::Taylor, adaptive(TAYLOR_TOLERANCE), 1e-14),
-    (Method::Gyrostat(Integrator::DormandPrince), adaptive(TOLERANCE), 2e-10),
-    (Method::Gyrostat(Integrator::Dop853), adaptive(TOLERANCE), 1.5e-9),
-    (Method::Gyrostat(Integrator::RungeKutta4), fixed(1e-3), 1.5e-9),
-    (Method::Gyrostat(Integrator::GaussLegendre), fixed(1e-2), 1e-9),
+    (DORMAND_PRINCE, adaptive(TOLERANCE), 2e-10),
+    (DOP853, adaptive(TOLERANCE), 1.5e-9),
+    (RUNGE_KUTTA, fixed(1e-3), 1.5e-9),
+    (GAUSS_LEGENDRE, fixed(1e-2), 1e-9),
     (Method::NullSpace, adaptive(TOLERANCE), 3e-10),
 ];
 

@@ -27,8 +27,8 @@ fn slope(points: &[[f64; 2]]) -> f64 {
 const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::Auto, 8, 10.0, 4e2),
     (Method::Taylor, 8, 10.0, 4e2),
-    (Method::Gyrostat(Integrator::DormandPrince), 8, 10.0, 3e1),
-    (Method::Gyrostat(Integrator::Dop853), 8, 10.0, 2e1),
+    (DORMAND_PRINCE, 8, 10.0, 3e1),
+    (DOP853, 8, 10.0, 2e1),
     (Method::NullSpace, 4, 1.0, 2.0),
 ];
 const PROPORTIONAL: f64 = 0.05;
@@ -68,10 +68,7 @@ fn methods_have_their_order() {
     for forced in [false, true] {
         let exact = exact(4, forced, 8.0);
         let what = if forced { "with actuators" } else { "free" };
-        for (method, order, step) in [
-            (Method::Gyrostat(Integrator::RungeKutta4), 4.0, 0.0078125),
-            (Method::Gyrostat(Integrator::GaussLegendre), 6.0, 0.0625),
-        ] {
+        for (method, order, step) in [(RUNGE_KUTTA, 4.0, 0.0078125), (GAUSS_LEGENDRE, 6.0, 0.0625)] {
             let at = |step: f64| error(&exact, method, fixed(step)).0;
             let measured = (at(step) / at(0.5 * step)).log2();
             let regime = format!("`{}`, {what}: distance of the measured order from {order}", method.name());
@@ -80,9 +77,7 @@ fn methods_have_their_order() {
         if forced {
             continue; // most of the few steps of an arc are its first and last
         }
-        for (method, order) in
-            [(Method::Gyrostat(Integrator::DormandPrince), 5.0), (Method::Gyrostat(Integrator::Dop853), 8.0)]
-        {
+        for (method, order) in [(DORMAND_PRINCE, 5.0), (DOP853, 8.0)] {
             let [(large, few), (small, many)] =
                 [1e-8, 1e-12].map(|tolerance| error(&exact, method, adaptive(tolerance)));
             let measured = (large / small).log2() / (many / few).log2();
@@ -107,10 +102,10 @@ fn reversals() -> [(Method, Control, f64); 7] {
     [
         (Method::Auto, adaptive(1e-16), 10.0),
         (Method::Taylor, adaptive(1e-16), 10.0),
-        (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-14), 2.0),
-        (Method::Gyrostat(Integrator::Dop853), adaptive(1e-14), 10.0),
-        (Method::Gyrostat(Integrator::RungeKutta4), fixed(1e-4), 2.0),
-        (Method::Gyrostat(Integrator::GaussLegendre), fixed(1e-2), 10.0),
+        (DORMAND_PRINCE, adaptive(1e-14), 2.0),
+        (DOP853, adaptive(1e-14), 10.0),
+        (RUNGE_KUTTA, fixed(1e-4), 2.0),
+        (GAUSS_LEGENDRE, fixed(1e-2), 10.0),
         (Method::NullSpace, adaptive(1e-14), 0.5),
     ]
 }

@@ -168,7 +168,7 @@ fn large_files_have_a_limit() {
         (0..count).map(arc).collect()
     };
     let read = |text: &str| Plan::from_text("bad.toml", text, Overrides::default());
-    let plan = read(&(head.clone() + &arcs(20_000))).unwrap_or_else(|error| panic!("{error}"));
+    let plan = read(&(head.clone() + &arcs(20_000))).unwrap();
     assert_eq!(plan.nominal.actuation.len(), 20_001);
     let keys: String = (0..500_000).map(|key| format!("k{key}=1\n")).collect();
     let said = read(&keys).expect_err("too many keys").to_string();

@@ -186,8 +186,7 @@ fn phases_and_sensors_have_names() {
         "extends = \"base.toml\"\n[[guidance]]\nphase = \"hold\"\nbandwidth_rad_s = 0.15\n[[sensors]]\nname = \
         \"tracker\"\nnoise_rad = [1e-3, 2e-3, 3e-3]\n",
     );
-    let variant =
-        Plan::load(&scratch.path("variant.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let variant = Plan::load(&scratch.path("variant.toml"), Overrides::default()).unwrap();
     let same =
         set(&[("guidance.hold.bandwidth_rad_s", "0.15"), ("sensors.tracker.noise_rad", "[1e-3, 2e-3, 3e-3]")]).unwrap();
     assert_eq!(variant.hash(), same.hash());

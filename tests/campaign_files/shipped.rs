@@ -19,7 +19,7 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
     let files = shipped();
     assert!(files.len() >= 5);
     for file in files {
-        let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+        let plan = Plan::load(&file, Overrides::default()).unwrap();
         assert!(Scene::resolve(&plan.nominal).is_ok());
         assert_eq!(file.file_stem().and_then(|stem| stem.to_str()), Some(plan.name.as_str()));
         let text = std::fs::read_to_string(&file).unwrap();
@@ -35,7 +35,7 @@ fn a_launch_is_judged_by_what_its_file_promises() {
     let file = root().join("campaigns/net_launch.toml");
     let text = std::fs::read_to_string(&file).unwrap();
     let header = text.split("\n\n").next().unwrap().replace("\n#  ", "");
-    let plan = Plan::load(&file, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = Plan::load(&file, Overrides::default()).unwrap();
     let degree = std::f64::consts::PI / 180.0;
     for (said, column, limit) in [
         ("a lateral velocity below 5 cm/s", "relative_speed_launch_m_s", 0.05),
@@ -63,7 +63,7 @@ fn a_plan_reads_back_from_its_text() {
         let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5), ..Overrides::default() }).unwrap();
         let folder = file.parent().unwrap();
         let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default());
-        let again = again.unwrap_or_else(|e| panic!("{e}"));
+        let again = again.unwrap();
         assert_eq!(again, plan);
         assert_eq!((again.text(), again.hash()), (plan.text(), plan.hash()));
     }
@@ -99,5 +99,5 @@ fn omitted_keys_have_defaults() {
     assert!(plan.dispersions.columns().is_empty());
     assert_eq!((plan.band_points, &plan.retention), (33, &Retention::None));
     let few = parsed(&format!("{text}[observe]\npoints = 5\n"));
-    assert_eq!(few.unwrap_or_else(|e| panic!("{e}")).band_points, 5, "no more than the grid has");
+    assert_eq!(few.unwrap().band_points, 5, "no more than the grid has");
 }

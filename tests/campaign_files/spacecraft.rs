@@ -31,7 +31,7 @@ fn read(text: &str) -> Result<Plan, CampaignError> {
 }
 
 fn plan(text: &str) -> Plan {
-    read(text).unwrap_or_else(|error| panic!("{error}"))
+    read(text).unwrap()
 }
 
 fn changed(from: &str, to: &str) -> String {

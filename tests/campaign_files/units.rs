@@ -96,8 +96,7 @@ fn units_have_their_sizes() {
         assert_eq!(listed, known, "of {si}");
         for (unit, size) in units {
             for number in [1.0, 0.3, 7e3] {
-                let written =
-                    plan(&file(si, &format!("\"{number} {unit}\""))).unwrap_or_else(|error| panic!("{error}"));
+                let written = plan(&file(si, &format!("\"{number} {unit}\""))).unwrap();
                 // three roundings: of the size here, of the product, and of the program's quotient
                 let near = |steps: i32| {
                     let exact = number * size;

@@ -17,8 +17,8 @@ fn plan(points: usize) -> Plan {
         "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
     );
     text.push_str(&format!("\n[bands]\npoints = {points}\n"));
-    let mut plan = Plan::from_text("bands", &text, Overrides { samples: Some(SAMPLES), ..Overrides::default() })
-        .unwrap_or_else(|error| panic!("{error}"));
+    let mut plan =
+        Plan::from_text("bands", &text, Overrides { samples: Some(SAMPLES), ..Overrides::default() }).unwrap();
     plan.groups = Group::ALL.to_vec();
     plan
 }
@@ -182,7 +182,7 @@ fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
     let plan = |samples: u64, runs: u64| {
         let text = text.replace("points = 5\n", &format!("points = 5\nruns = {runs}\n"));
         let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
-        let plan = Plan::from_text("bands", &text, overrides).unwrap_or_else(|error| panic!("{error}"));
+        let plan = Plan::from_text("bands", &text, overrides).unwrap();
         assert_eq!((plan.band_runs, plan.last_counted()), (runs, SampleId(runs)));
         plan
     };
@@ -234,8 +234,8 @@ fn all_runs_of_a_grid_are_counted() {
         Plan::from_text("bands", &text, Overrides::default()).map(|plan| plan.last_counted().0)
     };
     for design in ["random", "latin_hypercube", "sobol", "halton"] {
-        assert_eq!(last(design).unwrap_or_else(|error| panic!("{error}")), 131_072, "{design}");
+        assert_eq!(last(design).unwrap(), 131_072, "{design}");
     }
-    let plan = Plan::from_text("bands", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = Plan::from_text("bands", &text, Overrides::default()).unwrap();
     assert_eq!(plan.only(vec![0, 5, 9]).unwrap().last_counted().0, u64::MAX);
 }

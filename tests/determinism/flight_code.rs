@@ -30,7 +30,7 @@ fn later() -> String {
 
 pub fn plan_in(folder: &ScratchFolder, text: &str) -> Plan {
     folder.file("campaign.toml", text);
-    Plan::load(&folder.path("campaign.toml"), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    Plan::load(&folder.path("campaign.toml"), Overrides::default()).unwrap()
 }
 
 fn folder(name: &str) -> ScratchFolder {

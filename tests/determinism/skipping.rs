@@ -81,7 +81,7 @@ fn debris_changes_nothing_of_the_spacecraft() {
         for scene in &mut without {
             scene.mass.debris = None;
         }
-        for method in [Method::Auto, Method::Taylor, Method::Gyrostat(Integrator::DormandPrince)] {
+        for method in [Method::Auto, Method::Taylor, DORMAND_PRINCE] {
             let states = |scenes: &[Scene]| -> Vec<Bits> {
                 let plan =
                     PropagationSettings::new(method, control_of(method), grid.clone(), everything(method), &scenes[0]);
@@ -95,12 +95,9 @@ fn debris_changes_nothing_of_the_spacecraft() {
 #[test]
 fn groups_do_not_reach_each_other() {
     let grid = Grid::uniform(HORIZON, 29);
-    for (forced, method) in [
-        (false, Method::Auto),
-        (true, Method::Auto),
-        (true, Method::Taylor),
-        (true, Method::Gyrostat(Integrator::DormandPrince)),
-    ] {
+    for (forced, method) in
+        [(false, Method::Auto), (true, Method::Auto), (true, Method::Taylor), (true, DORMAND_PRINCE)]
+    {
         let scenes = mixed(13, forced, HORIZON);
         let rows = |groups: Groups| {
             let request = request(groups, WHEELS.len(), true, forced, false);

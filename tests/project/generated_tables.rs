@@ -34,7 +34,7 @@ fn text(file: &str) -> String {
 }
 
 fn plan(name: &str) -> Plan {
-    Plan::load(&root().join("campaigns").join(name), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    Plan::load(&root().join("campaigns").join(name), Overrides::default()).unwrap()
 }
 
 fn cell(text: &str) -> String {

@@ -181,7 +181,7 @@ fn wrong_names_and_numbers_are_refused() {
 /// Law: names and errors read back, and are not in a plan without them; what is recorded is applied.
 #[test]
 fn errors_are_drawn_recorded_and_written() {
-    let ideal = plan(ARCS).unwrap_or_else(|error| panic!("{error}"));
+    let ideal = plan(ARCS).unwrap();
     assert!(!ideal.text().contains("torque_scale = 1.0\nswitch_on"), "{}", ideal.text());
     let text = format!(
         "{}{}{}[[derive]]\nparameter = \"actuation.trim.switch_off_delay_s\"\nexpression = \
@@ -190,7 +190,7 @@ fn errors_are_drawn_recorded_and_written() {
         dispersed("actuation.0.thrust_scale"),
         dispersed("actuation.trim.switch_on_delay_s"),
     );
-    let plan = plan(&text).unwrap_or_else(|error| panic!("{error}"));
+    let plan = plan(&text).unwrap();
     let again = planned(&plan.text());
     assert_eq!((&again, again.text()), (&plan, plan.text()));
     assert_ne!(plan.hash(), ideal.hash());

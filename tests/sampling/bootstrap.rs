@@ -48,7 +48,7 @@ fn plan_of(scratch: &ScratchFolder, text: &str) -> Result<Plan, String> {
 }
 
 fn plan(scratch: &ScratchFolder, text: &str) -> Plan {
-    plan_of(scratch, text).unwrap_or_else(|error| panic!("{error}"))
+    plan_of(scratch, text).unwrap()
 }
 
 fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range<u64>) -> Vec<[f64; N]> {
@@ -201,7 +201,7 @@ fn a_row_is_one_factor() {
         let text = format!("[design]\nkind = {design:?}\nlevels = [2, {ROWS}]\n{LENGTH}{BOOTSTRAP}");
         let text = [&head, FUSELAGE, WHEEL1_AT_REST, INITIAL, &text].concat();
         let plan = Plan::from_text_in(&scratch.0, "rows.toml", &text, Overrides::default());
-        let plan = plan.unwrap_or_else(|error| panic!("{error}"));
+        let plan = plan.unwrap();
         assert_eq!(plan.samples, samples, "{design}");
         let (counts, others) = counts(&rows, &drawn(&plan, NAMES, 1..samples));
         let nominal = if design == "grid" { 0 } else { 2 };

@@ -30,7 +30,7 @@ fn planned(text: &str, overrides: Overrides) -> Result<Plan, CampaignError> {
 }
 
 fn plan(text: &str) -> Plan {
-    planned(text, Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
+    planned(text, Overrides::default()).unwrap()
 }
 
 fn design(kind: &str) -> String {
@@ -84,7 +84,7 @@ fn samples_can_be_added() {
         let text = if kind == "saltelli" { format!("{text}{RADIUS}") } else { text };
         let samples = if kind == "saltelli" { 50 } else { 65 };
         let few = planned(&text, Overrides { samples: Some(1 + (samples - 1) / 7 * 7), ..Overrides::default() });
-        let few = few.unwrap_or_else(|e| panic!("{e}"));
+        let few = few.unwrap();
         let many = planned(&text, Overrides { samples: Some(1 + (more - 1) / 7 * 7), ..Overrides::default() }).unwrap();
         assert!(many.samples > few.samples);
         assert_eq!(draws(&few, 0..few.samples), draws(&many, 0..few.samples), "{kind}");
@@ -114,8 +114,7 @@ fn a_latin_hypercube_has_one_value_in_each_stratum() {
 fn a_grid_and_one_at_a_time_have_their_own_size() {
     let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
     let read = |text: &str| parsed(&without_samples(text));
-    let grid =
-        read(&format!("{}levels = [3, 1, 2, 4]\n{RATE}{LENGTH}", design("grid"))).unwrap_or_else(|e| panic!("{e}"));
+    let grid = read(&format!("{}levels = [3, 1, 2, 4]\n{RATE}{LENGTH}", design("grid"))).unwrap();
     assert_eq!(grid.samples, 25);
     let rows = draws(&grid, 1..25);
     let distinct: std::collections::BTreeSet<_> = rows.iter().map(|row| format!("{row:?}")).collect();
@@ -123,7 +122,7 @@ fn a_grid_and_one_at_a_time_have_their_own_size() {
     assert!((value(&rows[6], "body_parts_fuselage_length_m") - 2.975).abs() < 1e-15, "the fourth dimension is slowest");
 
     let text = format!("{}quantiles = [0.1, 0.9]\n{RATE}{LENGTH}{RADIUS}", design("one_at_a_time"));
-    let one = read(&text).unwrap_or_else(|e| panic!("{e}"));
+    let one = read(&text).unwrap();
     assert_eq!(one.samples, 11);
     let rows = draws(&one, 0..11);
     for (id, row) in rows.iter().enumerate().skip(1) {
@@ -145,14 +144,13 @@ fn a_table_gives_its_rows() {
     let without_samples = |text: &str| campaign(text).replace("samples = 65\n", "");
     let read = |text: &str| Plan::from_text_in(&folder, "t.toml", &without_samples(text), Overrides::default());
     let table = format!("{}file = \"rows.csv\"\n", design("table"));
-    let plan = read(&table).unwrap_or_else(|e| panic!("{e}"));
+    let plan = read(&table).unwrap();
     assert_eq!(plan.samples, 3);
     let drawn = draws(&plan, 0..3);
     let column = |name: &str| drawn.iter().map(|row| value(row, name)).collect::<Vec<_>>();
     assert_eq!(column("wheels_w1_radius_m"), [0.25, 0.21, 0.22]);
     assert_eq!(column("initial_angular_velocity_x_rad_s"), [0.0, 1.5, -1.0]);
-    let mixed =
-        read(&format!("{table}parameters = [\"wheels.w1.radius_m\"]\n{LENGTH}")).unwrap_or_else(|e| panic!("{e}"));
+    let mixed = read(&format!("{table}parameters = [\"wheels.w1.radius_m\"]\n{LENGTH}")).unwrap();
     let random = self::plan(LENGTH);
     for (mixed, random) in draws(&mixed, 0..3).iter().zip(draws(&random, 0..3)) {
         assert_eq!(mixed["body_parts_fuselage_length_m"], random["body_parts_fuselage_length_m"]);

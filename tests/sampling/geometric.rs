@@ -320,7 +320,7 @@ fn mean_directions_follow_the_axis_in_all_octants() {
             let along =
                 campaign(&format!("[[disperse]]\n{RATE}{law}")).replace("[1.0, -2.0, 2.0]", &format!("{axis:?}"));
             let nominal = parsed(&along);
-            for plan in [written, nominal.unwrap_or_else(|error| panic!("{error}"))] {
+            for plan in [written, nominal.unwrap()] {
                 let mut mean = [0.0; 3];
                 for v in draws::seen(&plan, 1..=DRAWS, |scene, _| rate(scene)) {
                     (0..3).for_each(|i| mean[i] += v[i] / norm(v) / DRAWS as f64);

@@ -1,9 +1,10 @@
 //! Spacecraft on orbits under the gravity gradient.
 
+use super::runs::{DOP853, DORMAND_PRINCE, GAUSS_LEGENDRE, RUNGE_KUTTA};
 use super::runs::{adaptive, fixed};
 use super::scenes::Uniform;
 use spindrift::dynamics::effects::ForceModel;
-use spindrift::ode::{Control, Integrator};
+use spindrift::ode::Control;
 use spindrift::propagation::Method;
 use spindrift::scene::{
     Actuation, ActuationInput, Arc, BodyInput, DebrisInput, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput,
@@ -16,10 +17,10 @@ pub const MU: f64 = 3.986004418e14;
 pub fn near_rounding(model: ForceModel) -> Vec<(Method, Control)> {
     let control = |method: Method| match method {
         Method::Auto | Method::Taylor | Method::NullSpace => adaptive(1e-16),
-        Method::Gyrostat(Integrator::Dop853) => adaptive(1e-14),
-        Method::Gyrostat(Integrator::DormandPrince) => adaptive(1e-15),
-        Method::Gyrostat(Integrator::GaussLegendre) => fixed(10.0),
-        Method::Gyrostat(Integrator::RungeKutta4) => fixed(0.5),
+        DOP853 => adaptive(1e-14),
+        DORMAND_PRINCE => adaptive(1e-15),
+        GAUSS_LEGENDRE => fixed(10.0),
+        RUNGE_KUTTA => fixed(0.5),
     };
     let able = Method::ALL.into_iter().filter(|method| method.integrates(model));
     able.map(|method| (method, control(method))).collect()

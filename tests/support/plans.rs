@@ -39,7 +39,7 @@ pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
     let folder = root().join("campaigns");
     let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap() + tables;
     let overrides = Overrides { samples, ..Overrides::default() };
-    Plan::from_text_in(&folder, name, &text, overrides).unwrap_or_else(|error| panic!("{error}"))
+    Plan::from_text_in(&folder, name, &text, overrides).unwrap()
 }
 
 /// A wheel of `spin_sweep` that is sometimes impossible.

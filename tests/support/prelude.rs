@@ -13,7 +13,10 @@ pub use super::{
     observed::{observed, request},
     orbits::{MU, body, near_rounding, plated},
     plans::{parsed, planned, root, rows, shipped},
-    runs::{Run, adaptive, blocks, everything, fixed, propagate, propagate_on, propagate_one, relative, up_to_sign},
+    runs::{
+        DOP853, DORMAND_PRINCE, GAUSS_LEGENDRE, RUNGE_KUTTA, Run, adaptive, blocks, everything, fixed, propagate,
+        propagate_on, propagate_one, relative, up_to_sign,
+    },
     scenes::{Kind, Uniform, mixed, random, set_wheel_rates},
     scratch_folder::{ScratchFolder, assert_fits, batches, column, contents, ended, floats},
 };

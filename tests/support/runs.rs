@@ -54,6 +54,11 @@ pub fn blocks(list: impl IntoIterator<Item = StateField>) -> StateFields {
     list.into_iter().fold(StateFields::NONE, StateFields::with)
 }
 
+pub const DORMAND_PRINCE: Method = Method::Gyrostat(Integrator::DormandPrince);
+pub const DOP853: Method = Method::Gyrostat(Integrator::Dop853);
+pub const RUNGE_KUTTA: Method = Method::Gyrostat(Integrator::RungeKutta4);
+pub const GAUSS_LEGENDRE: Method = Method::Gyrostat(Integrator::GaussLegendre);
+
 /// All blocks that `method` can fill.
 pub fn everything(method: Method) -> StateFields {
     let constrained =
@@ -72,10 +77,10 @@ pub const fn fixed(step: f64) -> Control {
 pub const METHODS: [(Method, Control); 7] = [
     (Method::Auto, adaptive(1e-12)),
     (Method::Taylor, adaptive(1e-12)),
-    (Method::Gyrostat(Integrator::DormandPrince), adaptive(1e-8)),
-    (Method::Gyrostat(Integrator::Dop853), adaptive(1e-8)),
-    (Method::Gyrostat(Integrator::RungeKutta4), fixed(0.01)),
-    (Method::Gyrostat(Integrator::GaussLegendre), fixed(0.01)),
+    (DORMAND_PRINCE, adaptive(1e-8)),
+    (DOP853, adaptive(1e-8)),
+    (RUNGE_KUTTA, fixed(0.01)),
+    (GAUSS_LEGENDRE, fixed(0.01)),
     (Method::NullSpace, adaptive(1e-5)),
 ];
 

@@ -15,7 +15,7 @@ fn file(retain: &str) -> String {
 }
 
 fn plan(retain: &str) -> Plan {
-    Plan::from_text("small.toml", &file(retain), Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    Plan::from_text("small.toml", &file(retain), Overrides::default()).unwrap()
 }
 
 fn rows(scratch: &ScratchFolder) -> RowsReader {
