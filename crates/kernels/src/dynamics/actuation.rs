@@ -1,26 +1,21 @@
-//! The actuation interface: forces and torques applied to a spacecraft, requested at the start of every arc.
+//! Actuation of a spacecraft, arc by arc.
 //!
-//! A run consists of *arcs* of constant actuation. At the end of an arc the engine passes the state to the run's
-//! [`ActuationLaw`], which returns the next actuation and its end. A law sees its own run only, although engines
-//! propagate several runs together.
+//! At the end of an *arc* of constant actuation the engine passes the state to the run's [`ActuationLaw`], which
+//! returns the next actuation and its end. A law sees its own run only, although engines propagate several runs
+//! together. Any closure `|time, body, wheels| -> Actuation` is a law.
 //!
-//! - [`OpenLoop`]: the schedule of a scene, which depends on time alone; the default.
-//! - [`ZeroOrderHold`]: sampled-data control. [`Sum`]: several sources together.
-//! - Any closure `|time, body, wheels| -> Actuation`.
-//!
-//! Values are *applied* values: a law accounts for scales, delays and limits of its actuators. Not here: sensors,
-//! estimators, control laws, equations of motion.
+//! Values are *applied* values: a law models the scales, delays and limits of its actuators itself.
 
 use crate::run::Telemetry;
 use crate::scene::schedule::actuation_at;
 pub use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
-/// The motion of the spacecraft's body at a time.
+/// Motion of the spacecraft's body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
     /// Angular velocity of F_s relative to F_e, in F_s, rad/s.
     pub omega_se_s: [f64; 3],
-    /// Attitude quaternion, F_s -> F_e, scalar first; of unit norm up to the error of integration.
+    /// Attitude quaternion, F_s -> F_e, scalar first; of unit norm up to integration error.
     pub q_es: [f64; 4],
     /// Position of the spacecraft's centre of mass c in F_e, m.
     pub r_co_e: [f64; 3],
@@ -28,7 +23,7 @@ pub struct BodyState {
     pub v_co_e: [f64; 3],
 }
 
-/// The motion of the wheels at a time, in their order; zero beyond the wheels that the spacecraft has.
+/// Motion of the wheels at one time, in order; zero beyond the spacecraft's wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelState {
     /// Rates relative to the body, rad/s.
@@ -45,21 +40,19 @@ impl WheelState {
         WheelState { rates: [0.0; MAX_WHEELS], momenta: [0.0; MAX_WHEELS], angles: [0.0; MAX_WHEELS] };
 }
 
-/// Decides the actuation of one run, arc by arc.
-///
-/// An answer may depend on earlier arguments only, so that a run is a function of its scene and its law.
+/// Decides the actuation of one run, arc by arc, from its present and earlier arguments only.
 pub trait ActuationLaw {
-    /// Actuation from `time` (s since the start of the run) on, in the given state. Called at time zero and at the end
-    /// of every arc; `until` must be after `time`, and another source or the end of the run may end the arc earlier.
+    /// Actuation from `time` (s since the start of the run) on. Called at time zero and at the end of every arc;
+    /// `until` must exceed `time`, and another source or the end of the run may cut the arc short.
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
 
-    /// Called once at the end of the run, after the last arc, so that a law with ticks of its own sees the final state.
+    /// Called once with the final state, after the last arc.
     fn end(&mut self, _time: f64, _body: &BodyState, _wheels: &WheelState) {}
 
-    /// Writes the values of the columns that the law declares, in order, after the run. They are NaN before the call.
+    /// Writes the columns that the law declares, in order; they are NaN before.
     fn report(&self, _values: &mut [f64]) {}
 
-    /// The reason for which the law ended its run as [`crate::run::Status::Diverged`], if it did.
+    /// Why the law ended its run as [`crate::run::Status::Diverged`], if it did.
     fn divergence(&self) -> Option<String> {
         None
     }
@@ -76,7 +69,7 @@ impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
     }
 }
 
-/// A schedule fixed before the run. Nothing acts between its arcs and after the last one.
+/// A schedule fixed before the run; nothing acts outside its arcs.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenLoop<'a> {
     /// The arcs, in order, not overlapping.
@@ -97,7 +90,7 @@ impl ActuationLaw for OpenLoop<'_> {
     }
 }
 
-/// Samples a law at times 0, T, 2T, ... and holds each answer for the whole period, whatever its `until`.
+/// Samples a law at times 0, T, 2T, ... and holds each actuation for a whole period, whatever its `until`.
 #[derive(Clone, Debug)]
 pub struct ZeroOrderHold<L> {
     period: f64,
@@ -141,8 +134,8 @@ impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
     }
 }
 
-/// Two sources together: thrusts and torques add, the earlier `until` ends the arc. Each source is sampled when its own
-/// last answer ends.
+/// Two sources together: thrusts and torques add, and the earlier `until` ends the arc. A source is sampled when its
+/// own actuation ends.
 #[derive(Clone, Debug)]
 pub struct Sum<A, B> {
     first: (A, Actuation),
@@ -152,8 +145,8 @@ pub struct Sum<A, B> {
 impl<A: ActuationLaw, B: ActuationLaw> Sum<A, B> {
     /// `first` and `second`.
     pub fn new(first: A, second: B) -> Self {
-        let asked = Actuation::none(f64::NEG_INFINITY);
-        Sum { first: (first, asked), second: (second, asked) }
+        let never = Actuation::none(f64::NEG_INFINITY);
+        Sum { first: (first, never), second: (second, never) }
     }
 }
 
@@ -174,7 +167,7 @@ impl<A: ActuationLaw, B: ActuationLaw> ActuationLaw for Sum<A, B> {
     }
 }
 
-/// Sum of two actuations, until the first of them changes.
+/// Sum of two actuations, until either changes.
 pub fn sum(first: &Actuation, second: &Actuation) -> Actuation {
     Actuation {
         until: first.until.min(second.until),
@@ -186,7 +179,7 @@ pub fn sum(first: &Actuation, second: &Actuation) -> Actuation {
     }
 }
 
-/// The laws of the runs of a batch, by the index of the run.
+/// The laws of a batch, by index of the run.
 pub trait LawSource {
     /// The law of run `run`.
     fn law(&mut self, run: usize) -> &mut dyn ActuationLaw;
@@ -202,7 +195,7 @@ impl<L: ActuationLaw> LawSource for Vec<L> {
 pub enum Laws<'a> {
     /// Each run follows the schedule of its scene.
     OpenLoop,
-    /// Each run follows its own law, and its schedule is ignored.
+    /// Each run follows its own law instead of its schedule.
     Feedback(&'a mut dyn LawSource),
 }
 

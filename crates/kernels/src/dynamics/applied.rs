@@ -13,10 +13,10 @@ pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
     arc
 }
 
-/// The arc of a run of `scene` from `time` on, by its schedule, or by its `law` in the state `state`.
+/// The arc of a run of `scene` from `time` on: scheduled, or by `law` in the state `state`.
 ///
 /// # Panics
-/// If an answer of the law ends before it starts: the run would never end.
+/// If the law's arc ends before it starts: the run would never end.
 pub fn next_arc(
     scene: &Scene,
     law: Option<&mut dyn ActuationLaw>,
@@ -29,11 +29,10 @@ pub fn next_arc(
     law_arc(scene, law, time, &body, &wheels, duration)
 }
 
-/// The arc by `law` at `time` in the state `state`. Motors of missing wheels and of wheels of constant speed take no
-/// command.
+/// The arc by `law` at `time`. Motors of missing wheels and of wheels of constant speed take no command.
 ///
 /// # Panics
-/// If the answer ends before it starts: the run would never end.
+/// As [`next_arc`].
 #[inline]
 pub fn law_arc(
     scene: &Scene,

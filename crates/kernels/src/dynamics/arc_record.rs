@@ -1,12 +1,12 @@
-//! [`ArcRecord`]: the arcs of a run, stored as differences.
-//!
-//! A control loop has an arc per tick, and few numbers change between arcs: 40 bytes per arc with three wheels, against
-//! 264 for an [`Arc`].
+//! [`ArcRecord`]: the arcs of a run, stored as differences. A control loop has an arc per tick and changes few numbers:
+//! 40 bytes per arc with three wheels instead of 264 for an [`Arc`].
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
-/// Numbers of an actuation, without its end.
-const NUMBERS: usize = MAX_THRUSTERS + MAX_WHEELS + 6;
+/// Positions of body torque and dipole after thrusts and motor torques, and the count of numbers.
+const BODY: usize = MAX_THRUSTERS + MAX_WHEELS;
+const DIPOLE: usize = BODY + 3;
+const NUMBERS: usize = DIPOLE + 3;
 
 /// Bit of [`Actuation::ends_run`].
 const ENDS_RUN: u64 = 1 << NUMBERS;
@@ -38,29 +38,13 @@ impl ArcRecord {
     /// Appends an arc, which starts at the end of the last one.
     #[inline]
     pub fn push(&mut self, arc: &Arc) {
-        let (last, new) = (&mut self.last.applied, &arc.applied);
-        let thrusts = changes(&last.thrust, &new.thrust);
-        let motors = changes(&last.motor_torque, &new.motor_torque);
-        let body = changes(&last.body_torque, &new.body_torque);
-        let dipole = changes(&last.dipole, &new.dipole);
-        let external = body | dipole << 3;
-        let all = thrusts | motors << MAX_THRUSTERS | external << (MAX_THRUSTERS + MAX_WHEELS);
-        let ends_run = if new.ends_run { ENDS_RUN } else { 0 };
-        self.words.extend([all | ends_run, new.until.to_bits()]);
-        for (changed, last, numbers) in [
-            (thrusts, &mut last.thrust[..], &new.thrust[..]),
-            (motors, &mut last.motor_torque[..], &new.motor_torque[..]),
-            (body, &mut last.body_torque[..], &new.body_torque[..]),
-            (dipole, &mut last.dipole[..], &new.dipole[..]),
-        ] {
-            let mut left = changed;
-            while left != 0 {
-                let place = left.trailing_zeros() as usize;
-                last[place] = numbers[place];
-                self.words.push(numbers[place].to_bits());
-                left &= left - 1;
-            }
-        }
+        let (words, last, new) = (&mut self.words, &mut self.last.applied, &arc.applied);
+        let mark = words.len();
+        words.extend([if new.ends_run { ENDS_RUN } else { 0 }, new.until.to_bits()]);
+        words[mark] |= record(words, &mut last.thrust, &new.thrust)
+            | record(words, &mut last.motor_torque, &new.motor_torque) << MAX_THRUSTERS
+            | record(words, &mut last.body_torque, &new.body_torque) << BODY
+            | record(words, &mut last.dipole, &new.dipole) << DIPOLE;
         (last.until, last.ends_run) = (new.until, new.ends_run);
         self.last.start = arc.start;
         self.count += 1;
@@ -81,7 +65,7 @@ impl ArcRecord {
         (self.count > 0).then_some(&self.last)
     }
 
-    /// A reader of the arcs in order, which lends each arc.
+    /// A reader that lends the arcs in order.
     pub fn reader(&self) -> ArcReader<'_> {
         ArcReader { words: self.words.iter(), arc: START }
     }
@@ -130,23 +114,25 @@ impl Extend<Arc> for ArcRecord {
     }
 }
 
-/// Mask of the numbers that differ between `new` and `old`, bit for bit.
+/// Appends the numbers of `new` that differ from `last`, bit for bit, updates `last` and returns their mask.
 #[inline]
-fn changes<const K: usize>(old: &[f64; K], new: &[f64; K]) -> u64 {
-    // most are unchanged: one test of all together
-    if old.iter().zip(new).fold(0, |any, (old, new)| any | (old.to_bits() ^ new.to_bits())) == 0 {
+fn record<const K: usize>(words: &mut Vec<u64>, last: &mut [f64; K], new: &[f64; K]) -> u64 {
+    // mostly nothing changes: one test of the whole array
+    if last.iter().zip(new).fold(0, |any, (last, new)| any | (last.to_bits() ^ new.to_bits())) == 0 {
         return 0;
     }
     let mut changed = 0;
-    for (i, (old, new)) in old.iter().zip(new).enumerate() {
-        changed |= u64::from(old.to_bits() != new.to_bits()) << i;
+    for (i, (last, new)) in last.iter_mut().zip(new).enumerate() {
+        if last.to_bits() != new.to_bits() {
+            changed |= 1 << i;
+            *last = *new;
+            words.push(new.to_bits());
+        }
     }
     changed
 }
 
 fn number_mut(applied: &mut Actuation, number: usize) -> &mut f64 {
-    const BODY: usize = MAX_THRUSTERS + MAX_WHEELS;
-    const DIPOLE: usize = BODY + 3;
     match number {
         DIPOLE.. => &mut applied.dipole[number - DIPOLE],
         BODY.. => &mut applied.body_torque[number - BODY],

@@ -1,7 +1,5 @@
-//! The debris D: a free rigid body in uniform translation, or near an orbit ([`super::relative_orbit`]).
-//!
-//! An isotropic body (cube) turns at a constant rate, so that its attitude has a closed form. A box is integrated as a
-//! gyrostat without wheels.
+//! The debris D: a free rigid body in uniform translation, or near an orbit ([`super::relative_orbit`]). The attitude
+//! of an isotropic body (cube) has a closed form; a box is integrated as a gyrostat without wheels.
 
 use fearless_simd::Simd;
 
@@ -42,17 +40,17 @@ pub fn set_rotation<R: Real>(run: &mut Gyrostat<R>, scene: &Scene) -> bool {
     true
 }
 
-/// Fills position and velocity of the debris in uniform translation.
+/// Fills position and velocity in uniform translation.
 #[inline(always)]
 pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let initial = &scene.initial;
     for i in 0..3 {
         let (start, velocity) = (initial.r_gdo_e[i], initial.v_gdo_e[i]);
         if table.has(StateField::DebrisPosition) {
-            let line = Line { start: Lanes::broadcast(simd, start), slope: Lanes::broadcast(simd, velocity) };
+            let (start, slope) = (Lanes::broadcast(simd, start), Lanes::broadcast(simd, velocity));
             let column = table.column_mut(StateField::DebrisPosition, i);
             for (times, out) in grid.padded_times().chunks_exact(WIDTH).zip(column.chunks_exact_mut(WIDTH)) {
-                line.slope.mul_add(Lanes::from_slice(simd, times), line.start).store(out);
+                slope.mul_add(Lanes::from_slice(simd, times), start).store(out);
             }
         }
         if table.has(StateField::DebrisVelocity) {
@@ -62,7 +60,7 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
 }
 
 /// Fills position and velocity of a debris of `mass` kg on the path `relative`, and adds gravity's work on it to the
-/// work on the spacecraft.
+/// spacecraft's.
 pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, table: &mut StateTable) {
     let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
     let has_work = table.has(StateField::Work);
@@ -91,14 +89,8 @@ pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, tabl
     }
 }
 
-struct Line<V> {
-    start: V,
-    slope: V,
-}
-
-/// Fills attitude and rate of an isotropic debris: q_ed(t) = q_ed(0) (x) exp(omega t/2) with constant omega in F_d.
-///
-/// The angle is reduced to a fraction of a turn as a sum of two numbers, so that no digits are lost after 1e10 rad.
+/// Fills attitude and rate of isotropic debris: q_ed(t) = q_ed(0) (x) exp(omega t/2) with constant omega in F_d. The
+/// angle is reduced to a fraction of a turn as a sum of two numbers, so that no digits are lost after 1e10 rad.
 #[inline(always)]
 pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let omega = scene.initial.omega_de_d;
@@ -131,7 +123,7 @@ pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &
 
 const FOUR_PI: DoubleDouble = DoubleDouble { high: 12.566_370_614_359_172, low: 4.898_587_196_589_413e-16 };
 
-/// Fills attitude and rate of a box from the integrated components of a run of [`set_rotation`].
+/// Fills attitude and rate of a box from the components integrated from [`set_rotation`].
 #[inline(always)]
 pub fn complete_rotation<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, table: &mut StateTable) {
     for first in (0..table.stride()).step_by(WIDTH) {

@@ -5,13 +5,13 @@
 //! Astrophysics 355, 398, eq. 14) plus precession since J2000 (N. Capitaine, P. Wallace, J. Chapront, 2003, Astronomy
 //! and Astrophysics 412, 567, eq. 42; IAU 2006).
 //!
-//! Neglected, below 0.01 deg in all: UT1 - UTC (0.9 s, 0.004 deg), nutation of the axis (0.003 deg) and of the equinox
-//! (0.005 deg), polar motion (0.0002 deg), precession since the epoch (0.00004 deg per day).
+//! Neglected, below 0.01 deg in all: UT1 - UTC (0.004 deg), nutation (0.008 deg), polar motion (0.0002 deg), precession
+//! since the epoch (0.00004 deg per day).
 
 use crate::scene::epoch::Epoch;
 
-/// Rotation rate of the Earth relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns per day
-/// (Capitaine et al., 2000) plus precession in right ascension, 4612.156534 arcsec per Julian century.
+/// Rotation rate relative to the equinox of the epoch, turns/s: 1.00273781191135448 turns per day (Capitaine et al.,
+/// 2000) plus precession in right ascension, 4612.156534 arcsec per Julian century.
 pub const TURNS_PER_SECOND: f64 = (1.002_737_811_911_354_6 + 4_612.156_534 / (1_296_000.0 * 36_525.0)) / 86_400.0;
 
 /// Greenwich mean sidereal time at `epoch`, turns, from 0 to 1.
@@ -30,8 +30,7 @@ pub fn turns_at(epoch: Epoch) -> f64 {
 mod tests {
     use super::*;
 
-    /// Truth: SOFA's `gmst06` (`erfa.gmst06(jd1, jd2, jd1, jd2 + 69/86400)`, pyerfa 2.0.1.5), rad, to rounding of the
-    /// dates.
+    /// Truth: SOFA's `gmst06` (`erfa.gmst06(jd1, jd2, jd1, jd2 + 69/86400)`, pyerfa 2.0.1.5), rad.
     #[test]
     fn sidereal_time_is_that_of_sofa() {
         for (text, expected) in [

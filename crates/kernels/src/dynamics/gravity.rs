@@ -169,8 +169,7 @@ mod tests {
         [None, Some(k), Some(100.0 * k)].map(|oblateness| Gravity { mu: 3.986004418e14, oblateness })
     }
 
-    /// Law: the tide is the difference of two pulls in double-double, which has ten digits to spare, from millimetres
-    /// to thousands of kilometres.
+    /// Law: the tide is the difference of two pulls in double-double, from millimetres to thousands of kilometres.
     #[test]
     fn the_tide_is_a_difference_of_pulls() {
         for gravity in gravities() {

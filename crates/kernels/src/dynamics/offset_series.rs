@@ -1,4 +1,4 @@
-//! [`OffsetSeries`]: motion relative to a point on an orbit by Encke's method: Taylor coefficients of the tide
+//! [`OffsetSeries`]: motion relative to a point on an orbit by Encke's method, from Taylor coefficients of the tide
 //! ([`super::gravity`]).
 
 use super::gravity::{Gravity, stronger, stronger_powers, twice_and};

@@ -9,56 +9,89 @@
 //! F' = -sqrt(mu a)/(|r| |r0|) sin x,   G' = 1 - a/|r| (1 - cos x)
 //! ```
 //!
-//! No direction of a periapsis appears, so that circles are no special case. E solves E - e sin E = M, M = M0 + 2 pi
-//! t/P, in turns reduced to half a turn: a thousand orbits later only t/P is rounded. About a flattened body this is
-//! the osculating orbit at time zero, see [`super::orbit_path`]. Keys of an orbit are in `scene::orbit`.
+//! Circles are no special case, since no direction of a periapsis appears. E solves E - e sin E = M, M = M0 + 2 pi t/P,
+//! in turns reduced to half a turn: even a thousand orbits later only t/P is rounded. About a flattened body this is
+//! the osculating orbit at time zero ([`super::orbit_path`]).
 
 use super::gravity::Gravity;
 use super::orbit_state::OrbitState;
+use super::set_lanes;
 use crate::math::sine::sin_cos_turns;
 use crate::math::vector::{constant, dot, norm, scaled, sum};
 use crate::math::{Mask, Real};
 use crate::scene::Orbit;
 
-/// Convergence of Newton's method: the last correction of E, rad. The next one would be e/(2 (1 - e)) times its square,
-/// below rounding up to e = 0.99.
+/// Convergence of Newton's method: the last correction of E, rad. The next one is e/(2 (1 - e)) times its square, below
+/// rounding up to e = 0.99.
 const CONVERGED: f64 = 1e-9;
 
-/// Limit of corrections; 9 were measured up to e = 0.999.
+/// Limit of corrections; up to e = 0.999 there are at most 9.
 const MOST_CORRECTIONS: usize = 30;
 
 /// Danby's initial guess, E = M + 0.85 e sign(sin M) (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 1988,
 /// section 6.6).
 const START: f64 = 0.85;
 
-/// A two-body orbit, one run per lane.
-#[derive(Clone, Copy, Debug)]
-pub struct KeplerOrbit<R> {
-    /// Position at time zero, F_e, m.
-    position: [R; 3],
-    /// Velocity at time zero, F_e, m/s.
-    velocity: [R; 3],
-    eccentricity: R,
+/// Defines the orbit with its scalars, which are broadcast and copied alike.
+macro_rules! kepler_orbit {
+    ($($(#[$doc:meta])* $scalar:ident,)*) => {
+        /// A two-body orbit, one run per lane.
+        #[derive(Clone, Copy, Debug)]
+        pub struct KeplerOrbit<R> {
+            /// Position at time zero, F_e, m.
+            position: [R; 3],
+            /// Velocity at time zero, F_e, m/s.
+            velocity: [R; 3],
+            gravity: Gravity<R>,
+            $($(#[$doc])* $scalar: R,)*
+        }
+
+        impl<R: Real> KeplerOrbit<R> {
+            /// Copies `orbit` into lane `lane`.
+            pub fn set_lane(&mut self, lane: usize, orbit: &KeplerOrbit<f64>) {
+                set_lanes(&mut self.position, lane, &orbit.position);
+                set_lanes(&mut self.velocity, lane, &orbit.velocity);
+                self.gravity.set_lane(lane, &orbit.gravity);
+                $(self.$scalar.set_lane(lane, orbit.$scalar);)*
+            }
+        }
+
+        impl KeplerOrbit<f64> {
+            /// Broadcasts to all lanes of `zero`.
+            #[inline(always)]
+            pub fn in_lanes<R: Real>(&self, zero: R) -> KeplerOrbit<R> {
+                KeplerOrbit {
+                    position: constant(zero, self.position),
+                    velocity: constant(zero, self.velocity),
+                    gravity: self.gravity.in_lanes(zero),
+                    $($scalar: zero.splat(self.$scalar),)*
+                }
+            }
+        }
+    };
+}
+
+kepler_orbit! {
+    eccentricity,
     /// E and M at time zero, turns.
-    eccentric: R,
-    mean: R,
+    eccentric,
+    mean,
     /// One over the period, 1/s.
-    per_period: R,
+    per_period,
     /// a and a/|r0|, m and 1.
-    axis: R,
-    ratio: R,
+    axis,
+    ratio,
     /// |r0| - a and sigma sqrt(a), m.
-    cosine: R,
-    sine: R,
+    cosine,
+    sine,
     /// a sigma/sqrt(mu) and |r0| sqrt(a/mu), s.
-    level: R,
-    rise: R,
-    gravity: Gravity<R>,
+    level,
+    rise,
     /// sqrt(mu a)/|r0|, m/s.
-    fall: R,
+    fall,
     /// |r0|, m, and mu/|r0|, m^2/s^2.
-    start: R,
-    pull: R,
+    start,
+    pull,
 }
 
 impl KeplerOrbit<f64> {
@@ -100,7 +133,7 @@ impl KeplerOrbit<f64> {
         (self.gravity.mu / lowest).sqrt() / lowest
     }
 
-    /// An arbitrary circle for empty lanes.
+    /// An arbitrary circle, for empty lanes.
     pub fn blank() -> Self {
         KeplerOrbit::new(&Orbit {
             mu: 1.0,
@@ -111,54 +144,9 @@ impl KeplerOrbit<f64> {
             epoch: None,
         })
     }
-
-    /// Broadcasts to all lanes of `zero`.
-    #[inline(always)]
-    pub fn in_lanes<R: Real>(&self, zero: R) -> KeplerOrbit<R> {
-        KeplerOrbit {
-            position: constant(zero, self.position),
-            velocity: constant(zero, self.velocity),
-            eccentricity: zero.splat(self.eccentricity),
-            eccentric: zero.splat(self.eccentric),
-            mean: zero.splat(self.mean),
-            per_period: zero.splat(self.per_period),
-            axis: zero.splat(self.axis),
-            ratio: zero.splat(self.ratio),
-            cosine: zero.splat(self.cosine),
-            sine: zero.splat(self.sine),
-            level: zero.splat(self.level),
-            rise: zero.splat(self.rise),
-            gravity: self.gravity.in_lanes(zero),
-            fall: zero.splat(self.fall),
-            start: zero.splat(self.start),
-            pull: zero.splat(self.pull),
-        }
-    }
 }
 
 impl<R: Real> KeplerOrbit<R> {
-    /// Copies `orbit` into lane `lane`.
-    pub fn set_lane(&mut self, lane: usize, orbit: &KeplerOrbit<f64>) {
-        for i in 0..3 {
-            self.position[i].set_lane(lane, orbit.position[i]);
-            self.velocity[i].set_lane(lane, orbit.velocity[i]);
-        }
-        self.eccentricity.set_lane(lane, orbit.eccentricity);
-        self.eccentric.set_lane(lane, orbit.eccentric);
-        self.mean.set_lane(lane, orbit.mean);
-        self.per_period.set_lane(lane, orbit.per_period);
-        self.axis.set_lane(lane, orbit.axis);
-        self.ratio.set_lane(lane, orbit.ratio);
-        self.cosine.set_lane(lane, orbit.cosine);
-        self.sine.set_lane(lane, orbit.sine);
-        self.level.set_lane(lane, orbit.level);
-        self.rise.set_lane(lane, orbit.rise);
-        self.gravity.set_lane(lane, &orbit.gravity);
-        self.fall.set_lane(lane, orbit.fall);
-        self.start.set_lane(lane, orbit.start);
-        self.pull.set_lane(lane, orbit.pull);
-    }
-
     /// The gravity of the central body.
     #[inline(always)]
     pub fn gravity(&self) -> Gravity<R> {
@@ -203,12 +191,12 @@ impl<R: Real> KeplerOrbit<R> {
         self.pull * ((self.start - distance) / distance)
     }
 
-    /// E at `time + low`, turns, by Newton's method; a converged lane is frozen, independently of the others.
+    /// E at `time + low`, turns, by Newton's method; each lane is frozen when it converges.
     #[inline(always)]
     fn eccentric_anomaly(&self, [time, low]: [R; 2]) -> R {
         let number = |value: f64| time.splat(value);
         let e = self.eccentricity;
-        // remove whole turns before the product is rounded: 7e-13 rad after 1,000 periods
+        // whole turns go before the product is rounded: 7e-13 rad after 1,000 periods
         let whole = (time * self.per_period).nearest_integer();
         let mean = time.mul_add(self.per_period, -whole) + low.mul_add(self.per_period, self.mean);
         let mean = mean - mean.nearest_integer();
@@ -243,7 +231,7 @@ mod tests {
         Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, j2: None, epoch: None }
     }
 
-    /// Law: constant energy and angular momentum, |r| is the distance, and the state repeats after one period; from
+    /// Law: energy and angular momentum are constant, |r| is the distance, and the state repeats after one period; from
     /// circles to an eccentricity of 0.98.
     #[test]
     fn the_constants_of_the_orbit_are_constant() {

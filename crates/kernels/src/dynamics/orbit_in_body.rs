@@ -6,8 +6,8 @@
 //! r' = v - omega x r        v' = -s r - omega x v        s = mu rho^(-3/2)        rho = r . r
 //! ```
 //!
-//! with 15 products of series, against 32 to turn a position in F_e by the quaternion, q* (x) r (x) q. About a
-//! flattened body or near the orbit it is turned; all runs of a plan agree in this.
+//! with 15 products of series instead of the 32 that turn a position in F_e by the quaternion, q* (x) r (x) q, as is
+//! done about a flattened body or near the orbit; all runs of a plan agree in this.
 
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;

@@ -156,16 +156,8 @@ impl Step {
     }
 
     /// Its end: time, state and rounding errors.
-    fn end(&self) -> ([f64; 2], [[f64; 3]; 2], [[f64; 3]; 2]) {
-        let changes = change(&self.coefficients, self.low[1], self.length);
-        let (mut state, mut low) = ([self.coefficients[0], self.coefficients[1]], self.low);
-        for ((state, change), low) in state.iter_mut().zip(changes).zip(&mut low) {
-            for i in 0..3 {
-                (state[i], low[i]) = two_sum(state[i], change[i] + low[i]);
-            }
-        }
-        let (time, rest) = two_sum(self.time[0], self.length + self.time[1]);
-        ([time, rest], state, low)
+    fn end(&self) -> End {
+        end_of_step(&self.coefficients, self.low, self.time, self.length)
     }
 
     /// Time since its start, s.
@@ -174,16 +166,36 @@ impl Step {
     }
 
     fn state_at(&self, time: [f64; 2]) -> OrbitState<f64> {
-        let [position, velocity] = change(&self.coefficients, self.low[1], self.within(time));
-        let position = sum(self.coefficients[0], sum(position, self.low[0]));
-        let velocity = sum(self.coefficients[1], sum(velocity, self.low[1]));
+        let [position, velocity] = state_within(&self.coefficients, self.low, self.within(time));
         OrbitState { position, velocity, distance: norm(position) }
     }
 }
 
-/// Change of position and velocity until `within` seconds after the start of a step; the velocity there has the
-/// rounding error `low`.
-pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
+/// End of a step: time, state and its rounding errors.
+type End = ([f64; 2], [[f64; 3]; 2], [[f64; 3]; 2]);
+
+/// End of the step of `length` seconds from `time` with the rounding errors `low`.
+pub(super) fn end_of_step(coefficients: &[[f64; 3]], mut low: [[f64; 3]; 2], time: [f64; 2], length: f64) -> End {
+    let changes = change(coefficients, low[1], length);
+    let mut state = [coefficients[0], coefficients[1]];
+    for ((state, change), low) in state.iter_mut().zip(changes).zip(&mut low) {
+        for i in 0..3 {
+            (state[i], low[i]) = two_sum(state[i], change[i] + low[i]);
+        }
+    }
+    let (time, rest) = two_sum(time[0], length + time[1]);
+    ([time, rest], state, low)
+}
+
+/// Position and velocity `within` seconds after the start of a step with the rounding errors `low`.
+pub(super) fn state_within(coefficients: &[[f64; 3]], low: [[f64; 3]; 2], within: f64) -> [[f64; 3]; 2] {
+    let [position, velocity] = change(coefficients, low[1], within);
+    [sum(coefficients[0], sum(position, low[0])), sum(coefficients[1], sum(velocity, low[1]))]
+}
+
+/// Change of position and velocity until `within` seconds after the start of a step; `low` is the rounding error of the
+/// velocity there.
+fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
     let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
     for (n, coefficients) in coefficients.iter().enumerate().skip(2).rev() {
         for i in 0..3 {
@@ -195,7 +207,7 @@ pub(super) fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [
     [position, scaled(within, velocity)]
 }
 
-/// Step allowed by the coefficient `term` of order `n` of a quantity of size `size`: e^-2 of the radius of convergence.
+/// Step that the coefficient `term` of order `n` allows a quantity of size `size`: e^-2 of the radius of convergence.
 pub(super) fn step_length(n: usize, size: f64, term: [f64; 3]) -> f64 {
     let term = norm(term);
     let radius = if term > 0.0 { libm::pow(size / term, 1.0 / n as f64) } else { f64::INFINITY };
@@ -260,7 +272,7 @@ mod tests {
         }
     }
 
-    /// Law: a path is a function of time alone; an equal orbit keeps its steps, another one has its own.
+    /// Law: a path is a function of time alone; an equal orbit keeps its steps, another one does not.
     #[test]
     fn the_path_is_a_function_of_the_time() {
         let orbit = oblate([100.0, 7100.0, 2900.0]);

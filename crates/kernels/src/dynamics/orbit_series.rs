@@ -97,7 +97,7 @@ impl<R: Real> OrbitSeries<R> {
         self.gravity
     }
 
-    /// The oblateness terms; undefined for a point mass.
+    /// The oblateness terms; undefined about a point mass.
     #[inline(always)]
     pub fn flattened(&self) -> &Flattened<R> {
         &self.flattened
@@ -109,7 +109,7 @@ impl<R: Real> OrbitSeries<R> {
         &self.position
     }
 
-    /// Sets coefficient `n` of a known position, and computes that of rho, in ascending order of `n`.
+    /// Sets coefficient `n` of a known position and computes that of rho, in ascending order of `n`.
     #[inline(always)]
     pub fn place(&mut self, n: usize, position: [R; 3]) {
         self.position[n] = position;

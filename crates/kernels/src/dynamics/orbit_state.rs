@@ -1,5 +1,6 @@
 //! [`OrbitState`]: position and velocity relative to the central body.
 
+use super::set_lanes;
 use crate::math::Real;
 use crate::math::vector::{norm, sum};
 
@@ -25,10 +26,8 @@ impl<R: Real> OrbitState<R> {
     /// Copies `own` into lane `lane`.
     #[inline(always)]
     pub fn set_lane(&mut self, lane: usize, own: &OrbitState<f64>) {
-        for i in 0..3 {
-            self.position[i].set_lane(lane, own.position[i]);
-            self.velocity[i].set_lane(lane, own.velocity[i]);
-        }
+        set_lanes(&mut self.position, lane, &own.position);
+        set_lanes(&mut self.velocity, lane, &own.velocity);
         self.distance.set_lane(lane, own.distance);
     }
 
@@ -38,7 +37,7 @@ impl<R: Real> OrbitState<R> {
         OrbitState { position, velocity: [position[0].zero(); 3], distance: norm(position) }
     }
 
-    /// NaN in the lanes of `like`, so that any use of a missing orbit has no result.
+    /// NaN in the lanes of `like`: a missing orbit, of which nothing may be used.
     pub fn unknown(like: R) -> Self {
         let nan = like.splat(f64::NAN);
         OrbitState { position: [nan; 3], velocity: [nan; 3], distance: nan }

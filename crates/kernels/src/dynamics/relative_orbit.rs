@@ -1,18 +1,14 @@
-//! [`RelativeOrbit`]: a free body near a point on an orbit, at any time.
-//!
-//! The offset itself is integrated by its Taylor series ([`super::offset_series`]) in steps that depend on the run
-//! alone, so that a time always gives the same bits.
+//! [`RelativeOrbit`]: a free body near a point on an orbit, at any time. The offset itself is integrated by its Taylor
+//! series ([`super::offset_series`]) in steps that depend on the run alone, so that a time always gives the same bits.
 
 use super::gravity::Gravity;
 use super::offset_series::OffsetSeries;
-use super::orbit_path::{OrbitPath, change, step_length};
+use super::orbit_path::{OrbitPath, end_of_step, state_within, step_length};
 use super::orbit_state::OrbitState;
-use crate::math::sums::two_sum;
-use crate::math::vector::{dot, norm, scaled, sum};
+use crate::math::vector::{dot, norm, scaled};
 use crate::scene::orbit::Offset;
 
-/// Order of the series: over e^-2 of the radius of convergence (A. Jorba & M. Zou, 2005) the first neglected term is
-/// e^-44.
+/// Order of the series, as in [`super::orbit_path`].
 const ORDER: usize = 22;
 
 /// Motion of a free body near an orbit.
@@ -67,35 +63,14 @@ impl RelativeOrbit {
         if time < self.time[0] {
             self.rewind();
         }
-        let mut within = (time - self.time[0]) - self.time[1];
-        while within > self.length {
-            self.advance();
-            within = (time - self.time[0]) - self.time[1];
+        let within = |orbit: &Self| (time - orbit.time[0]) - orbit.time[1];
+        while within(self) > self.length {
+            let state;
+            (self.time, state, self.low) = end_of_step(&self.offset, self.low, self.time, self.length);
+            self.step_from(state);
         }
-        let [position, velocity] = self.value(within);
-        let offset = Offset {
-            position: sum(self.offset[0], sum(position, self.low[0])),
-            velocity: sum(self.offset[1], sum(velocity, self.low[1])),
-        };
-        (self.orbit.state(time), offset)
-    }
-
-    /// Change of position and velocity until `within` seconds after the start of the step.
-    fn value(&self, within: f64) -> [[f64; 3]; 2] {
-        change(&self.offset, self.low[1], within)
-    }
-
-    fn advance(&mut self) {
-        let changes = self.value(self.length);
-        let mut state = [self.offset[0], self.offset[1]];
-        for ((state, change), low) in state.iter_mut().zip(changes).zip(&mut self.low) {
-            for i in 0..3 {
-                (state[i], low[i]) = two_sum(state[i], change[i] + low[i]);
-            }
-        }
-        let (time, low) = two_sum(self.time[0], self.length + self.time[1]);
-        self.time = [time, low];
-        self.step_from(state);
+        let [position, velocity] = state_within(&self.offset, self.low, within(self));
+        (self.orbit.state(time), Offset { position, velocity })
     }
 
     /// Starts the series at position and velocity of the offset.
@@ -110,7 +85,7 @@ impl RelativeOrbit {
         self.length = self.step_length(place.distance);
     }
 
-    /// Step allowed by the series of orbit and offset, s.
+    /// Step that the series of orbit and offset allow, s.
     fn step_length(&self, distance: f64) -> f64 {
         let along = self.series.orbit().position();
         // the offset may pass through zero: its size some minutes later
@@ -145,32 +120,9 @@ mod tests {
     /// An orbit of equal energy, to rounding of these numbers.
     const CLOSED: Offset = Offset { position: [-28.0, -14.0, 18.0], velocity: [0.05030686, 0.04178697, -0.0211011] };
 
-    /// Truth: the difference of two Kepler orbits in 60 digits, Kepler's equation by Newton's method:
-    ///
-    /// ```text
-    /// python3 - <<'PY'
-    /// from mpmath import mp, mpf, sqrt, sin, cos, atan2, pi, matrix
-    /// mp.dps = 60
-    /// mu = mpf('3.986004418e14')
-    /// def at(r, v, t):
-    ///     n0 = sqrt(sum(x*x for x in r)); a = 1/(2/n0 - sum(x*x for x in v)/mu)
-    ///     s = sum(x*y for x, y in zip(r, v))/sqrt(mu); c, k = 1 - n0/a, s/sqrt(a)
-    ///     e, E0 = sqrt(c*c + k*k), atan2(k, c); n = sqrt(mu/a**3); M = E0 - k + n*t; E = M
-    ///     for _ in range(60): E = E - (E - e*sin(E) - M)/(1 - e*cos(E))
-    ///     x = E - E0; d = a*(1 - e*cos(E))
-    ///     f, g = 1 - a/n0*(1 - cos(x)), t - ((x) - sin(x))/n
-    ///     F, G = -sqrt(mu*a)/(d*n0)*sin(x), 1 - a/d*(1 - cos(x))
-    ///     return [f*p + g*q for p, q in zip(r, v)] + [F*p + G*q for p, q in zip(r, v)]
-    /// r, v = [mpf(x) for x in (7e6, 1e6, -2e5)], [mpf(x) for x in (100, 7100, 2900)]
-    /// # w also (0.05030686, 0.04178697, -0.0211011)
-    /// d, w = [mpf(x) for x in (-28, -14, 18)], [mpf(x) for x in (0.05, 0.02, -0.03)]
-    /// for t in (600, 6000, 86400):
-    ///     a, b = at([p + q for p, q in zip(r, d)], [p + q for p, q in zip(v, w)], t), at(r, v, t)
-    ///     print(t, [mp.nstr(p - q, 17) for p, q in zip(a, b)])
-    /// PY
-    /// ```
-    ///
-    /// Bound: a nanometre after a day, or 1e-12 of an offset that has grown to kilometres.
+    /// Truth: the difference of two Kepler orbits by the formulas of [`super::super::orbit`] in 60 digits (mpmath),
+    /// Kepler's equation by Newton's method. Bound: a nanometre after a day, or 1e-12 of an offset that has grown to
+    /// kilometres.
     #[test]
     fn the_offset_is_the_difference_of_two_orbits() {
         #[rustfmt::skip]
@@ -192,7 +144,6 @@ mod tests {
             let (_, found) = RelativeOrbit::new(&ellipse(), start).at(time);
             let off = norm(difference(found.position, position));
             let speed = norm(difference(found.velocity, velocity));
-            println!("{time}: {off:e} m, {speed:e} m/s");
             let allowed = 1e-9_f64.max(1e-12 * norm(position));
             assert!(off < allowed && speed < 2e-3 * allowed, "{time}: {off:e} m, {speed:e} m/s");
         }

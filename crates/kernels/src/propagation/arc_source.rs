@@ -9,7 +9,7 @@ use crate::scene::Scene;
 
 /// The arcs of the runs of a batch.
 pub struct ArcSource<'a> {
-    /// The scene of each run; empty for bodies without actuation.
+    /// The scene of each run; empty for bodies without actuators.
     scenes: &'a [Scene],
     laws: Laws<'a>,
     duration: f64,
@@ -23,7 +23,7 @@ impl<'a> ArcSource<'a> {
         ArcSource { scenes, laws, duration: grid.duration(), times: grid.times() }
     }
 
-    /// Runs of bodies without actuation: one arc each.
+    /// Runs of bodies without actuators: one arc each.
     pub fn free(duration: f64) -> Self {
         ArcSource { scenes: &[], laws: Laws::OpenLoop, duration, times: &[] }
     }
@@ -33,18 +33,17 @@ impl<'a> ArcSource<'a> {
         self.duration
     }
 
-    /// Sets the time scale of `gyrostat` for run `run` before its first arc, from its arcs if they are known.
+    /// Sets the time scale of `gyrostat` for run `run` before its first arc, from its schedule if it follows one.
     pub fn prepare(&self, run: usize, gyrostat: &mut Gyrostat<f64>) {
         if let (Some(scene), Laws::OpenLoop) = (self.scenes.get(run), &self.laws) {
             gyrostat.expect_schedule(scene, self.duration);
         }
     }
 
-    /// Starts the next arc of run `run` at `time`. `components` are the integrated components, SI, evaluated only for a
-    /// law.
+    /// Starts the next arc of run `run` at `time`. `components` evaluates the integrated components, SI, for a law.
     ///
     /// # Panics
-    /// If a law's answer ends before it starts.
+    /// If a law's arc ends before it starts.
     #[inline(always)]
     pub fn begin_arc(
         &mut self,

@@ -15,8 +15,8 @@ pub struct CompletedRun<'a> {
     pub table: &'a StateTable,
     /// Its outcome.
     pub outcome: &'a Outcome,
-    /// The arcs in order, without gaps from time zero, with the effects that are constant over an arc. As the schedule
-    /// of a scene with the other effects alone ([`crate::dynamics::effects::beside_arcs`]) they give the same run.
+    /// The arcs in order, without gaps from time zero, with the effects that are constant over an arc. As a schedule,
+    /// with the other effects alone ([`crate::dynamics::effects::beside_arcs`]), they give the same run.
     pub arcs: &'a ArcRecord,
 }
 
@@ -25,8 +25,7 @@ pub type CompletionCallback<'a> = dyn FnMut(CompletedRun<'_>) + 'a;
 
 /// Memory and code of a method for one worker and one instruction set.
 pub trait Engine: Send {
-    /// True if the engine integrates every effect of `model`; without a default, so that each engine declares its
-    /// effects.
+    /// True if the engine integrates every effect of `model`.
     fn integrates(&self, model: ForceModel) -> bool;
 
     /// Runs every scene by its own schedule and passes it to `finish` in order of completion; results depend on the
@@ -38,7 +37,6 @@ pub trait Engine: Send {
     /// Runs every scene under `laws`; results depend on the scene and its law alone.
     ///
     /// # Panics
-    /// If a law is given without [`super::PropagationSettings::with_feedback`], or a law's answer ends before it
-    /// starts.
+    /// If a law is given without [`super::PropagationSettings::with_feedback`], or its arc ends before it starts.
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>);
 }

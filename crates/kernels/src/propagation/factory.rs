@@ -1,5 +1,4 @@
-//! Engines from settings: kernels and instruction sets of each method. A separate file, since the engines depend on the
-//! settings.
+//! Engines from settings: kernels and instruction sets of each method.
 
 use core::marker::PhantomData;
 
@@ -79,27 +78,24 @@ impl NarrowWork for BuildNullSpace<'_> {
     }
 }
 
-/// The Taylor engine with the needed components. Forced runs always have those of motors: fewer kernels to compile, and
+/// The Taylor engine with the needed components. Forced runs always have the motors': fewer kernels to compile, and
 /// hardly slower.
 fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &PropagationSettings) -> Box<dyn Engine> {
+    macro_rules! engine {
+        ($Effects:ty, $components:ident, $series:ident, $forced:literal) => {
+            Box::new(TaylorEngine::<S, R, $Effects, $components, $series, $forced>::new(simd, zero, settings))
+        };
+    }
     if settings.changes_within_arcs() {
         // all integrals by series
-        return Box::new(TaylorEngine::<S, R, Acting<R>, WITH_THRUST, WITH_THRUST, true>::new(simd, zero, settings));
+        return engine!(Acting<R>, WITH_THRUST, WITH_THRUST, true);
     }
     match (settings.components(), settings.thrust || settings.motors) {
-        (RATES_ONLY, false) => {
-            Box::new(TaylorEngine::<S, R, NoEffects, RATES_ONLY, RATES_ONLY, false>::new(simd, zero, settings))
-        }
-        (WITH_ATTITUDE, false) => {
-            Box::new(TaylorEngine::<S, R, NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false>::new(simd, zero, settings))
-        }
-        (WITH_ANGLES, false) => {
-            Box::new(TaylorEngine::<S, R, NoEffects, WITH_ANGLES, WITH_ANGLES, false>::new(simd, zero, settings))
-        }
-        (WITH_THRUST, _) => {
-            Box::new(TaylorEngine::<S, R, NoEffects, WITH_THRUST, WITH_ANGLES, true>::new(simd, zero, settings))
-        }
-        _ => Box::new(TaylorEngine::<S, R, NoEffects, WITH_MOTORS, WITH_ANGLES, true>::new(simd, zero, settings)),
+        (RATES_ONLY, false) => engine!(NoEffects, RATES_ONLY, RATES_ONLY, false),
+        (WITH_ATTITUDE, false) => engine!(NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false),
+        (WITH_ANGLES, false) => engine!(NoEffects, WITH_ANGLES, WITH_ANGLES, false),
+        (WITH_THRUST, _) => engine!(NoEffects, WITH_THRUST, WITH_ANGLES, true),
+        _ => engine!(NoEffects, WITH_MOTORS, WITH_ANGLES, true),
     }
 }
 

@@ -1,5 +1,5 @@
-//! [`GyrostatBatch`]: a batch of scenes as gyrostats, shared by every method on the gyrostat: runs of the spacecraft,
-//! rotation of non-isotropic debris (integrated first, as gyrostats without wheels), and completion to state tables.
+//! [`GyrostatBatch`]: a batch of scenes as gyrostats: runs of the spacecraft, rotation of non-isotropic debris
+//! (integrated first, as gyrostats without wheels), and completion to state tables.
 
 use fearless_simd::Simd;
 
@@ -56,7 +56,7 @@ impl GyrostatBatch {
         }
     }
 
-    /// The runs of `scenes` before their first arcs, which `arcs` will provide; and their completion.
+    /// The runs of `scenes` before their first arcs, which `arcs` provides, and their completion.
     pub fn load(&mut self, scenes: &[Scene], arcs: &ArcSource<'_>) -> (&mut [Gyrostat<f64>], &mut StateCompletion) {
         while self.runs.len() < scenes.len() {
             self.runs.push(Gyrostat::blank(0.0));
@@ -68,7 +68,7 @@ impl GyrostatBatch {
         (&mut self.runs[..scenes.len()], &mut self.completion)
     }
 
-    /// The debris of `scenes` as gyrostats without wheels; `None` if no rotation needs integration.
+    /// The debris of `scenes` as gyrostats without wheels; `None` if no rotation is integrated.
     pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<DebrisRuns<'_>> {
         let completion = &mut self.completion;
         let observes = completion.observes_debris_rotation;

@@ -26,7 +26,7 @@ pub struct GyrostatRuns<'a, R, E> {
 }
 
 impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
-    /// Runs before their first arcs, which `arcs` will provide; `zero` determines the number of lanes.
+    /// Runs before their first arcs, which `arcs` provides; `zero` determines the number of lanes.
     pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>) -> Self {
         GyrostatRuns {
             runs,
@@ -56,7 +56,7 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
     }
 
     /// The largest error of: the rate against |omega| (at least the time scale times absolute/relative), the attitude
-    /// against |q|, the offset from an orbit against itself; quadrature states do not count. NaN if any component is
+    /// against |q|, the offset from an orbit against itself. Quadrature states do not count; NaN if any component is
     /// not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {

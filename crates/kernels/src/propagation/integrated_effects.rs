@@ -1,5 +1,5 @@
-//! Forms of effects that each kind of engine integrates, by exhaustive `match`: a new form does not compile until every
-//! engine has an answer. A separate file, since the engines depend on the settings.
+//! Forms of effects that each kind of engine integrates, by exhaustive `match`: a new form needs an answer from every
+//! engine.
 
 use crate::dynamics::effects::Form;
 
@@ -25,7 +25,7 @@ pub const fn by_reference(form: Form) -> bool {
     }
 }
 
-/// Runge-Kutta methods without an error estimate: their errors are estimated from the Taylor series of the motion.
+/// Runge-Kutta methods without an error estimate: their errors follow from the Taylor series of the motion.
 pub const fn by_fixed_steps(form: Form) -> bool {
     by_taylor(form)
 }

@@ -1,15 +1,14 @@
 //! Estimated errors of a run from the steps of its method: the sums behind [`LocalErrors`].
 //!
-//! Errors of all steps (omega in rad/s, attitude in rad) add as if all had the same direction; rounding accumulates as
-//! a random walk (H. Brouwer, Astron. J. 46, 1937).
+//! Errors of all steps (omega in rad/s, attitude in rad) add as if aligned; rounding accumulates as a random walk (H.
+//! Brouwer, Astron. J. 46, 1937).
 
 use crate::ode::{EndedRun, ErrorModel};
 use crate::run::LocalErrors;
 
-/// The sums for a run of a method with the error model `model` at the relative tolerance `tolerance`.
-///
-/// Without error estimates only rounding, see [`super::series_remainder`] for the rest. Truncation is relative to the
-/// states if step control is; see [`in_units`].
+/// The sums for a run of a method with the error model `model` at the relative tolerance `tolerance`: only rounding
+/// without error estimates (see [`super::series_remainder`]). Truncation is relative to the states if step control is;
+/// see [`in_units`].
 pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &EndedRun) -> LocalErrors {
     let rounding = rounding(completion.accepted);
     match model {
@@ -40,7 +39,7 @@ pub fn fastest(rates: impl Iterator<Item = [f64; 3]>) -> f64 {
 }
 
 /// Error of points inside steps, in sums of the errors of the steps: measured in the campaigns of `at_rest.rs` and of
-/// [`WALK`]; with 1 the estimate is below the error of `burn` by `dop853`.
+/// [`WALK`]; at 1 the estimate is below the error of `burn` by `dop853`.
 const DENSE: f64 = 1.6;
 
 /// Error of a compensated step as a fraction of a rounding, measured over the campaigns of
@@ -57,6 +56,6 @@ pub fn rounding_of_turns(steps: u64, angle: f64) -> LocalErrors {
     let steps = steps as f64;
     let share = if angle < steps { angle / steps } else { 1.0 };
     let walked = f64::EPSILON * (1.0 + WALK * share * steps.sqrt());
-    // conversion of the attitude between the axes of integration and F_s rounds once more
+    // conversion of the attitude between B and F_s rounds once more
     LocalErrors { rounding: walked, attitude: walked + f64::EPSILON, ..LocalErrors::default() }
 }

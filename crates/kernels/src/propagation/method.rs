@@ -57,8 +57,8 @@ impl Method {
         }
     }
 
-    /// The method used under the effects of `model`: for `auto`, if Taylor series leave an effect out, the fastest
-    /// other method; any other method is unchanged.
+    /// The method used under the effects of `model`: `auto` becomes the fastest other method if Taylor series leave an
+    /// effect out.
     #[must_use]
     pub fn chosen(self, model: ForceModel) -> Method {
         if self != Method::Auto || model.is_integrated(by_taylor) {

@@ -1,7 +1,5 @@
-//! Layer 3: engines that turn scenes into state tables.
-//!
-//! Every method computes the integrated components at the observation times, which are then completed to the physical
-//! [`crate::run::StateTable`]. Runs are in lanes that share no decision.
+//! Layer 3: engines that integrate scenes to the components at the observation times, and complete these to the
+//! physical [`crate::run::StateTable`]. Runs are in lanes that share no decision.
 
 pub mod arc_source;
 pub mod engine;

@@ -16,7 +16,7 @@ use crate::ode::{Adaptive, DormandPrinceRestepped, LaneMethod, integrate};
 use crate::run::{LocalErrors, Outcome, StateField, StateTable, Trajectory};
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// Points inside a step by a step of their own, cheap next to the right-hand side.
+/// Points inside a step take a step of their own, cheap next to the right-hand side.
 type Pair = Adaptive<DormandPrinceRestepped>;
 
 /// Components for Berdoz's two wheels.
@@ -66,8 +66,8 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
                 let mut outcome = *outcome;
                 outcome.debris_errors = of_debris(&outcome.local_errors, table);
                 outcome.local_errors = of_body(&outcome.local_errors, table, grid.duration());
-                // errors of the other states feed back into omega; none feeds back into the rate of the debris, which
-                // is free
+                // errors of the other states feed back into omega; nothing feeds back into the rate of the debris,
+                // which is free
                 outcome.local_errors.feedback = outcome.local_errors.truncation;
                 finish(CompletedRun { index, table, outcome: &outcome, arcs: runs.arcs() });
             },
@@ -77,7 +77,7 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
     }
 }
 
-/// Power of a body's rate in the error of a step, which local extrapolation continues with the formula of order five.
+/// Power of a body's rate in the error of a step, which local extrapolation continues at order five.
 const ORDER: i32 = 6;
 
 /// Rates of a body at all points, if observed.
@@ -85,7 +85,7 @@ fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]
     (0..if table.has(field) { table.points() } else { 0 }).map(move |point| table.at(field, point))
 }
 
-/// Errors of the debris, from the estimated `errors` of the steps, which follow the faster body.
+/// Errors of the debris, from the estimated `errors` of steps that follow the faster body.
 fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
@@ -94,7 +94,7 @@ fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
 }
 
 /// Errors of the body in a run of `duration` seconds, from the estimated `errors` of steps that mostly follow faster
-/// wheels: the attitude's is at most proportional to the angle by which the body turns, below a radian.
+/// wheels: the attitude's is at most proportional to the body's turn, below a radian.
 fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErrors {
     let share = (fastest(rates(table, StateField::Rate)) * duration).min(1.0);
     let attitude = (share * errors.attitude).max(errors.rounding);

@@ -60,8 +60,8 @@ impl<const W: usize, const N: usize> System<f64, N> for NullSpaceRuns<'_, W> {
         self.kernel.derivative(state)
     }
 
-    /// The norm of MATLAB's ode45, max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states (Shampine &
-    /// Reichelt 1997); quadrature states do not count. NaN if any component is not finite.
+    /// The norm of MATLAB's ode45, max |e_i| / (rtol max(|y_i|, |y_i new|, atol / rtol)) over the states without
+    /// quadratures (Shampine & Reichelt 1997); NaN if any component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[f64; N], old: &[f64; N], new: &[f64; N], tolerance: Tolerance) -> f64 {
         let threshold = tolerance.absolute / tolerance.relative;

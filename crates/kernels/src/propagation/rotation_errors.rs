@@ -6,11 +6,10 @@ use crate::run::{Grid, StateField, StateTable, rate_scale};
 /// Error of the rotation at one observation point, or the largest of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotationError {
-    /// |omega - reference| over the largest |omega| of the run, or over one radian per duration if that is more
-    /// ([`rate_scale`]).
+    /// omega - reference| over the largest |omega| of the run, at least one radian per duration ([`rate_scale`]).
     pub omega: f64,
-    /// Twice the distance of the attitude quaternions of nearer sign, rad: the angle between the attitudes of unit
-    /// norm. Zero if the reference solution has no attitude.
+    /// Twice the distance of the attitude quaternions of nearer sign, rad: the angle between unit attitudes. Zero
+    /// without a reference attitude.
     pub attitude: f64,
 }
 
@@ -76,7 +75,7 @@ mod tests {
     use super::*;
     use crate::run::StateFields;
 
-    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, with a quaternion of the sign
+    /// Rates and attitudes at three points; the middle one is off by `rate` and `turn`, with the quaternion's sign
     /// `sign`.
     fn table([rate, turn, sign]: [f64; 3]) -> StateTable {
         let mut table = StateTable::new(StateFields::NONE.with(StateField::Rate).with(StateField::Attitude), 0, 3);

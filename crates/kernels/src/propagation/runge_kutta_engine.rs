@@ -102,7 +102,7 @@ fn errors_of(
 /// Receives a completed run: runs, index, components at the observation points, outcome.
 type RunCallback<'a, R, E> = dyn FnMut(&GyrostatRuns<'_, R, E>, usize, &Trajectory, &Outcome) + 'a;
 
-/// The integration in its instruction set. Not inlined: compiled once for spacecraft and debris.
+/// The integration in its instruction set, compiled once for spacecraft and debris.
 #[inline(never)]
 fn integrate_on<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize>(
     simd: S,

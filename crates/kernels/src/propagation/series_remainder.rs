@@ -61,8 +61,7 @@ impl Remainders {
         LocalErrors { truncation: all * changing, rounding, feedback: 0.0, attitude: attitude + all * turning }
     }
 
-    /// Expands the motion through point `point` of `states` at `time`, s. The orbit is taken as unaffected by thrust
-    /// over a step.
+    /// Expands the motion through point `point` of `states` at `time`, s; thrust does not bend the orbit within a step.
     fn expand(&mut self, run: &Gyrostat<f64>, time: f64, states: &Trajectory, point: usize) {
         let arc = run.arc_index_at(time);
         let mut constants = Constants::of(run, arc, 1.0);

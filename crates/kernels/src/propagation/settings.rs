@@ -33,7 +33,7 @@ pub struct PropagationSettings {
 }
 
 impl PropagationSettings {
-    /// Settings for scenes with the schedule of `nominal`, of any magnitudes.
+    /// Settings for scenes like `nominal`, of any magnitudes.
     pub fn new(method: Method, control: Control, grid: Grid, fields: StateFields, nominal: &Scene) -> Self {
         let forces = ForceModel::of(nominal);
         PropagationSettings {
@@ -49,8 +49,8 @@ impl PropagationSettings {
         }
     }
 
-    /// Settings for runs under laws that command `commands` in addition to the schedules. A law sees the whole state;
-    /// integrals of thrust are computed only if thrust or body torque may act.
+    /// Settings for runs under laws that command `commands` in addition to the schedules. A law observes the whole
+    /// state; integrals of thrust are computed only if thrust or body torque may act.
     #[must_use]
     pub fn with_feedback(self, commands: Actuated) -> Self {
         let thrust = self.thrust || commands.external();

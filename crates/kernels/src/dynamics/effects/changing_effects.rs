@@ -8,15 +8,14 @@
 /// evaluated { Effect: file, [begin_arc, set_arc]?, key, condition; }
 /// ```
 ///
-/// An effect that changes within an arc has a type of its own name in `file`, with `NEEDS_ORBIT`, `none(zero)`,
-/// `set_lane(lane, &Effect<f64>)`, `torque(&Motion<R>)` in B, N m. If it has constants of an arc (the dipole of the
-/// torque rods), `begin_arc(dipole)` sets them and `set_arc(lane, &Effect<f64>)` copies them. The form `Evaluated` also
-/// has `force(&Motion<R>)` in B, N, and branches ([`crate::ode::switches`]): `is_rough(zero)`,
-/// `switches(&[Motion<R>; M], visit)`, `choose_branches(lanes, &Motion<R>)`. `Series<R>`: `new(zero, order)`,
-/// `NEEDS_POSITION`, `begin(&Effect<R>, time, unit)`, `extend(n, &MotionSeries<R>)`, the n-th coefficient of the
-/// torque in the unit of time. Functions of the file: `of(zero, scene, c_sb)`, the constants in the frame B (`c_sb`
-/// maps it to F_s), `None` if the effect does not act; `largest_torque(scene)`, an upper bound, N m;
-/// `largest_rate(scene)`, the fastest motion that it causes, rad/s.
+/// An effect that changes within an arc is a type in `file` with `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane,
+/// &Effect<f64>)` and `torque(&Motion<R>)` in B, N m; constants of an arc (the dipole of the torque rods) are set by
+/// `begin_arc(dipole)` and copied by `set_arc(lane, &Effect<f64>)`. The form `Evaluated` adds `force(&Motion<R>)` in B,
+/// N, and branches ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)`,
+/// `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero, order)`, `NEEDS_POSITION`, `begin(&Effect<R>, time,
+/// unit)` and `extend(n, &MotionSeries<R>)`, the n-th coefficient of the torque in the unit of time. The file also has
+/// `of(zero, scene, c_sb)`, the constants in the frame B (`c_sb` maps it to F_s) or `None` if the effect does not act;
+/// `largest_torque(scene)`, an upper bound, N m; `largest_rate(scene)`, the fastest motion that it causes, rad/s.
 macro_rules! effects {
     (
         constant { $($(#[$constant_doc:meta])* $Constant:ident: $constant_form:ident, $constant_key:literal,
@@ -45,7 +44,7 @@ macro_rules! effects {
                 false $(|| self.$evaluated.is_some())*
             }
 
-            /// Lanes in which an effect is not smooth even within its branches.
+            /// Lanes in which an effect is not smooth within its branches.
             #[inline(always)]
             pub fn is_rough(&self, zero: R) -> R::Mask {
                 let mut rough = zero.never();
@@ -57,7 +56,7 @@ macro_rules! effects {
                 rough
             }
 
-            /// Sum of the forces on the centre of mass, B, N, if they move it.
+            /// Sum of the forces on the centre of mass, B, N, if they act on the orbit.
             #[inline(always)]
             pub fn force(&self, motion: &within_arcs::Motion<R>) -> Option<[R; 3]> {
                 if !self.is_coupled {
@@ -94,7 +93,7 @@ macro_rules! effects {
                 least
             }
 
-            /// Fraction of a step at which a switch function that is positive at both ends may be negative
+            /// Fraction of a step at which a switch function that is positive at both ends may dip below zero
             /// ([`crate::ode::switches::dip`]).
             #[inline(always)]
             pub fn dip(&self, motions: &[within_arcs::Motion<R>; 4]) -> R {
@@ -142,14 +141,13 @@ macro_rules! effects {
                 }
             }
 
-            /// Keeps the coefficients of the orbit in any case, for an integration by them.
+            /// Keeps the coefficients of the orbit, for an integration by them.
             pub fn with_orbit(self) -> Self {
                 ChangingSeries { keeps_orbit: true, ..self }
             }
 
-            /// Starts a step of `acting` at `time` (s) in a unit of time of `unit` seconds. `place`: gravity of the
-            /// central body and position on the orbit (m, m/s), if needed; `may_leave`: the spacecraft may leave the
-            /// orbit.
+            /// Starts a step at `time` (s) in a unit of `unit` seconds. `place`: gravity and position on the orbit (m,
+            /// m/s), if needed; `may_leave`: the spacecraft may leave the orbit.
             #[inline(always)]
             pub fn begin(
                 &mut self,
@@ -162,9 +160,14 @@ macro_rules! effects {
                 self.has_orbit = place.is_some();
                 if let Some((gravity, place)) = place {
                     let velocity = $crate::math::vector::scaled(unit, place.velocity);
-                    let asks = self.keeps_orbit
+                    let keeps_orbit = self.keeps_orbit
                         $(|| $series::$Series::<R>::NEEDS_POSITION && acting.$series.is_some())*;
-                    self.motion.begin_orbit(gravity.in_unit(unit), [place.position, velocity], may_leave, asks);
+                    self.motion.begin_orbit(
+                        gravity.in_unit(unit),
+                        [place.position, velocity],
+                        may_leave,
+                        keeps_orbit,
+                    );
                 }
                 $(
                     self.$series.0 = acting.$series.is_some();
@@ -174,8 +177,8 @@ macro_rules! effects {
                 )*
             }
 
-            /// Coefficient n of the sum of the torques, from the coefficients of attitude, rate and offset from the
-            /// orbit (m), in ascending order of `n`. [`ChangingSeries::torque`] also includes `constant`.
+            /// Coefficient n of the sum of the torques from those of attitude, rate and offset from the orbit (m), in
+            /// ascending order of `n`; [`ChangingSeries::torque`] also includes `constant`.
             #[inline(always)]
             pub fn extend(
                 &mut self,
@@ -200,7 +203,7 @@ macro_rules! effects {
                 own
             }
 
-            /// Coefficients of the total torque, constant part included, B, N m in the unit of time.
+            /// Coefficients of the total torque with its constant part, B, N m in the unit of time.
             #[inline(always)]
             pub fn torque(&self) -> &[[R; 3]] {
                 &self.torque
@@ -216,7 +219,7 @@ macro_rules! effects {
             /// All effects.
             pub const ALL: [Effect; [$($key),*].len()] = [$(Effect::$Effect),*];
 
-            /// The key that makes it act.
+            /// The key that activates it.
             pub const fn key(self) -> &'static str {
                 match self { $(Effect::$Effect => $key,)* }
             }
@@ -235,7 +238,7 @@ macro_rules! effects {
     (all { $($file:ident: $Constants:ident, [$($begin_arc:ident, $set_arc:ident)?];)* }) => {
         $(pub mod $file;)*
 
-        /// Constants of the effects that change within an arc, one run per lane; `None` for inactive effects.
+        /// Constants of the effects that change within an arc, one run per lane; `None` if inactive.
         #[derive(Clone, Copy, Debug)]
         pub struct ChangingEffects<R> {
             $(
@@ -252,7 +255,7 @@ macro_rules! effects {
                 ChangingEffects { $($file: None,)* is_coupled: false }
             }
 
-            /// The effects on `scene` in the frame B, which `c_sb` maps to F_s, in the arithmetic of `zero`.
+            /// The effects on `scene` in the frame B, which `c_sb` maps to F_s.
             pub fn of(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Self {
                 ChangingEffects { $($file: $file::of(zero, scene, c_sb),)* is_coupled: scene.environment.moves() }
             }

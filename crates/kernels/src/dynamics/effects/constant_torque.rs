@@ -1,4 +1,4 @@
-//! A torque constant in F_s for the whole run, such as that of a leak.
+//! A torque that is constant in F_s for the whole run, such as that of a leak.
 
 use crate::scene::{Actuation, Scene};
 

@@ -2,8 +2,8 @@
 //!
 //! f = -rho/2 C_d A max(0, n . v) v at the plate's centre, with the outward normal n and the velocity v relative to air
 //! that rotates with the Earth (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2.3).
-//! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), shadowing of plates by each other. The
-//! force acts on the orbit if `environment.coupled` is set.
+//! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), mutual shadowing. The force acts on the
+//! orbit if `environment.coupled` is set.
 
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -123,8 +123,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(Drag { plates: PlatesInLanes::of(zero, scene, c_sb, |plate| [plate.drag_coefficient]), air })
 }
 
-/// Upper bound of the torque on `scene`, N m: at periapsis, against the Earth's rotation, all plates normal to the
-/// flow.
+/// Upper bound of the torque on `scene`, N m: at periapsis, against the Earth's rotation, all plates facing the flow.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some((orbit, air)) = scene.orbit.as_ref().zip(air_of(scene)) else { return 0.0 };
     let lowest = orbit.lowest();

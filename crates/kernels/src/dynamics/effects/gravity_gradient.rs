@@ -73,8 +73,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(GravityGradient { strength: zero.splat(3.0) * zero.splat(orbit.mu), inertia })
 }
 
-/// Taylor coefficients of the torque 3 s/rho r x (J r) with s = mu rho^(-3/2), rho = r . r, by products of series
-/// ([`OrbitInBody`]).
+/// Taylor coefficients of the torque 3 s/rho r x (J r) with s = mu rho^(-3/2), rho = r . r ([`OrbitInBody`]).
 #[derive(Clone, Debug)]
 pub struct GradientSeries<R> {
     /// J in B, kg m^2.
@@ -124,8 +123,7 @@ impl<R: Real> GradientSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: at periapsis, axes of the largest and smallest moment at 45 degrees to
-/// the vertical.
+/// Upper bound of the torque on `scene`, N m: at periapsis, largest and smallest axis at 45 degrees to the vertical.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
     let lowest = orbit.lowest();

@@ -1,13 +1,12 @@
 //! Magnetic torque of the residual dipole and of the torque rods.
 //!
 //! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2) with the dipole m
-//! constant in the body over an arc and the field of [`crate::dynamics::magnetic_field`].
+//! constant in the body over an arc.
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
 use crate::dynamics::magnetic_field::{MagneticField, largest};
 use crate::math::Real;
-use crate::math::symmetric::principal_axes;
 use crate::math::vector::{conjugate, constant, cross, dcm_from_quaternion, hamilton, norm, sum, transposed_product};
 use crate::scene::Scene;
 
@@ -57,7 +56,7 @@ impl<R: Real> MagneticTorque<R> {
     }
 }
 
-/// Residual dipole of `scene`, F_s, A m^2; `None` if there is neither a dipole nor torque rods.
+/// Residual dipole of `scene`, F_s, A m^2; `None` without dipole and torque rods.
 pub fn residual_dipole(scene: &Scene) -> Option<[f64; 3]> {
     scene.environment.magnetic_dipole_a_m2.or((!scene.torque_rods.is_empty()).then_some([0.0; 3]))
 }
@@ -121,7 +120,7 @@ impl<R: Real> MagneticSeries<R> {
     }
 }
 
-/// Upper bound of the torque on `scene`, N m: all rods at their limits, normal to the largest field at periapsis.
+/// Upper bound of the torque on `scene`, N m: all rods at their limits, across the largest field at periapsis.
 pub fn largest_torque(scene: &Scene) -> f64 {
     let (Some(orbit), Some(dipole)) = (&scene.orbit, residual_dipole(scene)) else { return 0.0 };
     let stuck = scene.failures.iter().filter_map(|failure| failure.dipole_a_m2);
@@ -132,10 +131,5 @@ pub fn largest_torque(scene: &Scene) -> f64 {
 
 /// Largest rate of libration about the field, rad/s: sqrt(|m| |B|/J) for the smallest moment.
 pub fn largest_rate(scene: &Scene) -> f64 {
-    let torque = largest_torque(scene);
-    if torque == 0.0 {
-        return 0.0;
-    }
-    let (moments, _) = principal_axes(scene.mass.inertia);
-    (torque / moments[0].min(moments[1]).min(moments[2])).sqrt()
+    super::plates::largest_rate(scene, largest_torque(scene))
 }

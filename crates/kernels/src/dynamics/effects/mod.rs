@@ -1,11 +1,9 @@
-//! Effects: forces and torques on a spacecraft other than its actuators, under a schedule and under any law alike.
+//! Effects: forces and torques on a spacecraft other than its actuators', under a schedule or a law.
 //!
 //! An effect is one file and one row of the list below; its parameters are keys of `[environment]` and `[orbit]`
-//! ([`crate::scene::schema`]). The effects that act in a run are its [`ForceModel`]. Every engine declares the
-//! [`Form`]s that it integrates (`propagation::integrated_effects`), and refuses a run with any other.
-//!
-//! A scene without effects costs nothing: its kernel is compiled without them. A scene with effects evaluates only
-//! those that act, and its orbit only if one of them needs it.
+//! ([`crate::scene::schema`]). Every engine declares the [`Form`]s that it integrates
+//! (`propagation::integrated_effects`) and refuses a run with any other. Kernels for scenes without effects are
+//! compiled without them, and an orbit is evaluated only if an acting effect needs it.
 
 mod changing_effects;
 mod constant_torque;
@@ -23,11 +21,11 @@ pub enum Form {
     Constant,
     /// A torque that changes within an arc, with recurrences for its Taylor series.
     Series,
-    /// A torque that changes within an arc and can only be evaluated, because it is not analytic.
+    /// A torque that changes within an arc and is not analytic: it can only be evaluated.
     Evaluated,
-    /// A motion of the centre of mass in closed form, which turns nothing.
+    /// A motion of the centre of mass in closed form, without torque.
     Translation,
-    /// A force that depends on the offset from that motion and turns nothing, with recurrences for its Taylor series.
+    /// A force that depends on the offset from that motion, with recurrences for its Taylor series.
     Force,
 }
 
@@ -120,13 +118,13 @@ impl ForceModel {
         self.effects().all(|effect| integrated(effect.form()))
     }
 
-    /// True if an effect changes within an arc and must be in the kernel: all but those in closed form.
+    /// True if an effect changes within an arc and must be in the kernel, unlike those in closed form.
     pub fn changes_within_arcs(self) -> bool {
         self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated | Form::Force))
     }
 }
 
-/// Adds the effects on `scene` that are constant over an arc to `applied`, the actuation.
+/// Adds the effects on `scene` that are constant over an arc to `applied`.
 #[inline]
 pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
     if scene.environment.body_torque_n_m.is_some() {
@@ -134,7 +132,7 @@ pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
     }
 }
 
-/// `environment` without the effects that flown arcs already contain.
+/// `environment` without the effects already contained in flown arcs.
 pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
     EnvironmentInput { body_torque_n_m: None, ..environment }
 }

@@ -1,14 +1,14 @@
 //! [`PlatesInLanes`]: the plates of a spacecraft, one run per lane, in the frame B of the equations.
 //!
-//! The switch function of a plate is the cosine between its normal and the incoming direction; a plate faces away below
-//! zero. If steps end at switches, the side is chosen once and then frozen.
+//! The switch function of a plate is the cosine of its normal to the incoming direction, negative if it faces away. If
+//! steps end at switches, the chosen side is frozen.
 
 use crate::math::Real;
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{constant, difference, dot, norm, transposed_product};
 use crate::scene::{MAX_PLATES, Plate, Scene};
 
-/// Plates with `K` numbers each. A lane with fewer plates has plates of zero area.
+/// Plates with `K` numbers each; lanes with fewer plates are padded with zero areas.
 #[derive(Clone, Copy, Debug)]
 pub struct PlatesInLanes<R, const K: usize> {
     plates: [PlateInLanes<R, K>; MAX_PLATES],
@@ -66,7 +66,7 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         }
     }
 
-    /// Chooses the side of each plate in the lanes `lanes`; the flow comes from `direction`.
+    /// Chooses the side of each plate in the lanes `lanes` for a flow from `direction`.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, direction: [R; 3]) {
         let zero = direction[0].zero();
@@ -107,8 +107,8 @@ impl<R: Real, const K: usize> PlateInLanes<R, K> {
     }
 }
 
-/// Sum over the plates of `weight` times area times distance from the centre of mass, m^3: an upper bound of the torque
-/// per unit pressure.
+/// Sum over the plates of `weight` times area times distance from the centre of mass, m^3: bounds the torque per unit
+/// pressure.
 pub fn largest_lever(scene: &Scene, weight: impl Fn(&Plate) -> f64) -> f64 {
     let of = |plate: &Plate| weight(plate) * plate.area * norm(difference(plate.center, scene.mass.center));
     scene.plates.iter().map(of).sum()

@@ -3,8 +3,8 @@
 //! f = -P A cos(theta) ((1 - c_s) s + 2 (c_s cos(theta) + c_d/3) n) at the plate's centre, cos(theta) = n . s > 0, with
 //! the unit vector s to the Sun and the shares c_s and c_d of specular and diffuse reflection (J. Wertz, *Spacecraft
 //! Attitude Determination and Control*, 1978, (17-27)..(17-30)). P falls with the square of the distance to the Sun and
-//! with the visible share of its disc ([`crate::dynamics::environment::shadow`]). Neglected: shadowing of plates by
-//! each other, light from the Earth. The force acts on the orbit if `environment.coupled` is set.
+//! with the visible share of its disc ([`crate::dynamics::environment::shadow`]). Neglected: mutual shadowing, light
+//! from the Earth. The force acts on the orbit if `environment.coupled` is set.
 
 use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -51,7 +51,7 @@ impl<R: Real> Light<R> {
         })
     }
 
-    /// The Sun at `time` (s) and the visible share of its disc from `position`, F_e, m.
+    /// The Sun at `time` (s), and the share of its disc visible from `position`, F_e, m.
     #[inline(always)]
     pub fn at(&self, time: R, position: [R; 3]) -> (Sun<R>, R) {
         let sun = self.sun(time);
@@ -87,23 +87,28 @@ impl<R: Real> SolarPressure<R> {
     /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
-        let sun = self.light.sun(motion.time);
-        let lit = self.zone.lit(self.light.shadow, motion.place.position, &sun, self.light.radius);
-        self.torque_at(lit / (sun.distance * sun.distance), seen(&sun, motion))
+        let (share, direction) = self.light_on(motion);
+        self.torque_at(share, direction)
     }
 
     /// Force on a body, B, N.
     #[inline(always)]
     pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
-        let sun = self.light.sun(motion.time);
-        let lit = self.zone.lit(self.light.shadow, motion.place.position, &sun, self.light.radius);
-        let direction = seen(&sun, motion);
-        let mut all = [lit.zero(); 3];
+        let (share, direction) = self.light_on(motion);
+        let mut all = [share.zero(); 3];
         for plate in self.plates.iter() {
             let (facing, push) = push(plate, direction);
             all = sum(all, scaled(facing, push));
         }
-        scaled(-(lit / (sun.distance * sun.distance)), all)
+        scaled(-share, all)
+    }
+
+    /// Share of the pressure at 1 au, and unit vector to the Sun, B.
+    #[inline(always)]
+    fn light_on(&self, motion: &Motion<R>) -> (R, [R; 3]) {
+        let sun = self.light.sun(motion.time);
+        let lit = self.zone.lit(self.light.shadow, motion.place.position, &sun, self.light.radius);
+        (lit / (sun.distance * sun.distance), seen(&sun, motion))
     }
 
     /// Chooses the sides of the plates and the shadow zone in the lanes `lanes`.
@@ -148,8 +153,7 @@ impl<R: Real> SolarPressure<R> {
     }
 }
 
-/// Cosine of `plate` to the Sun in the direction `sun` (B), and the force against that direction per cosine and unit
-/// pressure.
+/// Cosine of `plate` to the direction `sun` (B), and the force against that direction per cosine and unit pressure.
 #[inline(always)]
 fn push<R: Real>(plate: &PlateInLanes<R, 3>, sun: [R; 3]) -> (R, [R; 3]) {
     let [along, mirrored, scattered] = plate.numbers;
@@ -172,7 +176,7 @@ pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<
     Some(SolarPressure { plates, light, zone: Zone::none(zero) })
 }
 
-/// Upper bound of the torque on `scene`, N m: at the smallest distance, all plates normal to the light.
+/// Upper bound of the torque on `scene`, N m: at the smallest distance, all plates facing the Sun.
 pub fn largest_torque(scene: &Scene) -> f64 {
     if !scene.environment.solar_pressure || scene.orbit.is_none() {
         return 0.0;
@@ -207,8 +211,8 @@ mod tests {
         of(0.0, &Scene::resolve(&input).expect("a legal scene"), None).expect("light")
     }
 
-    /// Law: absorbed light pushes along the rays with P A cos; mirrored light along the normal with 2 P A cos^2;
-    /// scattered light along the rays plus 2/3 of it along the normal; zero from behind.
+    /// Law: absorbed light pushes along the rays with P A cos, mirrored light along the normal with 2 P A cos^2,
+    /// scattered light along the rays plus 2/3 of it along the normal; none from behind.
     #[test]
     fn light_pushes_by_its_momentum() {
         let arm = [1.0, -2.0, 0.5];

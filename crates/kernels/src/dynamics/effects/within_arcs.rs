@@ -1,7 +1,5 @@
 //! Effects that change within an arc: their arguments ([`Motion`], [`MotionSeries`]) and their interface to the
 //! equations of motion, [`NoEffects`] or [`Acting`].
-//!
-//! `effects!` generates the constants and series of all effects from the list in the parent module.
 
 use super::ChangingEffects;
 use super::ChangingSeries;
@@ -14,14 +12,14 @@ use crate::dynamics::orbit_state::OrbitState;
 use crate::math::Real;
 use crate::math::vector::scaled;
 
-/// Forces and torques other than actuators, one run per lane.
+/// Actions on a body other than its actuators', one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Beside<R> {
     /// Torque on the body, B, N m.
     pub torque: [R; 3],
     /// Force on the body, B, N, if any.
     pub force: Option<[R; 3]>,
-    /// Motion of the reference point, if the state is relative to a point on an orbit.
+    /// Motion of the point on an orbit to which the state is relative, if any.
     pub carrier: Option<Carrier<R>>,
 }
 
@@ -64,13 +62,13 @@ pub struct MotionSeries<R> {
     pub attitude: Vec<[R; 4]>,
     /// Angular velocity, B.
     pub rate: Vec<[R; 3]>,
-    /// Position, on the orbit or near it, if an effect needs it or the spacecraft may leave its orbit.
+    /// Position, if an effect needs it or the spacecraft may leave its orbit.
     pub orbit: OrbitSeries<R>,
     /// Offset from the orbit.
     offset: OffsetSeries<R>,
     /// True if the spacecraft may leave its orbit.
     may_leave: bool,
-    /// True if coefficients of the orbit beyond its start are needed.
+    /// True if coefficients of the orbit beyond the first two are needed.
     keeps_orbit: bool,
     /// Gravity at the spacecraft minus gravity at the point on the orbit, F_e, m per unit squared.
     tide: Vec<[R; 3]>,
@@ -91,7 +89,7 @@ impl<R: Real> MotionSeries<R> {
     }
 
     /// Starts a step with the reference point at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per
-    /// unit squared). Coefficients of a two-body orbit are computed only with `keeps_orbit`.
+    /// unit squared). A two-body orbit has its coefficients computed only with `keeps_orbit`.
     #[inline(always)]
     pub fn begin_orbit(
         &mut self,
@@ -145,97 +143,64 @@ impl<R: Real> MotionSeries<R> {
     }
 }
 
-/// The effects that change within an arc, one run per lane.
+/// The effects that change within an arc, one run per lane; by default none.
 pub trait WithinArcs<R: Real> {
     /// True if there are any.
-    const ACT: bool;
+    const ACT: bool = false;
 
     /// Effects of empty lanes.
     fn none(zero: R) -> Self;
 
     /// Copies the effects of `run` into lane `lane`.
-    fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>);
-
-    /// Copies the arc-dependent constants of `run` into lane `lane`.
-    fn set_arc(&mut self, lane: usize, run: &Gyrostat<f64>);
-
-    /// Actions on a body with the integrated components `state` (SI) at `time` (s).
-    fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R>;
-
-    /// True if they have branches.
-    fn has_switches(&self) -> bool;
-
-    /// Lanes in which they are not smooth even within their branches ([`crate::ode::System::is_rough`]).
-    fn is_rough(&self, zero: R) -> R::Mask;
-
-    /// Smallest switch function; arguments as in [`WithinArcs::act`].
-    fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R;
-
-    /// Fraction of a step at which a switch function that is positive at both ends may be negative
-    /// ([`crate::ode::switches::dip`]), from times and states at four fractions.
-    fn dip<const N: usize>(&self, times: [R; 4], states: [&[R; N]; 4]) -> R;
-
-    /// Chooses the branches in the lanes `lanes`.
-    fn choose_branches<const N: usize>(&mut self, lanes: R::Mask, time: R, state: &[R; N]);
-
-    /// Inverse time in which the offset from the orbit changes (1/s) and mass (kg), if the spacecraft may leave its
-    /// orbit.
-    fn scales_of_offset(&self) -> Option<[R; 2]>;
-
-    /// The Taylor series from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds, held in
-    /// `memory`; `None` without effects.
-    fn series<'m>(&self, time: [R; 2], unit: R, memory: &'m mut ChangingSeries<R>)
-    -> Option<&'m mut ChangingSeries<R>>;
-}
-
-/// No effects.
-#[derive(Clone, Copy, Debug)]
-pub struct NoEffects;
-
-impl<R: Real> WithinArcs<R> for NoEffects {
-    const ACT: bool = false;
-
-    fn none(_zero: R) -> Self {
-        NoEffects
-    }
-
     fn set_lane(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
+    /// Copies the arc-dependent constants of `run` into lane `lane`.
     fn set_arc(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
+    /// Actions on a body with the integrated components `state` (SI) at `time` (s).
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
         Beside { torque: [time.zero(); 3], force: None, carrier: None }
     }
 
+    /// True if they have branches.
     #[inline(always)]
     fn has_switches(&self) -> bool {
         false
     }
 
+    /// Lanes in which they are not smooth within their branches ([`crate::ode::System::is_rough`]).
     #[inline(always)]
     fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()
     }
 
+    /// Smallest switch function; arguments as in [`WithinArcs::act`].
     #[inline(always)]
     fn margin<const N: usize>(&self, time: R, _state: &[R; N]) -> R {
         time.splat(f64::INFINITY)
     }
 
+    /// Fraction of a step at which a switch function that is positive at both ends may dip below zero
+    /// ([`crate::ode::switches::dip`]), from times and states at four fractions.
     #[inline(always)]
     fn dip<const N: usize>(&self, [time, ..]: [R; 4], _states: [&[R; N]; 4]) -> R {
         time.splat(f64::INFINITY)
     }
 
+    /// Chooses the branches in the lanes `lanes`.
     #[inline(always)]
     fn choose_branches<const N: usize>(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 
+    /// Inverse time in which the offset from the orbit changes (1/s) and mass (kg), if the spacecraft may leave its
+    /// orbit.
     #[inline(always)]
     fn scales_of_offset(&self) -> Option<[R; 2]> {
         None
     }
 
+    /// The Taylor series from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds, held in
+    /// `memory`; `None` without effects.
     #[inline(always)]
     fn series<'m>(
         &self,
@@ -244,6 +209,16 @@ impl<R: Real> WithinArcs<R> for NoEffects {
         _memory: &'m mut ChangingSeries<R>,
     ) -> Option<&'m mut ChangingSeries<R>> {
         None
+    }
+}
+
+/// No effects.
+#[derive(Clone, Copy, Debug)]
+pub struct NoEffects;
+
+impl<R: Real> WithinArcs<R> for NoEffects {
+    fn none(_zero: R) -> Self {
+        NoEffects
     }
 }
 
@@ -281,8 +256,8 @@ impl<R: Real> Acting<R> {
     }
 }
 
-/// Position of a spacecraft with the integrated components `state` near the point `place` on its orbit, and the motion
-/// of that point.
+/// Position of a spacecraft with the integrated components `state` near the point `place` on its orbit, and the point's
+/// motion.
 #[inline(always)]
 pub fn beside_orbit<R: Real, const N: usize>(
     gravity: &Gravity<R>,

@@ -1,12 +1,13 @@
 //! [`Air`]: atmospheric density by height, from a table or an exponential, and the velocity relative to the air.
 //!
-//! The density is exponential between two heights of an [`AirTable`]; its first and last layers extend beyond the
-//! table. [`AirTable::VALLADO`]: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, table 8-4
-//! (US Standard Atmosphere 1976 up to 25 km, CIRA-72 above). Vallado's rounded scale heights are not used: the density
-//! would jump by up to 0.14% between layers, which disturbs step control.
+//! Between two heights of an [`AirTable`] the density is exponential; the outermost layers extend beyond the table.
+//! [`AirTable::VALLADO`]: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, table 8-4 (US
+//! Standard Atmosphere 1976 up to 25 km, CIRA-72 above), without its rounded scale heights, by which the density would
+//! jump by up to 0.14% between layers and disturb step control.
 
 use super::{EARTH_RATE, each_lane};
 use crate::dynamics::orbit_state::OrbitState;
+use crate::dynamics::set_lanes;
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::scene::EnvironmentInput;
@@ -20,51 +21,27 @@ pub struct AirTable {
     pub densities: &'static [f64],
 }
 
+/// Density a scale height above the last height of Vallado's table, kg/m^3.
+const OUTERMOST: f64 = 3.019e-15 / core::f64::consts::E;
+
 /// Unit of height in the switch functions of the layers, km.
 const SWITCH_UNIT: f64 = 100.0;
 
-/// A layer: base and thickness, km; density at its base, kg/m^3; logarithm of the density ratio of top to base; then,
-/// for base and top, infinity if the layer extends beyond, otherwise zero.
+/// A layer: base and thickness, km; density at its base, kg/m^3; logarithm of the density ratio of top to base; for
+/// base and top, infinity if the layer extends beyond, else zero.
 type Layer<R> = [R; 6];
 
 impl AirTable {
-    /// Vallado's table, with one height more for the scale height of 268 km above 1000 km.
+    /// Vallado's table, continued above 1000 km by its scale height of 268 km.
     pub const VALLADO: AirTable = AirTable {
         heights: &[
             0.0, 25e3, 30e3, 40e3, 50e3, 60e3, 70e3, 80e3, 90e3, 100e3, 110e3, 120e3, 130e3, 140e3, 150e3, 180e3,
             200e3, 250e3, 300e3, 350e3, 400e3, 450e3, 500e3, 600e3, 700e3, 800e3, 900e3, 1000e3, 1268e3,
         ],
         densities: &[
-            1.225,
-            3.899e-2,
-            1.774e-2,
-            3.972e-3,
-            1.057e-3,
-            3.206e-4,
-            8.770e-5,
-            1.905e-5,
-            3.396e-6,
-            5.297e-7,
-            9.661e-8,
-            2.438e-8,
-            8.484e-9,
-            3.845e-9,
-            2.070e-9,
-            5.464e-10,
-            2.789e-10,
-            7.248e-11,
-            2.418e-11,
-            9.518e-12,
-            3.725e-12,
-            1.585e-12,
-            6.967e-13,
-            1.454e-13,
-            3.614e-14,
-            1.170e-14,
-            5.245e-15,
-            3.019e-15,
-            // 3.019e-15/e
-            1.1106280328965845e-15,
+            1.225, 3.899e-2, 1.774e-2, 3.972e-3, 1.057e-3, 3.206e-4, 8.770e-5, 1.905e-5, 3.396e-6, 5.297e-7, 9.661e-8,
+            2.438e-8, 8.484e-9, 3.845e-9, 2.070e-9, 5.464e-10, 2.789e-10, 7.248e-11, 2.418e-11, 9.518e-12, 3.725e-12,
+            1.585e-12, 6.967e-13, 1.454e-13, 3.614e-14, 1.170e-14, 5.245e-15, 3.019e-15, OUTERMOST,
         ],
     };
 
@@ -108,11 +85,11 @@ pub struct Air<R> {
     pub scale: R,
     /// Radius of the Earth, m.
     pub surface: R,
-    /// Exponential atmosphere: density at the base, kg/m^3, height of the base, m, scale height, m; a scale height of
+    /// Exponential atmosphere: density at the base, kg/m^3, height of the base and scale height, m; a scale height of
     /// zero selects the table.
     pub exponential: [R; 3],
     tables: [AirTable; WIDEST],
-    /// Chosen layer of the table; a thickness of zero before the choice.
+    /// Chosen layer of the table; its thickness is zero before the choice.
     layer: Layer<R>,
 }
 
@@ -132,13 +109,9 @@ impl<R: Real> Air<R> {
     pub fn set_lane(&mut self, lane: usize, air: &Air<f64>) {
         self.scale.set_lane(lane, air.scale);
         self.surface.set_lane(lane, air.surface);
-        for (own, number) in self.exponential.iter_mut().zip(air.exponential) {
-            own.set_lane(lane, number);
-        }
+        set_lanes(&mut self.exponential, lane, &air.exponential);
         self.tables[lane] = air.tables[0];
-        for (own, number) in self.layer.iter_mut().zip(air.layer) {
-            own.set_lane(lane, number);
-        }
+        set_lanes(&mut self.layer, lane, &air.layer);
     }
 
     /// Chooses the layer in the lanes `lanes`, at `distance` m from the Earth's centre.
@@ -146,9 +119,7 @@ impl<R: Real> Air<R> {
     pub fn choose_branches(&mut self, lanes: R::Mask, distance: R) {
         let height = distance - self.surface;
         for lane in (0..R::LANES).filter(|lane| lanes.test(*lane)) {
-            for (own, number) in self.layer.iter_mut().zip(self.tables[lane].layer_at(height.lane(lane))) {
-                own.set_lane(lane, number);
-            }
+            set_lanes(&mut self.layer, lane, &self.tables[lane].layer_at(height.lane(lane)));
         }
     }
 
@@ -220,7 +191,6 @@ mod tests {
                 worst = worst.max((AirTable::VALLADO.density(1e3 * height) / expected - 1.0).abs());
             }
         }
-        println!("{worst:e}");
         assert!(worst < 2e-3, "{worst:e}");
     }
 

@@ -1,8 +1,7 @@
 //! Surroundings of a spacecraft on an Earth orbit: [`air`], direction of the [`sun`], the Earth's [`shadow`].
 //!
 //! In F_e the third axis is the Earth's axis of rotation, the first points to the mean equinox of date. Functions
-//! beyond [`Real`] operations are evaluated lane by lane, so that a lane has the bits of a scalar and no more digits
-//! than `f64`. Torques of air and light are in [`super::effects`].
+//! beyond [`Real`] operations are evaluated in `f64`, lane by lane, so that a lane has the bits of a scalar.
 
 pub mod air;
 pub mod shadow;

@@ -1,12 +1,12 @@
 //! [`lit`]: visible share of the Sun's disc behind the Earth.
 //!
-//! Cone: both discs as seen from the spacecraft, angular radii a = asin(R_sun/d) and b = asin(R/|r|) at the angle c; in
-//! penumbra the overlap of two plane circles (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, section 3.4.2).
-//! Cylinder: shadow on the night side within one radius of the line from the Sun through the centre. Switches are the
-//! edges of the shadows ([`Zone`]).
+//! Cone: both discs as seen from the spacecraft, with the angular radii a = asin(R_sun/d) and b = asin(R/|r|) at the
+//! angle c; in penumbra the overlap of two plane circles (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, section
+//! 3.4.2). Cylinder: parallel light. Switches are the edges of the shadows ([`Zone`]).
 
 use super::each_lane;
 use super::sun::{ASTRONOMICAL_UNIT, Sun};
+use crate::dynamics::set_lanes;
 use crate::math::vector::{cross, difference, dot, norm, scaled};
 use crate::math::{Mask, Real};
 use crate::scene::Shadow;
@@ -17,7 +17,7 @@ const SUN_RADIUS: f64 = 6.957e8;
 /// Upper bound of the tangent of the Sun's angular radius: 0.00473 at the smallest distance.
 const WIDEST: f64 = 0.005;
 
-/// Visible share of the Sun's disc from `position` (F_e, m) behind an Earth of radius `radius`, m: 1 in light, 0 in
+/// Share of the Sun's disc visible from `position` (F_e, m) beyond an Earth of radius `radius`, m: 1 in light, 0 in
 /// umbra.
 #[inline(always)]
 pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
@@ -58,9 +58,7 @@ impl<R: Real> Zone<R> {
 
     /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &Zone<f64>) {
-        for (side, own) in self.0.iter_mut().zip(own.0) {
-            side.set_lane(lane, own);
-        }
+        set_lanes(&mut self.0, lane, &own.0);
     }
 
     /// Chooses the zone in the lanes `lanes`.
@@ -72,8 +70,7 @@ impl<R: Real> Zone<R> {
         }
     }
 
-    /// The lanes in penumbra, where light is not smooth at the edges: the overlap of two discs grows with depth to the
-    /// power 3/2.
+    /// The lanes in penumbra, where light is not smooth at the edges: the overlap grows with depth to the power 3/2.
     #[inline(always)]
     pub fn is_part(&self, zero: R) -> R::Mask {
         self.0[0].lt(zero) & zero.lt(self.0[1])
@@ -103,10 +100,8 @@ impl<R: Real> Zone<R> {
 }
 
 /// Distances of `position` from the surfaces of penumbra and umbra, in Earth radii, positive outside; on the day side
-/// the distance from a sphere that touches both.
-///
-/// The surfaces are cones tangent to Sun and Earth, with half angles of the sines (R_sun + R)/d and (R_sun - R)/d, or a
-/// cylinder.
+/// from a sphere that touches both. The surfaces are cones tangent to Sun and Earth, with half angles of the sines
+/// (R_sun + R)/d and (R_sun - R)/d, or a cylinder.
 #[inline(always)]
 fn edges<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> [R; 2] {
     let zero = radius.zero();
@@ -125,8 +120,8 @@ fn edges<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> 
     }
 }
 
-/// Visible share of a disc, from the distances of Sun and Earth, the cross and dot product of the vectors to them, and
-/// the Earth's radius.
+/// Visible share of a disc, from the distances of Sun and Earth, cross and dot product of the vectors to them, and the
+/// Earth's radius.
 fn visible_disc([sun, earth, cross, dot, radius]: [f64; 5]) -> f64 {
     let a = libm::asin((SUN_RADIUS / sun).min(1.0));
     let b = libm::asin((radius / earth).min(1.0));
@@ -160,7 +155,7 @@ mod tests {
     }
 
     /// Law: the cylinder is as wide as the Earth; umbra and penumbra differ from it by |r| tan(0.2666 deg); half of the
-    /// disc is visible near the edge of the cylinder; the share has no jump.
+    /// disc is visible near the edge of the cylinder; the share never jumps.
     #[test]
     fn the_shadows_have_their_widths() {
         let behind = 7e6;
@@ -182,8 +177,8 @@ mod tests {
 
     /// Truth: Basilisk, `src/simulation/environment/eclipse/_UnitTest/test_eclipse.py`, penumbra: 500 km, i = 5, node
     /// 48.2, periapsis 0, anomaly 107.5 deg, 2021-05-04 07:47:48.965 UTC: 0.62310760206735027 with the Sun of DE430 in
-    /// J2000. The Sun of date is turned back by precession (IAU 1976, first order). The disc is 0.53 deg wide: 0.01 deg
-    /// are up to 0.025 of its area, the bound; measured 0.007.
+    /// J2000. The Sun of date is turned back by precession (IAU 1976, first order). 0.01 deg of the disc's 0.53 deg are
+    /// up to 0.025 of its area, the bound; measured 0.007.
     #[test]
     fn the_penumbra_of_basilisk() {
         let days = 7_793.825_261_169_0;
@@ -208,7 +203,6 @@ mod tests {
             ..OrbitInput::DEFAULT
         });
         let found = lit(Shadow::Cone, orbit.position, &Sun { direction, ..sun }, RADIUS);
-        println!("{found}");
         assert!((found - 0.623_107_602_067_350_3).abs() < 0.025, "{found}");
     }
 }

@@ -54,8 +54,7 @@ impl<R: Real> Constants<R> {
         }
     }
 
-    /// Copies the constants of a run into lane `lane`; `unit` is the lane's unit of time, s, a power of two, so that
-    /// conversions are exact.
+    /// Copies the constants of a run into lane `lane`; the lane's unit of time `unit`, s, is a power of two: exact.
     #[inline(always)]
     pub fn set_run(&mut self, lane: usize, run: &Gyrostat<f64>, unit: f64) {
         let j = run.moments;
@@ -88,8 +87,8 @@ impl<R: Real> Constants<R> {
         self.start.set_lane(lane, arc.arc.start / unit);
     }
 
-    /// The constants of arc `arc` in the arithmetic of the run, for reference solutions; equal to
-    /// [`Constants::set_run`] and [`Constants::set_arc`].
+    /// The constants of arc `arc` in the arithmetic of the run, equal to [`Constants::set_run`] and
+    /// [`Constants::set_arc`].
     #[inline(always)]
     pub fn of(run: &Gyrostat<R>, arc: usize, unit: f64) -> Self {
         let arc = &run.arcs[arc];
@@ -141,8 +140,8 @@ impl<R: Real> Constants<R> {
         acceleration
     }
 
-    /// Derivative of the first `N` components, in the order of the indices of the parent module. The torque of `beside`
-    /// includes that of the arc.
+    /// Derivative of the first `N` components, indexed as in the parent module. The torque of `beside` includes the
+    /// arc's.
     #[inline(always)]
     pub fn derivative<const N: usize>(&self, time: R, y: &[R; N], beside: &Beside<R>) -> [R; N] {
         let torque = beside.torque;

@@ -8,8 +8,8 @@
 //! H = J* omega + sum h_i a_i,    J* omega' = H x omega + tau_ext - sum tau_i a_i,    h_i' = tau_i
 //! ```
 //!
-//! A wheel of constant speed keeps its axial inertia in the body's inertia, and its relative momentum J_i Omega_i is
-//! constant. With K = J* + sum over held wheels of J_i a_i a_i^T (K = J if all are held) the same equations hold:
+//! The axial inertia of a wheel of constant speed stays in the body's: with K = J* + sum over held wheels of J_i a_i
+//! a_i^T the same equations hold for
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
@@ -18,10 +18,8 @@
 //! The motor of a held wheel exerts J_i omega' . a_i; its work Omega_i J_i (omega - omega(0)) . a_i needs no
 //! quadrature.
 //!
-//! Everything is in the *principal frame* B of K (F_s if J* is diagonal): omega_i' is one product of two rates plus
-//! linear terms. Torques and thrusts are constant between switches, h_i is linear in time and not integrated.
-//!
-//! Not here: Taylor recurrences of the same equations (`propagation::taylor`), the debris (`super::debris`).
+//! Everything is in the *principal frame* B of K (F_s if J* is diagonal), where omega_i' is one product of two rates
+//! plus linear terms. Torques and thrusts are constant between switches; h_i is linear in time and not integrated.
 
 pub mod completion;
 pub mod equations;
@@ -58,7 +56,7 @@ pub const ANGULAR_IMPULSE: usize = 17;
 /// Index of the work of the thrusters, J (1).
 pub const THRUST_WORK: usize = 20;
 
-/// Number of integrated components where only the rates are needed.
+/// Number of integrated components if only the rates are needed.
 pub const RATES_ONLY: usize = 3;
 /// With the attitude.
 pub const WITH_ATTITUDE: usize = 7;
@@ -107,18 +105,18 @@ pub struct Gyrostat<R> {
     pub r_co_e: [R; 3],
     /// Velocity of c at time zero, m/s.
     pub v_co_e: [R; 3],
-    /// The orbit of c, if any.
+    /// Path of the point on the orbit, if any.
     pub orbit: Option<OrbitPath>,
     /// Position (m) and velocity (m/s) of c at time zero relative to a point on the orbit, F_e, if c may leave the
-    /// orbit. The impulse components are then those of the relative motion, m d' and m d.
+    /// orbit. The impulse components then describe the relative motion, m d' and m d.
     pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
-    /// The arcs so far, without gaps from time zero; under a law only arcs with observation points, and the last.
+    /// The arcs so far, without gaps from time zero; under a law only those with observation points, and the last.
     pub arcs: Vec<GyrostatArc<R>>,
     /// All arcs flown under a law.
     pub flown: ArcRecord,
-    /// Under a law: observation points before the last arc.
+    /// Under a law, the observation points before the last arc.
     passed: usize,
     /// All arcs of the schedule, if laid out for the time scale.
     scheduled: Vec<GyrostatArc<R>>,
@@ -159,11 +157,10 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Resets to `scene` at time zero, before its first arc, and reuses the memory.
+    /// Resets to `scene` at time zero, before its first arc, in the same memory.
     pub fn reset(&mut self, zero: R, scene: &Scene) {
-        let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
-        let mass = &scene.mass;
-        let initial = &scene.initial;
+        let exact3 = |v: [f64; 3]| constant(zero, v);
+        let Scene { mass, initial, .. } = scene;
         self.set_body(zero, mass.inertia_rotating());
         self.mass = zero.splat(mass.total);
         let omega_s = exact3(initial.omega_se_s);
@@ -189,10 +186,8 @@ impl<R: Real> Gyrostat<R> {
         if let Some(orbit) = &scene.orbit {
             (self.r_co_e, self.v_co_e) = (exact3(orbit.position), exact3(orbit.velocity));
         }
-        self.offset = scene
-            .offsets
-            .as_ref()
-            .map(|Offsets { spacecraft, .. }| [exact3(spacecraft.position), exact3(spacecraft.velocity)]);
+        let offset = |offsets: &Offsets| [offsets.spacecraft.position, offsets.spacecraft.velocity].map(exact3);
+        self.offset = scene.offsets.as_ref().map(offset);
         if let (Some(offset), Some(orbit)) = (&self.offset, &self.orbit) {
             (self.r_co_e, self.v_co_e) = (sum(self.r_co_e, offset[0]), sum(self.v_co_e, offset[1]));
             self.rate = self.rate.max(orbit.at_start().rate());
@@ -239,7 +234,7 @@ impl<R: Real> Gyrostat<R> {
 
     /// Sets the frame B to the principal axes of the inertia `j`, kg m^2, by rows.
     pub fn set_body(&mut self, zero: R, j: [[f64; 3]; 3]) {
-        let exact3 = |v: [f64; 3]| v.map(|x| zero.splat(x));
+        let exact3 = |v: [f64; 3]| constant(zero, v);
         if j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0 {
             self.c_sb = None;
             self.q_sb = [zero.splat(1.0), zero, zero, zero];
@@ -281,7 +276,7 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.push(arc);
     }
 
-    /// Starts the next arc under a law, observed at `times`; `wheels` are the wheels at its start.
+    /// Starts the next arc under a law, observed at `times`, from the wheels `wheels` at its start.
     #[inline(always)]
     pub fn begin_flown_arc(&mut self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS], times: &[f64]) {
         self.flown.push(&arc);
@@ -293,7 +288,7 @@ impl<R: Real> Gyrostat<R> {
                 self.passed += 1;
             }
             if self.passed == before {
-                // without observation points: no longer needed
+                // no observation point in it: no longer needed
                 *last = next;
                 return;
             }
@@ -307,7 +302,7 @@ impl<R: Real> Gyrostat<R> {
         let applied = &arc.applied;
         let mut torque_s = scene.thruster_torque_s(applied.thrust);
         if applied.body_torque != [0.0; 3] {
-            // a special case, since a sum with zero could turn -0 into 0
+            // conditional, since a sum with zero could turn -0 into 0
             torque_s = sum(torque_s, applied.body_torque);
         }
         GyrostatArc {
@@ -376,8 +371,8 @@ impl<R: Real> Gyrostat<R> {
         arc.wheels[index].after(&self.wheels[index], torque, since)
     }
 
-    /// The sum of J_i Omega_i a_i over wheels of constant speed, B, N m s, if there are any. The work of their motors
-    /// since time zero is this vector . (omega - omega(0)).
+    /// The sum of J_i Omega_i a_i over wheels of constant speed, B, N m s, if any. The work of their motors since time
+    /// zero is this vector . (omega - omega(0)).
     pub fn held_momentum_b(&self) -> Option<[R; 3]> {
         let of = |wheel: &GyrostatWheel<R>| wheel.held.map(|rate| scaled(wheel.axial * rate, wheel.axis_b));
         self.wheels.iter().filter_map(of).reduce(sum)
@@ -434,7 +429,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Includes the orbit in the time scale, for integration of the orbit with the run.
+    /// Includes the orbit in the time scale, to integrate both together.
     pub fn note_orbit(&mut self) {
         if let Some(orbit) = &self.orbit {
             self.rate = self.rate.max(orbit.at_start().rate());

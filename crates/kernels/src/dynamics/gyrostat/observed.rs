@@ -1,14 +1,15 @@
-//! [`observed_state`]: the state of a gyrostat shown to an actuation law.
+//! [`observed_state`]: the state of a gyrostat as observed by an actuation law.
 
 use super::wheel::WheelMotion;
 use super::{ANGLE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::actuation::{BodyState, WheelState};
+use crate::dynamics::lane_of;
 use crate::math::Real;
 use crate::math::vector::{conjugate, hamilton, product, scaled, sum};
 use crate::scene::MAX_WHEELS;
 
 /// The state of `run` at `time`, the end of its last arc (or zero), from the integrated components in SI and the
-/// `motions` of the wheels.
+/// wheels' `motions`.
 #[inline(always)]
 pub fn observed_state<R: Real>(
     run: &Gyrostat<R>,
@@ -30,18 +31,19 @@ pub fn observed_state<R: Real>(
         Some(orbit) => {
             let mut place = orbit.state(time);
             if run.offset.is_some() {
-                place = place
-                    .displaced([IMPULSE_INTEGRAL, IMPULSE].map(|first| first_lane(scaled(inverse_mass, three(first)))));
+                place = place.displaced(
+                    [IMPULSE_INTEGRAL, IMPULSE].map(|first| lane_of(&scaled(inverse_mass, three(first)), 0)),
+                );
             }
             (place.position, place.velocity)
         }
         None => {
             let line = sum(run.r_co_e, scaled(now, run.v_co_e));
             let position = sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)));
-            (first_lane(position), first_lane(sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE)))))
+            (lane_of(&position, 0), lane_of(&sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE))), 0))
         }
     };
-    let body = BodyState { omega_se_s: first_lane(omega_s), q_es: first_lane(q_es), r_co_e, v_co_e };
+    let body = BodyState { omega_se_s: lane_of(&omega_s, 0), q_es: lane_of(&q_es, 0), r_co_e, v_co_e };
     let mut wheels = WheelState::AT_REST;
     for (i, wheel) in run.wheels.iter().enumerate() {
         let motion = &motions[i];
@@ -50,14 +52,4 @@ pub fn observed_state<R: Real>(
         wheels.angles[i] = wheel.angle(now, motion.turn, turned_b).lane(0);
     }
     (body, wheels)
-}
-
-/// The first lane, rounded to `f64`.
-#[inline(always)]
-fn first_lane<R: Real, const K: usize>(v: [R; K]) -> [f64; K] {
-    let mut values = [0.0; K];
-    for (value, component) in values.iter_mut().zip(&v) {
-        *value = component.lane(0);
-    }
-    values
 }

@@ -1,5 +1,4 @@
-//! [`GyrostatWheel`]: constants of a wheel, and its rate, momentum and angle in closed form, for arcs, lanes of
-//! observation points, laws and reference solutions.
+//! [`GyrostatWheel`]: a wheel's constants, and its rate, momentum and angle in closed form.
 
 use crate::math::Real;
 use crate::math::vector::{constant, dot};
@@ -17,14 +16,14 @@ pub struct GyrostatWheel<R> {
     pub held: Option<R>,
     /// Angle at time zero, rad.
     pub angle: R,
-    /// Momentum without K omega at time zero, N m s: h_i of a free wheel, J_i Omega_i of one of constant speed.
+    /// Momentum without K omega at time zero, N m s: h_i of a free wheel, J_i Omega_i of a held one.
     pub momentum: R,
 }
 
 /// Momentum and turn of a wheel at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelMotion<R> {
-    /// Momentum without K omega, N m s: h_i of a free wheel, J_i Omega_i of one of constant speed.
+    /// Momentum without K omega, N m s: h_i of a free wheel, J_i Omega_i of a held one.
     pub momentum: R,
     /// Integral of h_i/J_i since time zero, rad (free wheels).
     pub turn: R,
@@ -82,8 +81,8 @@ impl<R: Real> GyrostatWheel<R> {
         }
     }
 
-    /// Angle relative to the body at `time` (s), rad, not wrapped; `turn` and `turned_b` are the integrals of h_i/J_i
-    /// and omega since time zero.
+    /// Angle relative to the body at `time` (s), rad, not wrapped, from the integrals `turn` of h_i/J_i and `turned_b`
+    /// of omega since time zero.
     #[inline(always)]
     pub fn angle(&self, time: R, turn: R, turned_b: [R; 3]) -> R {
         match self.held {

@@ -7,10 +7,8 @@
 //!
 //! ```text
 //! V_jj = (2j - 1) (X V_(j-1)(j-1) - Y W_(j-1)(j-1)),   W_jj = (2j - 1) (X W_(j-1)(j-1) + Y V_(j-1)(j-1))
-//! (k - j) V_kj = (2k - 1) Z V_(k-1)j - (k + j - 1) (a/r)^2 V_(k-2)j, and W_kj in the same way
+//! (k - j) V_kj = (2k - 1) Z V_(k-1)j - (k + j - 1) (a/r)^2 V_(k-2)j, and likewise W_kj
 //! ```
-//!
-//! [`coefficients`]: coefficients of IGRF-14. [`series`]: Taylor series along an orbit.
 
 pub mod coefficients;
 pub mod series;
@@ -43,7 +41,7 @@ impl MagneticField<f64> {
         Some(Self::new(scene.environment.magnetic_field?, scene.orbit.as_ref()?.epoch?))
     }
 
-    /// The field by `model` at `epoch`, in the years [`FieldModel::YEARS`].
+    /// The field by `model` at `epoch`, within [`FieldModel::YEARS`].
     pub fn new(model: FieldModel, epoch: Epoch) -> Self {
         let (degree, higher) = match model {
             FieldModel::Dipole => (1, 0.0),
@@ -180,7 +178,7 @@ pub(super) mod tests {
     use crate::math::vector::{difference, norm};
 
     /// Dates, times in s, positions in m, and fields in nT in F_e: `pyIGRF14` 1.0.4 (`calculate.igrf12syn(year, 2, r,
-    /// lat, lon)`, same length of years), `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon, date)`, interpolates in days: up
+    /// lat, lon)`, same length of years), `ppigrf` 2.1.0 (`igrf_gc(r, colatitude, lon, date)`, interpolated in days: up
     /// to 0.2 nT apart) and its degree 1 (`max_degree=1`), turned to F_e by `gmst06` of pyerfa 2.0.1.5.
     #[expect(clippy::type_complexity, reason = "rows of a table")]
     pub const TRUTH: [(&str, f64, [f64; 3], [f64; 3], [f64; 3], [f64; 3]); 5] = [
@@ -230,8 +228,7 @@ pub(super) mod tests {
         Epoch::parse(text).expect(text)
     }
 
-    /// Law: the field of two independent packages, to 0.2 nT if their dates differ, to rounding of the Earth's angle
-    /// (1e-10) otherwise.
+    /// Law: the field of two independent packages, to the Earth's angle (1e-10), or to 0.2 nT if their dates differ.
     #[test]
     fn the_field_is_that_of_two_packages() {
         for (date, time, position, field, other, dipole) in TRUTH {

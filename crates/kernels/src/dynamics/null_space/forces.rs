@@ -1,7 +1,7 @@
 //! Non-inertial terms -M-dot nu - Omega M nu + a_non (39) and actuators B u (26), (72)-(74), body by body.
 //!
-//! The three non-inertial terms are separate, as in the paper, for comparison with Berdoz's; their sum for the fuselage
-//! is -omega x J omega and C omega x (c x omega).
+//! The three non-inertial terms stay separate, for comparison with Berdoz's; their sum for the fuselage is -omega x J
+//! omega and C omega x (c x omega).
 
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
@@ -88,8 +88,7 @@ pub fn fuselage_applied<const W: usize>(parameters: &Parameters<W>, state: &Stat
     Wrench { force: rotated(state.fuselage.dcm, drive.force_s), torque }
 }
 
-/// -M Pi-dot nu-hat - Omega M nu and motor torque (73), (74) of a wheel. M-dot and a_non vanish about the centre of
-/// mass.
+/// -M Pi-dot nu-hat - Omega M nu and motor torque (73), (74) of a wheel; M-dot and a_non vanish about its centre.
 #[inline(always)]
 pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -> Wrench {
     let gyroscopic = cross(motion.omega, product(wheel.inertia, motion.omega));
@@ -100,8 +99,8 @@ pub fn wheel_wrench(wheel: &WheelParameters, motion: &WheelMotion, motor: f64) -
     }
 }
 
-/// Torque of the motor of a wheel of constant speed, N m: a^T J C_ws omega_s-dot minus the `inertial` part of the
-/// wheel's row of (39). Its actions on wheel and fuselage cancel in Pi^T B u.
+/// Motor torque of a wheel of constant speed, N m: a^T J C_ws omega_s-dot minus the `inertial` part of the wheel's row
+/// of (39). Its actions on wheel and fuselage cancel in Pi^T B u.
 #[inline(always)]
 pub fn holding_torque(wheel: &WheelParameters, motion: &WheelMotion, omega_s_dot: [f64; 3], inertial: f64) -> f64 {
     dot(product(wheel.inertia, wheel.axis), rotated(motion.c_ws, omega_s_dot)) - inertial

@@ -1,4 +1,4 @@
-//! S and Gamma (9), (51)-(54), (68); Pi and Pi-dot (58): the blocks other than zero and one.
+//! S and Gamma (9), (51)-(54), (68); the blocks of Pi and Pi-dot (58) other than zero and one.
 
 use super::parameters::WheelParameters;
 use super::state::{Columns, State, rotated, rotated_back};
@@ -73,16 +73,16 @@ impl WheelMotion {
         }
     }
 
-    /// Pi^T of a force (in F_e) and torque (wheel frame) on the wheel: rows of omega_s and of the wheel's rate. The
-    /// rows of v_p are the force.
+    /// Pi^T of a force (in F_e) and torque (wheel frame) on the wheel: rows of omega_s and of the wheel's rate; the
+    /// rows of v_p are the force itself.
     #[inline(always)]
     pub fn reduced(&self, force: [f64; 3], torque: [f64; 3], axis: [f64; 3]) -> ([f64; 3], f64) {
         (sum(rotated_back(self.lever, force), rotated_back(self.c_ws, torque)), dot(axis, torque))
     }
 }
 
-/// Calls `body` for each of `W` wheels, in order. Berdoz's two are written out: the compiler does not unroll so large a
-/// body, and indexed values stay in memory.
+/// Calls `body` for each of `W` wheels. Berdoz's two are written out: the compiler does not unroll so large a body, and
+/// indexed values stay in memory.
 #[inline(always)]
 pub fn for_each_wheel<const W: usize>(mut body: impl FnMut(usize)) {
     if W == 2 {

@@ -1,8 +1,8 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
-//! M-hat has the blocks spacecraft (v_p, omega_s, wheel rates), m_d 1 and J_d. The spacecraft's v_p block is m 1 with
-//! the factor sqrt(m) 1, so that only omega_s and the wheel rates are factored. The row and column of a wheel of
-//! constant speed are those of the unit matrix: its acceleration is zero.
+//! M-hat has the blocks spacecraft (v_p, omega_s, wheel rates), m_d 1 and J_d. The spacecraft's v_p block m 1 has the
+//! factor sqrt(m) 1, so that only omega_s and the wheel rates are factored. A wheel of constant speed has the row and
+//! column of the unit matrix: its acceleration is zero.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
@@ -25,7 +25,7 @@ pub struct SpacecraftMass<const W: usize> {
     pub rotation: RotationBlock<W>,
 }
 
-/// The block of omega_s and the wheel rates in a symmetric matrix (lower triangle), or its Cholesky factor; kg m^2.
+/// The block of omega_s and the wheel rates of a symmetric matrix (lower triangle), or its Cholesky factor; kg m^2.
 #[derive(Clone, Copy, Debug)]
 pub struct RotationBlock<const W: usize> {
     /// omega_s with omega_s.
@@ -78,7 +78,7 @@ impl<const W: usize> SpacecraftMass<W> {
     #[inline(always)]
     pub fn solution(&self, force: [f64; 3], torque: [f64; 3], axial: [f64; W]) -> ([f64; 3], [f64; 3], [f64; W]) {
         let root = 1.0 / self.total.sqrt();
-        // no `map`: it is compiled without the instructions of the caller
+        // no `map`: it is compiled without the caller's instructions
         let b = [scaled(root, self.coupling[0]), scaled(root, self.coupling[1]), scaled(root, self.coupling[2])];
         let mut rest = self.rotation;
         for i in 0..3 {
@@ -102,7 +102,7 @@ impl<const W: usize> SpacecraftMass<W> {
 }
 
 impl<const W: usize> RotationBlock<W> {
-    /// Cholesky factor with the reciprocals on its diagonal, by the operations of [`cholesky`] in the same order.
+    /// Cholesky factor with reciprocals on its diagonal, by the operations of [`cholesky`] in the same order.
     #[inline(always)]
     pub fn factor(&self) -> Self {
         let omega = cholesky(self.omega);

@@ -1,7 +1,7 @@
 //! Berdoz's null-space formulation: fuselage, wheels and debris in redundant states, 62 with Berdoz's two wheels.
 //!
-//! Source: F. Berdoz, *Final Report - ADR Spacecraft*, with its equation numbers. Notation of J. Forbes, *A systematic
-//! approach to dynamics* (2019); the symbols Gamma, S, Pi, M, Omega, a_non, B, nu-hat are used only in this folder.
+//! Source: F. Berdoz, *Final Report - ADR Spacecraft*, with its equation numbers, in the notation of J. Forbes, *A
+//! systematic approach to dynamics* (2019).
 //! Corrections, each verified by an independent 40-digit solution:
 //! - a-hat_non,s (end of section XVIII) is `+ (C_es^T v_p)^x c_s^x omega_s`; the printed minus violates conservation of
 //!   energy;
@@ -14,10 +14,8 @@
 //! angular velocity in the body's frame] per body; nu-hat = [v_p, omega_s, wheel rates, v_gd, omega_d]: 48, 24 and 14
 //! components with two wheels. A wheel's frame is F_s at angle zero, so that its axis has the same components in both.
 //! nu = Pi nu-hat (58), q-dot = Gamma nu (9), M-hat = Pi^T M Pi (25), and `M-hat nu-hat-dot = Pi^T (-M-dot nu - M
-//! Pi-dot nu-hat - Omega M nu + a_non + B u)` (39).
-//!
-//! `tests/accuracy/null_space.rs` proves that this block form equals Berdoz's printed matrices. Not here: the fast
-//! reduced form ([`super::gyrostat`]), integration.
+//! Pi-dot nu-hat - Omega M nu + a_non + B u)` (39). `tests/accuracy/null_space.rs` proves that this block form equals
+//! Berdoz's printed matrices.
 
 pub mod completion;
 pub mod energy;

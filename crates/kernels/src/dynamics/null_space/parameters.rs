@@ -43,7 +43,7 @@ pub struct WheelParameters {
     pub inertia: [[f64; 3]; 3],
     /// One if the wheel's rate is an unknown of M-hat; zero for constant speed.
     pub free: f64,
-    /// Added to a^T J a on the diagonal of M-hat: one if the wheel is missing or of constant speed, else zero.
+    /// One on the diagonal of M-hat beside a^T J a if the wheel is missing or of constant speed, else zero.
     pub idle: f64,
 }
 

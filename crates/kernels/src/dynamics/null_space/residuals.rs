@@ -1,5 +1,5 @@
-//! Residuals of the constraints (27)-(34): the drift of the integrated coordinates. The null space satisfies the speed
-//! constraints by construction.
+//! Residuals of the constraints (27)-(34): drift of the integrated coordinates, since the null space satisfies the
+//! speed constraints by construction.
 
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;

@@ -157,7 +157,7 @@ impl<const W: usize> State<W> {
 }
 
 /// Sigma (59): the full state from the measurable one. C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es
-/// z_i; integrals start at zero. A missing wheel is at p and moves with the fuselage.
+/// z_i; zero integrals. A missing wheel is at p and moves with the fuselage.
 pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     let initial = &scene.initial;
     let c_es = transposed(dcm_from_quaternion(initial.q_es));
@@ -187,8 +187,6 @@ pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
 }
 
 /// C_sw of a wheel turned by `angle` about the unit axis `axis`, by columns: transposes of C_2 and C_3 in (42), (43).
-/// The wheel's frame is F_s at angle zero for any alignment error, so that the axis has the same components in both
-/// frames.
 fn wheel_columns(axis: [f64; 3], angle: f64) -> Columns {
     let (sine, cosine) = libm::sincos(angle);
     let [x, y, z] = axis;

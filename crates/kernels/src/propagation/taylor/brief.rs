@@ -2,12 +2,11 @@
 //!
 //! Let rho^2 = |omega|^2 + (|h|/J)^2 + (|torque| + |h'|)/J with the smallest moment J. With u = omega/rho, s = rho t
 //! the equations are bounded by u' = u^2 + (|h|/(J rho)) u + (..)/rho^2, whose series has coefficients below one, the
-//! attitude's below one half. In an arc of length L the first neglected term is below y^(n+1) of rho, y = rho L; over
-//! all arcs of a run the sum is below the tolerance per radian if y^n is at most the tolerance. The order is the
-//! smallest such n, a function of the lane alone.
+//! attitude's below one half. In an arc of length L the first neglected term is below y^(n+1) of rho, y = rho L; summed
+//! over a run it is below the tolerance per radian if y^n is at most the tolerance. The order is the smallest such n.
 //!
-//! Coefficients are computed up to the largest order of all lanes; those beyond a lane's own order are set to zero, so
-//! that its sums do not depend on its neighbours.
+//! Coefficients are computed up to the largest order of all lanes; those beyond a lane's own order are zeroed, so that
+//! lanes do not depend on each other.
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::math::vector::dot;
@@ -44,7 +43,7 @@ impl BriefRule {
     /// The rule for a relative tolerance, next to steps of order `full`.
     pub(super) fn new(tolerance: f64, full: usize) -> Self {
         let tolerance = if tolerance < f64::EPSILON { BELOW_ROUNDING * tolerance } else { tolerance };
-        // at least two orders less, or it is not worth it
+        // less than two orders saved is not worth it
         let squares = (LEAST..full.saturating_sub(1)).map(|n| libm::pow(tolerance, 2.0 / n as f64)).collect();
         BriefRule { squares, full }
     }

@@ -27,7 +27,7 @@ impl<R: Real, const J: usize> Segment<R, J> {
     }
 }
 
-/// All components of `jet` at the `U` times `x`, by groups whose sums stay in registers while a loaded coefficient
+/// All components of `jet` at the `U` times `x`, in groups whose sums stay in registers while a loaded coefficient
 /// serves all times.
 #[inline(always)]
 pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
@@ -89,8 +89,7 @@ pub fn value_at<R: Real, const J: usize>(jet: &[[R; J]], component: usize, lane:
     sum
 }
 
-/// All components in lane `lane` at eight times per vector of `x`: a coefficient is broadcast from among the other
-/// lanes. Same operations as [`values`].
+/// All components in lane `lane` at eight times per vector of `x`, by the operations of [`values`].
 #[inline(always)]
 pub fn values_in_lane<S: Simd, R: Real, const J: usize, const U: usize>(
     jet: &[[R; J]],

@@ -16,15 +16,14 @@ use super::thrust::Push;
 use super::workspace::Workspace;
 use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::{ANGLE, Gyrostat, WITH_THRUST};
+use crate::dynamics::lane_of;
 use crate::math::sums::{fast_two_sum, two_sum};
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Status};
 
-/// Integrates `runs` with arcs from `arcs` over `grid`, and calls `finish` for each in order of completion.
-///
-/// `N` components are integrated, the first `J` by series of their own. Results are a function of the run and its law
-/// alone.
+/// Integrates `runs` with arcs from `arcs` over `grid`, and calls `finish` for each in order of completion. `N`
+/// components are integrated, the first `J` by series of their own. Results depend on the run and its law alone.
 #[inline(always)]
 pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
@@ -166,7 +165,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         self.lanes.write_points(&rows, due);
     }
 
-    /// Examines the lanes that are not `calm`; all of them at an alarm.
+    /// Examines the lanes that are not `calm`; at an alarm all of them.
     #[inline(never)]
     fn examine(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
         self.lanes.simd.vectorize(
@@ -216,7 +215,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         self.lanes.alarm = alarm.max(clock + 1);
     }
 
-    /// Handles a lane after a step: folding by a period, end of an arc or of a run.
+    /// Handles a lane after a step: folding by a period, end of an arc or a run.
     #[inline(always)]
     fn examine_lane(&mut self, lane: usize, back: bool, length: f64, finish: &mut RunCallback<'_>) {
         let lanes = &mut self.lanes;
@@ -236,8 +235,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             && left > 0.0
             && let Some(within) = return_time(&lanes.detector.section(lane), lanes.work, &state, lane, back, length)
             && let Some(period) = {
-                let momentum = &lanes.vectors.constants.momentum;
-                let momentum_b = [momentum[0].lane(lane), momentum[1].lane(lane), momentum[2].lane(lane)];
+                let momentum_b = lane_of(&lanes.vectors.constants.momentum, lane);
                 period(&lanes.runs[state.run], ring, &state, lane, within, momentum_b)
             }
         {
@@ -261,7 +259,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         }
     }
 
-    /// Evaluates all points of the arcs in the waiting lanes and continues those lanes.
+    /// Evaluates all points of the waiting lanes' arcs and continues those lanes.
     #[inline(never)]
     fn fold(&mut self, finish: &mut RunCallback<'_>) {
         let simd = self.lanes.simd;

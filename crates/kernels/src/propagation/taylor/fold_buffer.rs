@@ -7,7 +7,7 @@ use super::series_ring::LARGEST;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 
-/// Observation points of waiting lanes with a known period: time within the period, and components. Rows are per lane.
+/// Observation points of waiting lanes with a known period: time within the period, and components; rows per lane.
 #[derive(Clone, Debug)]
 pub struct FoldBuffer {
     /// Points of a lane with padding: row length of `rest`, `whole`, `segment`, `place`.
@@ -22,7 +22,7 @@ pub struct FoldBuffer {
     pub whole: Vec<f64>,
     /// Series of a point, counted from the oldest of all lanes.
     pub segment: Vec<u32>,
-    /// Position of a point in `x` and `values` (before `FoldBuffer::sort`: its number within its series).
+    /// Position of a point in `x` and `values` (before `FoldBuffer::sort` its number within its series).
     pub place: Vec<u32>,
     /// Points per series of a lane.
     pub count: Vec<u32>,
@@ -75,8 +75,7 @@ impl FoldBuffer {
         self.count[..series * R::LANES].fill(0);
     }
 
-    /// Assigns positions to the `points` points of `lane`, those of a series adjacent; `series` are the numbers of its
-    /// series.
+    /// Assigns adjacent positions to the points of each of the `series` (numbers) of `lane`, which has `points` points.
     #[inline(always)]
     pub(super) fn sort<R: Real>(&mut self, lane: usize, points: usize, series: core::ops::Range<usize>) {
         let first = &mut self.first[lane * (SERIES + 1)..];

@@ -59,8 +59,8 @@ impl<R: Real> Scratch<R> {
 
 /// Fills `jet[1 ..= order]` with the Taylor coefficients of the first `N` components from the state `jet[0]`.
 ///
-/// `constants.momentum` is the wheels' momentum *at the start of the step*. Without `FORCED`, torques, thrusts and the
-/// rate of the momentum are zero. `effects` have been begun at the start of the step.
+/// `constants.momentum` is the wheels' momentum *at the start of the step*, where `effects` have begun. Without
+/// `FORCED`, torques, thrusts and the rate of the momentum are zero.
 #[inline(always)]
 pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     constants: &Constants<R>,
@@ -218,10 +218,8 @@ struct Sums<R> {
     attitude: [R; 4],
 }
 
-/// Coefficient n of the products needed by the first `N` components.
-///
-/// One pass over both series: ten loads feed fifteen fused operations. Products with the latest coefficient come last,
-/// so that the others need not wait for it.
+/// Coefficient n of the products needed by the first `N` components, in one pass over both series: ten loads feed
+/// fifteen fused operations. Products with the latest coefficient come last, so that the others need not wait for it.
 #[inline(always)]
 fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
     let zero = jet[0][0].zero();

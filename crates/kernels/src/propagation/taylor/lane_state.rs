@@ -85,15 +85,15 @@ impl SeriesLane {
         if (clock as u64) < begun + PACE_STEPS { limit.min(begun + PACE_STEPS) } else { limit }
     }
 
-    /// True if by step `clock`, `time` units after the start of its arc, the run has used up its steps, or cannot reach
-    /// the end of the arc with them.
+    /// True if by step `clock`, `time` units after the start of its arc, the run has used up its steps or cannot reach
+    /// the end of the arc with the rest.
     pub(super) fn gives_up(&self, clock: usize, time: f64, max_steps: u64) -> bool {
         let steps = self.steps(clock);
         let is_judged = steps - self.steps_before == PACE_STEPS;
         steps >= max_steps || is_judged && is_out_of_reach(max_steps - self.steps_before, time, self.length)
     }
 
-    /// Next observation point since the start of the arc, units; infinite if there is none, and during the search for a
+    /// Next observation point since the start of the arc, units; infinite if there is none, or during the search for a
     /// return.
     pub(super) fn next_point(&self, grid: &Grid) -> f64 {
         match grid.times().get(self.point) {

@@ -2,6 +2,7 @@
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_MOTORS, WITH_THRUST};
+use crate::dynamics::lane_of;
 use crate::math::Real;
 
 /// State, time and arc constants of the lanes, each in its own unit of time.
@@ -16,7 +17,7 @@ pub(super) struct LaneVectors<R, const N: usize> {
     pub time_low: R,
     /// Length of the arc, units; infinite if the lane is empty or waits.
     pub length: R,
-    /// Next observation point of the arc, units; infinite if there is none, and during the search for a return.
+    /// Next observation point of the arc, units; infinite if there is none, or during the search for a return.
     pub next_point: R,
     /// 1/unit of time, 1/s.
     pub per_unit: R,
@@ -58,7 +59,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
     /// The angular velocity in `lane`, per unit.
     #[inline(always)]
     pub fn omega(&self, lane: usize) -> [f64; 3] {
-        [self.state[OMEGA].lane(lane), self.state[OMEGA + 1].lane(lane), self.state[OMEGA + 2].lane(lane)]
+        lane_of(&[self.state[OMEGA], self.state[OMEGA + 1], self.state[OMEGA + 2]], lane)
     }
 
     /// Components in `lane`, SI; zero if not integrated.
@@ -71,8 +72,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         components
     }
 
-    /// Changes the unit of time in `lane` from `old` to `new` seconds, both powers of two, so that conversions are
-    /// exact.
+    /// Changes the unit of time in `lane` from `old` to `new` seconds, both powers of two: exact.
     pub fn rescale(&mut self, lane: usize, old: f64, new: f64) {
         let (from, to) = (si_factors::<f64, N>(1.0 / old), si_factors::<f64, N>(1.0 / new));
         for i in 0..N {

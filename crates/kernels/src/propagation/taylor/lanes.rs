@@ -14,6 +14,7 @@ use super::workspace::Workspace;
 use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, OMEGA, WITH_ATTITUDE, WITH_THRUST};
+use crate::dynamics::lane_of;
 use crate::math::lanes::WIDEST;
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
@@ -161,11 +162,11 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.vectors.time.set_lane(lane, 0.0);
         self.vectors.time_low.set_lane(lane, 0.0);
         self.vectors.length.set_lane(lane, state.length);
-        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         let section = if state.is_searching {
             let constants = &self.vectors.constants;
-            let (ratio, inverse) = (three(&constants.ratio), three(&constants.inverse));
-            section(ratio, inverse, three(&constants.momentum), self.vectors.omega(lane))
+            let [ratio, inverse, momentum] =
+                [&constants.ratio, &constants.inverse, &constants.momentum].map(|vector| lane_of(vector, lane));
+            section(ratio, inverse, momentum, self.vectors.omega(lane))
         } else {
             None
         };
@@ -179,8 +180,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     #[inline(always)]
     fn may_return(&self, lane: usize, length: f64) -> bool {
         let LaneVectors { constants, .. } = &self.vectors;
-        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
-        let (inverse, momentum) = (three(&constants.inverse), three(&constants.momentum));
+        let (inverse, momentum) = (lane_of(&constants.inverse, lane), lane_of(&constants.momentum, lane));
         let alone = Constants { inverse, momentum, ..Constants::zero(0.0) };
         turn_squared(&alone, self.vectors.omega(lane), length) >= 1.0
     }
@@ -212,7 +212,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         points.flush::<N>(lane, &mut trajectories[lane]);
     }
 
-    /// Makes `lane` wait for its points to be evaluated with those of other lanes.
+    /// Makes `lane` wait until its points are evaluated with those of other lanes.
     pub(super) fn wait(&mut self, lane: usize, period: Option<Period>) {
         if let Some(state) = &mut self.states[lane] {
             if let Some(period) = &period {

@@ -10,11 +10,11 @@ use fearless_simd::Simd;
 
 use super::jet::MAX_ORDER;
 use crate::math::sine::sin_cos_turns;
-use crate::math::vector::{constant, hamilton, scaled};
+use crate::math::vector::{constant, dot, hamilton, norm, scaled};
 use crate::math::{Lanes, Real};
 
 /// Tolerated distance of a return from the start as a share of the curve's extent: far below the distance of two
-/// branches, far above the round-off of one period.
+/// branches, far above the round-off of a period.
 const RETURN_OF_EXTENT: f64 = 1e-6;
 /// Tolerated distance as a share of the rate: round-off on a curve that is small compared with |omega|.
 const RETURN_OF_RATE: f64 = 1e-13;
@@ -117,28 +117,26 @@ impl PoincareSection {
 }
 
 impl Period {
-    /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`; `momentum_e` is the
-    /// angular momentum in F_e, `scale` its reference magnitude |J| |omega|.
-    ///
-    /// `None` if the axis is too inaccurate for many repetitions.
+    /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`, with the angular momentum
+    /// `momentum_e` in F_e and its reference magnitude |J| |omega|, `scale`; `None` if the axis is too inaccurate for many
+    /// repetitions.
     #[inline]
     pub fn new(length: [f64; 2], start: [f64; 4], end: [f64; 4], momentum_e: [f64; 3], scale: f64) -> Option<Self> {
-        let norm = crate::math::vector::norm(momentum_e);
+        let magnitude = norm(momentum_e);
         let [w, x, y, z] = start;
         let turn = hamilton(end, [w, -x, -y, -z]);
         let axis_part = [turn[1], turn[2], turn[3]];
-        let axis_e = if norm > SMALL_MOMENTUM * scale {
-            momentum_e.map(|component| component / norm)
+        let axis_e = if magnitude > SMALL_MOMENTUM * scale {
+            momentum_e.map(|component| component / magnitude)
         } else {
             // without momentum omega is constant, and the rotation is about it
-            let sine = crate::math::vector::norm(axis_part);
+            let sine = norm(axis_part);
             if sine < SMALL_SINE {
                 return None;
             }
             axis_part.map(|component| component / sine)
         };
-        let sine = crate::math::vector::dot(axis_part, axis_e);
-        let half_turns = libm::atan2(sine, turn[0]) / core::f64::consts::TAU;
+        let half_turns = libm::atan2(dot(axis_part, axis_e), turn[0]) / core::f64::consts::TAU;
         Some(Period { length, half_turns, axis_e })
     }
 
@@ -162,7 +160,7 @@ impl Period {
     /// Quaternion of `whole` periods.
     #[inline(always)]
     pub fn turn<S: Simd>(&self, whole: Lanes<S>) -> [Lanes<S>; 4] {
-        // exact as a sum of two: the error is that of half_turns times the number of periods
+        // exact as a sum of two: only the error of half_turns grows with the number of periods
         let half_turns = whole.splat(self.half_turns);
         let high = whole * half_turns;
         let low = whole.mul_add(half_turns, -high);

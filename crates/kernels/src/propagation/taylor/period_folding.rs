@@ -1,8 +1,8 @@
 //! Points of waiting runs with a known period: folded, evaluated together, unfolded.
 //!
 //! Folded points are scattered over the few steps of a period. They are sorted by series and evaluated eight at a time,
-//! series by series for all waiting lanes, so that a series stays in the first-level cache. Rotation by whole periods
-//! and growth of the integrals follow in order of time, eight points per vector.
+//! series by series for all waiting lanes, so that a series stays in the first-level cache; rotation by whole periods
+//! and growth of the integrals follow in order of time.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -14,6 +14,7 @@ use super::lane_vectors::si_factors;
 use super::period::Period;
 use super::series_ring::SeriesRing;
 use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, WITH_ANGLES, WITH_ATTITUDE};
+use crate::dynamics::lane_of;
 use crate::math::lanes::{TWO_52, WIDEST, WIDTH};
 use crate::math::vector::hamilton;
 use crate::math::{Lanes, Real};
@@ -35,10 +36,9 @@ pub(super) struct FoldedLane {
 
 pub(super) type FoldedLanes = [Option<FoldedLane>; WIDEST];
 
-/// True if the waiting lanes should be evaluated after step `clock`, with the series of the last `kept` steps.
-///
-/// An evaluation costs the same for one lane as for all, so that it waits for lanes still in search of their period,
-/// but not for long, and not beyond the kept series.
+/// True if the waiting lanes should be evaluated after step `clock`, with the series of the last `kept` steps. An
+/// evaluation costs the same for one lane as for all: it waits for lanes in search of their period, but not for long,
+/// and not beyond the kept series.
 pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: usize) -> bool {
     let (mut waiting, mut searching) = (0, 0);
     let (mut patient, mut now) = (true, false);
@@ -203,8 +203,8 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// Fills the columns `J` to `N` (quadrature states) of the trajectory of `share`; separate, so that the others are
-    /// compiled once for all `N`.
+    /// Fills the quadrature states, the columns `J` to `N` of the trajectory of `share`; separate, so that the others
+    /// are compiled once for all `N`.
     #[inline(always)]
     pub(super) fn fill_quadratures<const N: usize>(&mut self, share: &FoldedLane) {
         let FoldedLane { lane, state, points, .. } = share;
@@ -238,8 +238,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
             at_end[i] = value_at(&segment.jet, i, lane, x);
         }
         if J >= WITH_ATTITUDE {
-            let turn = period.turn(whole);
-            let turn = [turn[0].lane(0), turn[1].lane(0), turn[2].lane(0), turn[3].lane(0)];
+            let turn = lane_of(&period.turn(whole), 0);
             let q = hamilton(turn, [at_end[3], at_end[4], at_end[5], at_end[6]]);
             at_end[ATTITUDE..WITH_ATTITUDE].copy_from_slice(&q);
         }
@@ -272,7 +271,7 @@ fn angle_growth<R: Real, const J: usize>(
     growth
 }
 
-/// Eight times from point `first` on; the last one repeated after the end.
+/// Eight times from point `first` on; the last one is repeated after the end.
 #[inline(always)]
 fn times_from<S: Simd>(simd: S, padded: &[f64], first: usize) -> Lanes<S> {
     if first + WIDTH <= padded.len() {
@@ -285,8 +284,8 @@ fn times_from<S: Simd>(simd: S, padded: &[f64], first: usize) -> Lanes<S> {
     Lanes::load(simd, &times)
 }
 
-/// Writes up to eight points of component `component`; all eight if the column is long enough, since later points are
-/// written later.
+/// Writes up to eight points of component `component`; all eight if the column is long enough, since later points
+/// overwrite them.
 #[inline(always)]
 fn write_points<S: Simd>(trajectory: &mut Trajectory, component: usize, first: usize, count: usize, values: Lanes<S>) {
     let column = &mut trajectory.column_mut(component)[first..];

@@ -27,8 +27,7 @@ pub(super) fn section(
     PoincareSection::new(omega, rate)
 }
 
-/// Time of the return within the last step, of length `length`; `crossed`: the step may have come back through
-/// `section`.
+/// Time of the return within the last step, of length `length`, if the step may have `crossed` back through `section`.
 #[inline(always)]
 pub(super) fn return_time<R: Real, const J: usize>(
     section: &PoincareSection,
@@ -48,7 +47,7 @@ pub(super) fn return_time<R: Real, const J: usize>(
     section.crossing(&work.ring.last().jet, lane, work.rule.order, length, work.settings.tolerance)
 }
 
-/// Period of the arc, whose last step returns after `within` units; `momentum_b` is that of the wheels, B, per unit.
+/// Period of the arc, whose last step returns after `within` units; `momentum_b` is the wheels', B, per unit.
 #[inline(always)]
 pub(super) fn period<R: Real, const J: usize>(
     run: &Gyrostat<f64>,

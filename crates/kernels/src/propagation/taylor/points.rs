@@ -34,7 +34,7 @@ pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
 }
 
 impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
-    /// Components at the times `at` since the start of the arc, SI, by lane. Quadrature states only with `FORCED`.
+    /// Components at the times `at` since the start of the arc, SI, by lane; quadrature states only with `FORCED`.
     #[inline(always)]
     pub(super) fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();

@@ -31,7 +31,7 @@ pub(super) struct Integration<'a, 'l> {
     pub(super) rule: StepRule,
 }
 
-/// The orbit of a run, integrated with it: no closed form, so that it can judge one.
+/// The orbit of a run, integrated with it instead of by the closed form that it judges.
 pub(super) struct ReferenceOrbit {
     pub(super) mass: DoubleDouble,
     pub(super) gravity: Gravity<DoubleDouble>,

@@ -2,14 +2,11 @@
 //!
 //! One run at a time, every arc restarted exactly at its switch, order and step from a tolerance near the rounding of
 //! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). Debris is a gyrostat without wheels, a cube
-//! like any box. Scenes with an effect without Taylor series are integrated by extrapolation in the same arithmetic
-//! (`switched_reference`).
+//! like any box. Effects without Taylor series are integrated by extrapolation in the same arithmetic
+//! (`switched_reference`). There is no periodic folding, which a solution that shared it could not judge.
 //!
-//! Mass properties and initial state of a [`Scene`] are `f64` numbers, the same for every method, and the reference
-//! solution is the exact motion for *those* numbers: rounding of mass properties computed from dimensions and densities
-//! is no error of integration.
-//!
-//! Not here: periodic folding (a solution that shared it could not judge it), lanes, failures as rows.
+//! Mass properties and initial state of a [`Scene`] are `f64` numbers, and the reference solution is the exact motion
+//! for *those* numbers: rounding of mass properties computed from dimensions and densities is no error of integration.
 
 use fearless_simd::Simd;
 
@@ -57,7 +54,7 @@ pub struct ReferenceSolution {
 
 impl ReferenceSolution {
     /// Motion of `scene` by its own schedule at the times of `grid`, in the `fields` of a gyrostat ([`StateField::Dcm`]
-    /// and [`StateField::Residuals`] stay zero). Debris is integrated only if observed.
+    /// and [`StateField::Residuals`] stay zero).
     ///
     /// # Errors
     /// [`Status::NonFinite`] or [`Status::StepLimit`] if the run does not reach its end.
@@ -65,13 +62,13 @@ impl ReferenceSolution {
         Self::solve(isa, scene, None, grid, fields, tolerance)
     }
 
-    /// Motion under `law` in place of the scene's schedule. The law sees the state rounded to `f64`.
+    /// Motion under `law` in place of the scene's schedule. The law observes the state rounded to `f64`.
     ///
     /// # Errors
     /// As [`ReferenceSolution::new`].
     ///
     /// # Panics
-    /// If an answer of the law ends before it starts.
+    /// If the law's arc ends before it starts.
     pub fn under(
         law: &mut dyn ActuationLaw,
         isa: Isa,
@@ -136,7 +133,7 @@ impl ReferenceSolution {
         std::array::from_fn(|i| DoubleDouble { high: high[i], low: low[i] })
     }
 
-    /// |`sign` x - reference| for the components x of `field` at `point` of `table`, in all digits of the reference.
+    /// `sign` x - reference| for the components x of `field` at `point` of `table`, in all digits of the reference.
     pub fn distance<const K: usize>(&self, table: &StateTable, field: StateField, point: usize, sign: f64) -> f64 {
         let (high, low) = (self.high.at::<K>(field, point), self.low.at::<K>(field, point));
         let state = table.at::<K>(field, point);
@@ -383,7 +380,7 @@ impl Integration<'_, '_> {
     }
 }
 
-/// Orbit of the debris by itself, not by an offset, so that it can judge one. Times in s.
+/// Orbit of the debris by itself instead of by the offset that it judges. Times in s.
 struct FreeOrbit {
     gravity: Gravity<DoubleDouble>,
     rule: StepRule,
@@ -409,7 +406,7 @@ impl FreeOrbit {
         self.length = step_of_orbit(&self.series, &self.rule);
     }
 
-    /// State at `time`, in ascending order.
+    /// State at `time`; in ascending order.
     fn at(&mut self, time: DoubleDouble) -> OrbitState<DoubleDouble> {
         while self.length.lt(time - self.start) {
             let end = self.series.at(self.length);

@@ -1,8 +1,11 @@
 //! [`ReturnDetector`]: search for the period of omega in all lanes, by their [`super::period::PoincareSection`]s.
 
 use super::period::PoincareSection;
+use crate::dynamics::{lane_of, set_lanes};
 use crate::math::Real;
 use crate::math::vector::{difference, dot};
+
+const NONE: PoincareSection = PoincareSection { start: [0.0; 3], direction: [0.0; 3], extent2: 0.0, side: 0.0 };
 
 /// Sections of all lanes; a lane without a search has a direction of zero and never returns.
 #[derive(Clone, Copy, Debug)]
@@ -21,22 +24,18 @@ impl<R: Real> ReturnDetector<R> {
 
     /// Sets the section of `lane`, or ends its search.
     pub fn set(&mut self, lane: usize, section: Option<&PoincareSection>) {
-        let nothing = PoincareSection { start: [0.0; 3], direction: [0.0; 3], extent2: 0.0, side: 0.0 };
-        let section = section.unwrap_or(&nothing);
-        for i in 0..3 {
-            self.start[i].set_lane(lane, section.start[i]);
-            self.direction[i].set_lane(lane, section.direction[i]);
-        }
+        let section = section.copied().unwrap_or(NONE);
+        set_lanes(&mut self.start, lane, &section.start);
+        set_lanes(&mut self.direction, lane, &section.direction);
         self.extent2.set_lane(lane, section.extent2);
         self.side.set_lane(lane, section.side);
     }
 
     /// Section of `lane`, with `side` from before the last step.
     pub fn section(&self, lane: usize) -> PoincareSection {
-        let three = |v: &[R; 3]| [v[0].lane(lane), v[1].lane(lane), v[2].lane(lane)];
         PoincareSection {
-            start: three(&self.start),
-            direction: three(&self.direction),
+            start: lane_of(&self.start, lane),
+            direction: lane_of(&self.direction, lane),
             extent2: self.extent2.lane(lane),
             side: self.side.lane(lane),
         }

@@ -11,10 +11,10 @@
 //! reciprocals of the steps allowed by the radius and by rotation at a constant rate add. The coefficients of omega are
 //! below the majorant's, so that a share `RADIUS_SHARE` of the first suffices.
 //!
-//! The decision uses the angular velocity alone, so that campaigns with and without attitude take the same steps and
-//! get the same bits.
+//! The angular velocity alone decides, so that campaigns with and without attitude take the same steps and get the same
+//! bits.
 
-use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE};
+use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, OMEGA};
 use crate::math::Real;
 use crate::math::power::{exp2_rough, log2_rough};
 use crate::math::vector::dot;
@@ -37,11 +37,11 @@ pub struct StepRule {
     log_growth: f64,
 }
 
-/// Margin for tolerances below the rounding of the arithmetic: truncation has a sign, unlike rounding, and accumulates.
-/// At the tolerance itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 per step
-/// (`tests/accuracy/round_off.rs`): two orders more, and this share of the tolerance for the attitude.
+/// Margin for tolerances below rounding: truncation has a sign, unlike rounding, and accumulates. At the tolerance
+/// itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 per step (`tests/accuracy/round_off.rs`): two
+/// orders more, and this share of the tolerance for the attitude.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
-/// Additional orders below rounding. Longer steps add rounding, and the margin exceeds the attitude's own term.
+/// Additional orders below rounding: longer steps add rounding, and the margin exceeds the attitude's own term.
 const MORE_BELOW_ROUNDING: usize = 2;
 /// Orders beyond Jorba & Zou's. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of 295, in
 /// 0.57 of the time; 128 at 1e-10 instead of 199, in 0.85. Orders 2, 6 and 8 beyond are not faster.
@@ -50,10 +50,10 @@ const MORE_ORDERS: usize = 4;
 /// new` (12 to 44 without the term), and one in `detumble` (17 to 40).
 const RADIUS_SHARE: f64 = 0.6;
 
-/// The tail of a product is that of both series: if the times of rate and angular acceleration are equal, the step is
-/// this (log2) shorter than either, and less per octave between them. Exact sums of neglected coefficients at the
-/// orders 13 and 22 need 0.71 at equal times and 0.3 an octave apart; two octaves apart they are 3 to 12 times the
-/// attitude's tolerance, far below that of the rates.
+/// The tail of a product is that of both series: at equal times of rate and angular acceleration the step is this
+/// (log2) shorter than either, and less per octave between them. Exact sums of neglected coefficients at the orders 13
+/// and 22 need 0.71 at equal times and 0.3 an octave apart; two octaves apart they are 3 to 12 times the attitude's
+/// tolerance, far below the rates'.
 const EQUAL_TIMES: f64 = 0.75;
 /// Decrease of [`EQUAL_TIMES`] per octave.
 const AN_OCTAVE: f64 = 0.375;
@@ -98,14 +98,14 @@ impl StepRule {
 
     /// Step for the jet of a rate, by lane, in the lane's unit of time; positive, at most 2^30.
     ///
-    /// The tail is compared with the rate and its change over a unit of time, which is near the time scale of the
-    /// motion. The attitude's series limits the step too, alone if the rate is a polynomial of low order: exp(omega
-    /// t/2) at constant rate, exp(alpha t^2/4) at constant angular acceleration. `alpha` is the acceleration by
-    /// constant torques, `None` in free runs. See `EQUAL_TIMES` if both count.
+    /// The tail is compared with the rate and its change over a unit of time, near the time scale of the motion. The
+    /// attitude's series limits the step too, alone if the rate is a polynomial of low order: exp(omega t/2) at
+    /// constant rate, exp(alpha t^2/4) at constant angular acceleration (`EQUAL_TIMES` if both count). `alpha` is the
+    /// acceleration by constant torques, `None` in free runs.
     #[inline(always)]
     pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]], alpha: Option<[R; 3]>) -> R {
-        let scale = rate_squared(&jet[0]) + rate_squared(&jet[1]);
-        let (last, before) = (rate_squared(&jet[self.order]), rate_squared(&jet[self.order - 1]));
+        let scale = squared(&jet[0], OMEGA) + squared(&jet[1], OMEGA);
+        let (last, before) = (squared(&jet[self.order], OMEGA), squared(&jet[self.order - 1], OMEGA));
         let number = |value: f64| scale.splat(value);
         let p = self.order as f64;
         let size = log2_rough(scale);
@@ -137,10 +137,7 @@ impl StepRule {
     /// which shows in omega only if it is strong.
     #[inline(always)]
     pub fn step_of_impulse<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
-        let size = |n: usize| {
-            let impulse = [jet[n][ANGULAR_IMPULSE], jet[n][ANGULAR_IMPULSE + 1], jet[n][ANGULAR_IMPULSE + 2]];
-            dot(impulse, impulse)
-        };
+        let size = |n: usize| squared(&jet[n], ANGULAR_IMPULSE);
         self.step_of_series([size(1), size(self.order - 1), size(self.order)])
     }
 
@@ -148,10 +145,7 @@ impl StepRule {
     /// `mass`.
     #[inline(always)]
     pub fn step_of_offset<R: Real, const N: usize>(&self, jet: &[[R; N]], mass: R) -> R {
-        let size = |n: usize| {
-            let momentum = [jet[n][IMPULSE], jet[n][IMPULSE + 1], jet[n][IMPULSE + 2]];
-            dot(momentum, momentum)
-        };
+        let size = |n: usize| squared(&jet[n], IMPULSE);
         let least = mass * mass.splat(SMALLEST_OFFSET);
         let first = least.mul_add(least, size(0) + size(1));
         self.step_of_series([first, size(self.order - 1), size(self.order)])
@@ -174,10 +168,11 @@ fn clamped_exp2<R: Real>(log: R) -> R {
     exp2_rough(log.smaller(log.splat(30.0)).larger(log.splat(-900.0)))
 }
 
+/// Square of the vector from component `first` on.
 #[inline(always)]
-fn rate_squared<R: Real, const N: usize>(coefficients: &[R; N]) -> R {
-    let rate = [coefficients[0], coefficients[1], coefficients[2]];
-    dot(rate, rate)
+fn squared<R: Real, const N: usize>(coefficients: &[R; N], first: usize) -> R {
+    let vector = [coefficients[first], coefficients[first + 1], coefficients[first + 2]];
+    dot(vector, vector)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //!
 //! Shadows, densities and the direction of the Sun are `f64` numbers in any arithmetic
 //! ([`crate::dynamics::environment`]), which makes torques of air and light uncertain by some 1e-16; see [`TOLERANCE`].
-//! The orbit is integrated with the attitude: no closed form, so that it can judge one.
+//! The orbit is integrated with the attitude instead of by the closed form that it judges.
 
 use fearless_simd::Simd;
 
@@ -22,6 +22,7 @@ use crate::ode::explicit::Step;
 use crate::ode::extrapolation::{COLUMNS, Extrapolation};
 use crate::ode::switches::beside;
 use crate::ode::{System, Tolerance};
+use crate::propagation::gyrostat_runs::SMALLEST_OFFSET;
 use crate::run::Status;
 
 /// Relative tolerance of a step: below the uncertainty of torques that change the rate by some percent per step.
@@ -32,8 +33,7 @@ const POSITION: usize = N;
 const VELOCITY: usize = N + 3;
 const ALL: usize = N + 6;
 
-/// Switch functions below minus this have changed sign, and a switch is located to this accuracy; their rounding is
-/// 1e-16 to 1e-15.
+/// Switch functions below minus this have changed sign, and a switch is located to this; they round to 1e-16 to 1e-15.
 const NOISE: f64 = 1e-13;
 
 /// Branches are chosen by the signs after this fraction of a step; the error is of second order, 1e-18.
@@ -51,12 +51,9 @@ const FACTORS: [f64; 3] = [0.4, 0.8, 1.6];
 /// Number of columns of a step that could have been longer.
 const FEW: usize = COLUMNS - 4;
 
-/// Reference size of offsets from an orbit smaller than this, m.
-const SMALLEST_OFFSET: f64 = 1e-3;
-
 type State = [DoubleDouble; ALL];
 
-/// Equations of motion of an arc. Long in double-double: each function is compiled once for the instruction set of
+/// Equations of motion of an arc. In double-double each function is long: compiled once for the instruction set of
 /// `simd`, not copied into every caller.
 struct Motions<S> {
     simd: S,

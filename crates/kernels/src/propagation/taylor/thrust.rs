@@ -2,10 +2,10 @@
 //!
 //! Thrust turns with omega, the quaternion with omega/2: Taylor series of these integrals (impulse, its integral,
 //! angular impulse, works) would need half the step and two more Cauchy products of quaternions. But the attitude is a
-//! polynomial within a step, exact to the tolerance, so that Gauss-Legendre quadrature applies: m nodes integrate exp(i
-//! Omega t) over h to (Omega h)^2m (m!)^4/((2m+1) (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical
-//! Integration*, 2nd ed. 1984, section 2.7), with m for the largest turn of a step. Force and torque are constant in B:
-//! the direction cosine matrix is integrated, ten sums of products of the quaternion's components.
+//! polynomial within a step, exact to the tolerance: m Gauss-Legendre nodes integrate exp(i Omega t) over h to (Omega
+//! h)^2m (m!)^4/((2m+1) (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984,
+//! section 2.7), with m for the largest turn of a step. Force and torque are constant in B: the direction cosine matrix
+//! is integrated, ten sums of products of the quaternion's components.
 //!
 //! A point inside a step is reached from the nearer end, with the nodes for half a step.
 
@@ -99,10 +99,10 @@ impl<R: Real> Push<R> {
 
     /// Increase of the components from [`MOTOR_WORK`] on, from the start of a step to `x` after it, zero in the others.
     ///
-    /// `start` is the state at the start of the step, `angle` the increase of the angle until `x`, `constants` those of
-    /// the start of the step. Only `N` = [`WITH_THRUST`] has components of thrust. Their work needs no quadrature:
-    /// Gauss collocation conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum of force
-    /// times impulse over the nodes is half the change of the squared impulse.
+    /// `start` is the state and `constants` hold at the start of the step; `angle` is the increase of the angle until
+    /// `x`. Only `N` = [`WITH_THRUST`] has components of thrust. Their work needs no quadrature: Gauss collocation
+    /// conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum of force times impulse over the
+    /// nodes is half the change of the squared impulse.
     #[inline(always)]
     pub fn growth<const N: usize>(&self, constants: &Constants<R>, start: &[R; N], angle: [R; 3], x: R) -> [R; N] {
         let half = x.splat(0.5);

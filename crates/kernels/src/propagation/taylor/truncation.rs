@@ -25,9 +25,9 @@ pub(super) struct TruncationSums {
 ///
 /// If effects act within arcs, a run has hundreds of librations and turns, truncation of omega has every direction, and
 /// a sum of magnitudes is far from the error. There each step counts as a vector: the neglected angular momentum, which
-/// persists in inertial axes. The sum of a run is the largest magnitude of the vector sum so far, plus the root of the
-/// sum of squares, since directions are only estimated: that of the last two terms of even and odd order together, with
-/// the sign of the term two orders later (terms two orders apart alternate).
+/// persists in inertial axes, along the last two terms of even and odd order together, with the sign of the term two
+/// orders later (terms two orders apart alternate). The sum of a run is the largest magnitude of the vector sum so far,
+/// plus the root of the sum of squares, since directions are only estimated.
 ///
 /// The first neglected term is estimated as the last one kept, times the root of its ratio to the term two orders
 /// before; or as the last but one, times its ratio to the term two orders before, if larger: from rest at constant
@@ -138,9 +138,7 @@ impl<R: Real> Truncation<R> {
             length.splat(self.factor) * raised_to(length.splat(0.5) * (size(&jet[0]) * length), order + 1)
         };
     }
-}
 
-impl<R: Real> Truncation<R> {
     /// Adds brief steps of length `length` along `jet`, bounded by their last two terms.
     #[inline(always)]
     pub(super) fn add_brief<const N: usize>(&mut self, jet: &[[R; N]], length: R, brief: &Brief<R>) {
@@ -164,7 +162,7 @@ impl<R: Real> Truncation<R> {
 
 impl TruncationSums {
     /// Errors after `steps` steps whose motion is repeated `periods` times; the unit of time is `unit` seconds.
-    /// Truncation over a period shifts it, and with it rate and attitude, again in every repetition.
+    /// Truncation over a period shifts it, and with it rate and attitude, in every repetition.
     pub(super) fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
         let truncation = periods * self.rate / unit;
@@ -172,8 +170,8 @@ impl TruncationSums {
     }
 }
 
-/// First neglected term of a series of order p in a step of length `length`, over `length` to the power p - 1; `sizes`
-/// are those of the coefficients p - 3 to p.
+/// First neglected term of a series of order p in a step of length `length`, over `length` to the power p - 1, from the
+/// sizes of the coefficients p - 3 to p.
 #[inline(always)]
 fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
     let [third, second, before, last] = sizes;
