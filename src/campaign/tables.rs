@@ -14,7 +14,7 @@ pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: u
         }
     }
     for key in table.keys_in(scene, instance) {
-        let (name, example) = (key.facts().key, key.required());
+        let (name, example) = (key.facts().key, key.facts().required);
         let Some(numbers) = key.write(scene, instance) else {
             section.know(name);
             continue;

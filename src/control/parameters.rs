@@ -5,7 +5,7 @@ use super::guidance::phase::Maneuver;
 use super::guidance::target::Target;
 use super::net_launch;
 use crate::scene::LawParameter;
-use crate::scene::schema::{Facts, Limit, Needs, Presence, Shape};
+use crate::scene::schema::{Facts, Limit, Shape};
 
 declared! {
     LoopNumbers = LOOP {
@@ -71,8 +71,8 @@ const WANTED_ATTITUDE: LawParameter = LawParameter {
         meaning: "Target attitude quaternion, scalar first: F_s -> F_e, or F_s -> F_o for an orbital attitude",
         components: &["w", "x", "y", "z"],
         shape: Shape::Quaternion,
-        presence: Presence::Required("[1, 0, 0, 0]"),
-        needs: Needs::Nothing,
+        required: Some("[1, 0, 0, 0]"),
+        needs_debris: false,
         limit: Limit::UnitQuaternion,
     },
     default: None,

@@ -196,9 +196,9 @@ fn parameters() -> String {
         }
         for key in table.keys() {
             let facts = key.facts();
-            let default = match facts.presence {
-                schema::Presence::Required(_) => "required".to_owned(),
-                schema::Presence::Optional => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
+            let default = match facts.required {
+                Some(_) => "required".to_owned(),
+                None => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
             };
             let (components, limit, meaning) = (facts.components.join(", "), facts.limit.words(), cell(facts.meaning));
             let _ =

@@ -1,9 +1,9 @@
-//! [`Actuated`]: actuation that does work on a spacecraft, or changes its momentum, at any time of a run.
+//! [`Actuated`]: which actuation does work on a spacecraft, or changes its momentum, during a run.
 
 use super::input::SceneInput;
 use super::schema::{Device, FailureInput, WheelInput, WheelMode};
 
-/// Kinds of actuation at any time of a run.
+/// Kinds of actuation during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Actuated {
     /// Thrusters: the schedule commands a thrust, or one may be stuck on.
@@ -59,22 +59,26 @@ mod tests {
     use super::*;
     use crate::scene::ActuationInput;
 
+    const NONE: Actuated = Actuated::NONE;
+
     /// Law: each kind follows from the commands of the scene; an arc without commands has none.
     #[test]
     fn what_acts_is_what_is_commanded() {
-        let report = SceneInput::report;
-        assert_eq!(Actuated::of(&report().with_actuation(ActuationInput::idle(0.0, 1.0))), Actuated::NONE);
-        let motors = report().with_actuation(ActuationInput::idle(0.0, 1.0).with_torque(&[0.0, 1.0]));
-        assert_eq!(Actuated::of(&motors), Actuated { motors: true, ..Actuated::NONE });
-        let thrusters = report().with_actuation(ActuationInput::idle(0.0, 1.0).with_thrust(&[0.0, 1.0]));
-        assert_eq!(Actuated::of(&thrusters), Actuated { thrusters: true, ..Actuated::NONE });
-        let mut held = report();
+        let arc = || ActuationInput::idle(0.0, 1.0);
+        let mut held = SceneInput::report();
         held.wheels[1].mode = WheelMode::SpeedHeld;
-        assert_eq!(Actuated::of(&held), Actuated { motors: true, ..Actuated::NONE });
-        let mut torque = report();
+        let mut torque = SceneInput::report();
         torque.environment.body_torque_n_m = Some([0.0, 1.0, 0.0]);
-        assert_eq!(Actuated::of(&torque), Actuated { body_torque: true, ..Actuated::NONE });
-        assert!(Actuated::of(&torque).external() && !Actuated::of(&held).external());
-        assert!(Actuated::of(&held).any() && !Actuated::NONE.any());
+        for (input, expected) in [
+            (SceneInput::report().with_actuation(arc()), Actuated::NONE),
+            (SceneInput::report().with_actuation(arc().with_torque(&[0.0, 1.0])), Actuated { motors: true, ..NONE }),
+            (SceneInput::report().with_actuation(arc().with_thrust(&[0.0, 1.0])), Actuated { thrusters: true, ..NONE }),
+            (held, Actuated { motors: true, ..NONE }),
+            (torque, Actuated { body_torque: true, ..NONE }),
+        ] {
+            assert_eq!(Actuated::of(&input), expected);
+            assert_eq!(expected.any(), expected != NONE);
+            assert_eq!(expected.external(), expected.thrusters || expected.body_torque);
+        }
     }
 }

@@ -6,9 +6,8 @@ use crate::math::vector::{constant, cross, dot, norm, scaled, sum};
 /// The unit vector along `direction` (of any length), turned by the alignment error `tilt` (rad), in the type of `one`.
 ///
 /// `tilt` are components along [`across`] of the rotation vector theta from the nominal direction a_0 to the true one:
-/// a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, *Des lois geometriques qui regissent les
-/// deplacements d'un systeme solide*, 1840). The angle is good to `f64`, the length to all digits of the type; without
-/// a tilt an axis of F_s is exact.
+/// a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, 1840). The angle is good to `f64`, the length to
+/// all digits of the type; without a tilt an axis of F_s is exact.
 pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     if tilt == [0.0; 2] {
         let written = constant(one, direction);

@@ -1,16 +1,16 @@
-//! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids: Berdoz,
-//! *Final Report - ADR Spacecraft*, (60)-(67), in [`super::solids`]; bodies are joined by sums over pairs, as in
+//! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids
+//! ([`super::solids`]): Berdoz, *Final Report - ADR Spacecraft*, (60)-(67); bodies are joined by sums over pairs, as in
 //! [`super::mass`].
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, MAX_WHEELS, PartInput, PartShape, WheelMode};
 use super::solids::{Body, hollow_cylinder, solid_box, solid_cylinder, sphere};
-use super::tensor::{matrix_sum, point_inertia, symmetric};
+use super::tensor::{matrix_sum, point_inertia, symmetric, symmetric_product};
 use super::unit_quaternion::unit_quaternion;
 use super::wheel::Wheel;
 use crate::math::Real;
 use crate::math::list::List;
-use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, difference, dot, product, scaled, sum};
+use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, difference, product, scaled, sum};
 
 /// Largest number of parts of a body.
 pub const MAX_PARTS: usize = 32;
@@ -50,15 +50,10 @@ impl<R: Real> Body<R> {
             return Body { center: sum(position, body.center), ..body };
         }
         let c = dcm_from_quaternion(constant_quaternion(one, unit_quaternion(part.attitude)));
-        // C J C^T: row i of C J, with column j of C^T
-        let turned =
-            c.map(|row| [0, 1, 2].map(|j| dot(row, [body.inertia[0][j], body.inertia[1][j], body.inertia[2][j]])));
-        let entry = |i: usize, j: usize| dot(turned[i], c[j]);
-        let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
         Body {
             mass: body.mass,
             center: sum(position, product(c, body.center)),
-            inertia: [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]],
+            inertia: symmetric_product(one, c, body.inertia),
         }
     }
 
@@ -77,7 +72,7 @@ impl<R: Real> Body<R> {
         let Some((first, others)) = bodies.split_first() else { unreachable!("there is at least one body") };
         let mass =
             others.iter().map(|body| body.mass).reduce(|a, b| a + b).map_or(first.mass, |mass| first.mass + mass);
-        // from the first centre, so that equal masses on both sides move nothing, to the last bit
+        // from the first centre, so that equal masses on both sides move it by nothing, to the last bit
         let shift = |body: &Self| scaled(body.mass / mass, difference(body.center, first.center));
         let center = others.iter().map(shift).reduce(sum).map_or(first.center, |shift| sum(first.center, shift));
         let mut inertia = first.inertia;
@@ -96,7 +91,7 @@ impl<R: Real> Body<R> {
     /// The body of `input`: its parts, the overrides, its errors.
     ///
     /// A mass alone scales the inertia of the parts; a centre of mass moves the centre and leaves the inertia about it
-    /// unchanged; errors come last. Wheels are removed if the mass properties include them; locked wheels are added.
+    /// unchanged; errors come last. Wheels that the mass properties include are removed; locked wheels are added.
     pub fn of_input(input: &SceneInput, one: R) -> Self {
         let (body, k) = (&input.body, |value: f64| one.splat(value));
         let mut whole = match &input.parts[..] {

@@ -1,159 +1,152 @@
-//! Conditions on a scene beyond the limits of single keys ([`super::schema`]). `written` checks the input, `derived`
-//! its consequences (masses and inertias that overflow, vanish or are not positive definite). Both collect problems, so
-//! that one check finds them all.
+//! Conditions on a scene beyond the limits of single keys ([`super::schema`]): `written` checks the input, `derived`
+//! its consequences (masses and inertias that overflow, vanish or are not positive definite). Both collect all
+//! problems.
 
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
-use super::orbit;
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
 use super::schema::{ArcErrors, FieldModel, InitialInput, PartInput, WheelInput, WheelMode};
-use super::surroundings;
 use super::table::Table;
+use super::tensor::extremes;
+use super::{Name, surroundings};
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
+
+/// Remedy for what needs an orbit.
+pub(super) const ADD_ORBIT: &str = "add an [orbit] table, or delete this line";
 
 /// Largest mass (kg) and moment of inertia (kg m^2): products of two, in sums over pairs and determinants, are finite.
 const LARGEST: f64 = 1e150;
 
 /// Checks the needs of the magnetic field.
 fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
+    const KEY: &str = "environment.magnetic_field";
     let Some(model) = input.environment.magnetic_field else {
+        let remedy = "add magnetic_field = \"igrf\" to [environment]";
         if let Some(dipole) = input.environment.magnetic_dipole_a_m2 {
             let allowed = "left out without a magnetic_field";
-            let remedy = "add magnetic_field = \"igrf\" to [environment]";
-            problems.add("environment.magnetic_dipole_a_m2".to_owned(), shown(&dipole), allowed, remedy);
+            problems.add("environment.magnetic_dipole_a_m2", shown(&dipole), allowed, remedy);
         }
         if !input.torque_rods.is_empty() {
-            let allowed = "given where there are [[torque_rods]]";
-            let remedy = "add magnetic_field = \"igrf\" to [environment]";
-            problems.add("environment.magnetic_field".to_owned(), "missing".to_owned(), allowed, remedy);
+            problems.add(KEY, "missing", "given where there are [[torque_rods]]", remedy);
         }
         return;
     };
-    let value = || format!("{:?}", model.name());
     let Some(orbit) = &input.orbit else {
-        let allowed = "left out without an [orbit]";
-        let remedy = "add an [orbit] table, or delete this line";
-        return problems.add("environment.magnetic_field".to_owned(), value(), allowed, remedy);
+        return problems.add(KEY, format!("{:?}", model.name()), "left out without an [orbit]", ADD_ORBIT);
     };
     let [first, last] = FieldModel::YEARS;
     let Some(epoch) = orbit.epoch else {
         let allowed = "given where there is a magnetic_field, which depends on the date";
         let remedy = "add epoch = \"2026-11-24T00:00:00Z\" to [orbit]";
-        return problems.add("orbit.epoch".to_owned(), "missing".to_owned(), allowed, remedy);
+        return problems.add("orbit.epoch", "missing", allowed, remedy);
     };
     if !(first..last).contains(&epoch.decimal_year()) {
         let allowed = format!("a date of the years {first} to {}, which IGRF-14 covers here", last - 1.0);
         let remedy = "write another date, or delete magnetic_field";
-        problems.add("orbit.epoch".to_owned(), format!("{:?}", epoch.to_string()), allowed, remedy);
+        problems.add("orbit.epoch", format!("{:?}", epoch.to_string()), allowed, remedy);
     }
 }
 
 /// Checks the numbers of the input.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     let has_debris = input.debris.is_some();
+    macro_rules! check {
+        ($rows:expr, $Table:ident) => {
+            check!($rows, $Table, Name::NONE)
+        };
+        ($rows:expr, $Table:ident, $name:expr) => {
+            $rows.check(has_debris, problems, |key| Table::$Table.name($name, key).into())
+        };
+    }
     input.body.check_all(problems);
     for part in &input.parts {
-        let name = |key: &'static str| Table::Part.name(part.name, key).into();
-        part.check(has_debris, problems, name);
-        part.errors.check(has_debris, problems, name);
+        check!(part, Part, part.name);
+        check!(part.errors, PartErrors, part.name);
         walls(part, problems);
     }
     for wheel in &input.wheels {
-        wheel.check(has_debris, problems, |key| Table::Wheel.name(wheel.name, key).into());
+        check!(wheel, Wheel, wheel.name);
         wheel_inertia(wheel, problems);
     }
     for rod in &input.torque_rods {
-        rod.check(has_debris, problems, |key| Table::TorqueRod.name(rod.name, key).into());
+        check!(rod, TorqueRod, rod.name);
     }
     for thruster in &input.thrusters {
-        thruster.check(has_debris, problems, |key| Table::Thruster.name(thruster.name, key).into());
+        check!(thruster, Thruster, thruster.name);
     }
     for plate in &input.plates {
-        plate.check(has_debris, problems, |key| Table::Plate.name(plate.name, key).into());
+        check!(plate, Plate, plate.name);
         surroundings::check_plate(plate, problems);
     }
     if let Some(debris) = &input.debris {
         debris.check(problems);
     }
-    input.initial.check(has_debris, problems, |key| format!("initial.{key}").into());
-    states_written_twice(&input.initial, has_debris, problems);
-    if input.orbit.is_none() {
-        states_of_an_orbit(&input.initial, problems);
-    }
+    check!(input.initial, Initial);
+    initial_states(&input.initial, input.orbit.is_some(), has_debris, problems);
     if let Some(orbit) = &input.orbit {
         let before = problems.0.len();
-        orbit.check(has_debris, problems, |key| format!("orbit.{key}").into());
+        check!(orbit, Orbit);
         if problems.0.len() == before {
-            orbit::check(input, orbit, problems);
+            super::orbit::check(input, orbit, problems);
         }
     }
     if input.environment.gravity_gradient && input.orbit.is_none() {
         let allowed = "false, or left out, without an [orbit]";
-        let remedy = "add an [orbit] table, or delete this line";
-        problems.add("environment.gravity_gradient".to_owned(), "true".to_owned(), allowed, remedy);
+        problems.add("environment.gravity_gradient", "true", allowed, ADD_ORBIT);
     }
     magnetic_field(input, problems);
     surroundings::check_keys(&input.environment, problems);
     if input.environment.acts_on_plates() {
         surroundings::check(input, problems);
     }
-    input.environment.check(has_debris, problems, |key| format!("environment.{key}").into());
+    check!(input.environment, Environment);
     input.control.check(problems);
     for failure in &input.failures {
-        failure.check(has_debris, problems, |key| Table::Failure.name(failure.name, key).into());
+        check!(failure, Failure, failure.name);
     }
     if input.actuation.is_empty() {
         return;
     }
     let before = problems.0.len();
     arcs(input, problems);
-    input.actuators.check(has_debris, problems, |key| format!("actuators.{key}").into());
+    check!(input.actuators, Actuators);
     if problems.0.len() == before {
         switches(input, problems);
     }
 }
 
-/// Refuses states relative to the local orbital frame without an orbit.
-fn states_of_an_orbit(initial: &InitialInput, problems: &mut Problems) {
-    let mut refuse = |key: &str, numbers: &[f64]| {
-        let remedy = "add an [orbit] table, or delete this line";
-        problems.add(format!("initial.{key}"), shown(numbers), "left out without an [orbit]", remedy);
-    };
-    if let Some(attitude) = &initial.attitude_orbital {
-        refuse("attitude_orbital", attitude);
+/// Refuses states given twice (in F_e and relative to the local orbital frame or, for debris, to the spacecraft), and
+/// states relative to a missing orbit.
+fn initial_states(initial: &InitialInput, has_orbit: bool, has_debris: bool, problems: &mut Problems) {
+    const DEFAULT: InitialInput = InitialInput::DEFAULT;
+    macro_rules! refuse_twice {
+        ($key:ident, $other:ident) => {
+            if initial.$other.is_some() && initial.$key != DEFAULT.$key {
+                let (key, allowed) = (stringify!($key), concat!("left out where ", stringify!($other), " is written"));
+                problems.add(format!("initial.{key}"), shown(&initial.$key), allowed, "write one of both");
+            }
+        };
     }
-    if let Some(rate) = &initial.angular_velocity_orbital_rad_s {
-        refuse("angular_velocity_orbital_rad_s", rate);
+    refuse_twice!(attitude, attitude_orbital);
+    refuse_twice!(angular_velocity_rad_s, angular_velocity_orbital_rad_s);
+    if has_debris {
+        refuse_twice!(debris_attitude, debris_attitude_inertial);
+        refuse_twice!(debris_relative_angular_velocity_rad_s, debris_angular_velocity_rad_s);
     }
-}
-
-/// Refuses states given twice: in F_e and relative to the local orbital frame, or, for debris, to the spacecraft.
-fn states_written_twice(initial: &InitialInput, has_debris: bool, problems: &mut Problems) {
-    let default = InitialInput::DEFAULT;
-    let mut refuse = |key: &str, numbers: &[f64], other: &str| {
-        let allowed = format!("left out where {other} is written");
-        problems.add(format!("initial.{key}"), shown(numbers), allowed, "write one of both");
-    };
-    if initial.attitude_orbital.is_some() && initial.attitude != default.attitude {
-        refuse("attitude", &initial.attitude, "attitude_orbital");
-    }
-    let rate = initial.angular_velocity_rad_s;
-    if initial.angular_velocity_orbital_rad_s.is_some() && rate != default.angular_velocity_rad_s {
-        refuse("angular_velocity_rad_s", &rate, "angular_velocity_orbital_rad_s");
-    }
-    if !has_debris {
+    if has_orbit {
         return;
     }
-    if initial.debris_attitude_inertial.is_some() && initial.debris_attitude != default.debris_attitude {
-        refuse("debris_attitude", &initial.debris_attitude, "debris_attitude_inertial");
+    let mut refuse = |key: &'static str, numbers: &[f64]| {
+        problems.add(key, shown(numbers), "left out without an [orbit]", ADD_ORBIT);
+    };
+    if let Some(attitude) = &initial.attitude_orbital {
+        refuse("initial.attitude_orbital", attitude);
     }
-    let relative = initial.debris_relative_angular_velocity_rad_s;
-    let is_relative = relative != default.debris_relative_angular_velocity_rad_s;
-    if initial.debris_angular_velocity_rad_s.is_some() && is_relative {
-        refuse("debris_relative_angular_velocity_rad_s", &relative, "debris_angular_velocity_rad_s");
+    if let Some(rate) = &initial.angular_velocity_orbital_rad_s {
+        refuse("initial.angular_velocity_orbital_rad_s", rate);
     }
 }
 
@@ -240,18 +233,14 @@ fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
         };
         if torque != 0.0 {
             let allowed = format!("zero for {}, {why}", wheel.name);
-            problems.add(
-                key(),
-                shown(&[torque]),
-                allowed,
-                "leave that torque out, or set the wheel's mode to \"free\"",
-            );
+            let remedy = "leave that torque out, or set the wheel's mode to \"free\"";
+            problems.add(key(), shown(&[torque]), allowed, remedy);
         }
     }
 }
 
 /// Checks for arcs that end before they start, or overlap, because of delays. Only the first is reported, since most
-/// delays are common. The key is that of the arc if its own delays, or the next arc's, are the cause.
+/// delays are common, under the key of the arc if its own delays, or the next arc's, are the cause.
 fn switches(input: &SceneInput, problems: &mut Problems) {
     let delays = &input.actuators;
     let commanded = |index: usize| {
@@ -291,15 +280,10 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     let mut body = |key: &dyn Fn() -> String, mass: f64, moments: [f64; 3]| {
         let passed = is_normal(mass) && moments.into_iter().all(is_normal);
         if !passed {
-            problems.add(
-                key(),
-                format!("{:?}", (mass, moments)),
-                format!(
-                    "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most \
-                    {LARGEST:e}"
-                ),
-                "check the units of sizes and densities",
+            let allowed = format!(
+                "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most {LARGEST:e}"
             );
+            problems.add(key(), format!("{:?}", (mass, moments)), allowed, "check the units of sizes and densities");
         }
         passed
     };
@@ -335,8 +319,7 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
         return false;
     }
     let (moments, _) = principal_axes(inertia);
-    let largest = moments.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let smallest = moments.iter().copied().fold(f64::INFINITY, f64::min);
+    let [smallest, largest] = extremes(moments);
     let total = moments.iter().sum::<f64>();
     if !(smallest > 0.0 && largest <= (total - largest) + 2.0 * INERTIA_SLACK * total) {
         if let Some((centre, arm)) = distant_centre(input) {
@@ -358,12 +341,12 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
     true
 }
 
-/// Centre of mass and its distance from the farthest wheel, m, if beyond any body of that mass and inertia: three times
-/// the largest radius of gyration.
+/// Centre of mass and its distance from the farthest wheel, m, if that is beyond any body of that mass and inertia:
+/// three times the largest radius of gyration.
 fn distant_centre(input: &SceneInput) -> Option<([f64; 3], f64)> {
     let (centre, mass, tensor) = (input.body.center_of_mass_m?, input.body.mass_kg?, input.body.inertia_kg_m2?);
     let (moments, _) = principal_axes(tensor);
-    let gyration = (moments.iter().copied().fold(0.0, f64::max) / mass).sqrt();
+    let gyration = (extremes(moments)[1] / mass).sqrt();
     let arms = input.wheels.iter().map(|wheel| norm(difference(wheel.position_m, centre)));
     let arm = arms.fold(0.0, f64::max);
     (arm > 3.0 * gyration).then_some((centre, arm))

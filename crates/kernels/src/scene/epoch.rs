@@ -18,38 +18,37 @@ impl Epoch {
     pub const ALLOWED: &'static str =
         "a date and time in UTC like \"2026-11-24T00:00:00Z\", of the years 1900 to 2100, the seconds below 60";
 
-    /// Accepted years, inclusive, of polynomials in time fitted to observations.
-    const YEARS: [i32; 2] = [1900, 2100];
-
     /// Julian date of 2000-01-01T00:00:00.
     const JULIAN_DATE: f64 = 2_451_544.5;
 
     /// Parses `2026-11-24T00:00:00Z`, with any number of decimals.
     pub fn parse(text: &str) -> Option<Self> {
-        let (date, time) = text.strip_suffix('Z')?.split_once('T')?;
-        let digits = |text: &str, count: usize| -> Option<i32> {
-            (text.len() == count && text.bytes().all(|byte| byte.is_ascii_digit())).then(|| text.parse().ok())?
+        let text = text.strip_suffix('Z')?;
+        let digits = |from: usize, to: usize| -> Option<i32> {
+            text.get(from..to).filter(|part| part.bytes().all(|byte| byte.is_ascii_digit()))?.parse().ok()
         };
-        let fields = |text: &'_ str, by| -> Option<[String; 3]> {
-            text.splitn(3, by).map(str::to_owned).collect::<Vec<_>>().try_into().ok()
+        let (year, month, date) = (digits(0, 4)?, digits(5, 7)?, digits(8, 10)?);
+        let (hour, minute, _) = (digits(11, 13)?, digits(14, 16)?, digits(17, 19)?);
+        let bytes = text.as_bytes();
+        let is_separated =
+            [(4, b'-'), (7, b'-'), (10, b'T'), (13, b':'), (16, b':')].iter().all(|(at, by)| bytes[*at] == *by);
+        let has_decimals = match &bytes[19..] {
+            [] => true,
+            [b'.', decimals @ ..] => !decimals.is_empty() && decimals.iter().all(u8::is_ascii_digit),
+            _ => false,
         };
-        let [year, month, day] = fields(date, '-')?;
-        let (year, month, day) = (digits(&year, 4)?, digits(&month, 2)?, digits(&day, 2)?);
-        let [hour, minute, second] = fields(time, ':')?;
-        let (hour, minute) = (digits(&hour, 2)?, digits(&minute, 2)?);
-        let (whole, decimals) = second.split_once('.').unwrap_or((&second, "0"));
-        digits(whole, 2)?;
-        digits(decimals, decimals.len().max(1))?;
-        let second: f64 = second.parse().ok()?;
-        let day = day_of(year, month, day)?;
-        // a day beyond its month is another date
-        let is_date = date_of(day) == (year, month, date[8..].parse().ok()?);
+        if !is_separated || !has_decimals {
+            return None;
+        }
+        let second: f64 = text[17..].parse().ok()?;
+        let day = day_of(year, month, date)?;
+        // a day beyond its month is another date; polynomials in time are fitted to observations of these years
+        let is_date = date_of(day) == (year, month, date) && (1900..=2100).contains(&year);
         let is_time = hour < 24 && minute < 60 && second < 60.0;
-        let is_known = (Self::YEARS[0]..=Self::YEARS[1]).contains(&year);
-        (is_date && is_time && is_known).then(|| Epoch { day, minute: (60 * hour + minute) as u16, second })
+        (is_date && is_time).then(|| Epoch { day, minute: (60 * hour + minute) as u16, second })
     }
 
-    /// Julian date in UTC: that of the midnight before, and the fraction of the day.
+    /// Julian date in UTC: of the midnight before, and the fraction of the day.
     pub fn julian_date(self) -> [f64; 2] {
         [Self::JULIAN_DATE + f64::from(self.day), (60.0 * f64::from(self.minute) + self.second) / 86_400.0]
     }
@@ -149,31 +148,13 @@ mod tests {
 
     #[test]
     fn what_is_no_date_is_none() {
-        for text in [
-            "",
-            "2026-11-24",
-            "2026-11-24T00:00:00",
-            "2026-11-24 00:00:00Z",
-            "2026-11-24T00:00Z",
-            "2026-11-24T00:00:00+01:00",
-            "2026-02-29T00:00:00Z",
-            "2026-13-01T00:00:00Z",
-            "2026-00-01T00:00:00Z",
-            "2026-01-00T00:00:00Z",
-            "2026-04-31T00:00:00Z",
-            "2026-11-24T24:00:00Z",
-            "2026-11-24T00:60:00Z",
-            "2016-12-31T23:59:60Z",
-            "1899-12-31T23:59:59Z",
-            "2101-01-01T00:00:00Z",
-            "26-11-24T00:00:00Z",
-            "2026-1-2T00:00:00Z",
-            "2026-11-24T00:00:0Z",
-            "2026-11-24T00:00:00.Z",
-            "2026-11-24T00:00:-1Z",
-            "2026-11-24T00:00:1e1Z",
-            "+026-11-24T00:00:00Z",
-        ] {
+        for text in "|2026-11-24|2026-11-24T00:00:00|2026-11-24 00:00:00Z|2026-11-24T00:00Z|2026-11-24T00:00:00+01:00|\
+            2026-02-29T00:00:00Z|2026-13-01T00:00:00Z|2026-00-01T00:00:00Z|2026-01-00T00:00:00Z|2026-04-31T00:00:00Z|\
+            2026-11-24T24:00:00Z|2026-11-24T00:60:00Z|2016-12-31T23:59:60Z|1899-12-31T23:59:59Z|2101-01-01T00:00:00Z|\
+            26-11-24T00:00:00Z|2026-1-2T00:00:00Z|2026-11-24T00:00:0Z|2026-11-24T00:00:00.Z|2026-11-24T00:00:-1Z|\
+            2026-11-24T00:00:1e1Z|+026-11-24T00:00:00Z|2026-11-24T00:00:0\u{e9}Z"
+            .split('|')
+        {
             assert_eq!(Epoch::parse(text), None, "{text}");
         }
     }

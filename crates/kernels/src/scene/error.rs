@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// One problem of a scene: key, value, allowed values, remedy. File and line are added by the reader of campaign files.
+/// One problem of a scene; the reader of campaign files adds file and line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key} = {value}: must be {allowed}; {remedy}")]
 pub struct SceneError {
@@ -16,7 +16,7 @@ pub struct SceneError {
     pub remedy: &'static str,
 }
 
-/// The problems of one input; without one, nothing is allocated.
+/// The problems of one input; without any, nothing is allocated.
 #[derive(Default)]
 pub(super) struct Problems(pub(super) Vec<SceneError>);
 
@@ -27,10 +27,11 @@ impl Problems {
     pub(super) fn add(
         &mut self,
         key: impl Into<Cow<'static, str>>,
-        value: String,
+        value: impl Into<String>,
         allowed: impl Into<String>,
         remedy: &'static str,
     ) {
-        self.0.push(SceneError { key: key.into(), value, allowed: allowed.into(), remedy });
+        let (key, value, allowed) = (key.into(), value.into(), allowed.into());
+        self.0.push(SceneError { key, value, allowed, remedy });
     }
 }

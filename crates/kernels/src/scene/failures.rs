@@ -1,4 +1,4 @@
-//! Failures of wheels and thrusters in a schedule: from their time on, devices deviate from commands.
+//! Failures of wheels and thrusters in a schedule: from then on, devices deviate from their commands.
 
 use super::schedule::{Actuation, Arc};
 use super::schema::failure::{Device, FailureInput};
@@ -8,21 +8,20 @@ use super::schema::failure::{Device, FailureInput};
 pub(super) fn apply(failures: &[FailureInput], has_loop: bool, schedule: &mut Vec<Arc>) {
     for failure in failures {
         match failure.device {
-            Device::Wheel(_) if has_loop => continue,
-            Device::Wheel(_) => split(schedule, failure.at_s),
+            Device::Wheel(_) if !has_loop => split(schedule, failure.at_s),
             Device::Thruster(_) => {
                 split(schedule, failure.at_s);
                 if failure.thrust_n.is_some_and(|thrust| thrust > 0.0) {
                     fill(schedule, failure.at_s);
                 }
             }
-            Device::Rod(_) | Device::Sensor(_) | Device::Unknown => continue,
+            _ => continue,
         }
         for arc in schedule.iter_mut().filter(|arc| arc.start >= failure.at_s) {
             match failure.device {
                 Device::Wheel(place) => arc.applied.motor_torque[place] *= failure.torque_scale.unwrap_or(1.0),
                 Device::Thruster(place) => arc.applied.thrust[place] = failure.thrust_n.unwrap_or(0.0),
-                Device::Rod(_) | Device::Sensor(_) | Device::Unknown => {}
+                _ => {}
             }
         }
     }

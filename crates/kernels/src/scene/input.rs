@@ -1,5 +1,5 @@
-//! [`SceneInput`]: a scene as written, number by number, before derivation and checks: the content of a campaign file,
-//! changed by dispersions. Plain SI numbers, no serde; structures and defaults come from [`super::schema`].
+//! [`SceneInput`]: the scene of a campaign file as written, before checks and derivation, changed by dispersions. Plain
+//! SI numbers; structures and defaults come from [`super::schema`].
 
 use super::name::Name;
 use super::schema::{
@@ -8,8 +8,8 @@ use super::schema::{
 };
 use crate::math::list::List;
 
-/// A scene as written: bodies, initial state, actuation. By default a box of 1 m and 100 kg/m^3 at rest at the inertial
-/// origin, without devices, debris and actuation.
+/// A scene as written. By default a box of 1 m and 100 kg/m^3 at rest at the inertial origin, without devices, debris
+/// and actuation.
 ///
 /// ```
 /// # extern crate spindrift_kernels as spindrift;

@@ -1,7 +1,6 @@
-//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels ([`super::wheel`]).
-//!
-//! Sums over bodies use distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation.
-//! Generic over the number type, for reference solutions in more digits.
+//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels ([`super::wheel`]). Sums over
+//! bodies use distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation. Generic
+//! over the number type, for reference solutions in more digits.
 
 use super::input::SceneInput;
 use super::schema::{MAX_WHEELS, WheelMode};
@@ -12,7 +11,7 @@ use crate::math::Real;
 use crate::math::list::List;
 use crate::math::vector::{difference, scaled, sum};
 
-/// Mass properties of all bodies and of the spacecraft, its body and wheels, as a whole.
+/// Mass properties of all bodies, and of the spacecraft (body and wheels) as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties<R = f64> {
     /// The body without turning wheels.
@@ -43,7 +42,7 @@ impl<R: Real> MassProperties<R> {
 
         let wheel_mass = wheels.iter().map(|wheel| wheel.mass).reduce(|a, b| a + b);
         let total = wheel_mass.map_or(body.mass, |mass| body.mass + mass);
-        // from the body's centre, so that equal wheels on both sides move nothing, to the last bit
+        // from the body's centre, so that equal wheels on both sides move it by nothing, to the last bit
         let shift = |wheel: &Wheel<R>| scaled(wheel.mass / total, difference(wheel.center, body.center));
         let center = wheels.iter().map(shift).reduce(sum).map_or(body.center, |shift| sum(body.center, shift));
 
@@ -85,6 +84,7 @@ impl<R: Real> MassProperties<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::vector::norm;
     use crate::scene::samples;
 
     /// Check values have 16 digits; measured: 6.7e-16.
@@ -110,12 +110,9 @@ mod tests {
         assert_close("J_2", mass.inertia[1][1], 3055.375141124116);
         assert_close("J_3", mass.inertia[2][2], 1687.2800329075988);
         assert_eq!(mass.center, [0.0, 0.0, 1.5]);
-        for i in 0..3 {
-            for j in 0..3 {
-                if i != j {
-                    assert_eq!(mass.inertia[i][j], 0.0, "exactly diagonal, so that nothing spends time on products");
-                }
-            }
+        for (i, row) in mass.inertia.iter().enumerate() {
+            let others = [row[(i + 1) % 3], row[(i + 2) % 3]];
+            assert_eq!(others, [0.0; 2], "exactly diagonal, so that nothing spends time on products");
         }
     }
 
@@ -129,11 +126,9 @@ mod tests {
         for wheel in &mass.wheels {
             expected = matrix_sum(expected, matrix_sum(wheel.inertia(), about_c(wheel.mass, wheel.center)));
         }
-        for i in 0..3 {
-            for j in 0..3 {
-                // a difference of large terms in the sum about c; measured: 1.5e-16
-                assert!((mass.inertia[i][j] - expected[i][j]).abs() < 1e-15 * expected[0][0]);
-            }
+        for (own, expected_row) in mass.inertia.iter().zip(expected) {
+            // a difference of large terms in the sum about c; measured: 1.5e-16
+            assert!(norm(difference(*own, expected_row)) < 2e-15 * expected[0][0]);
         }
     }
 

@@ -1,5 +1,4 @@
-//! Layer 1: the simulated scene: bodies to mass properties, actuators, initial state; validated, immutable, SI, no
-//! serde.
+//! Layer 1: the simulated scene: mass properties, actuators, initial state; validated, immutable, SI.
 
 pub mod actuated;
 pub mod alignment;

@@ -1,5 +1,5 @@
 //! [`Orbit`]: the orbit at time zero, from position and velocity or Keplerian elements (D. Vallado, *Fundamentals of
-//! Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6). Motion along it: `dynamics::orbit`.
+//! Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6). `dynamics::orbit` moves along it.
 
 use super::epoch::Epoch;
 use super::error::Problems;
@@ -40,9 +40,9 @@ pub struct Offset {
 /// Offsets of spacecraft and debris from the orbit at time zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offsets {
-    /// Of the spacecraft's centre of mass c.
+    /// The spacecraft's centre of mass c.
     pub spacecraft: Offset,
-    /// Of the debris' centre; zero without debris.
+    /// The debris' centre; zero without debris.
     pub debris: Offset,
 }
 
@@ -144,7 +144,7 @@ impl Orbit {
         self.oblateness().map_or(periapsis, |k| periapsis - 2.0 * k / periapsis)
     }
 
-    /// Shape, at time zero about a flattened body.
+    /// Shape at time zero.
     pub fn shape(&self) -> OrbitShape {
         let distance = norm(self.position);
         let speed2 = dot(self.velocity, self.velocity);
@@ -165,14 +165,14 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
     let initial = &scene.initial;
     let Some(Offsets { spacecraft, debris }) = Offsets::of(scene) else {
         let default = InitialInput::DEFAULT;
-        for (name, written, none) in [
+        for (name, numbers, none) in [
             ("position_m", &initial.position_m, &default.position_m),
             ("velocity_m_s", &initial.velocity_m_s, &default.velocity_m_s),
         ] {
-            if written != none {
+            if numbers != none {
                 let allowed =
                     "left out on an [orbit] without thrusters, debris and environment.coupled: the spacecraft is on it";
-                problems.add(format!("initial.{name}"), shown(written), allowed, "delete it, or delete [orbit]");
+                problems.add(format!("initial.{name}"), shown(numbers), allowed, "delete it, or delete [orbit]");
             }
         }
         return;
@@ -192,7 +192,7 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
                 input.body_radius_m, shape.eccentricity, shape.periapsis
             );
             let remedy = "on an [orbit] positions and velocities of [initial] are relative to it: write them so";
-            // the written one
+            // the one that differs from the orbit
             let (name, written) =
                 if offset.position == [0.0; 3] { (names[1], offset.velocity) } else { (names[0], offset.position) };
             problems.add(format!("initial.{name}"), shown(&written), allowed, remedy);
@@ -232,10 +232,9 @@ fn of_keys(input: &OrbitInput, problems: &mut Problems) {
         }
         let lowest = axis * (1.0 - input.eccentricity.unwrap_or(0.0));
         if lowest <= input.body_radius_m {
-            let allowed = format!(
-                "so large that the periapsis, here {lowest:?} m, is above body_radius_m = {:?}",
-                input.body_radius_m
-            );
+            let radius = input.body_radius_m;
+            let allowed =
+                format!("so large that the periapsis, here {lowest:?} m, is above body_radius_m = {radius:?}");
             problems.add(
                 key("semi_major_axis_m"),
                 shown(&[axis]),
@@ -254,21 +253,17 @@ fn of_keys(input: &OrbitInput, problems: &mut Problems) {
     let (Some(position), Some(velocity)) = (input.position_m, input.velocity_m_s) else {
         let missing = if input.position_m.is_none() { "position_m" } else { "velocity_m_s" };
         let allowed = "given, with the other of position_m and velocity_m_s (or elements from semi_major_axis_m on)";
-        return problems.add(key(missing), "missing".to_owned(), allowed, "write both, or Keplerian elements");
+        return problems.add(key(missing), "missing", allowed, "write both, or Keplerian elements");
     };
     let shape = Orbit::of(input).shape();
     // NaN is refused by the limits of its key
     if shape.eccentricity >= 1.0 || shape.semi_major_axis < 0.0 {
-        let allowed = format!(
-            "below the speed of escape, {:?} m/s there: an ellipse or a circle",
-            (2.0 * input.mu_m3_s2 / norm(position)).sqrt()
-        );
+        let escape = (2.0 * input.mu_m3_s2 / norm(position)).sqrt();
+        let allowed = format!("below the speed of escape, {escape:?} m/s there: an ellipse or a circle");
         problems.add(key("velocity_m_s"), shown(&velocity), allowed, "write a smaller velocity");
     } else if shape.periapsis <= input.body_radius_m {
-        let allowed = format!(
-            "on an orbit whose periapsis, here {:?} m, is above body_radius_m = {:?}",
-            shape.periapsis, input.body_radius_m
-        );
+        let (periapsis, radius) = (shape.periapsis, input.body_radius_m);
+        let allowed = format!("on an orbit whose periapsis, here {periapsis:?} m, is above body_radius_m = {radius:?}");
         problems.add(key("position_m"), shown(&position), allowed, "raise the orbit: it hits the central body");
     }
 }

@@ -1,6 +1,6 @@
 //! [`Parameter`]: a dispersable numeric key of scene or initial state: a row of [`super::schema`] and an instance of
-//! its table. Commands of `[[actuation]]` are not dispersed themselves: the keys of `[actuators]` and the errors of an
-//! arc distort them.
+//! its table. Commands of `[[actuation]]` are not dispersed, but distorted by the keys of `[actuators]` and the errors
+//! of an arc.
 
 use super::input::SceneInput;
 use super::name::Name;
@@ -24,7 +24,7 @@ pub struct Parameter {
 const SYMMETRIC: [(usize, usize); 6] = [(0, 0), (1, 3), (2, 6), (4, 4), (5, 7), (8, 8)];
 
 impl Parameter {
-    /// All parameters that scenes with the tables of `scene` may have, in order of the schema.
+    /// All parameters of scenes with the tables of `scene`, in order of the schema.
     pub fn all(scene: &SceneInput) -> impl Iterator<Item = Parameter> {
         let of = |table: Table, (instance, owner): (usize, Name)| {
             table.keys_in(scene, instance).map(move |key| Parameter { key, instance: instance as u32, owner })
@@ -36,7 +36,7 @@ impl Parameter {
         })
     }
 
-    /// The parameter `name` of `scene`, and the component if the name ends in one (`.y`, or `.1` for numbered
+    /// The parameter `name` of `scene`, and its component if the name ends in one (`.y`, or `.1` for numbered
     /// components).
     pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
         let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
@@ -146,7 +146,7 @@ impl Parameter {
         self.key.table == Table::Initial && self.shape() == Shape::Quaternion
     }
 
-    /// Converts a written value to that used by [`super::Scene::resolve`]: an attitude by [`unit_quaternion`].
+    /// Converts a written attitude to the one used by [`super::Scene::resolve`], by [`unit_quaternion`].
     #[inline]
     pub fn normalise_written(self, scene: &mut SceneInput) {
         if self.is_attitude()
@@ -164,8 +164,8 @@ impl Parameter {
     }
 
     /// Makes the value valid after its components were changed: a quaternion is divided by its norm (unless zero or not
-    /// finite, which the scene refuses). Attitudes are divided twice, which removes the rounding of the first division,
-    /// so that [`unit_quaternion`] keeps the numbers and recorded values are the used ones. Principal axes are used as
+    /// finite, which the scene refuses), an attitude twice, which removes the rounding of the first division:
+    /// [`unit_quaternion`] then keeps the numbers, and recorded values are those used. Principal axes are used as
     /// recorded.
     #[inline]
     pub fn normalise(self, scene: &mut SceneInput) {
@@ -173,8 +173,7 @@ impl Parameter {
             return;
         }
         let Some(numbers) = self.key.write(scene, self.instance()) else { return };
-        let divisions = if self.is_attitude() { 2 } else { 1 };
-        for _ in 0..divisions {
+        for _ in 0..if self.is_attitude() { 2 } else { 1 } {
             let norm = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
             if norm > 0.0 && norm.is_finite() {
                 numbers.iter_mut().for_each(|x| *x /= norm);
@@ -259,7 +258,7 @@ mod tests {
         }
     }
 
-    /// Law: normalised numbers keep their bits however often they are written and read. Dividing again would change a
+    /// Law: normalised numbers keep their bits however often they are written and read; another division would change a
     /// third of all quaternions.
     #[test]
     fn a_normalised_quaternion_keeps_its_bits() {
@@ -281,34 +280,26 @@ mod tests {
         assert!(changed_by_division > 2000, "{changed_by_division}");
     }
 
-    /// Law: keys that a scene does not have, and only those, do not exist.
-    #[test]
-    fn what_is_left_out_does_not_exist() {
+    /// Law: exactly the keys that a scene leaves out do not exist.
+    fn keys_left_out_do_not_exist() {
         let mut scene = full();
         scene.wheels[1].mode = WheelMode::Locked;
         scene.debris = None;
         scene.body.mass_kg = None;
         scene.actuation.clear();
         scene.environment.body_torque_n_m = None;
-        let exists = |name| Parameter::find(&full(), name).expect("in the table").0.exists(&scene);
-        for name in
-            ["wheels.w1.rate_rad_s", "wheels.w2.rate_rad_s", "thrusters.p3.position_m", "actuators.switch_on_delay_s"]
-        {
-            assert!(exists(name), "{name}");
-        }
-        for name in [
-            "body.mass_kg",
-            "debris.side_m",
-            "debris.size_m",
-            "body.principal_second_moments_kg_m2",
-            "actuation.0.thrust_scale",
-            "environment.body_torque_n_m",
-            "initial.debris_attitude",
+        let find = |name| Parameter::find(&full(), name).expect("in the table").0;
+        for (exists, names) in [
+            (true, "wheels.w1.rate_rad_s wheels.w2.rate_rad_s thrusters.p3.position_m actuators.switch_on_delay_s"),
+            (false, "body.mass_kg debris.side_m debris.size_m body.principal_second_moments_kg_m2"),
+            (false, "actuation.0.thrust_scale environment.body_torque_n_m initial.debris_attitude"),
         ] {
-            assert!(!exists(name), "{name}");
+            for name in names.split(' ') {
+                assert_eq!(find(name).exists(&scene), exists, "{name}");
+            }
         }
         scene.wheels.pop();
-        let second = Parameter::find(&full(), "wheels.w2.radius_m").expect("in the table").0;
-        assert!(!second.exists(&scene) && Parameter::find(&scene, "wheels.w2.radius_m").is_none());
+        assert!(!find("wheels.w2.radius_m").exists(&scene));
+        assert!(Parameter::find(&scene, "wheels.w2.radius_m").is_none());
     }
 }

@@ -1,8 +1,8 @@
 //! [`Plate`]: plates of a spacecraft's surface, as written or from the parts of its body.
 //!
-//! A box has its six sides; a cylinder its two ends and, for its side, a prism of [`PRISM_SIDES`] plates of equal area,
-//! with the cylinder's projection within 2.3% at any angle and exactly on average. Parts neither shade nor hide each
-//! other; otherwise write `[[plates]]`.
+//! A box has its six sides; a cylinder its two ends and a prism of [`PRISM_SIDES`] plates of equal area, with the
+//! cylinder's projection within 2.3% at any angle and exactly on average. Parts neither shade nor hide each other;
+//! otherwise write `[[plates]]`.
 
 use super::alignment::aligned;
 use super::input::SceneInput;
@@ -43,7 +43,7 @@ fn count(shape: PartShape) -> usize {
     }
 }
 
-/// Replaces `plates` with those of `input`; none if nothing acts on them. At most [`MAX_PLATES`] for a checked `input`.
+/// Replaces `plates` with those of a checked `input`; none if nothing acts on them.
 pub(super) fn resolve_into(input: &SceneInput, plates: &mut Vec<Plate>) {
     plates.clear();
     let environment = &input.environment;
@@ -114,7 +114,7 @@ mod tests {
         Scene::resolve(&input).expect("a legal scene").plates
     }
 
-    /// Law: the plates close a surface: the sum of areas times normals is zero, that of centres is three volumes
+    /// Law: the plates close a surface: areas times normals sum to zero, areas times normals . centres to three volumes
     /// (Gauss).
     #[test]
     fn the_plates_of_a_part_close() {

@@ -20,8 +20,9 @@ impl Scene {
     /// # Errors
     /// All problems of `input`.
     pub fn resolve(input: &SceneInput) -> Result<Self, Vec<SceneError>> {
-        let mass = MassProperties::of(accepted(input)?, 1.0);
-        checked(input, &mass)?;
+        gathered(|problems| check::written(input, problems))?;
+        let mass = MassProperties::of(input, 1.0);
+        gathered(|problems| check::derived(input, &mass, problems))?;
         let mut scene = Scene {
             mass,
             initial: initial_state(input, None),
@@ -41,14 +42,14 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Resolves into an existing scene and reuses its memory: no allocation unless the schedule is longer than ever
-    /// before.
+    /// Resolves into an existing scene in its memory: no allocation unless the schedule is longer than ever before.
     ///
     /// # Errors
     /// All problems of `input`; the scene is then unchanged.
     pub fn resolve_into(&mut self, input: &SceneInput) -> Result<(), Vec<SceneError>> {
-        let mass = MassProperties::of(accepted(input)?, 1.0);
-        checked(input, &mass)?;
+        gathered(|problems| check::written(input, problems))?;
+        let mass = MassProperties::of(input, 1.0);
+        gathered(|problems| check::derived(input, &mass, problems))?;
         self.take(input, &mass);
         Ok(())
     }
@@ -94,18 +95,10 @@ impl Scene {
     }
 }
 
-/// The input, if valid.
-fn accepted(input: &SceneInput) -> Result<&SceneInput, Vec<SceneError>> {
+/// The problems noted by `check`, if any.
+fn gathered(check: impl FnOnce(&mut Problems)) -> Result<(), Vec<SceneError>> {
     let mut problems = Problems::default();
-    check::written(input, &mut problems);
-    if problems.0.is_empty() { Ok(input) } else { Err(problems.0) }
-}
-
-/// Checks the consequences of a valid input. By reference: copies of mass properties, some 600 bytes, show in the time
-/// of a draw.
-fn checked(input: &SceneInput, mass: &MassProperties) -> Result<(), Vec<SceneError>> {
-    let mut problems = Problems::default();
-    check::derived(input, mass, &mut problems);
+    check(&mut problems);
     if problems.0.is_empty() { Ok(()) } else { Err(problems.0) }
 }
 

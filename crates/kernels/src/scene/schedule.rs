@@ -36,8 +36,8 @@ fn meets_next(input: &SceneInput, index: usize) -> bool {
     input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
 }
 
-/// The arc of command `index` of `input`, with scales, bias and delays (motors of a control loop: `motor_torques`).
-/// [`super::check`] checks that the result is a schedule.
+/// The arc of command `index` of `input`, with scales, bias and delays (motors of a control loop: `motor_torques`);
+/// [`super::check`] checks that the arcs are a schedule.
 pub fn applied(input: &SceneInput, index: usize) -> Arc {
     let (actuators, command) = (&input.actuators, &input.actuation[index]);
     let start = |index: usize| {
@@ -76,8 +76,8 @@ fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
     thrust
 }
 
-/// Motor torques of command `index` on the turning wheels, in order, N m; under a control loop the commands, which the
-/// loop's motor model applies with its own.
+/// Motor torques of command `index` on the turning wheels, in order, N m; under a control loop the commands, to which
+/// the loop's motor model applies scale and bias.
 fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
     let (mut torques, command) = ([0.0; MAX_WHEELS], &input.actuation[index]);
     let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
@@ -97,7 +97,7 @@ pub fn thrusters(input: &SceneInput) -> impl Iterator<Item = Thruster> {
     })
 }
 
-/// Actuation of `schedule` (in order, not overlapping) at `time`, none between its arcs and after the last. At a
+/// Actuation of `schedule` (in order, not overlapping) at `time`; none between its arcs and after the last. At a
 /// boundary the later arc applies.
 #[inline]
 pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {

@@ -1,25 +1,26 @@
 //! Inertia by second moments of mass: S, the integral of r r^T dm about the centre of mass, and J = tr(S) 1 - S.
 //!
 //! A symmetric J is the inertia of some body exactly if S is positive semidefinite (positive moments, none above the
-//! sum of the other two). Changes of S that keep it positive semidefinite never give an impossible body (C. Rucker & P.
-//! M. Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
+//! sum of the other two), which changes of S easily preserve (C. Rucker & P. M. Wensing, *Smooth Parameterization of
+//! Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
 
 use super::schema::{MassErrors, PrincipalInertia, PrincipalMoments};
 use super::solids::Body;
+use super::tensor::{symmetric_of, symmetric_product};
 use crate::math::Real;
-use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, dot, product, scaled, sum};
+use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, dot, scaled, sum};
 
 /// S of the inertia `j`, kg m^2, by rows: (tr(J)/2) 1 - J, with a diagonal of half sums and half differences.
 pub fn second_moment<R: Real>(j: [[R; 3]; 3]) -> [[R; 3]; 3] {
     let half = j[0][0].splat(0.5);
     let own = |i: usize| half * ((j[(i + 1) % 3][(i + 1) % 3] - j[i][i]) + j[(i + 2) % 3][(i + 2) % 3]);
-    [[own(0), -j[0][1], -j[0][2]], [-j[0][1], own(1), -j[1][2]], [-j[0][2], -j[1][2], own(2)]]
+    symmetric_of(|i, k| if i == k { own(i) } else { -j[i][k] })
 }
 
 /// J = tr(S) 1 - S, kg m^2, by rows: sums of positive numbers on the diagonal.
 pub fn inertia<R: Real>(s: [[R; 3]; 3]) -> [[R; 3]; 3] {
     let own = |i: usize| s[(i + 1) % 3][(i + 1) % 3] + s[(i + 2) % 3][(i + 2) % 3];
-    [[own(0), -s[0][1], -s[0][2]], [-s[0][1], own(1), -s[1][2]], [-s[0][2], -s[1][2], own(2)]]
+    symmetric_of(|i, k| if i == k { own(i) } else { -s[i][k] })
 }
 
 impl PrincipalInertia {
@@ -44,8 +45,7 @@ impl PrincipalInertia {
         let scale = one / (square * square);
         let entry =
             |i: usize, j: usize| scale * dot([c[i][0] * moments[0], c[i][1] * moments[1], c[i][2] * moments[2]], c[j]);
-        let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
-        [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]]
+        symmetric_of(entry)
     }
 }
 
@@ -75,11 +75,7 @@ impl MassErrors {
         let [x, y, z] = self.stretch_log.map(libm::exp);
         let [xy, xz, yz] = self.shear;
         let a = [[k(x), k(0.0), k(0.0)], [k(xy), k(y), k(0.0)], [k(xz), k(yz), k(z)]];
-        // row i of A S, then times A^T; S is symmetric
-        let rows = [product(s, a[0]), product(s, a[1]), product(s, a[2])];
-        let entry = |i: usize, j: usize| scale * dot(rows[i], a[j]);
-        let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
-        [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]]
+        symmetric_product(scale, a, s)
     }
 }
 

@@ -32,8 +32,8 @@ fn diagonal<R: Real>(diagonal: [R; 3]) -> [[R; 3]; 3] {
 }
 
 /// A hollow cylinder with closed ends, axis s3, base centre at the origin (60)-(67): `wall` t_s of shell and end
-/// plates, outer `radius` rho_o, outer `length` l_s in m, `density` in kg/m^3. Sum of shell and full plates; rho_o^2 -
-/// rho_i^2 = t (2 rho_o - t). About ten roundings, none amplified; test `closed_forms_equal_the_integrals`.
+/// plates, outer `radius` rho_o, outer `length` l_s in m, `density` in kg/m^3. Shell and full plates are added; rho_o^2
+/// - rho_i^2 = t (2 rho_o - t). About ten roundings, none amplified.
 pub fn hollow_cylinder<R: Real>(wall: R, radius: R, length: R, density: R) -> Body<R> {
     let k = |value: f64| wall.splat(value);
     let (bore, height) = (radius - wall, length - k(2.0) * wall);

@@ -1,5 +1,6 @@
 //! Needs of air and light beyond single keys: orbit, date, plates.
 
+use super::check::ADD_ORBIT;
 use super::error::Problems;
 use super::input::SceneInput;
 use super::orbit::Orbit;
@@ -11,7 +12,7 @@ use super::table::Table;
 /// Height of free molecular flow, m; below it the drag is that of a flow around the body.
 const FREE_MOLECULAR: f64 = 100e3;
 
-/// Thinnest layer of an air table, m: steps end at its ends, and an orbit moves by kilometres per second.
+/// Thinnest layer of an air table, m: steps end at layers, and an orbit moves by kilometres per second.
 const LEAST_LAYER: f64 = 1.0;
 
 /// Checks air and light on plates.
@@ -20,29 +21,23 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
     let acting = [("environment.drag", environment.drag), ("environment.solar_pressure", environment.solar_pressure)];
     for (key, _) in acting.into_iter().filter(|(_, acts)| *acts) {
         if input.orbit.is_none() {
-            let remedy = "add an [orbit] table, or delete this line";
-            problems.add(key.to_owned(), "true".to_owned(), "false, or left out, without an [orbit]", remedy);
+            problems.add(key, "true", "false, or left out, without an [orbit]", ADD_ORBIT);
         }
         if input.plates.is_empty() && plate::of_parts(input) == 0 {
             let allowed = "false, or left out, without [[plates]] and without a part that is a box or a cylinder";
-            problems.add(key.to_owned(), "true".to_owned(), allowed, "add [[plates]]");
+            problems.add(key, "true", allowed, "add [[plates]]");
         }
     }
-    if input.plates.is_empty() && plate::of_parts(input) > MAX_PLATES {
-        let allowed =
-            format!("with at most {MAX_PLATES} sides of boxes and plates of cylinders, not {}", plate::of_parts(input));
+    let count = plate::of_parts(input);
+    if input.plates.is_empty() && count > MAX_PLATES {
+        let allowed = format!("with at most {MAX_PLATES} sides of boxes and plates of cylinders, not {count}");
         let remedy = "write [[plates]] with those that count";
-        problems.add("body.parts".to_owned(), format!("{} parts", input.parts.len()), allowed, remedy);
+        problems.add("body.parts", format!("{} parts", input.parts.len()), allowed, remedy);
     }
     let Some(orbit) = &input.orbit else { return };
     if environment.solar_pressure && orbit.epoch.is_none() {
         let allowed = "given where environment.solar_pressure acts: the date says where the Sun is";
-        problems.add(
-            "orbit.epoch".to_owned(),
-            "missing".to_owned(),
-            allowed,
-            "add a date such as epoch = \"2026-11-24T00:00:00Z\"",
-        );
+        problems.add("orbit.epoch", "missing", allowed, "add a date such as epoch = \"2026-11-24T00:00:00Z\"");
     }
     let height = Orbit::of(orbit).lowest() - orbit.body_radius_m;
     // an orbit below the surface has its own message
@@ -52,40 +47,31 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
             the air there flows around a body",
             1e-3 * height
         );
-        problems.add("environment.drag".to_owned(), "true".to_owned(), allowed, "raise the orbit");
+        problems.add("environment.drag", "true", allowed, "raise the orbit");
     }
 }
+
+/// Remedy for keys of the air without drag.
+const DRAG: &str = "add drag = true, or delete this line";
 
 /// Checks the keys of air and light.
 pub(super) fn check_keys(environment: &EnvironmentInput, problems: &mut Problems) {
     if environment.coupled && !environment.acts_on_plates() {
         let allowed =
             "false, or left out, without drag and without solar_pressure: they are the forces that it couples";
-        problems.add(
-            "environment.coupled".to_owned(),
-            "true".to_owned(),
-            allowed,
-            "add drag = true, or delete this line",
-        );
+        problems.add("environment.coupled", "true", allowed, DRAG);
     }
     let exponential = environment.exponential();
     let keys = ["base_density_kg_m3", "base_height_m", "scale_height_m"];
-    if !environment.drag {
-        for (key, number) in keys.into_iter().zip(exponential) {
-            if let Some(number) = number {
-                let (key, remedy) = (format!("environment.{key}"), "add drag = true, or delete this line");
-                problems.add(key, shown(&[number]), "left out without drag", remedy);
+    for (key, number) in keys.into_iter().zip(exponential) {
+        let key = || format!("environment.{key}");
+        match number {
+            Some(number) if !environment.drag => problems.add(key(), shown(&[number]), "left out without drag", DRAG),
+            None if environment.drag && exponential.iter().any(Option::is_some) => {
+                let allowed = "given, with the two others of base_density_kg_m3, base_height_m and scale_height_m";
+                problems.add(key(), "missing", allowed, "write all three, or none for the table");
             }
-        }
-    } else if exponential.iter().any(Option::is_some) {
-        for (key, _) in keys.into_iter().zip(exponential).filter(|(_, number)| number.is_none()) {
-            let allowed = "given, with the two others of base_density_kg_m3, base_height_m and scale_height_m";
-            problems.add(
-                format!("environment.{key}"),
-                "missing".to_owned(),
-                allowed,
-                "write all three, or none for the table",
-            );
+            _ => {}
         }
     }
     check_air_table(environment, problems);

@@ -1,5 +1,5 @@
-//! [`Table`] and [`Key`]: positions of the schema's tables in a scene, and their keys. A new table needs rows
-//! ([`super::schema`]), a field ([`SceneInput`]) and a line in `tables!`.
+//! [`Table`] and [`Key`]: the schema's tables in a scene, and their keys. A new table needs rows ([`super::schema`]), a
+//! field ([`SceneInput`]) and a line in `tables!`.
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
@@ -9,8 +9,8 @@ use super::name::Name;
 use super::schema::limit::shown;
 use super::schema::{
     ActuationInput, ActuatorsInput, ArcErrors, BodyInput, DebrisInput, DeclaredTable, EnvironmentInput, Facts,
-    FailureInput, InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, PlateInput, Presence, Row,
-    ThrusterInput, TorqueRodInput, WheelInput,
+    FailureInput, InitialInput, LawParameter, MassErrors, OrbitInput, PartInput, PlateInput, Row, ThrusterInput,
+    TorqueRodInput, WheelInput,
 };
 
 /// A key of a table of the schema.
@@ -20,7 +20,7 @@ pub struct Key {
     pub table: Table,
     /// Row, counted through the parts of the table.
     row: u8,
-    /// Its facts, cached, since every sample needs them several times per number.
+    /// Its facts, which every sample needs several times per number.
     facts: &'static Facts,
 }
 
@@ -32,7 +32,7 @@ impl Key {
 
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
-        self.place() == other.place()
+        self.cmp(other).is_eq()
     }
 }
 
@@ -272,29 +272,23 @@ impl Key {
     /// The numbers of the key in `scene`, if any; nine for a symmetric tensor.
     #[inline]
     pub fn read(self, scene: &SceneInput, instance: usize) -> Option<&[f64]> {
-        if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table(scene, instance) } else { None }
+        if self.exists_in(scene) { self.in_table(scene, instance) } else { None }
     }
 
     /// [`Key::read`], mutable.
     #[inline]
     pub fn write(self, scene: &mut SceneInput, instance: usize) -> Option<&mut [f64]> {
-        if self.facts().needs.are_met(scene.debris.is_some()) { self.in_table_mut(scene, instance) } else { None }
+        if self.exists_in(scene) { self.in_table_mut(scene, instance) } else { None }
     }
 
-    /// Example of a value, for required keys.
-    pub fn required(self) -> Option<&'static str> {
-        match self.facts().presence {
-            Presence::Required(example) => Some(example),
-            Presence::Optional => None,
-        }
+    #[inline(always)]
+    const fn exists_in(self, scene: &SceneInput) -> bool {
+        !self.facts.needs_debris || scene.debris.is_some()
     }
 
     /// Default numbers as in a campaign file; `None` for a required key, or one replaced by another.
     pub fn default_text(self) -> Option<String> {
-        match self.facts().presence {
-            Presence::Required(_) => None,
-            _ => self.read(&with_every_table(), 0).map(shown),
-        }
+        if self.facts.required.is_some() { None } else { self.read(&with_every_table(), 0).map(shown) }
     }
 }
 

@@ -1,17 +1,30 @@
-//! Inertia tensors by rows: point mass, symmetrisation, sum.
+//! Inertia tensors by rows.
 
 use crate::math::Real;
-use crate::math::vector::sum;
+use crate::math::vector::{dot, product, sum};
 
 /// m (r^2 1 - r r^T), without differences on the diagonal.
 pub(super) fn point_inertia<R: Real>(mass: R, r: [R; 3]) -> [[R; 3]; 3] {
-    let square = [mass * (r[0] * r[0]), mass * (r[1] * r[1]), mass * (r[2] * r[2])];
-    let off = |i: usize, j: usize| -(mass * (r[i] * r[j]));
-    [
-        [square[1] + square[2], off(0, 1), off(0, 2)],
-        [off(0, 1), square[0] + square[2], off(1, 2)],
-        [off(0, 2), off(1, 2), square[0] + square[1]],
-    ]
+    let product = |i: usize, j: usize| mass * (r[i] * r[j]);
+    let own = [product(1, 1) + product(2, 2), product(0, 0) + product(2, 2), product(0, 0) + product(1, 1)];
+    symmetric_of(|i, j| if i == j { own[i] } else { -product(i, j) })
+}
+
+/// The symmetric tensor of the entries on and above the diagonal.
+pub(super) fn symmetric_of<R: Real>(entry: impl Fn(usize, usize) -> R) -> [[R; 3]; 3] {
+    let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
+    [[entry(0, 0), xy, xz], [xy, entry(1, 1), yz], [xz, yz, entry(2, 2)]]
+}
+
+/// `scale` A J A^T of a symmetric `j`.
+pub(super) fn symmetric_product<R: Real>(scale: R, a: [[R; 3]; 3], j: [[R; 3]; 3]) -> [[R; 3]; 3] {
+    let rows = [product(j, a[0]), product(j, a[1]), product(j, a[2])];
+    symmetric_of(|i, k| scale * dot(rows[i], a[k]))
+}
+
+/// The smallest and the largest of three numbers.
+pub(super) fn extremes([a, b, c]: [f64; 3]) -> [f64; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 /// Makes a tensor that is symmetric to rounding exactly symmetric.

@@ -1,5 +1,5 @@
-//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands, which are not dispersed, and
-//! how the arc differs from them, which is.
+//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands are not dispersed, errors of the
+//! arc are.
 
 use super::numbers::Numbers;
 use super::rows::rows;
@@ -18,7 +18,7 @@ rows! {
         /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite.
         /// In a file a table by name, `torque_n_m = { w1 = 0.5 }`.
         torque_n_m: [f64; MAX_WHEELS] = [0.0; MAX_WHEELS],
-        /// The name; of an arc without one its number is used, from 0.
+        /// The name; by default the arc's number, from 0.
         name: Name = Name::NONE,
         /// Errors of the arc.
         errors: ArcErrors = ArcErrors::NONE,
@@ -26,8 +26,8 @@ rows! {
 }
 
 rows! {
-    /// Errors of an arc relative to its command, beyond the errors that thrusters, wheels and `[actuators]` have in all
-    /// arcs: factors multiply theirs, delays add to theirs.
+    /// Errors of an arc relative to its command: factors multiply, and delays add to, those of thrusters, wheels and
+    /// `[actuators]`.
     pub struct ArcErrors in ActuationInput [table => table.errors] {
     thrust_scale: f64 = 1.0, "1",
         "Scale factor for the commanded thrusts of this arc", Thrust("write zero for an arc that does not ignite");
@@ -40,7 +40,7 @@ rows! {
 }
 
 impl ArcErrors {
-    /// No difference.
+    /// No error.
     pub const NONE: ArcErrors = ArcErrors::DEFAULT;
 }
 

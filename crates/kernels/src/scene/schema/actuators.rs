@@ -1,10 +1,10 @@
-//! `[actuators]`: when the actuators follow the commands of the schedule.
+//! `[actuators]`: delays of the actuators.
 
 use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {
-    /// Delays of the actuators, for all arcs of the schedule. Scale factors stand with each thruster and wheel.
+    /// Delays of the actuators in all arcs of the schedule.
     pub struct ActuatorsInput in ActuatorsInput [table => table] {
     switch_on_delay_s: f64 = 0.0, "s",
         "Delay of the start of every arc; an arc that would start before the run starts with the run", Finite;

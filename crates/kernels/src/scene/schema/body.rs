@@ -1,5 +1,4 @@
-//! `[body]`: the body's mass properties, given directly or in place of what its parts give, and errors of the true
-//! ones.
+//! `[body]`: the body's mass properties, given directly or by its parts, and their errors.
 
 use super::components::{AXES, WXYZ};
 use super::mass_errors::MassErrors;
@@ -10,10 +9,9 @@ use super::rows::{row, rows};
 use crate::scene::error::Problems;
 
 rows! {
-    /// The body: everything of the spacecraft but the wheels that turn.
-    ///
-    /// With parts ([`super::PartInput`]), a mass that is given scales their inertia, a centre of mass moves
-    /// it as it is, and a tensor or principal moments replace it. The errors are applied last.
+    /// The body: everything of the spacecraft but the wheels that turn. With parts ([`super::PartInput`]), a given mass
+    /// scales their inertia, a centre of mass moves the body as it is, and a tensor or principal moments replace the
+    /// inertia. The errors are applied last.
     pub struct BodyInput in BodyInput [table => table] {
     mass_kg: Option<f64> = None, "kg", "Mass, in place of that of the parts", Positive;
     center_of_mass_m: Option<[f64; 3]> = None, "m",

@@ -1,13 +1,12 @@
-//! `[control]`, `[[sensors]]`, `[[guidance]]`: the parameters of a control law, as the law and its parts declare them.
-//!
-//! A law is a part of a program (`dynamics::actuation`); which numbers it has, it says itself, in the terms of every
-//! other key of a scene: unit, meaning, limit, default. So they are read, checked, dispersed and written as those are,
-//! under names such as `control.gain_n_m`.
+//! `[control]`, `[[sensors]]`, `[[guidance]]`: the parameters of a control law, as the law and its parts declare them,
+//! in the terms of every other key of a scene: unit, meaning, limit, default. They are read, checked, dispersed and
+//! written alike, under names such as `control.gain_n_m`.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use super::limit::Limit;
-use super::row::{Facts, Needs, Presence, Shape};
+use super::numbers::interned;
+use super::row::{Facts, Shape};
 use crate::scene::error::Problems;
 use crate::scene::name::Name;
 
@@ -16,13 +15,12 @@ use crate::scene::name::Name;
 pub struct LawParameter {
     /// Facts about its key in `[control]`.
     pub facts: Facts,
-    /// Its components where the file does not give them; `None` where it must.
+    /// The components by default; `None` if a campaign file must give them.
     pub default: Option<&'static [f64]>,
 }
 
 impl LawParameter {
-    /// A number that a campaign file must give. `unit` is that of the key, as in its name (`gain_n_m`: `N m`), `1` for
-    /// a pure number.
+    /// A number that a campaign file must give; `unit` as in the key's name (`gain_n_m`: `N m`), `1` for a pure number.
     pub const fn number(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> Self {
         let facts = Facts {
             key,
@@ -30,8 +28,8 @@ impl LawParameter {
             meaning,
             components: &[""],
             shape: Shape::Plain,
-            presence: Presence::Required("1.0"),
-            needs: Needs::Nothing,
+            required: Some("1.0"),
+            needs_debris: false,
             limit,
         };
         LawParameter { facts, default: None }
@@ -41,38 +39,27 @@ impl LawParameter {
     #[must_use]
     pub const fn with_components(mut self, components: &'static [&'static str]) -> Self {
         self.facts.components = components;
-        self.facts.presence = Presence::Required("[0.0, 0.0, 0.0]");
+        self.facts.required = Some("[0.0, 0.0, 0.0]");
         self
     }
 
-    /// A parameter that a campaign file may leave out: `default` has one number for each component.
+    /// A parameter with the default `default`, one number for each component.
     #[must_use]
     pub const fn or(mut self, default: &'static [f64]) -> Self {
-        self.facts.presence = Presence::Optional;
+        self.facts.required = None;
         self.default = Some(default);
         self
     }
 }
 
-/// The list of the parameters of `parts`, one after the other, which is known at run time only. Each list is kept once
-/// and for good: a program has as many as there are kinds of tables.
+/// The list of the parameters of `parts`, one after the other, kept for good.
 pub fn kept(parts: &[&[LawParameter]]) -> &'static [LawParameter] {
     static KEPT: Mutex<Vec<&'static [LawParameter]>> = Mutex::new(Vec::new());
-    let list: Vec<LawParameter> = parts.concat();
-    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    let is_same = |known: &[LawParameter]| {
-        let what = |parameter: &LawParameter| (parameter.facts.key, parameter.facts.meaning, parameter.default);
-        known.iter().map(what).eq(list.iter().map(what))
-    };
-    if let Some(known) = kept.iter().find(|known| is_same(known)) {
-        return known;
-    }
-    let list: &'static [LawParameter] = Vec::leak(list);
-    kept.push(list);
-    list
+    let facts = |parameter: &LawParameter| (parameter.facts.key, parameter.facts.meaning, parameter.default);
+    interned(&KEPT, parts.concat(), |a, b| a.iter().map(facts).eq(b.iter().map(facts)))
 }
 
-/// The parameters of the control law of a scene; none where it has no law.
+/// The parameters of the control law of a scene; none without a law.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LawParameters(pub &'static [LawParameter]);
 
@@ -86,7 +73,7 @@ impl PartialEq for LawParameters {
 /// A table of parameters that a part of a control law declares, and their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeclaredTable {
-    /// The name of the table among others of its kind; [`Name::NONE`] where there is one.
+    /// The name of the table among others of its kind; [`Name::NONE`] for a single one.
     pub name: Name,
     /// The declarations.
     pub declared: LawParameters,
@@ -99,7 +86,7 @@ impl DeclaredTable {
     pub const NONE: DeclaredTable =
         DeclaredTable { name: Name::NONE, declared: LawParameters(&[]), values: Vec::new() };
 
-    /// The parameters `declared` of the table called `name` at their defaults; NaN where there is none.
+    /// The parameters `declared` of the table called `name` at their defaults; NaN without one.
     pub fn of(name: Name, declared: &'static [LawParameter]) -> Self {
         let default = |parameter: &LawParameter| match parameter.default {
             Some(default) => default.to_vec(),
@@ -126,12 +113,12 @@ impl DeclaredTable {
         self.values.get_mut(place)
     }
 
-    /// The numbers of the parameter called `key`; `None` where no such parameter is declared.
+    /// The numbers of the parameter called `key`; `None` if it is not declared.
     pub fn named(&self, key: &str) -> Option<&[f64]> {
         self.numbers(self.declared.0.iter().position(|parameter| parameter.facts.key == key)?)
     }
 
-    /// Notes which numbers violate their limits; `header` is that of the table.
+    /// Notes which numbers violate their limits; `header` is the table's.
     fn check(&self, header: &str, problems: &mut Problems) {
         for (index, parameter) in self.declared.0.iter().enumerate() {
             if let Some(numbers) = self.numbers(index) {
@@ -146,8 +133,7 @@ impl DeclaredTable {
     }
 }
 
-/// The parameters of a control law and their values: its own, those of its sensors, and those of the phases of its
-/// guidance.
+/// The parameters of a control law, of its sensors and of the phases of its guidance, with their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlInput {
     /// `[control]`.
@@ -168,13 +154,12 @@ impl ControlInput {
     /// No law.
     pub const NONE: ControlInput = ControlInput { law: DeclaredTable::NONE, sensors: Vec::new(), guidance: Vec::new() };
 
-    /// The parameters `declared` of `[control]` at their defaults; NaN where there is none.
+    /// The parameters `declared` of `[control]` at their defaults; NaN without one.
     pub fn of(declared: &'static [LawParameter]) -> Self {
         ControlInput { law: DeclaredTable::of(Name::NONE, declared), ..Self::NONE }
     }
 
-    /// This is the loop of a campaign file, which has phases and models of its motors; the law of a program has
-    /// neither.
+    /// True for the loop of a campaign file, which has phases and models of its motors, unlike the law of a program.
     pub fn has_loop(&self) -> bool {
         !self.guidance.is_empty()
     }
@@ -186,7 +171,7 @@ impl ControlInput {
         std::iter::once(("control", &self.law)).chain(sensors).chain(guidance)
     }
 
-    /// The numbers of the parameter of `[control]` called `key`; `None` where the law declares no such parameter.
+    /// The numbers of the parameter of `[control]` called `key`; `None` if the law does not declare it.
     pub fn named(&self, key: &str) -> Option<&[f64]> {
         self.law.named(key)
     }
@@ -219,7 +204,7 @@ mod tests {
         LawParameter::number("ratio", "1", "Ratio", Limit::Positive).or(&[0.7]),
     ];
 
-    /// Law: parameters of a law are keys as all others: found by name and component, read and set, checked by their
+    /// Law: parameters of a law are keys like all others: found by name and component, read and set, checked by their
     /// limits.
     #[test]
     fn parameters_of_a_law_are_keys_of_the_scene() {

@@ -5,7 +5,7 @@ use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {
-    /// Effects of the environment on the spacecraft. An effect that is not written does not act.
+    /// Effects of the environment on the spacecraft. An effect left out does not act.
     pub struct EnvironmentInput in EnvironmentInput [table => table] {
     body_torque_n_m: Option<[f64; 3]> = None, "N m", "Constant torque on the spacecraft, in F_s", Finite;
     magnetic_dipole_a_m2: Option<[f64; 3]> = None, "A m^2",
@@ -27,10 +27,10 @@ rows! {
         drag: bool = false,
         /// The torque of sunlight on the plates acts; it needs an orbit with an epoch.
         solar_pressure: bool = false,
-        /// The forces of air and light move the spacecraft, which leaves its orbit by them.
+        /// The forces of air and light move the spacecraft off its orbit.
         coupled: bool = false,
-        /// Heights above `body_radius_m` at which the density of the air is given, m, in place of Vallado's table; kept
-        /// for good ([`super::numbers::kept`]).
+        /// Heights above `body_radius_m` of given air densities, m, in place of Vallado's table; kept for good
+        /// ([`super::numbers::kept`]).
         air_heights_m: Option<&'static [f64]> = None,
         /// The density at each of them, kg/m^3.
         air_densities_kg_m3: Option<&'static [f64]> = None,
@@ -62,12 +62,12 @@ impl EnvironmentInput {
         self.coupled && self.acts_on_plates()
     }
 
-    /// Density, height and scale height of an exponential atmosphere, where one of them is written.
+    /// Density, height and scale height of an exponential atmosphere, as far as written.
     pub fn exponential(&self) -> [Option<f64>; 3] {
         [self.base_density_kg_m3, self.base_height_m, self.scale_height_m]
     }
 
-    /// Any effect of the environment acts; a magnetic field alone does not act.
+    /// Any effect of the environment acts; a magnetic field alone does not.
     pub fn acts(&self) -> bool {
         EnvironmentInput { magnetic_field: None, ..*self } != EnvironmentInput::DEFAULT
     }
@@ -84,6 +84,6 @@ named! {
 }
 
 impl FieldModel {
-    /// The years for which IGRF-14 gives the field here, from the first to the last.
+    /// The first and last year in which IGRF-14 gives the field here.
     pub const YEARS: [f64; 2] = [2020.0, 2030.0];
 }

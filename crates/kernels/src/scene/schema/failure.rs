@@ -6,7 +6,7 @@ use super::rows::rows;
 use crate::scene::name::Name;
 
 rows! {
-    /// A device that fails at a time of a run. Control software is not told.
+    /// A device that fails at a time of a run; control software does not know.
     pub struct FailureInput in FailureInput [table => table] {
     at_s: f64 = 0.0, "s",
         "Time at which the device fails; after the end of the run it has no effect", NotNegative, required "100.0";
@@ -26,14 +26,14 @@ rows! {
     } others {
         /// The name.
         name: Name = Name::NONE,
-        /// The part that fails.
+        /// The failing device.
         device: Device = Device::Unknown,
-        /// Output of a sensor from then on, where it is not biased.
+        /// Output of a sensor from then on, unless it is biased.
         output: Option<SensorOutput> = None,
     }
 }
 
-/// The part that fails.
+/// A failing device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Device {
     /// A wheel, by its place among those that turn.
@@ -53,7 +53,7 @@ named! {
     pub enum SensorOutput {
         /// Nothing.
         Silent = "silent",
-        /// Its last measurement, again and again.
+        /// Its last measurement, repeated.
         Frozen = "frozen",
     }
 }

@@ -4,7 +4,7 @@ use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {
-    /// The measurable state at time zero (Berdoz's Sigma, (59), builds the full state from it).
+    /// The measurable state at time zero, from which Berdoz's Sigma (59) builds the full state.
     pub struct InitialInput in InitialInput [table => table] {
     position_m: [f64; 3] = [0.0; 3], "m",
         "Position of p from the inertial origin, in F_e; on an orbit, position of the centre of mass from the \

@@ -1,15 +1,16 @@
-//! [`Limit`]: what the numbers of one key must satisfy.
+//! [`Limit`]: the condition on the numbers of one key.
 
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::scene::error::Problems;
+use crate::scene::tensor::extremes;
 use std::borrow::Cow;
 
-/// Largest deviation from one of the norm of a written attitude quaternion: six written digits make 1e-6; it is then
-/// normalised.
+/// Largest deviation from one of the norm of a written attitude quaternion, which is then normalised: six digits make
+/// 1e-6.
 pub const UNIT_NORM_TOLERANCE: f64 = 1e-6;
 
-/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor that was computed
-/// elsewhere (rotated, shifted to another centre), and no more.
+/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor computed elsewhere
+/// (rotated, shifted to another centre).
 pub const INERTIA_SLACK: f64 = 16.0 * f64::EPSILON;
 
 /// A condition on the numbers of a key; all must be finite.
@@ -21,7 +22,7 @@ pub enum Limit {
     Positive,
     /// Zero or above.
     NotNegative,
-    /// A thrust or a factor of one: zero or above. The remedy says what to write.
+    /// A thrust or a factor on one: zero or above; with the remedy.
     Thrust(&'static str),
     /// A direction: not all zero.
     Direction,
@@ -35,7 +36,7 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// The limit in words, to follow "must be".
+    /// The limit in words, after "must be".
     pub const fn words(self) -> &'static str {
         match self {
             Limit::Finite => "finite",
@@ -48,7 +49,7 @@ impl Limit {
         }
     }
 
-    /// `count` numbers that satisfy it, as in a campaign file.
+    /// `count` numbers within the limit, as in a campaign file.
     pub fn example(self, count: usize) -> String {
         match (self, count) {
             (Limit::UnitQuaternion, _) => "[1, 0, 0, 0]".to_owned(),
@@ -66,24 +67,16 @@ impl Limit {
         if !numbers.iter().all(|number| number.is_finite()) {
             return not_finite(key(), numbers, problems);
         }
-        let each = |scalar: &'static str, several: &'static str| if numbers.len() == 1 { scalar } else { several };
         match self {
             Limit::Finite => {}
             Limit::Positive => {
                 if !numbers.iter().all(|number| *number > 0.0) {
-                    let remedy = each("write a positive number", "write positive numbers");
-                    problems.add(key(), shown(numbers), each("above zero", "above zero, each"), remedy);
+                    signs(self, key(), numbers, problems);
                 }
             }
-            Limit::NotNegative => {
+            Limit::NotNegative | Limit::Thrust(_) => {
                 if !numbers.iter().all(|number| *number >= 0.0) {
-                    let remedy = each("write zero or a positive number", "write zero or positive numbers");
-                    problems.add(key(), shown(numbers), each("zero or above", "zero or above, each"), remedy);
-                }
-            }
-            Limit::Thrust(remedy) => {
-                if !numbers.iter().all(|number| *number >= 0.0) {
-                    problems.add(key(), shown(numbers), "zero or above, each: a thruster does not pull", remedy);
+                    signs(self, key(), numbers, problems);
                 }
             }
             Limit::Direction => {
@@ -101,7 +94,21 @@ impl Limit {
     }
 }
 
-/// Notes that not all numbers of `key` are finite. Out of line, so that a draw without a problem runs straight through.
+/// Notes that numbers of `key` have the wrong sign. Out of line, so that a valid draw runs straight through.
+#[cold]
+#[inline(never)]
+fn signs(limit: Limit, key: Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
+    let (allowed, remedy) = match (limit, numbers.len()) {
+        (Limit::Thrust(remedy), _) => ("zero or above, each: a thruster does not pull", remedy),
+        (Limit::Positive, 1) => ("above zero", "write a positive number"),
+        (Limit::Positive, _) => ("above zero, each", "write positive numbers"),
+        (_, 1) => ("zero or above", "write zero or a positive number"),
+        _ => ("zero or above, each", "write zero or positive numbers"),
+    };
+    problems.add(key, shown(numbers), allowed, remedy);
+}
+
+/// Notes that not all numbers of `key` are finite.
 #[cold]
 #[inline(never)]
 fn not_finite(key: Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
@@ -139,34 +146,28 @@ fn unit_quaternion(key: &dyn Fn() -> Cow<'static, str>, q: &[f64], problems: &mu
 fn principal_moments(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
     let &[a, b, c] = numbers else { return };
     if numbers.iter().any(|moment| *moment <= 0.0) {
-        problems.add(key(), shown(numbers), "above zero, each", "write positive numbers");
-        return;
+        return signs(Limit::Positive, key(), numbers, problems);
     }
+    let [_, largest] = extremes([a, b, c]);
     let slack = INERTIA_SLACK * (a + b + c);
     if a > b + c + slack || b > a + c + slack || c > a + b + slack {
-        let largest = a.max(b).max(c);
-        let (excess, remedy) = excess(
-            [a, b, c],
-            largest,
-            "no distribution of mass has these moments; principal_second_moments_kg_m2 cannot fail in this way",
-        );
+        let otherwise =
+            "no distribution of mass has these moments; principal_second_moments_kg_m2 cannot fail in this way";
+        let (excess, remedy) = excess([a, b, c], largest, otherwise);
         let allowed = format!("such that no moment exceeds the sum of the other two ({excess})");
         problems.add(key(), shown(numbers), allowed, remedy);
     }
 }
 
-/// A difference up to this fraction of the trace is taken for a rounding of written digits.
+/// Excesses up to this fraction of the trace are taken for rounding of written digits.
 const WRITTEN_ROUNDING: f64 = 1e-4;
 
-/// By how much the `largest` of three moments exceeds the sum of the other two, and what to do about it.
+/// The excess of the `largest` of three moments over the sum of the other two, and its remedy.
 fn excess(moments: [f64; 3], largest: f64, otherwise: &'static str) -> (String, &'static str) {
     let trace = moments[0] + moments[1] + moments[2];
     let beyond = largest - (trace - largest);
-    let remedy = if beyond <= WRITTEN_ROUNDING * trace {
-        "write more digits, or make the largest moment smaller by that"
-    } else {
-        otherwise
-    };
+    let is_rounding = beyond <= WRITTEN_ROUNDING * trace;
+    let remedy = if is_rounding { "write more digits, or make the largest moment smaller by that" } else { otherwise };
     (format!("{largest:?} exceeds it by {beyond:.1e} kg m^2, {:.1e} of the trace", beyond / trace), remedy)
 }
 
@@ -178,30 +179,19 @@ fn inertia(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut 
     let apart = |(_, upper, lower): &(&str, f64, f64)| (upper - lower).abs();
     let wrong = pairs.iter().filter(|pair| apart(pair) > slack);
     if let Some((name, upper, lower)) = wrong.max_by(|one, other| apart(one).total_cmp(&apart(other))) {
-        problems.add(
-            key(),
-            shown(numbers),
-            format!("symmetric ({name} is {upper:?} above the diagonal and {lower:?} below)"),
-            "write products of inertia equal on both sides of the diagonal",
-        );
-        return;
+        let allowed = format!("symmetric ({name} is {upper:?} above the diagonal and {lower:?} below)");
+        let remedy = "write products of inertia equal on both sides of the diagonal";
+        return problems.add(key(), shown(numbers), allowed, remedy);
     }
     let (moments, _) = principal_axes(tensor);
-    let largest = moments.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let smallest = moments.iter().copied().fold(f64::INFINITY, f64::min);
+    let [smallest, largest] = extremes(moments);
     if smallest <= 0.0 || !is_positive_definite(tensor) {
-        problems.add(
-            key(),
-            shown(numbers),
-            format!("positive definite (its principal moments are {moments:?})"),
-            "check signs; products of inertia are minus the integrals of x y",
-        );
+        let allowed = format!("positive definite (its principal moments are {moments:?})");
+        let remedy = "check signs; products of inertia are minus the integrals of x y";
+        problems.add(key(), shown(numbers), allowed, remedy);
     } else if largest > (moments[0] + moments[1] + moments[2] - largest) + slack {
-        let (excess, remedy) = excess(
-            moments,
-            largest,
-            "no distribution of mass has these moments; check units and the point they refer to",
-        );
+        let otherwise = "no distribution of mass has these moments; check units and the point they refer to";
+        let (excess, remedy) = excess(moments, largest, otherwise);
         let allowed =
             format!("such that no principal moment exceeds the sum of the other two (they are {moments:?}: {excess})");
         problems.add(key(), shown(numbers), allowed, remedy);
@@ -212,7 +202,7 @@ fn inertia(key: &dyn Fn() -> Cow<'static, str>, numbers: &[f64], problems: &mut 
 mod tests {
     use super::*;
 
-    /// Law: what a message gives as an example is accepted.
+    /// Law: examples in messages satisfy their limits.
     #[test]
     fn examples_satisfy_their_limits() {
         for (limit, example) in [

@@ -1,15 +1,11 @@
 //! The schema of scene parameters: one row for each numeric key of a campaign file that describes the scene.
 //!
-//! A row states key, type, unit, meaning, default, limit, and whether the key must be written. From it follow the field
-//! of the input structure, reading a campaign file, its canonical text, the checks, the dispersable
-//! [`super::Parameter`]s and the table of keys in the documents. To add a parameter, add a row here and use the field
-//! where it acts.
+//! From a row (key, type, unit, meaning, default, limit, required or not) follow the field of the input structure, its
+//! reading, canonical text and checks, the dispersable [`super::Parameter`]s and the table of keys in the documents. A
+//! new parameter is a new row here, and its field used where it acts.
 //!
-//! A row knows its own table only; [`super::table`] says where in a scene the tables are. A table may have several
-//! instances.
-//!
-//! Not here: conditions on several keys together ([`super::check`]), keys that are not numbers (`mode`, `shape`,
-//! names).
+//! A row knows its own table only; [`super::table`] places the tables, and their instances, in a scene. Conditions on
+//! several keys are in [`super::check`]; keys that are not numbers (`mode`, `shape`, names) have no rows.
 
 pub mod actuation;
 pub mod actuators;
@@ -49,7 +45,7 @@ pub use orbit::OrbitInput;
 pub use part::{PartInput, PartShape};
 pub use plate::{MAX_PLATES, PlateInput};
 pub use principal::{PrincipalInertia, PrincipalMoments};
-pub use row::{Facts, Needs, Presence, Row, Shape};
+pub use row::{Facts, Row, Shape};
 pub use sizes::{MAX_THRUSTERS, MAX_TORQUE_RODS, MAX_WHEELS};
 pub use thruster::ThrusterInput;
 pub use torque_rod::TorqueRodInput;

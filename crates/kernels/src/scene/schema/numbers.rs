@@ -1,4 +1,4 @@
-//! `Numbers`: a field of an input structure seen as plain numbers. [`kept`]: lists of them, of any length.
+//! `Numbers`: a field of an input structure as plain numbers. [`kept`]: lists of any length.
 
 use super::components::{ACROSS, SCALAR, SYMMETRIC, WXYZ, XYZ};
 use super::row::Shape;
@@ -10,7 +10,7 @@ pub(in crate::scene) trait Numbers {
     const COMPONENTS: &'static [&'static str];
     /// Arrangement of its numbers.
     const SHAPE: Shape = Shape::Plain;
-    /// The value of a key that was announced and not read yet: not a number.
+    /// The value of a key that is not read yet: not a number.
     const BLANK: Self;
     /// The numbers; `None` where there is no value.
     fn numbers(&self) -> Option<&[f64]>;
@@ -20,17 +20,25 @@ pub(in crate::scene) trait Numbers {
     fn open(&mut self) {}
 }
 
-/// `numbers`, kept once and for good: for structures that are copied with every sample. A program has as many lists as
-/// its files have.
+/// `numbers`, kept for good: for structures that are copied with every sample.
 pub fn kept(numbers: &[f64]) -> &'static [f64] {
     static KEPT: Mutex<Vec<&'static [f64]>> = Mutex::new(Vec::new());
-    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    let bits = |list: &[f64]| list.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
-    if let Some(known) = kept.iter().find(|known| bits(known) == bits(numbers)) {
+    let bits = |number: &f64| number.to_bits();
+    interned(&KEPT, numbers.to_vec(), |a, b| a.iter().map(bits).eq(b.iter().map(bits)))
+}
+
+/// The list in `pool` that equals `list` by `is_same`, or `list` itself, leaked into `pool`; a program has few lists.
+pub(super) fn interned<T>(
+    pool: &Mutex<Vec<&'static [T]>>,
+    list: Vec<T>,
+    is_same: impl Fn(&[T], &[T]) -> bool,
+) -> &'static [T] {
+    let mut pool = pool.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = pool.iter().find(|known| is_same(known, &list)) {
         return known;
     }
-    let list: &'static [f64] = Vec::leak(numbers.to_vec());
-    kept.push(list);
+    let list: &'static [T] = Vec::leak(list);
+    pool.push(list);
     list
 }
 

@@ -31,7 +31,7 @@ impl OrbitInput {
     /// The keys of position and velocity.
     pub const VECTORS: [&'static str; 2] = ["position_m", "velocity_m_s"];
 
-    /// The keys of Keplerian elements; the first must be written where they are used.
+    /// The keys of Keplerian elements, of which the first is required.
     pub const ELEMENTS: [&'static str; 6] = [
         "semi_major_axis_m",
         "eccentricity",

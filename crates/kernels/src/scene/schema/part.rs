@@ -24,7 +24,7 @@ rows! {
     } others {
         /// The name.
         name: Name = Name::NONE,
-        /// The shape, which says which sizes it has.
+        /// The shape, which decides its sizes.
         shape: PartShape = PartShape::Box,
         /// Errors of this distribution of mass.
         errors: MassErrors = MassErrors::NONE,

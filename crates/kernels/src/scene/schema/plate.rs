@@ -5,7 +5,7 @@ use super::rows::rows;
 use crate::scene::name::Name;
 
 rows! {
-    /// A flat plate, one side of it: the other side is another plate.
+    /// One side of a flat plate; the other side is another plate.
     pub struct PlateInput in PlateInput [table => table] {
     area_m2: f64 = 1.0, "m^2", "Area", Positive, required "1.5";
     normal: [f64; 3] = [0.0, 0.0, 1.0], "1",

@@ -28,7 +28,7 @@ impl PrincipalInertia {
         PrincipalInertia { moments: PrincipalMoments::Second([f64::NAN; 3]), ..Self::BLANK };
 }
 
-/// The meanings of the keys of a principal inertia, which the debris has as well.
+/// Meanings of the keys of a principal inertia, of body and debris.
 pub(super) const MOMENTS: &str = "Principal moments of inertia about the centre of mass";
 pub(super) const SECOND: &str =
     "Principal second moments of mass, the integrals of x_i^2 dm about the centre of mass: J_1 = P_2 + P_3 and so on";

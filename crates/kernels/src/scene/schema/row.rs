@@ -11,41 +11,20 @@ pub enum Shape {
     Plain,
     /// A unit quaternion, scalar first: normalised after its components were changed.
     Quaternion,
-    /// A symmetric 3x3 tensor by rows; the six entries on and above the diagonal are the components; a change of
-    /// one off the diagonal changes its mirror image too.
+    /// A symmetric 3x3 tensor by rows; its components are the six entries on and above the diagonal, each changed with
+    /// its mirror image.
     Symmetric,
 }
 
-/// Required or optional.
-#[derive(Clone, Copy, Debug)]
-pub enum Presence {
-    /// Always; a message shows this example.
-    Required(&'static str),
-    /// Never: where it is left out, the default of the input structure applies.
-    Optional,
-}
-
-/// Part of a scene that a key needs to exist, beside its table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Needs {
-    /// Nothing else.
-    Nothing,
-    /// Debris.
-    Debris,
-}
-
-impl Needs {
-    /// True if a scene has it.
-    #[inline(always)]
-    pub const fn are_met(self, has_debris: bool) -> bool {
-        match self {
-            Needs::Nothing => true,
-            Needs::Debris => has_debris,
-        }
+/// The first of the optional tokens of a row.
+pub(super) const fn first<T: Copy>(tokens: &[T]) -> Option<T> {
+    match tokens {
+        [first, ..] => Some(*first),
+        [] => None,
     }
 }
 
-/// Facts about a key, whatever its table is.
+/// Facts about a key of any table.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
     /// The key within its table.
@@ -58,10 +37,10 @@ pub struct Facts {
     pub components: &'static [&'static str],
     /// Relation between the components.
     pub shape: Shape,
-    /// Required, or optional.
-    pub presence: Presence,
-    /// Part of a scene that the key needs, beside its table.
-    pub needs: Needs,
+    /// Example for messages, if the key is required; otherwise the input structure has a default.
+    pub required: Option<&'static str>,
+    /// True if the key exists only with debris.
+    pub needs_debris: bool,
     /// Condition on its value.
     pub limit: Limit,
 }
@@ -71,11 +50,11 @@ pub struct Facts {
 pub struct Row<T: 'static> {
     /// Facts about the key.
     pub facts: Facts,
-    /// The numbers; `None` where the table has no such key. A symmetric tensor has nine.
+    /// The numbers; `None` if the table has no such key. A symmetric tensor has nine.
     pub read: fn(&T) -> Option<&[f64]>,
     /// The numbers, to be changed.
     pub write: fn(&mut T) -> Option<&mut [f64]>,
-    /// Makes the table have the key: an optional value, a way to describe a body.
+    /// Adds the key to the table: an optional value, a way to describe a body.
     pub open: fn(&mut T),
 }
 

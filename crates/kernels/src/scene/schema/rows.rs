@@ -1,35 +1,4 @@
-//! The macros that turn rows of the schema into an input structure, its defaults, its checks and its
-//! [`super::row::Row`]s.
-
-/// [`super::row::Presence`] as in a row: the example of a key that must be written.
-macro_rules! presence {
-    () => {
-        $crate::scene::schema::row::Presence::Optional
-    };
-    ($example:literal) => {
-        $crate::scene::schema::row::Presence::Required($example)
-    };
-}
-
-/// [`super::row::Needs`] as in a row.
-macro_rules! needs {
-    () => {
-        $crate::scene::schema::row::Needs::Nothing
-    };
-    (debris) => {
-        $crate::scene::schema::row::Needs::Debris
-    };
-}
-
-/// Names of the components of a type, unless a row names them.
-macro_rules! components {
-    ($type:ty,) => {
-        <$type as Numbers>::COMPONENTS
-    };
-    ($type:ty, $components:ident) => {
-        $components
-    };
-}
+//! Macros that turn rows of the schema into an input structure, its defaults, its checks and its [`super::row::Row`]s.
 
 /// An input structure from its rows. A row reads
 ///
@@ -37,8 +6,8 @@ macro_rules! components {
 /// key: type = default, "unit", "meaning", Limit [of COMPONENTS] [, required "example"] [, with debris];
 /// ```
 ///
-/// `in Table [table => table.part]` says where in the structure of the whole table this one is; `others` lists fields
-/// that are not numbers.
+/// `in Table [table => table.part]` places the structure in that of the whole table; `others` lists fields that are not
+/// numbers.
 macro_rules! rows {
     (
         $(#[$doc:meta])*
@@ -71,10 +40,13 @@ macro_rules! rows {
                         key: stringify!($key),
                         unit: $unit,
                         meaning: $meaning,
-                        components: $crate::scene::schema::rows::components!($type, $($components)?),
+                        components: match $crate::scene::schema::row::first(&[$($components)?]) {
+                            Some(components) => components,
+                            None => <$type as Numbers>::COMPONENTS,
+                        },
                         shape: <$type as Numbers>::SHAPE,
-                        presence: $crate::scene::schema::rows::presence!($($example)?),
-                        needs: $crate::scene::schema::rows::needs!($($needs)?),
+                        required: $crate::scene::schema::row::first(&[$($example)?]),
+                        needs_debris: $crate::scene::schema::row::first::<&str>(&[$(stringify!($needs))?]).is_some(),
                         limit: $crate::scene::schema::limit::Limit::$limit $(($remedy))?,
                     },
                     read: |$table| Numbers::numbers(&$get.$key),
@@ -83,8 +55,8 @@ macro_rules! rows {
                 },
             )* ];
 
-            /// Notes which values violate their limits; `name` makes a dotted name of the key. Without a loop over
-            /// rows: every draw is checked.
+            /// Notes which values violate their limits; `name` makes a dotted name of the key. Unrolled, since every
+            /// draw is checked.
             #[inline(always)]
             pub(in crate::scene) fn check(
                 &self,
@@ -92,8 +64,9 @@ macro_rules! rows {
                 problems: &mut $crate::scene::error::Problems,
                 name: impl Fn(&'static str) -> std::borrow::Cow<'static, str>,
             ) {
-                $( if $crate::scene::schema::rows::needs!($($needs)?).are_met(has_debris)
-                    && let Some(numbers) = Numbers::numbers(&self.$key)
+                $( if (has_debris || const {
+                    $crate::scene::schema::row::first::<&str>(&[$(stringify!($needs))?]).is_none()
+                }) && let Some(numbers) = Numbers::numbers(&self.$key)
                 {
                     const LIMIT: $crate::scene::schema::limit::Limit =
                         $crate::scene::schema::limit::Limit::$limit $(($remedy))?;
@@ -110,7 +83,7 @@ macro_rules! rows {
     };
 }
 
-/// A row whose value a pattern finds in its table, by shared or by mutable reference; `open` makes the table match it.
+/// A row whose value is found in its table by a pattern, which `open` makes match.
 macro_rules! row {
     (
         $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:ident
@@ -123,8 +96,8 @@ macro_rules! row {
                 meaning: $meaning,
                 components: $components,
                 shape: $crate::scene::schema::row::Shape::$shape,
-                presence: $crate::scene::schema::rows::presence!($($example)?),
-                needs: $crate::scene::schema::row::Needs::Nothing,
+                required: $crate::scene::schema::row::first(&[$($example)?]),
+                needs_debris: false,
                 limit: $crate::scene::schema::limit::Limit::$limit,
             },
             read: |table| match table {
@@ -140,4 +113,4 @@ macro_rules! row {
     };
 }
 
-pub(super) use {components, needs, presence, row, rows};
+pub(super) use {row, rows};

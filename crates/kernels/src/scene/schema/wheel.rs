@@ -80,9 +80,8 @@ named! {
         /// omega.
         #[default]
         Free = "free",
-        /// Its motor keeps its rate relative to the body at the initial value with whatever torque that takes: its
-        /// momentum relative to the body, J_i Omega_i, is constant, and its axial inertia resists a change of omega
-        /// with the rest.
+        /// Its motor keeps its rate relative to the body at the initial value with any torque: its momentum relative to
+        /// the body, J_i Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
         SpeedHeld = "speed_held",
         /// It does not turn relative to the body: a part of it.
         Locked = "locked",
