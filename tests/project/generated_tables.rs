@@ -16,7 +16,6 @@ use spindrift::observables::{LawColumns, LawSeries, table};
 use spindrift::sampling::DistributionKind;
 use spindrift::sampling::keys::{Kind, Presence, Rule};
 use spindrift::scene::LawParameter;
-use spindrift::scene::schema;
 use spindrift::scene::table::Table;
 use spindrift::storage::rows_file::{columns, parameter_columns};
 use spindrift::storage::timeseries::time_series;

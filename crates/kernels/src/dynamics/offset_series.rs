@@ -2,7 +2,7 @@
 //! ([`super::gravity`]).
 
 use super::gravity::{Gravity, stronger, stronger_powers, twice_and};
-use super::orbit_series::{OrbitSeries, convolution, next_of_power};
+use super::orbit_series::{OrbitSeries, convolution, dot_convolution, minus_convolution, next_of_power};
 use crate::math::Real;
 use crate::math::vector::{scaled, sum};
 
@@ -90,12 +90,7 @@ impl<R: Real> OffsetSeries<R> {
         offset[n] = of_offset;
         place[n] = sum(orbit.position()[n], of_offset);
         lever[n] = twice_and(orbit.position()[n], of_offset);
-        let mut sum_q = zero;
-        for (d, l) in offset[..=n].iter().zip(lever[..=n].iter().rev()) {
-            for i in 0..3 {
-                sum_q = d[i].mul_add(l[i], sum_q);
-            }
-        }
+        let mut sum_q = dot_convolution(&offset[..=n], &lever[..=n]);
         let square = orbit.square();
         // q |O|^2 = d . (d + 2 O), coefficient by coefficient
         for (j, known) in ratio[..n].iter().enumerate() {
@@ -109,12 +104,7 @@ impl<R: Real> OffsetSeries<R> {
             power[n] = power_of_ratio(-1.5, n, ratio, power);
         }
         stretched[n] = stretched_offset(of_offset, *nearer, power, &place[..=n]);
-        let mut tide = [zero; 3];
-        for (pull, own) in orbit.pull()[..=n].iter().zip(stretched[..=n].iter().rev()) {
-            for i in 0..3 {
-                tide[i] = pull.neg_mul_add(own[i], tide[i]);
-            }
-        }
+        let mut tide = minus_convolution(&orbit.pull()[..=n], &stretched[..=n]);
         if orbit.gravity().oblateness.is_some() {
             tide = sum(tide, flattened.extend(n, orbit, [offset, lever, place], ratio, *nearer));
         }

@@ -66,7 +66,7 @@ impl<R: Real> OrbitSeries<R> {
         let Gravity { mu, oblateness } = self.gravity;
         let zero = mu.zero();
         let OrbitSeries { position, square, pull, flattened, .. } = self;
-        square[n] = product_with_itself(&position[..=n]);
+        square[n] = dot_convolution(&position[..=n], &position[..=n]);
         if n == 0 {
             let inverse = zero.splat(1.0) / square[0].sqrt();
             pull[0] = mu * (inverse * (inverse * inverse));
@@ -78,12 +78,7 @@ impl<R: Real> OrbitSeries<R> {
         }
         let strength: &[R] = if oblateness.is_some() { &flattened.all } else { pull };
         if n + 2 < position.len() {
-            let mut sums = [zero; 3];
-            for (s, r) in strength[..=n].iter().zip(position[..=n].iter().rev()) {
-                for i in 0..3 {
-                    sums[i] = s.neg_mul_add(r[i], sums[i]);
-                }
-            }
+            let mut sums = minus_convolution(&strength[..=n], &position[..=n]);
             if oblateness.is_some() {
                 sums[2] -= zero.splat(2.0) * flattened.along(&position[..=n]);
             }
@@ -113,7 +108,7 @@ impl<R: Real> OrbitSeries<R> {
     #[inline(always)]
     pub fn place(&mut self, n: usize, position: [R; 3]) {
         self.position[n] = position;
-        self.square[n] = product_with_itself(&self.position[..=n]);
+        self.square[n] = dot_convolution(&self.position[..=n], &self.position[..=n]);
     }
 
     /// The coefficients of mu rho^(-3/2), 1 per unit squared.
@@ -191,16 +186,28 @@ pub fn convolution<R: Real>(a: &[R], b: &[R]) -> R {
     sum
 }
 
-/// Last coefficient of r . r.
+/// Last coefficient of the scalar product of two series.
 #[inline(always)]
-fn product_with_itself<R: Real>(position: &[[R; 3]]) -> R {
-    let mut sum = position[0][0].zero();
-    for (a, b) in position.iter().zip(position.iter().rev()) {
+pub fn dot_convolution<R: Real>(a: &[[R; 3]], b: &[[R; 3]]) -> R {
+    let mut sum = a[0][0].zero();
+    for (a, b) in a.iter().zip(b.iter().rev()) {
         for i in 0..3 {
             sum = a[i].mul_add(b[i], sum);
         }
     }
     sum
+}
+
+/// Last coefficient of minus the product of the series of a number and a vector.
+#[inline(always)]
+pub fn minus_convolution<R: Real>(numbers: &[R], vectors: &[[R; 3]]) -> [R; 3] {
+    let mut sums = [numbers[0].zero(); 3];
+    for (number, vector) in numbers.iter().zip(vectors.iter().rev()) {
+        for i in 0..3 {
+            sums[i] = number.neg_mul_add(vector[i], sums[i]);
+        }
+    }
+    sums
 }
 
 /// Coefficient `n` > 0 of rho^`alpha`, times any constant, from those of rho and the lower ones.

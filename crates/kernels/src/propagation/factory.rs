@@ -58,7 +58,6 @@ impl NarrowWork for BuildGyrostat<'_> {
     }
 }
 
-/// The null-space engine: one run at a time.
 struct BuildNullSpace<'a>(&'a PropagationSettings);
 
 impl NarrowWork for BuildNullSpace<'_> {
@@ -121,7 +120,6 @@ fn gyrostat<S: Simd, R: Real + Send + 'static>(
     }
 }
 
-/// Builds the engine of an integrator under the effects `E`.
 struct OnGyrostats<'a, S, R, E> {
     simd: S,
     zero: R,

@@ -20,7 +20,6 @@ pub(super) const ADD_ORBIT: &str = "add an [orbit] table, or delete this line";
 /// Largest mass (kg) and moment of inertia (kg m^2): products of two, in sums over pairs and determinants, are finite.
 const LARGEST: f64 = 1e150;
 
-/// Checks the needs of the magnetic field.
 fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
     const KEY: &str = "environment.magnetic_field";
     let Some(model) = input.environment.magnetic_field else {
@@ -50,7 +49,6 @@ fn magnetic_field(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Checks the numbers of the input.
 pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     let has_debris = input.debris.is_some();
     macro_rules! check {
@@ -281,7 +279,8 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
         let passed = is_normal(mass) && moments.into_iter().all(is_normal);
         if !passed {
             let allowed = format!(
-                "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most {LARGEST:e}"
+                "of a mass (kg) and moments of inertia (kg m^2) that are positive and finite numbers, at most \
+                {LARGEST:e}"
             );
             problems.add(key(), format!("{:?}", (mass, moments)), allowed, "check the units of sizes and densities");
         }

@@ -281,6 +281,7 @@ mod tests {
     }
 
     /// Law: exactly the keys that a scene leaves out do not exist.
+    #[test]
     fn keys_left_out_do_not_exist() {
         let mut scene = full();
         scene.wheels[1].mode = WheelMode::Locked;

@@ -15,7 +15,6 @@ const FREE_MOLECULAR: f64 = 100e3;
 /// Thinnest layer of an air table, m: steps end at layers, and an orbit moves by kilometres per second.
 const LEAST_LAYER: f64 = 1.0;
 
-/// Checks air and light on plates.
 pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
     let environment = &input.environment;
     let acting = [("environment.drag", environment.drag), ("environment.solar_pressure", environment.solar_pressure)];
@@ -54,7 +53,6 @@ pub(super) fn check(input: &SceneInput, problems: &mut Problems) {
 /// Remedy for keys of the air without drag.
 const DRAG: &str = "add drag = true, or delete this line";
 
-/// Checks the keys of air and light.
 pub(super) fn check_keys(environment: &EnvironmentInput, problems: &mut Problems) {
     if environment.coupled && !environment.acts_on_plates() {
         let allowed =
@@ -122,7 +120,6 @@ fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
     }
 }
 
-/// Checks the shares of light of a plate.
 pub(super) fn check_plate(plate: &PlateInput, problems: &mut Problems) {
     if plate.specular + plate.diffuse > 1.0 {
         let allowed = format!("at most 1 with specular, which is {:?}: the rest is absorbed", plate.specular);

@@ -123,7 +123,6 @@ struct Chunk<'a, S: Simd> {
 }
 
 impl<S: Simd> Chunk<'_, S> {
-    /// Wheel rates and angles.
     #[inline(always)]
     fn complete_wheels(self, table: &mut StateTable) {
         let omega_b = self.read3(OMEGA);
@@ -185,7 +184,6 @@ impl<S: Simd> Chunk<'_, S> {
         self.write(table, StateField::Work, [thrusters, motors]);
     }
 
-    /// Position, velocity and impulses of c.
     #[inline(always)]
     fn complete_translation(self, table: &mut StateTable) {
         match &self.run.orbit {

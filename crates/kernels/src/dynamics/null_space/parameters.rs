@@ -48,7 +48,6 @@ pub struct WheelParameters {
 }
 
 impl WheelParameters {
-    /// A wheel that is missing.
     const MISSING: WheelParameters = WheelParameters {
         mass: 0.0,
         center: [0.0; 3],

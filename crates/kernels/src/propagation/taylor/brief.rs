@@ -12,13 +12,11 @@ use crate::dynamics::gyrostat::equations::Constants;
 use crate::math::vector::dot;
 use crate::math::{Mask, Real};
 
-/// The smallest order.
 pub(super) const LEAST: usize = 3;
 
 /// Margin for tolerances below rounding, as in `super::step`.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
 
-/// Orders of brief arcs.
 #[derive(Clone, Debug)]
 pub(super) struct BriefRule {
     /// Largest y^2 at the orders from [`LEAST`] on.

@@ -51,7 +51,6 @@ struct Driver<'a, S, R, E, const N: usize, const J: usize, const FORCED: bool> {
 impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>
     Driver<'_, S, R, E, N, J, FORCED>
 {
-    /// Takes one step of every lane.
     #[inline(always)]
     fn step(&mut self, finish: &mut RunCallback<'_>) {
         let has_begun = FORCED && core::mem::take(&mut self.lanes.has_begun);

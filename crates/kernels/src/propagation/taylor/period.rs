@@ -117,9 +117,9 @@ impl PoincareSection {
 }
 
 impl Period {
-    /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`, with the angular momentum
-    /// `momentum_e` in F_e and its reference magnitude |J| |omega|, `scale`; `None` if the axis is too inaccurate for many
-    /// repetitions.
+    /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`, with the angular
+    /// momentum `momentum_e` in F_e and its reference magnitude |J| |omega|, `scale`; `None` if the axis is too
+    /// inaccurate for many repetitions.
     #[inline]
     pub fn new(length: [f64; 2], start: [f64; 4], end: [f64; 4], momentum_e: [f64; 3], scale: f64) -> Option<Self> {
         let magnitude = norm(momentum_e);

@@ -5,7 +5,6 @@
 use crate::math::lanes::{WIDEST, WIDTH};
 use crate::run::Trajectory;
 
-/// Points pending for the trajectories.
 #[derive(Clone, Debug)]
 pub(super) struct PointRows {
     /// Eight points of all components per lane; the position of a point is its number modulo eight.

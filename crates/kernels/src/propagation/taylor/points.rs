@@ -66,7 +66,6 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
     }
 }
 
-/// End of an evaluation of kept points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Until {
     EndOfArc,

@@ -12,7 +12,6 @@ use crate::run::LocalErrors;
 /// Sum of the rest of omega's series in a brief step, as a share of the last term: terms fall by e^-2 or more.
 const BRIEF_REST: f64 = 0.15;
 
-/// Sums of one run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TruncationSums {
     /// Truncation of omega, rad per unit of time.

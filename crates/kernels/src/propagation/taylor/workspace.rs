@@ -28,7 +28,6 @@ pub struct Settings {
 pub struct Workspace<R, const J: usize> {
     /// Order and step size.
     pub rule: StepRule,
-    /// Order of brief arcs.
     pub(super) brief: BriefRule,
     /// Settings.
     pub settings: Settings,

@@ -48,7 +48,6 @@ fn is_irregular(debris: &DebrisInput) -> bool {
     matches!(debris, DebrisInput::Tensor { .. } | DebrisInput::Principal { .. })
 }
 
-/// The rows of `[debris]`.
 const ROWS: &[Row<DebrisInput>] = &[
     row!(side_m, "m", "Side of a cube", SCALAR, Plain, Positive required "0.2",
         |debris| *debris = DebrisInput::BLANK,

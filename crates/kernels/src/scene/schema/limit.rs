@@ -108,7 +108,6 @@ fn signs(limit: Limit, key: Cow<'static, str>, numbers: &[f64], problems: &mut P
     problems.add(key, shown(numbers), allowed, remedy);
 }
 
-/// Notes that not all numbers of `key` are finite.
 #[cold]
 #[inline(never)]
 fn not_finite(key: Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {
