@@ -8,14 +8,15 @@ use clap::{Args, Parser, Subcommand};
 use crate::campaign::Overrides;
 use crate::cli::argument_values::{count, fraction, method, seconds, setting, shard, shift, threads, tolerance};
 use crate::cli::colour::Colour;
-use crate::cli::{help, screen};
+use crate::cli::help::{EXIT_CODES, examples};
+use crate::cli::screen;
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
 use crate::workflow::Outputs;
 
 /// Monte Carlo analysis of spacecraft attitude dynamics.
 #[derive(Debug, Parser)]
-#[command(name = "spindrift", version, about, after_help = help::EXIT_CODES, propagate_version = true)]
+#[command(name = "spindrift", version, about, after_help = EXIT_CODES, propagate_version = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -30,48 +31,48 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a campaign: rows, statistics, verdicts and the report page.
-    #[command(after_help = help::CAMPAIGN)]
+    #[command(after_help = examples!("campaign spin_sweep.toml --samples 10000", "campaign net_launch.toml --set control.delay_s=0.2 --out slow"))]
     Campaign(CampaignOptions),
     /// Merge shards into a finished result.
-    #[command(name = "finish", after_help = help::FINISH)]
+    #[command(name = "finish", after_help = examples!("finish results/spin_sweep", "finish results/spin_sweep --junit verdicts.xml"))]
     CompleteResult(FinishOptions),
     /// Print again what a finished result has found, as text or JSON.
-    #[command(after_help = help::SHOW)]
+    #[command(after_help = examples!("show results/spin_sweep --verbose", "show results/spin_sweep --json"))]
     Show(ShowOptions),
     /// Check a result: checksums, recomputed rows, and every file derived from the rows.
-    #[command(after_help = help::VERIFY)]
+    #[command(after_help = examples!("verify results/spin_sweep", "verify results/spin_sweep --fraction 1 --repair"))]
     Verify(VerifyOptions),
     /// Show what a campaign would run: time, disk, dispersions, masses, what is integrated and why.
-    #[command(after_help = help::CHECK)]
+    #[command(after_help = examples!("check spin_sweep.toml", "check net_launch.toml --set campaign.samples=100000"))]
     Check(CheckOptions),
     /// Compare two results: plans, verdicts, and the shift of every outcome.
-    #[command(after_help = help::COMPARE)]
+    #[command(after_help = examples!("compare results/before results/after", "compare results/before results/after --out shifts.json"))]
     Compare(CompareOptions),
     /// Run one sample as a time series: a table, a Parquet or CSV file, a plot.
-    #[command(after_help = help::SIMULATE)]
+    #[command(after_help = examples!("simulate spin_sweep.toml --sample 17 --plot run17.svg", "simulate net_launch.toml --sample 7 --out run7.csv"))]
     Simulate(SimulateOptions),
     /// Draw the dispersed parameters without running: percentiles, a table, histograms and correlations.
-    #[command(after_help = help::SAMPLE)]
+    #[command(after_help = examples!("sample spin_sweep.toml --plot inputs.svg", "sample spin_sweep.toml --samples 100000 --out inputs.parquet"))]
     Sample(SampleOptions),
     /// Rebuild the report page of a finished result, and write its figures as files.
-    #[command(after_help = help::REPORT)]
+    #[command(after_help = examples!("report results/spin_sweep", "report results/net_launch --figures figures"))]
     Report(ReportOptions),
     /// List all results below a folder, with verdicts and what changed, also as a page.
-    #[command(after_help = help::INDEX)]
+    #[command(after_help = examples!("index results", "index /data/studies"))]
     Index(IndexOptions),
     /// Measure run time against error for methods and tolerances.
-    #[command(after_help = help::PRECISION)]
+    #[command(after_help = examples!("precision spin_sweep.toml", "precision burn.toml --methods auto,dop853 --tolerances 1e-6,1e-12"))]
     Precision(PrecisionOptions),
     /// Write a campaign file to start from.
-    #[command(after_help = help::NEW)]
+    #[command(after_help = examples!("new my_sweep.toml", "new studies/first.toml"))]
     New(NewOptions),
     /// Print the JSON Schema of campaign files, by which editors complete and check them.
     ///
     /// A campaign file names it in its first line: #:schema spindrift.schema.json
-    #[command(after_help = help::SCHEMA)]
+    #[command(after_help = examples!("schema > spindrift.schema.json", "schema > schemas/spindrift.schema.json"))]
     Schema,
     /// List the columns of the rows: name, unit, meaning.
-    #[command(after_help = help::COLUMNS)]
+    #[command(after_help = examples!("columns momentum", "columns pointing --campaign slew_closed.toml"))]
     Columns(ColumnsOptions),
 }
 

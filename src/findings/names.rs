@@ -47,6 +47,11 @@ pub fn of_quantity(quantity: &Quantity) -> String {
     of_column(quantity.name(), quantity.unit())
 }
 
+/// [`of_quantity`] with a capital.
+pub fn title(quantity: &Quantity) -> String {
+    sentence(&of_quantity(quantity))
+}
+
 /// The extreme of a quantity: "largest pointing error" for "highest pointing error".
 pub fn of_extreme(name: &str, is_low: bool) -> String {
     let (side, said) = match is_low {
@@ -191,8 +196,12 @@ pub fn of_input_column(plan: &Plan, column: &str) -> String {
 /// The unit shown for the dispersed number at `place`.
 pub fn unit_of_input(plan: &Plan, place: usize) -> ShownUnit {
     let parameter = plan.dispersions.columns()[place].parameter;
-    let unit = if parameter.unit() == "1" { "" } else { parameter.unit() };
-    plan.analysis.display.of(&parameter.name(), unit)
+    plan.analysis.display.of(&parameter.name(), own_unit(parameter))
+}
+
+/// The unit of a parameter; empty for a pure number.
+pub fn own_unit(parameter: Parameter) -> &'static str {
+    if parameter.unit() == "1" { "" } else { parameter.unit() }
 }
 
 /// Capitalises the first letter.
@@ -211,27 +220,19 @@ mod tests {
         for (name, unit, words) in [
             ("energy_error_max", "", "maximum energy error"),
             ("exchange_body_peak_to_peak_j", "J", "peak-to-peak energy transfer of the body"),
-            ("exchange_w1_net_j", "J", "net energy transfer of w1"),
             ("exchange_w1_power_max_w", "W", "maximum power of energy transfer of w1"),
             ("exchange_frequency_hz", "Hz", "frequency of the energy transfer"),
-            ("energy_w1_max_j", "J", "maximum energy of w1"),
-            ("energy_com_w1_max_j", "J", "maximum energy of w1 about the centre of mass"),
             ("energy_com_total_initial_j", "J", "initial total energy about the centre of mass"),
             ("energy_error_rate_per_s", "1/s", "energy error rate"),
-            ("angular_rate_max_rad_s", "rad/s", "maximum angular rate"),
             ("omega_se_s_y_final_rad_s", "rad/s", "angular velocity about s2 at the end"),
             ("q_es_w_final", "", "attitude quaternion w at the end"),
-            ("steps", "", "steps"),
             ("pointing_error_launch_rad", "rad", "pointing error at launch"),
             ("phase_coast_again_begin_s", "s", "time until phase coast again"),
             ("impulse_total_n_s", "N s", "total impulse"),
-            ("pointing_error_final_rad", "rad", "pointing error at the end"),
             ("settling_time_s", "s", "settling time"),
             ("torque_saturated_s", "s", "time at the limit of motor torque"),
-            ("speed_saturated_s", "s", "time at the limit of wheel speed"),
             ("detumbled_time_s", "s", "time until detumbled"),
             ("highest_from_120_s_to_600_s_pointing_error_rad", "rad", "highest pointing error from 120 s to 600 s"),
-            ("highest_from_120_s_pointing_error_rad", "rad", "highest pointing error from 120 s"),
             ("lowest_to_1p5_s_energy_body_j", "J", "lowest energy of the body to 1.5 s"),
         ] {
             assert_eq!(of_column(name, unit), words);

@@ -28,10 +28,9 @@ impl Hue {
     /// colour, 8: grey, from 9: four more for wheels.
     pub const fn place(self) -> usize {
         match self {
-            Hue::Body => 0,
+            Hue::Body | Hue::Total => 0,
             Hue::Wheel(index) => [1, 2, 3, 4, 9, 10, 11, 12][index % 8],
             Hue::Debris => 5,
-            Hue::Total => 0,
             Hue::Nominal => 7,
             Hue::Failed => 1,
             Hue::Curve(index) => [0, 1, 2, 3, 4, 7][index % 6],
@@ -75,8 +74,9 @@ pub enum PointShape {
     Stem,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Scale {
+    #[default]
     Linear,
     /// Omits values that are not positive.
     Log,
@@ -84,7 +84,7 @@ pub enum Scale {
     Names(Vec<String>),
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     pub quantity: String,
     /// Empty for a pure number.
@@ -100,14 +100,7 @@ pub struct Axis {
 
 impl Axis {
     pub fn linear(quantity: impl Into<String>, unit: &str) -> Self {
-        Axis {
-            quantity: quantity.into(),
-            unit: unit.to_owned(),
-            scale: Scale::Linear,
-            range: None,
-            step: None,
-            column: String::new(),
-        }
+        Axis { quantity: quantity.into(), unit: unit.to_owned(), ..Axis::default() }
     }
 
     pub fn log(quantity: impl Into<String>, unit: &str) -> Self {

@@ -4,8 +4,7 @@ use crate::findings::names::sentence;
 use crate::findings::number::counted;
 use crate::findings::results_index::{IndexEntry, Unreadable};
 use crate::report::escaped::escaped;
-
-const STYLE: &str = include_str!("../../assets/report/page.css");
+use crate::report::page::document::head;
 
 /// The page; `title` is the name of the folder.
 pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> String {
@@ -47,16 +46,17 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
     };
     let (name, count) = (escaped(title), counted(entries.len(), "result"));
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta \
-        http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; \
-        base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, \
-        initial-scale=1\">\n<title>{name} - spindrift</title>\n<link rel=\"icon\" \
-        href=\"data:,\">\n<style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<header><h1>{name}</h1><p \
+        "{}<body>\n<header><h1>{name}</h1><p \
         class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section \
         id=\"results\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></section>\n\
-         {left_out}</main>\n</body>\n</html>\n"
+         {left_out}</main>\n</body>\n</html>\n",
+        head(title, POLICY, OWN_STYLE)
     )
 }
+
+/// The page has no scripts.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'";
 
 /// Column heads. Only the last column breaks within words.
 const HEADS: [&str; 7] =

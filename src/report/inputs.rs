@@ -42,7 +42,6 @@ impl DrawnInputs {
     fn histogram(&self, plan: &Plan, index: usize) -> Figure {
         let column = &plan.dispersions.columns()[index];
         let name = names::of_input(plan, index);
-        let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
         let values: Vec<f64> = self.columns[index].iter().copied().filter(|x| x.is_finite()).collect();
         let expected = Expected::of_column(plan, index);
         let line = match expected.as_ref().map(|expected| expected.values().is_some()) {
@@ -54,7 +53,7 @@ impl DrawnInputs {
             shown if shown == self.all => shown.to_string(),
             shown => format!("{shown} of {}", self.all),
         };
-        let histogram = of_input(&name, unit, &values, column.nominal, expected.as_ref());
+        let histogram = of_input(&name, names::own_unit(column.parameter), &values, column.nominal, expected.as_ref());
         Figure {
             name: format!("input_{}", column.parameter.column_name(column.component)),
             section: FigureSection::Inputs,
@@ -108,17 +107,8 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> =
         (0..shown.len()).map(|i| (0..shown.len()).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     for correlation in &plan.correlated {
-        let places = |(parameter, component): &(crate::scene::Parameter, Option<usize>)| -> Vec<Option<usize>> {
-            let of = |component: usize| {
-                shown.iter().position(|index| (all[*index].parameter, all[*index].component) == (*parameter, component))
-            };
-            match component {
-                Some(component) => vec![of(*component)],
-                None => (0..parameter.width()).map(of).collect(),
-            }
-        };
-        let parameters: Vec<Vec<Option<usize>>> = correlation.parameters.iter().map(places).collect();
-        let together: Vec<Option<usize>> = parameters.iter().flatten().copied().collect();
+        let place = |of| shown.iter().position(|index| (all[*index].parameter, all[*index].component) == of);
+        let together: Vec<Option<usize>> = correlation.components().into_iter().map(place).collect();
         let mut set = |a: Option<usize>, b: Option<usize>, value: f64| {
             if let (Some(a), Some(b)) = (a, b) {
                 (found[a][b], found[b][a]) = (value, value);
@@ -142,8 +132,9 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
                 }
             }
             Numbers::Rows(rows) => {
-                for (row, a) in rows.iter().zip(&parameters[0]) {
-                    for (value, b) in row.iter().zip(parameters.iter().skip(1).flatten()) {
+                let (first, others) = together.split_at(rows.len());
+                for (row, a) in rows.iter().zip(first) {
+                    for (value, b) in row.iter().zip(others) {
                         set(*a, *b, ranks(*value));
                     }
                 }

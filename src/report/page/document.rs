@@ -65,6 +65,17 @@ pub(in crate::report) fn script_of(names: &[&str]) -> String {
     format!("\"use strict\";\n{text}")
 }
 
+/// The beginning of a page up to its body; `style` follows that of every page.
+pub(in crate::report) fn head(title: &str, policy: &str, style: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta \
+        http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n<meta name=\"viewport\" \
+        content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" \
+        href=\"data:,\">\n<style>\n{STYLE}{style}</style>\n</head>\n",
+        escaped(title)
+    )
+}
+
 /// The whole page. `data` locates the numbers in the compressed payload `numbers`; `title` is that of the tab.
 pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
     // pages of figures alone have no verdicts
@@ -99,15 +110,11 @@ pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data:
     let block =
         |id: &str, text: &str| format!("<script type=\"application/octet-stream\" id=\"{id}\">{text}</script>\n");
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta \
-        http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<meta name=\"viewport\" \
-        content=\"width=device-width, initial-scale=1\">\n<title>{} - spindrift</title>\n<link rel=\"icon\" \
-        href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<nav aria-label=\"Sections\"><div \
-        class=\"links\">{links}</div><button type=\"button\" id=\"theme\" \
+        "{}<body>\n<nav aria-label=\"Sections\"><div class=\"links\">{links}</div><button type=\"button\" id=\"theme\" \
         hidden>dark</button></nav>\n<header>{first_screen}</header>\n<main>\n<noscript><p class=\"lead\">Figures need \
         JavaScript; the tables below do not.</p></noscript>\n{body}</main>\n\
          {}{}{}{}{}<script>\n{}</script>\n</body>\n</html>\n",
-        escaped(title),
+        head(title, POLICY, ""),
         block("data", &packed(data.to_string().as_bytes())),
         block("numbers", numbers),
         block("licence-texts", &packed(LICENCES.as_bytes())),

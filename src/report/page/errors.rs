@@ -100,7 +100,7 @@ pub fn histogram(
     let column = &survey.thinned.outcomes[index];
     let values: Vec<f64> = rows.iter().map(|row| column[*row]).filter(|value| value.is_finite()).collect();
     let values: Vec<f64> = if outcome.is_error { values.into_iter().map(f64::abs).collect() } else { values };
-    let title = names::sentence(&names::of_quantity(&outcome.quantity));
+    let title = names::title(&outcome.quantity);
     let (bins, is_log) = bins(&values, limits);
     let mut marks = vec![Mark::Bars {
         label: "runs".to_owned(),

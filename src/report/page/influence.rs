@@ -187,7 +187,7 @@ fn conditional(
             FigureSection::Influence,
             [
                 format!("shares_{name}_{}", column.parameter.column_name(column.component)),
-                format!("{} by {of_input}", sentence(&names::of_quantity(&outcome.quantity))),
+                format!("{} by {of_input}", names::title(&outcome.quantity)),
                 format!("{}, in classes of {of_input}{unit}.", of_runs(rows.len(), computed(survey))),
             ],
             [
@@ -204,7 +204,7 @@ fn conditional(
 fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &SurveyedOutcome) -> Figure {
     let column = &plan.dispersions.columns()[input];
     let name = names::of_input(plan, input);
-    let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
+    let unit = names::own_unit(column.parameter);
     let thinned = &survey.thinned;
     let rows: Vec<usize> =
         shown_rows(survey).into_iter().filter(|row| thinned.outcomes[index][*row].is_finite()).collect();
@@ -247,7 +247,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         FigureSection::Influence,
         [
             format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
-            format!("{} against {name}", sentence(&names::of_quantity(&outcome.quantity))),
+            format!("{} against {name}", names::title(&outcome.quantity)),
             format!("{}.", having(survey, &outcome.sketch, kept.len())),
         ],
         [

@@ -8,7 +8,6 @@ use crate::ensemble::SingleRun;
 use crate::ensemble::surroundings;
 use crate::findings::loss;
 use crate::findings::names;
-use crate::findings::names::sentence;
 use crate::math::vector::{difference, norm};
 use crate::observables::Series;
 use crate::report::over_time::control::impulse;
@@ -19,7 +18,6 @@ use crate::run::StateField;
 const ROUND_OFF: f64 = 1e-12;
 
 /// A quantity over time, with one or more components.
-#[derive(Default)]
 struct LiveNumber {
     name: String,
     /// Column that determines the unit.
@@ -33,6 +31,13 @@ struct LiveNumber {
     words: Option<[&'static str; 3]>,
     /// SI, component by component at each point.
     values: Vec<f64>,
+}
+
+impl LiveNumber {
+    fn new(name: impl Into<String>, column: impl Into<String>, unit: &'static str, values: Vec<f64>) -> Self {
+        let (name, column) = (name.into(), column.into());
+        LiveNumber { name, column, unit, components: Vec::new(), is_held: false, words: None, values }
+    }
 }
 
 fn of_row(row: &[(String, f64)], name: &str) -> Option<f64> {
@@ -72,39 +77,22 @@ fn pointing_error(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     let (_, values) = run.series.iter().find(|(series, _)| *series == Series::PointingError)?;
     let quantity = Series::PointingError.quantity(&run.request.wheels)?;
     let values = values[..points.min(values.len())].to_vec();
-    values.iter().any(|value| value.is_finite()).then(|| LiveNumber {
-        name: sentence(&names::of_quantity(&quantity)),
-        column: quantity.name().to_owned(),
-        unit: "rad",
-        is_held: true,
-        values,
-        ..LiveNumber::default()
-    })
+    let number = LiveNumber::new(names::title(&quantity), quantity.name(), "rad", values);
+    number.values.iter().any(|value| value.is_finite()).then_some(LiveNumber { is_held: true, ..number })
 }
 
 fn rate(run: &SingleRun, points: usize) -> LiveNumber {
-    LiveNumber {
-        name: "Angular velocity".to_owned(),
-        column: "angular_rate_rad_s".to_owned(),
-        unit: "rad/s",
-        components: ["s1", "s2", "s3"].map(str::to_owned).to_vec(),
-        values: (0..points).flat_map(|point| run.table.at::<3>(StateField::Rate, point)).collect(),
-        ..LiveNumber::default()
-    }
+    let values = (0..points).flat_map(|point| run.table.at::<3>(StateField::Rate, point)).collect();
+    let number = LiveNumber::new("Angular velocity", "angular_rate_rad_s", "rad/s", values);
+    LiveNumber { components: ["s1", "s2", "s3"].map(str::to_owned).to_vec(), ..number }
 }
 
 fn wheel_speeds(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     let wheels = &run.request.wheels;
-    let first = wheels.first()?;
+    let column = format!("rate_{}_rad_s", wheels.first()?);
     let at = |point: usize| (0..wheels.len()).map(move |wheel| run.table.column(StateField::WheelRates, wheel)[point]);
-    Some(LiveNumber {
-        name: "Wheel speed".to_owned(),
-        column: format!("rate_{first}_rad_s"),
-        unit: "rad/s",
-        components: wheels.iter().map(ToString::to_string).collect(),
-        values: (0..points).flat_map(at).collect(),
-        ..LiveNumber::default()
-    })
+    let number = LiveNumber::new("Wheel speed", column, "rad/s", (0..points).flat_map(at).collect());
+    Some(LiveNumber { components: wheels.iter().map(ToString::to_string).collect(), ..number })
 }
 
 /// Propellant used, scaled from the impulse by the totals of the row, or the impulse if the specific impulse is
@@ -121,7 +109,7 @@ fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Opti
         Some(_) => ("Propellant used", "propellant_kg", "kg"),
         None => ("Impulse of the thrusters", "impulse_total_n_s", "N s"),
     };
-    Some(LiveNumber { name: name.to_owned(), column: column.to_owned(), unit, values: used, ..LiveNumber::default() })
+    Some(LiveNumber::new(name, column, unit, used))
 }
 
 /// Distance and speed between the centres of mass.
@@ -129,12 +117,8 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     let apart = |[a, b]: [StateField; 2]| -> Vec<f64> {
         (0..points).map(|point| norm(difference(run.table.at::<3>(a, point), run.table.at::<3>(b, point)))).collect()
     };
-    let number = |(name, column, unit, fields): (&str, &str, &'static str, [StateField; 2])| LiveNumber {
-        name: name.to_owned(),
-        column: column.to_owned(),
-        unit,
-        values: apart(fields),
-        ..LiveNumber::default()
+    let number = |(name, column, unit, fields): (&str, &str, &'static str, [StateField; 2])| {
+        LiveNumber::new(name, column, unit, apart(fields))
     };
     let list = [
         ("Distance to the debris", "debris_distance_m", "m", [StateField::DebrisPosition, StateField::ComPosition]),
@@ -145,15 +129,8 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
 
 /// The share of the Sun hidden by the Earth.
 fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
-    Some(LiveNumber {
-        name: "Sunlight".to_owned(),
-        column: "sun_hidden_fraction".to_owned(),
-        unit: "",
-        is_held: true,
-        words: Some(["full", "part shadow", "in shadow"]),
-        values: surroundings::hidden(run, points)?,
-        ..LiveNumber::default()
-    })
+    let number = LiveNumber::new("Sunlight", "sun_hidden_fraction", "", surroundings::hidden(run, points)?);
+    Some(LiveNumber { is_held: true, words: Some(["full", "part shadow", "in shadow"]), ..number })
 }
 
 /// Times and names of the beginnings of phases, and of the end by mission or event.

@@ -293,13 +293,11 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
     }
     let mut of = |column: &[f64]| payload.singles(&rows.iter().map(|row| column[*row]).collect::<Vec<f64>>());
     let display = &plan.analysis.display;
-    let inputs = plan.dispersions.columns().iter().zip(&thinned.inputs).map(|(column, values)| {
-        let unit = if column.parameter.unit() == "1" { "" } else { column.parameter.unit() };
-        let shown = display.of(&column.parameter.name(), unit);
+    let inputs = plan.dispersions.columns().iter().zip(&thinned.inputs).enumerate().map(|(place, (column, values))| {
+        let shown = names::unit_of_input(plan, place);
         let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
-        let name = names::of_component(column.parameter, column.component);
-        json!({ "name": name, "column": column.parameter.column_name(column.component), "unit": shown.unit,
-            "input": true, "values": values })
+        json!({ "name": names::of_input(plan, place), "column": column.parameter.column_name(column.component),
+            "unit": shown.unit, "input": true, "values": values })
     });
     let inputs: Vec<Value> = inputs.collect();
     let outcomes = survey.outcomes.iter().zip(&thinned.outcomes).map(|(outcome, values)| {

@@ -231,7 +231,7 @@ fn cumulative(
         FigureSection::Outcome,
         [
             format!("{CUMULATIVE}{}", outcome.quantity.name()),
-            format!("{}: cumulative distribution", sentence(&names::of_quantity(&outcome.quantity))),
+            format!("{}: cumulative distribution", names::title(&outcome.quantity)),
             format!("Fraction of {} with at most this value. {interval}", all_having(survey, &outcome.sketch)),
         ],
         [

@@ -9,7 +9,6 @@ use crate::control::net_launch::geometry::LaunchState;
 use crate::control::net_launch::parameters::DebrisNumbers;
 use crate::ensemble::SingleRun;
 use crate::findings::names;
-use crate::findings::names::sentence;
 use crate::math::vector::{dcm_from_quaternion, difference, product};
 use crate::report::page::live;
 use crate::report::page::payload::Payload;
@@ -249,9 +248,9 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
         let unit = plan.analysis.display.of(name, one.quantity.unit());
         if *name == "launched" {
             let word = if one.value(number)? == 1.0 { "yes" } else { "no" };
-            return Some([sentence(&names::of_quantity(&one.quantity)), word.to_owned()]);
+            return Some([names::title(&one.quantity), word.to_owned()]);
         }
-        Some([sentence(&names::of_quantity(&one.quantity)), with_unit(unit.value(one.value(number)?), &unit.unit)])
+        Some([names::title(&one.quantity), with_unit(unit.value(one.value(number)?), &unit.unit)])
     };
     names.iter().filter_map(value).collect()
 }

@@ -190,7 +190,7 @@ pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> S
             };
             format!(
                 "<dt>{}{unit}</dt><dd>{} Column <code>{}</code>.</dd>",
-                escaped(&sentence(&names::of_quantity(&outcome.quantity))),
+                escaped(&names::title(&outcome.quantity)),
                 escaped(outcome.quantity.meaning()),
                 escaped(outcome.quantity.name())
             )
