@@ -81,7 +81,7 @@ impl Expected {
 mod tests {
     use super::*;
     use crate::campaign::Overrides;
-    use crate::sampling::distribution::choice::ChoiceQuantile;
+    use crate::sampling::distribution::choice::Choice;
 
     fn plan(dispersion: &str) -> Plan {
         let (nominal, _) = include_str!("../../campaigns/no_debris.toml").split_once("[[disperse]]").unwrap();
@@ -113,7 +113,7 @@ mod tests {
             assert!(found.iter().all(|count| (count - 100.0).abs() < 2.0), "{component}: {found:?}");
             assert_eq!(expected.values(), None);
         }
-        let choice = ChoiceQuantile::new(&[0.05, 0.01, 0.02, 7.0], &[1.0, 2.0, 1.0, 0.0]);
+        let choice = Choice::new(&[0.05, 0.01, 0.02, 7.0], &[1.0, 2.0, 1.0, 0.0]);
         let expected = Expected::of_quantile(|u| choice.quantile(u));
         assert_eq!(counts(&expected, &[0.01, 0.02, 0.03, 0.04, 0.05], 100), [50.0, 25.0, 0.0, 25.0]);
         assert_eq!(counts(&expected, &[0.015, 0.03], 100), [25.0]);

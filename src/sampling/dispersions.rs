@@ -5,7 +5,7 @@ use super::copula::Copula;
 use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
-use super::distribution::target::{JointTarget, Target};
+use super::distribution::target::Target;
 use super::distribution::{Distribution, Joint, Map, NumberWords, Quantile, WrittenDistribution};
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error, error_of};
 use super::keys::DataColumn;
@@ -199,15 +199,17 @@ impl Dispersions {
         self.check_components(index, dispersion, &components, nominal)?;
         let nominals: Vec<f64> = components.iter().filter_map(|(p, c)| p.value(nominal, *c)).collect();
         let WrittenDistribution { kind, written } = distribution;
-        let target = Target { index, nominals: &nominals, rows: kind.keys(), written };
+        let target = Target {
+            index,
+            parameter: *parameter,
+            component: *component,
+            nominals: &nominals,
+            rows: kind.keys(),
+            written,
+        };
         let maps: Vec<(Vec<(Parameter, usize)>, Transform)> = match kind.distributions(&target)? {
             Some(list) => components.iter().zip(list).map(|(c, one)| (vec![*c], Transform::Scalar(one))).collect(),
-            None => {
-                let target =
-                    JointTarget { index, parameter: *parameter, component: *component, nominals: &nominals, written };
-                let joint = kind.joint(&target)?;
-                joint.map(|joint| (components, Transform::Joint(joint))).into_iter().collect()
-            }
+            None => kind.joint(&target)?.map(|joint| (components, Transform::Joint(joint))).into_iter().collect(),
         };
         for (components, map) in maps {
             let first = self.dimensions.len();

@@ -163,14 +163,14 @@ pub(super) fn scores_of_ranks(rank: f64, a: &Distribution, b: &Distribution) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::super::distribution::choice::ChoiceQuantile;
-    use super::super::distribution::normal::NormalQuantile;
+    use super::super::distribution::choice::Choice;
+    use super::super::distribution::normal::Normal;
     use super::*;
     use core::f64::consts::PI;
 
     fn choice(weights: &[f64]) -> Distribution {
         let values: Vec<f64> = (0..weights.len()).map(|k| k as f64).collect();
-        Distribution::Choice(ChoiceQuantile::new(&values, weights))
+        Distribution::Choice(Choice::new(&values, weights))
     }
 
     fn rank(a: &Distribution, b: &Distribution, r: f64) -> f64 {
@@ -182,7 +182,7 @@ mod tests {
     /// normal probabilities (double integrals, 30 digits) for steps.
     #[test]
     fn rank_correlations_are_known_ones() {
-        let normal = Distribution::Normal(NormalQuantile { mean: 0.0, std: 1.0 });
+        let normal = Distribution::Normal(Normal { mean: 0.0, std: 1.0 });
         for r in [-0.9, 0.2, 0.7] {
             // the quadrature over the correlation; measured: 2.9e-11
             assert!((rank(&normal, &normal, r) - 6.0 / PI * libm::asin(0.5 * r)).abs() < 1e-10, "{r}");

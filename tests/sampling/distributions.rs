@@ -3,35 +3,35 @@
 use crate::support::draws::distance;
 use crate::support::prelude::*;
 use spindrift::sampling::distribution::Quantile;
-use spindrift::sampling::distribution::beta::BetaQuantile;
-use spindrift::sampling::distribution::choice::ChoiceQuantile;
-use spindrift::sampling::distribution::empirical::{EmpiricalQuantile, Interpolation};
-use spindrift::sampling::distribution::exponential::ExponentialQuantile;
-use spindrift::sampling::distribution::gamma::GammaQuantile;
-use spindrift::sampling::distribution::log_normal::LogNormalQuantile;
-use spindrift::sampling::distribution::log_uniform::LogUniformQuantile;
-use spindrift::sampling::distribution::normal::NormalQuantile;
-use spindrift::sampling::distribution::pert::PertQuantile;
-use spindrift::sampling::distribution::rayleigh::RayleighQuantile;
-use spindrift::sampling::distribution::student_t::StudentTQuantile;
-use spindrift::sampling::distribution::triangular::TriangularQuantile;
-use spindrift::sampling::distribution::truncated_normal::TruncatedNormalQuantile;
-use spindrift::sampling::distribution::uniform::UniformQuantile;
-use spindrift::sampling::distribution::weibull::WeibullQuantile;
+use spindrift::sampling::distribution::beta::Beta;
+use spindrift::sampling::distribution::choice::Choice;
+use spindrift::sampling::distribution::empirical::{Empirical, Interpolation};
+use spindrift::sampling::distribution::exponential::Exponential;
+use spindrift::sampling::distribution::gamma::Gamma;
+use spindrift::sampling::distribution::log_normal::LogNormal;
+use spindrift::sampling::distribution::log_uniform::LogUniform;
+use spindrift::sampling::distribution::normal::Normal;
+use spindrift::sampling::distribution::pert::Pert;
+use spindrift::sampling::distribution::rayleigh::Rayleigh;
+use spindrift::sampling::distribution::student_t::StudentT;
+use spindrift::sampling::distribution::triangular::Triangular;
+use spindrift::sampling::distribution::truncated_normal::TruncatedNormal;
+use spindrift::sampling::distribution::uniform::Uniform;
+use spindrift::sampling::distribution::weibull::Weibull;
 use spindrift::sampling::{Distribution, Stream};
 
 fn law(name: &str, p: &[f64]) -> Distribution {
     match name {
-        "normal" => Distribution::Normal(NormalQuantile { mean: p[0], std: p[1] }),
-        "uniform" => Distribution::Uniform(UniformQuantile { min: p[0], max: p[1] }),
-        "log_normal" => Distribution::LogNormal(LogNormalQuantile { median: p[0], log_std: p[1] }),
-        "log_uniform" => Distribution::LogUniform(LogUniformQuantile::new(p[0], p[1])),
-        "triangular" => Distribution::Triangular(TriangularQuantile { min: p[0], mode: p[1], max: p[2] }),
-        "beta" => Distribution::Beta(BetaQuantile::new(p[0], p[1], p[2], p[3])),
-        "pert" => Distribution::Pert(PertQuantile::new(p[0], p[1], p[2])),
-        "truncated_normal" => {
-            Distribution::TruncatedNormal(TruncatedNormalQuantile::new(p[0], p[1], p[2], p[3]).unwrap())
-        }
+        "normal" => Distribution::Normal(Normal { mean: p[0], std: p[1] }),
+        "uniform" => Distribution::Uniform(Uniform { min: p[0], max: p[1] }),
+        "log_normal" => Distribution::LogNormal(LogNormal { median: p[0], log_std: p[1] }),
+        "log_uniform" => Distribution::LogUniform(LogUniform::new(p[0], p[1])),
+        "triangular" => Distribution::Triangular(Triangular { min: p[0], mode: p[1], max: p[2] }),
+        "beta" => Distribution::Beta(Beta::new(p[0], p[1], p[2], p[3])),
+        "pert" => Distribution::Pert(Pert::new(p[0], p[1], p[2])),
+        "truncated_normal" => Distribution::TruncatedNormal(
+            TruncatedNormal::new(p[0], p[1], p[2], p[3]).unwrap(),
+        ),
         other => panic!("{other}"),
     }
 }
@@ -64,16 +64,16 @@ fn quantiles_are_those_of_scipy() {
 }
 
 fn laws_of(name: &str, p: &[f64]) -> Vec<Distribution> {
-    let beta = |min, max| Distribution::Beta(BetaQuantile::new(p[0], p[1], min, max));
+    let beta = |min, max| Distribution::Beta(Beta::new(p[0], p[1], min, max));
     match name {
         "beta" => vec![beta(0.0, 1.0), beta(-1.0, 0.0)],
-        "gamma" => vec![Distribution::Gamma(GammaQuantile::new(p[0], 1.0, 0.0))],
-        "student_t" => vec![Distribution::StudentT(StudentTQuantile::new(p[0], 0.0, 1.0))],
-        "weibull" => vec![Distribution::Weibull(WeibullQuantile { shape: p[0], scale: 1.0, min: 0.0 })],
+        "gamma" => vec![Distribution::Gamma(Gamma::new(p[0], 1.0, 0.0))],
+        "student_t" => vec![Distribution::StudentT(StudentT::new(p[0], 0.0, 1.0))],
+        "weibull" => vec![Distribution::Weibull(Weibull { shape: p[0], scale: 1.0, min: 0.0 })],
         "truncated_normal" => {
-            TruncatedNormalQuantile::new(0.0, 1.0, p[0], p[1]).map(Distribution::TruncatedNormal).into_iter().collect()
+            TruncatedNormal::new(0.0, 1.0, p[0], p[1]).map(Distribution::TruncatedNormal).into_iter().collect()
         }
-        "exponential" => vec![Distribution::Exponential(ExponentialQuantile { scale: 1.0, min: 0.0 })],
+        "exponential" => vec![Distribution::Exponential(Exponential { scale: 1.0, min: 0.0 })],
         other => panic!("{other}"),
     }
 }
@@ -129,11 +129,11 @@ fn draws(law: &Distribution) -> Vec<f64> {
 #[test]
 fn draws_follow_their_distributions() {
     let rayleigh = |scale: f64| move |x: f64| 1.0 - (-0.5 * (x / scale).powi(2)).exp();
-    let values = draws(&Distribution::Rayleigh(RayleighQuantile { scale: 0.02 }));
+    let values = draws(&Distribution::Rayleigh(Rayleigh { scale: 0.02 }));
     assert!(distance(values.iter().copied(), rayleigh(0.02)) < CRITICAL);
     assert!(distance(values.iter().copied(), rayleigh(0.0204)) > CRITICAL, "a scale off by 2% is found");
 
-    let lines = EmpiricalQuantile::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
+    let lines = Empirical::new(&[0.0, 1.0, 3.0], Interpolation::Linear);
     let values = draws(&Distribution::Empirical(lines));
     assert!(distance(values.iter().copied(), |x| if x < 1.0 { x / 2.0 } else { 0.5 + (x - 1.0) / 4.0 }) < CRITICAL);
 }
@@ -143,7 +143,7 @@ fn draws_follow_their_distributions() {
 #[test]
 fn listed_values_come_in_proportion() {
     let counted = |weights: &[f64; 4]| {
-        let values = draws(&Distribution::Choice(ChoiceQuantile::new(&[4.0, 1.0, 3.0, 2.0], weights)));
+        let values = draws(&Distribution::Choice(Choice::new(&[4.0, 1.0, 3.0, 2.0], weights)));
         let count = |value: f64| values.iter().filter(|x| **x == value).count() as f64;
         let expected = [0.1, 0.4, 0.2, 0.3].map(|weight| weight * N as f64);
         let counts = [count(4.0), count(1.0), count(3.0), count(2.0)];
@@ -153,7 +153,7 @@ fn listed_values_come_in_proportion() {
     const CRITICAL: f64 = 16.27;
     assert!(counted(&[1.0, 4.0, 2.0, 3.0]) < CRITICAL);
     assert!(counted(&[1.0, 4.1, 2.0, 2.9]) > CRITICAL, "a weight that is off is found");
-    let values = draws(&Distribution::Empirical(EmpiricalQuantile::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
+    let values = draws(&Distribution::Empirical(Empirical::new(&[1.0, 2.0, 2.0, 5.0], Interpolation::None)));
     let twos = values.iter().filter(|x| **x == 2.0).count() as f64;
     // 3.29 standard errors: alpha = 1e-3
     assert!((twos / N as f64 - 0.5).abs() < 3.29 * 0.5 / (N as f64).sqrt());
@@ -163,15 +163,15 @@ fn listed_values_come_in_proportion() {
 #[test]
 fn quantiles_rise() {
     let mut laws: Vec<Distribution> = vec![
-        Distribution::LogNormal(LogNormalQuantile { median: 2.5, log_std: 0.4 }),
-        Distribution::LogUniform(LogUniformQuantile::new(0.1, 10.0)),
-        Distribution::Rayleigh(RayleighQuantile { scale: 0.02 }),
-        Distribution::Triangular(TriangularQuantile { min: 1.0, mode: 4.0, max: 4.0 }),
-        Distribution::Choice(ChoiceQuantile::new(&[4.0, 1.0], &[0.25, 0.75])),
-        Distribution::Empirical(EmpiricalQuantile::new(&[3.0, 1.0, 2.0], Interpolation::None)),
+        Distribution::LogNormal(LogNormal { median: 2.5, log_std: 0.4 }),
+        Distribution::LogUniform(LogUniform::new(0.1, 10.0)),
+        Distribution::Rayleigh(Rayleigh { scale: 0.02 }),
+        Distribution::Triangular(Triangular { min: 1.0, mode: 4.0, max: 4.0 }),
+        Distribution::Choice(Choice::new(&[4.0, 1.0], &[0.25, 0.75])),
+        Distribution::Empirical(Empirical::new(&[3.0, 1.0, 2.0], Interpolation::None)),
     ];
     for (a, b) in [(0.01, 0.01), (0.01, 1e4), (1e4, 0.01), (1e4, 1e4), (1.0, 3.0), (0.5, 0.02)] {
-        laws.push(Distribution::Beta(BetaQuantile::new(a, b, -1.0, 2.0)));
+        laws.push(Distribution::Beta(Beta::new(a, b, -1.0, 2.0)));
     }
     // numbers near the largest
     let extreme = [
@@ -181,7 +181,7 @@ fn quantiles_rise() {
         law("uniform", &[-1.7e308, 1.7e308]),
         law("beta", &[2.0, 3.0, -1.7e308, 1.7e308]),
         law("pert", &[-1.7e308, 0.0, 1.7e308]),
-        Distribution::Empirical(EmpiricalQuantile::new(&[-1.7e308, 1.7e308], Interpolation::Linear)),
+        Distribution::Empirical(Empirical::new(&[-1.7e308, 1.7e308], Interpolation::Linear)),
     ];
     assert!(
         extreme.iter().all(|law| law.quantile(1e-3) < law.quantile(0.3) && law.quantile(0.7) < law.quantile(0.999))

@@ -1,25 +1,20 @@
 //! `about_axis`: the nominal attitude turned about a body `axis` by a random angle (`[disperse.angle_rad]`).
 
-use super::target::JointTarget;
-use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
+use super::target::Target;
+use super::traits::{Map, Nested, NumberWords, Together};
 use crate::math::vector::{hamilton, norm, scaled};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row};
-use std::marker::PhantomData;
-
-/// The distribution; `N` lists the distributions of the angle.
-#[derive(Clone, Copy, Debug)]
-pub struct AboutAxis<N>(PhantomData<N>);
 
 /// q = q_0 (x) exp(angle axis/2).
 #[derive(Clone, Debug, PartialEq)]
-pub struct AboutAxisMap<Q> {
+pub struct AboutAxis<Q> {
     nominal: [f64; 4],
     axis: [f64; 3],
     angle: Q,
 }
 
-impl<N: Nested> Together for AboutAxis<N> {
+impl<Q: Nested> Together for AboutAxis<Q> {
     const NAME: &'static str = "about_axis";
     const KEYS: &'static [Row] = &[
         Row::new("axis", Kind::Vector, "The axis, of any length, in the frame of the body")
@@ -27,17 +22,17 @@ impl<N: Nested> Together for AboutAxis<N> {
         Row::new("angle_rad", Kind::Distribution, "The distribution of the angle about it")
             .required_as("given, a distribution of one number", "{ distribution = \"normal\", std = 0.1 }"),
     ];
-    type Map = AboutAxisMap<N::Quantile>;
+    type Map = Self;
 
-    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let nominal = target.attitude(Self::NAME)?;
         let axis = target.axis(target.written.vector("axis").unwrap_or_default())?;
-        let angle = nested::<N>(target, "angle_rad", 0.0)?;
-        Ok(AboutAxisMap { nominal, axis: scaled(1.0 / norm(axis), axis), angle })
+        let angle = Q::nested(target, "angle_rad", 0.0)?;
+        Ok(AboutAxis { nominal, axis: scaled(1.0 / norm(axis), axis), angle })
     }
 }
 
-impl<Q: Quantile> Map for AboutAxisMap<Q> {
+impl<Q: Nested> Map for AboutAxis<Q> {
     fn dimensions(&self) -> usize {
         self.angle.dimensions()
     }

@@ -1,29 +1,26 @@
 //! `attitude_error`: a normal rotation vector from the nominal attitude, in the frame of the body, with `std_rad` or
 //! `covariance_rad2`.
 
-use super::target::JointTarget;
+use super::target::Target;
 use super::traits::{Map, NumberWords, Together};
 use crate::math::normal::quantile;
 use crate::math::vector::{dot, hamilton, norm, scaled};
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values};
 
-#[derive(Clone, Copy, Debug)]
-pub struct AttitudeError;
-
 /// q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AttitudeErrorMap {
+pub struct AttitudeError {
     nominal: [f64; 4],
     /// Lower triangular L, rad: the covariance is L L^T.
     factor: [[f64; 3]; 3],
 }
 
-impl AttitudeErrorMap {
+impl AttitudeError {
     /// About the unit quaternion `nominal`, with `covariance`, rad^2; `None` if that is not symmetric positive
     /// semidefinite (to 1e-12 of its trace).
     pub fn new(nominal: [f64; 4], covariance: [[f64; 3]; 3]) -> Option<Self> {
-        Some(AttitudeErrorMap { nominal, factor: factor(covariance)? })
+        Some(AttitudeError { nominal, factor: factor(covariance)? })
     }
 }
 
@@ -34,9 +31,9 @@ impl Together for AttitudeError {
         Row::new("covariance_rad2", Kind::Matrix, "Covariance matrix of the rotation vector, by rows, rad^2"),
     ];
     const RULES: &'static [Rule] = &[Rule::One(&[&["std_rad"], &["covariance_rad2"]], "0.01", ALL_BUT_ONE)];
-    type Map = AttitudeErrorMap;
+    type Map = Self;
 
-    fn map(target: &JointTarget<'_>) -> Result<AttitudeErrorMap, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let nominal = target.attitude(Self::NAME)?;
         let (key, shown, covariance) = match (target.written.values("std_rad"), target.written.get("covariance_rad2")) {
             (None, Some(Value::Matrix(covariance))) => ("covariance_rad2", format!("{covariance:?}"), *covariance),
@@ -45,7 +42,7 @@ impl Together for AttitudeError {
                 ("std_rad", std.text(), variances(target.index, std)?)
             }
         };
-        match AttitudeErrorMap::new(nominal, covariance) {
+        match AttitudeError::new(nominal, covariance) {
             Some(map) => Ok(map),
             None => {
                 let remedy = "variances on the diagonal; |c_ij| at most the root of c_ii c_jj";
@@ -55,7 +52,7 @@ impl Together for AttitudeError {
     }
 }
 
-impl Map for AttitudeErrorMap {
+impl Map for AttitudeError {
     fn dimensions(&self) -> usize {
         3
     }

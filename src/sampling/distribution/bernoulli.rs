@@ -1,6 +1,6 @@
 //! `bernoulli`: a different `value` with some `probability`, else the nominal value.
 
-use super::choice::ChoiceQuantile;
+use super::choice::Choice;
 use super::target::Target;
 use super::traits::Scalar;
 use crate::sampling::error::DispersionError;
@@ -20,10 +20,10 @@ impl Scalar for Bernoulli {
             between(0.0, 1.0),
         ),
     ];
-    type Quantile = ChoiceQuantile;
+    type Quantile = Choice;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<ChoiceQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Choice>, DispersionError> {
         let (p, value) = (target.each("probability")?, target.each("value")?);
-        target.all(|k| Ok(ChoiceQuantile::new(&[target.nominals[k], value[k]], &[1.0 - p[k], p[k]])))
+        target.all(|k| Ok(Choice::new(&[target.nominals[k], value[k]], &[1.0 - p[k], p[k]])))
     }
 }

@@ -12,9 +12,6 @@ use crate::sampling::keys::{Range, Row, between};
 /// Allowed shape parameters: outside, the distribution is one spike or two.
 const SHAPES: Range = between(0.01, 1e4);
 
-#[derive(Clone, Copy, Debug)]
-pub struct Beta;
-
 const fn shape(key: &'static str, meaning: &'static str) -> Row {
     let remedy = "1 is a uniform distribution";
     Row::values(key, meaning).within("a number from 0.01 to 1e4", remedy, SHAPES)
@@ -28,18 +25,18 @@ impl Scalar for Beta {
         Row::amounts("min", "Lower end").required("0.0"),
         Row::amounts("max", "Upper end").required("1.0"),
     ];
-    type Quantile = BetaQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<BetaQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let (alpha, beta) = (target.each("alpha")?, target.each("beta")?);
         let (min, max) = target.ends()?;
-        target.all(|k| Ok(BetaQuantile::new(alpha[k], beta[k], min[k], max[k])))
+        target.all(|k| Ok(Self::new(alpha[k], beta[k], min[k], max[k])))
     }
 }
 
 /// A beta distribution from `min` to `max`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BetaQuantile {
+pub struct Beta {
     alpha: f64,
     beta: f64,
     min: f64,
@@ -48,11 +45,11 @@ pub struct BetaQuantile {
     logit: OfScore,
 }
 
-impl BetaQuantile {
+impl Beta {
     /// With shapes from 0.01 to 1e4.
     pub fn new(alpha: f64, beta: f64, min: f64, max: f64) -> Self {
         let logit = OfScore::new(&|p, q| logit_quantile(p, q, alpha, beta), alpha.min(beta));
-        BetaQuantile { alpha, beta, min, max, logit }
+        Beta { alpha, beta, min, max, logit }
     }
 
     /// The value at the normal score `z`; relative error of its distance from the nearer end below 1e-12 (test
@@ -72,7 +69,7 @@ impl BetaQuantile {
     }
 }
 
-impl Quantile for BetaQuantile {
+impl Quantile for Beta {
     fn quantile(&self, u: f64) -> f64 {
         self.at_score(quantile(u))
     }

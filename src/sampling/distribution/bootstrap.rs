@@ -1,25 +1,22 @@
 //! `bootstrap`: the `parameters` of one row of a `file`, drawn with replacement (B. Efron, *Ann. Stat.* 7 (1979) 1),
 //! which keeps their joint distribution.
 
-use super::target::JointTarget;
+use super::target::Target;
 use super::traits::{Map, NumberWords, Together};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{FILE_OF_PARAMETERS, Row};
 use std::sync::Arc;
 
-#[derive(Clone, Copy, Debug)]
-pub struct Bootstrap;
-
 /// A row of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BootstrapMap {
+pub struct Bootstrap {
     file: String,
     /// The numbers of each column, row by row; equally many in each, at least one.
     columns: Vec<Arc<[f64]>>,
 }
 
-impl BootstrapMap {
-    /// The numbers of row `row`, below [`BootstrapMap::rows`].
+impl Bootstrap {
+    /// The numbers of row `row`, below [`Bootstrap::rows`].
     pub fn values_of(&self, row: usize, values: &mut [f64]) {
         values.iter_mut().zip(&self.columns).for_each(|(value, column)| *value = column[row]);
     }
@@ -32,11 +29,11 @@ impl BootstrapMap {
 impl Together for Bootstrap {
     const NAME: &'static str = "bootstrap";
     const KEYS: &'static [Row] = &[FILE_OF_PARAMETERS];
-    type Map = BootstrapMap;
+    type Map = Self;
 
-    fn map(target: &JointTarget<'_>) -> Result<BootstrapMap, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let columns = target.written.columns();
-        let map = BootstrapMap {
+        let map = Bootstrap {
             file: columns.first().map_or_else(String::new, |column| column.file.clone()),
             columns: columns.iter().map(|column| column.values.clone()).collect(),
         };
@@ -47,7 +44,7 @@ impl Together for Bootstrap {
     }
 }
 
-impl Map for BootstrapMap {
+impl Map for Bootstrap {
     fn dimensions(&self) -> usize {
         1
     }

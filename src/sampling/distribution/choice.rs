@@ -7,18 +7,15 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row};
 use std::sync::Arc;
 
-#[derive(Clone, Copy, Debug)]
-pub struct Choice;
-
 /// One of a list of values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ChoiceQuantile {
+pub struct Choice {
     values: Arc<[f64]>,
     /// Probability of this value or a smaller one.
     cumulative: Arc<[f64]>,
 }
 
-impl ChoiceQuantile {
+impl Choice {
     /// `values` with relative `weights`; at least one is above zero.
     pub fn new(values: &[f64], weights: &[f64]) -> Self {
         let mut pairs: Vec<(f64, f64)> = values.iter().copied().zip(weights.iter().copied()).collect();
@@ -30,14 +27,14 @@ impl ChoiceQuantile {
             below += weight;
             below / sum
         });
-        ChoiceQuantile { cumulative: cumulative.collect(), values: pairs.iter().map(|(value, _)| *value).collect() }
+        Choice { cumulative: cumulative.collect(), values: pairs.iter().map(|(value, _)| *value).collect() }
     }
 }
 
 /// Most values listed in words besides the last.
 const LISTED: usize = 4;
 
-impl ChoiceQuantile {
+impl Choice {
     /// Each different value with its probability.
     fn shares(&self) -> Vec<(f64, f64)> {
         let mut shares: Vec<(f64, f64)> = Vec::new();
@@ -60,9 +57,9 @@ impl Scalar for Choice {
         Row::new("values", Kind::AmountList, "The values").required_as("an array of finite numbers", "[1.0, 2.0]"),
         Row::new("weights", Kind::List, "Their relative weights; default: equal"),
     ];
-    type Quantile = ChoiceQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<ChoiceQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let shown = |list: &[f64]| format!("{list:?}");
         let values = target.written.numbers("values").unwrap_or_default();
         if values.is_empty() || values.iter().any(|x| !x.is_finite()) {
@@ -83,12 +80,12 @@ impl Scalar for Choice {
             let remedy = "divide all by the same number: their proportions count";
             return target.refused("weights", shown(weights), "numbers with a finite sum", remedy);
         }
-        let choice = ChoiceQuantile::new(values, weights);
+        let choice = Choice::new(values, weights);
         target.all(|_| Ok(choice.clone()))
     }
 }
 
-impl Quantile for ChoiceQuantile {
+impl Quantile for Choice {
     /// The smallest value whose cumulative probability reaches `u`.
     fn quantile(&self, u: f64) -> f64 {
         let place = self.cumulative.partition_point(|below| *below < u);

@@ -4,121 +4,63 @@
 //! Isotropic means uniform in solid angle, that is in the cosine of the angle to the axis, and not in components or the
 //! angle (test `usual_mistakes_are_caught`).
 
-use super::target::JointTarget;
-use super::traits::{Map, Nested, NumberWords, Quantile, Together, nested};
+use super::target::Target;
+use super::traits::{Map, Nested, NumberWords, Together};
 use crate::math::vector::{cross, norm, scaled};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row, between};
 use core::f64::consts::{PI, TAU};
-use std::marker::PhantomData;
-
-/// Uniform over the sphere; `N` lists the distributions of the magnitude.
-#[derive(Clone, Copy, Debug)]
-pub struct UniformDirection<N>(PhantomData<N>);
-
-/// Uniform within a cone.
-#[derive(Clone, Copy, Debug)]
-pub struct Cone<N>(PhantomData<N>);
-
-/// Von Mises-Fisher: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R.
-/// Soc. A 217, 1953).
-#[derive(Clone, Copy, Debug)]
-pub struct VonMisesFisher<N>(PhantomData<N>);
+use std::fmt::Debug;
 
 const AXIS: Row = Row::new("axis", Kind::Vector, "The axis, of any length; default: the nominal vector");
 const MAGNITUDE: Row =
     Row::new("magnitude", Kind::Distribution, "The distribution of the length; default: the nominal length");
 
-#[derive(Clone, Debug, PartialEq)]
-pub struct DirectionMap<Q> {
-    /// Two unit vectors normal to the axis, then the axis.
-    frame: [[f64; 3]; 3],
-    spread: DirectionSpread,
-    magnitude: Magnitude<Q>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum Magnitude<Q> {
-    Fixed(f64),
-    Drawn(Q),
-}
-
 /// The distribution of the angle to the axis; the azimuth is uniform.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum DirectionSpread {
-    Sphere,
-    /// Uniform over the cone of this half-angle, rad, above 0 and at most pi.
-    Cone {
-        half_angle_rad: f64,
-    },
-    /// Von Mises-Fisher with kappa > 0, about 1/sigma^2 of a narrow distribution.
-    Fisher {
-        concentration: f64,
-    },
-}
+pub trait Spread: Clone + Copy + Debug + PartialEq {
+    /// The name of the distribution in campaign files.
+    const NAME: &'static str;
+    const KEYS: &'static [Row];
+    /// The axis where the nominal vector is zero.
+    const AXIS: Option<[f64; 3]> = None;
 
-impl DirectionSpread {
+    fn new(target: &Target<'_>) -> Self;
+
     /// 1 - cos(theta) at `u`, exact near the axis, where 1 minus a cosine has no digits.
-    #[inline]
-    fn versine(self, u: f64) -> f64 {
-        match self {
-            DirectionSpread::Sphere => 2.0 * u,
-            DirectionSpread::Cone { half_angle_rad } => {
-                let sine = libm::sin(0.5 * half_angle_rad);
-                2.0 * sine * sine * u
-            }
-            // P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa))
-            DirectionSpread::Fisher { concentration } => {
-                (-libm::log1p(u * libm::expm1(-2.0 * concentration)) / concentration).min(2.0)
-            }
-        }
-    }
+    fn versine(self, u: f64) -> f64;
+
+    /// Its description, about the written `axis`.
+    fn text(self, axis: &str, words: NumberWords<'_>) -> String;
 }
 
-/// The map of a direction with `spread` about the axis, and of its magnitude.
-fn direction_map<N: Nested>(
-    name: &str,
-    spread: DirectionSpread,
-    target: &JointTarget<'_>,
-) -> Result<DirectionMap<N::Quantile>, DispersionError> {
-    let nominal = target.vector(name)?;
-    let length = length_of(nominal);
-    let axis = match target.written.vector("axis") {
-        Some(axis) => target.axis(axis)?,
-        None if length > 0.0 => target.axis(nominal)?,
-        None if spread == DirectionSpread::Sphere => [0.0, 0.0, 1.0],
-        None => {
-            let allowed = "given where the nominal vector is zero and has no direction";
-            return target.lacks("axis", allowed, "add axis = [0, 0, 1]");
-        }
-    };
-    let magnitude = match target.written.has("magnitude") {
-        true if target.is_direction() => {
-            let allowed = format!("left out: the length of {} has no effect", target.parameter.name());
-            return target.refused("magnitude", "{ ... }", allowed, "delete it");
-        }
-        true => Magnitude::Drawn(nested::<N>(target, "magnitude", length)?),
-        false if length == 0.0 => {
-            let allowed = "given where the nominal vector is zero: every direction of it would be zero";
-            let remedy = "add magnitude = { distribution = \"uniform\", min = 0, max = 1 }";
-            return target.lacks("magnitude", allowed, remedy);
-        }
-        false => Magnitude::Fixed(length),
-    };
-    Ok(DirectionMap { frame: frame(axis), spread, magnitude })
-}
+/// Uniform over the sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere;
 
-impl<N: Nested> Together for UniformDirection<N> {
+impl Spread for Sphere {
     const NAME: &'static str = "uniform_direction";
     const KEYS: &'static [Row] = &[AXIS, MAGNITUDE];
-    type Map = DirectionMap<N::Quantile>;
+    const AXIS: Option<[f64; 3]> = Some([0.0, 0.0, 1.0]);
 
-    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        direction_map::<N>(Self::NAME, DirectionSpread::Sphere, target)
+    fn new(_target: &Target<'_>) -> Self {
+        Sphere
+    }
+
+    #[inline]
+    fn versine(self, u: f64) -> f64 {
+        2.0 * u
+    }
+
+    fn text(self, _axis: &str, _words: NumberWords<'_>) -> String {
+        "direction uniform over the sphere".to_owned()
     }
 }
 
-impl<N: Nested> Together for Cone<N> {
+/// Uniform within a cone of this half-angle, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone(f64);
+
+impl Spread for Cone {
     const NAME: &'static str = "cone";
     const KEYS: &'static [Row] = &[
         Row::new("half_angle_rad", Kind::Number, "Half-angle of the cone")
@@ -127,15 +69,28 @@ impl<N: Nested> Together for Cone<N> {
         AXIS,
         MAGNITUDE,
     ];
-    type Map = DirectionMap<N::Quantile>;
 
-    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        let half_angle_rad = target.written.number("half_angle_rad").unwrap_or(f64::NAN);
-        direction_map::<N>(Self::NAME, DirectionSpread::Cone { half_angle_rad }, target)
+    fn new(target: &Target<'_>) -> Self {
+        Cone(target.written.number("half_angle_rad").unwrap_or(f64::NAN))
+    }
+
+    #[inline]
+    fn versine(self, u: f64) -> f64 {
+        let sine = libm::sin(0.5 * self.0);
+        2.0 * sine * sine * u
+    }
+
+    fn text(self, axis: &str, words: NumberWords<'_>) -> String {
+        format!("direction uniform within {} of {axis}", (words.angle)(self.0))
     }
 }
 
-impl<N: Nested> Together for VonMisesFisher<N> {
+/// Von Mises-Fisher: density proportional to exp(kappa cos theta) (R. A. Fisher, *Dispersion on a sphere*, Proc. R.
+/// Soc. A 217, 1953), with this kappa > 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VonMisesFisher(f64);
+
+impl Spread for VonMisesFisher {
     const NAME: &'static str = "von_mises_fisher";
     const KEYS: &'static [Row] = &[
         Row::new("concentration", Kind::Number, "kappa; about 1/sigma^2 for a narrow distribution")
@@ -148,16 +103,71 @@ impl<N: Nested> Together for VonMisesFisher<N> {
         AXIS,
         MAGNITUDE,
     ];
-    type Map = DirectionMap<N::Quantile>;
 
-    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError> {
-        let concentration = target.written.number("concentration").unwrap_or(f64::NAN);
-        direction_map::<N>(Self::NAME, DirectionSpread::Fisher { concentration }, target)
+    fn new(target: &Target<'_>) -> Self {
+        VonMisesFisher(target.written.number("concentration").unwrap_or(f64::NAN))
+    }
+
+    #[inline]
+    fn versine(self, u: f64) -> f64 {
+        // P(1 - cos <= v) = (1 - exp(-kappa v))/(1 - exp(-2 kappa))
+        (-libm::log1p(u * libm::expm1(-2.0 * self.0)) / self.0).min(2.0)
+    }
+
+    fn text(self, axis: &str, words: NumberWords<'_>) -> String {
+        format!("direction von Mises-Fisher, kappa {}, about {axis}", (words.number)(self.0))
     }
 }
 
-impl<Q: Quantile> Map for DirectionMap<Q> {
-    /// Two for the direction, and those of the magnitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Direction<Q, S> {
+    /// Two unit vectors normal to the axis, then the axis.
+    frame: [[f64; 3]; 3],
+    spread: S,
+    magnitude: Magnitude<Q>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Magnitude<Q> {
+    Fixed(f64),
+    Drawn(Q),
+}
+
+impl<Q: Nested, S: Spread> Together for Direction<Q, S> {
+    const NAME: &'static str = S::NAME;
+    const KEYS: &'static [Row] = S::KEYS;
+    type Map = Self;
+
+    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
+        let nominal = target.vector(S::NAME)?;
+        let length = length_of(nominal);
+        let axis = match (target.written.vector("axis"), S::AXIS) {
+            (Some(axis), _) => target.axis(axis)?,
+            (None, _) if length > 0.0 => target.axis(nominal)?,
+            (None, Some(axis)) => axis,
+            (None, None) => {
+                let allowed = "given where the nominal vector is zero and has no direction";
+                return target.lacks("axis", allowed, "add axis = [0, 0, 1]");
+            }
+        };
+        let magnitude = match target.written.has("magnitude") {
+            true if target.is_direction() => {
+                let allowed = format!("left out: the length of {} has no effect", target.parameter.name());
+                return target.refused("magnitude", "{ ... }", allowed, "delete it");
+            }
+            true => Magnitude::Drawn(Q::nested(target, "magnitude", length)?),
+            false if length == 0.0 => {
+                let allowed = "given where the nominal vector is zero: every direction of it would be zero";
+                let remedy = "add magnitude = { distribution = \"uniform\", min = 0, max = 1 }";
+                return target.lacks("magnitude", allowed, remedy);
+            }
+            false => Magnitude::Fixed(length),
+        };
+        Ok(Direction { frame: frame(axis), spread: S::new(target), magnitude })
+    }
+}
+
+impl<Q: Nested, S: Spread> Map for Direction<Q, S> {
     fn dimensions(&self) -> usize {
         match &self.magnitude {
             Magnitude::Fixed(_) => 2,
@@ -186,15 +196,7 @@ impl<Q: Quantile> Map for DirectionMap<Q> {
 
     fn text(&self, words: NumberWords<'_>) -> String {
         let [x, y, z] = self.frame[2].map(words.number);
-        let direction = match self.spread {
-            DirectionSpread::Sphere => "direction uniform over the sphere".to_owned(),
-            DirectionSpread::Cone { half_angle_rad } => {
-                format!("direction uniform within {} of [{x}, {y}, {z}]", (words.angle)(half_angle_rad))
-            }
-            DirectionSpread::Fisher { concentration } => {
-                format!("direction von Mises-Fisher, kappa {}, about [{x}, {y}, {z}]", (words.number)(concentration))
-            }
-        };
+        let direction = self.spread.text(&format!("[{x}, {y}, {z}]"), words);
         match &self.magnitude {
             Magnitude::Fixed(length) => format!("{direction}, magnitude {}", (words.amount)(*length)),
             Magnitude::Drawn(quantile) => format!("{direction}, magnitude {}", quantile.text(words)),

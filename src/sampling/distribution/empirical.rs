@@ -15,23 +15,20 @@ pub enum Interpolation {
     Linear,
 }
 
-#[derive(Clone, Copy, Debug)]
-pub struct Empirical;
-
 /// Equally likely values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EmpiricalQuantile {
+pub struct Empirical {
     /// Ascending, at least one.
     values: Arc<[f64]>,
     interpolation: Interpolation,
 }
 
-impl EmpiricalQuantile {
+impl Empirical {
     /// At least one value.
     pub fn new(values: &[f64], interpolation: Interpolation) -> Self {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);
-        EmpiricalQuantile { values: values.into(), interpolation }
+        Empirical { values: values.into(), interpolation }
     }
 }
 
@@ -41,20 +38,20 @@ impl Scalar for Empirical {
         Row::new("file", Kind::Column, "File of numbers, with `column`, and `sha256`, the checksum of the file"),
         Row::new("interpolation", Kind::Word(&["none", "linear"]), "How to interpolate between the values of the file"),
     ];
-    type Quantile = EmpiricalQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<EmpiricalQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let Some(Value::Column(data)) = target.written.get("file") else {
             return target.refused("file", String::new(), "given", "name a file");
         };
         let is_linear = target.written.get("interpolation") == Some(&Value::Word("linear"));
         let interpolation = if is_linear { Interpolation::Linear } else { Interpolation::None };
-        let quantile = EmpiricalQuantile::new(&data.values, interpolation);
+        let quantile = Empirical::new(&data.values, interpolation);
         target.all(|_| Ok(quantile.clone()))
     }
 }
 
-impl Quantile for EmpiricalQuantile {
+impl Quantile for Empirical {
     /// The smallest value with at least the fraction u of the values at or below it, or with linear interpolation the
     /// value at position u (n - 1), from zero (R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361, types 1 and 7).
     fn quantile(&self, u: f64) -> f64 {

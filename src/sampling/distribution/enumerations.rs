@@ -9,7 +9,7 @@ macro_rules! distributions {
                 $Scalar,
             )*
             $(
-                #[doc = concat!("See [`", stringify!($Name), "`].")]
+                #[doc = concat!("See [`Joint::", stringify!($Name), "`].")]
                 $Name,
             )*
         }
@@ -51,7 +51,7 @@ macro_rules! distributions {
             pub fn distributions(self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>, DispersionError> {
                 Ok(match self {
                     $( Self::$Scalar => {
-                        Some($Scalar::quantiles(target)?.into_iter().map(Distribution::$Scalar).collect())
+                        Some($Scalar::of(target)?.into_iter().map(Distribution::$Scalar).collect())
                     } )*
                     $( Self::$Name => None, )*
                 })
@@ -61,7 +61,7 @@ macro_rules! distributions {
             ///
             /// # Errors
             /// The target or the numbers that do not fit.
-            pub fn joint(self, target: &JointTarget<'_>) -> Result<Option<Joint>, DispersionError> {
+            pub fn joint(self, target: &Target<'_>) -> Result<Option<Joint>, DispersionError> {
                 Ok(match self {
                     $( Self::$Scalar => None, )*
                     $( Self::$Name => Some(Joint::$Name(<$Together as Together>::map(target)?)), )*
@@ -116,7 +116,7 @@ macro_rules! distributions {
         #[derive(Clone, Debug, PartialEq)]
         pub enum Joint {
             $(
-                #[doc = concat!("See [`", stringify!($Name), "`].")]
+                #[doc = concat!("See [`", stringify!($Together), "`].")]
                 $Name(<$Together as Together>::Map),
             )*
         }

@@ -6,11 +6,8 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Exponential;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ExponentialQuantile {
+pub struct Exponential {
     /// Mean above `min`, > 0.
     pub scale: f64,
     pub min: f64,
@@ -22,16 +19,16 @@ impl Scalar for Exponential {
         Row::amounts("scale", "Mean above `min`").required("0.1").scale(),
         Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
     ];
-    type Quantile = ExponentialQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<ExponentialQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let scale = target.each("scale")?;
         let min = target.each("min")?;
-        target.all(|k| Ok(ExponentialQuantile { scale: scale[k], min: min[k] }))
+        target.all(|k| Ok(Self { scale: scale[k], min: min[k] }))
     }
 }
 
-impl Quantile for ExponentialQuantile {
+impl Quantile for Exponential {
     /// min - scale ln(1 - u).
     fn quantile(&self, u: f64) -> f64 {
         self.min - self.scale * libm::log1p(-u)

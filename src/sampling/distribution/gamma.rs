@@ -9,11 +9,8 @@ use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Range, Row, between};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Gamma;
-
 #[derive(Clone, Debug, PartialEq)]
-pub struct GammaQuantile {
+pub struct Gamma {
     shape: f64,
     scale: f64,
     min: f64,
@@ -24,11 +21,11 @@ pub struct GammaQuantile {
 /// Allowed shapes: below, the distribution is a spike at its end; above, it is normal.
 const SHAPES: Range = between(0.01, 1e4);
 
-impl GammaQuantile {
+impl Gamma {
     /// With `shape` from 0.01 to 1e4 and `scale` > 0.
     pub fn new(shape: f64, scale: f64, min: f64) -> Self {
         let log = OfScore::new(&|p, q| log_quantile(p, q, shape), shape);
-        GammaQuantile { shape, scale, min, log }
+        Gamma { shape, scale, min, log }
     }
 
     /// The value at the normal score `z`; relative error above `min` below 1e-12 (test
@@ -49,17 +46,17 @@ impl Scalar for Gamma {
         Row::amounts("scale", "Scale above `min`").required("0.1").scale(),
         Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
     ];
-    type Quantile = GammaQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<GammaQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let shape = target.each("shape")?;
         let scale = target.each("scale")?;
         let min = target.each("min")?;
-        target.all(|k| Ok(GammaQuantile::new(shape[k], scale[k], min[k])))
+        target.all(|k| Ok(Self::new(shape[k], scale[k], min[k])))
     }
 }
 
-impl Quantile for GammaQuantile {
+impl Quantile for Gamma {
     fn quantile(&self, u: f64) -> f64 {
         self.at_score(quantile(u))
     }

@@ -6,11 +6,8 @@ use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row, above};
 
-#[derive(Clone, Copy, Debug)]
-pub struct LogNormal;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LogNormalQuantile {
+pub struct LogNormal {
     /// Median, > 0.
     pub median: f64,
     /// Standard deviation of the natural logarithm, >= 0.
@@ -23,16 +20,16 @@ impl Scalar for LogNormal {
         Row::values("log_std", "Standard deviation of the natural logarithm").required("0.1").not_negative(),
         Row::amounts("median", "Median").or(Presence::OrNominal).within("> 0", LOGARITHM, above(0.0)),
     ];
-    type Quantile = LogNormalQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<LogNormalQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let log_std = target.each("log_std")?;
         let medians = target.positive_or_nominal("median")?;
-        target.all(|k| Ok(LogNormalQuantile { median: medians[k], log_std: log_std[k] }))
+        target.all(|k| Ok(Self { median: medians[k], log_std: log_std[k] }))
     }
 }
 
-impl Quantile for LogNormalQuantile {
+impl Quantile for LogNormal {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
         self.median * libm::exp(self.log_std * quantile(u))

@@ -5,23 +5,20 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, above};
 
-#[derive(Clone, Copy, Debug)]
-pub struct LogUniform;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LogUniformQuantile {
+pub struct LogUniform {
     min: f64,
     max: f64,
     /// ln(max/min).
     log_ratio: f64,
 }
 
-impl LogUniformQuantile {
+impl LogUniform {
     /// From `min` > 0 to `max` > `min`.
     pub fn new(min: f64, max: f64) -> Self {
         let ratio = max / min;
         let log_ratio = if ratio.is_finite() { libm::log(ratio) } else { libm::log(max) - libm::log(min) };
-        LogUniformQuantile { min, max, log_ratio }
+        LogUniform { min, max, log_ratio }
     }
 }
 
@@ -40,19 +37,19 @@ impl Scalar for LogUniform {
         Rule::One(&[&["factor"], &["min", "max"]], "2.0", ALL_BUT_ONE),
         Rule::Together([("min", "0.1"), ("max", "10.0")]),
     ];
-    type Quantile = LogUniformQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<LogUniformQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         if !target.written.has("factor") {
             let (min, max) = target.ends()?;
-            return target.all(|k| Ok(LogUniformQuantile::new(min[k], max[k])));
+            return target.all(|k| Ok(Self::new(min[k], max[k])));
         }
         let factor = target.each("factor")?;
         let middle = target.positive_or_nominal("factor")?;
         target.all(|k| {
             let (min, max) = (middle[k] / factor[k], middle[k] * factor[k]);
             if min > 0.0 && max.is_finite() {
-                return Ok(LogUniformQuantile::new(min, max));
+                return Ok(Self::new(min, max));
             }
             let allowed = "such that the ends are positive finite numbers";
             target.refused("factor", format!("{:?}", factor[k]), allowed, "write a smaller one")
@@ -60,7 +57,7 @@ impl Scalar for LogUniform {
     }
 }
 
-impl Quantile for LogUniformQuantile {
+impl Quantile for LogUniform {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
         let factor = libm::exp(u * self.log_ratio);

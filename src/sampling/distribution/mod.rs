@@ -42,7 +42,7 @@ use self::bernoulli::Bernoulli;
 use self::beta::Beta;
 use self::bootstrap::Bootstrap;
 use self::choice::Choice;
-use self::direction::{Cone, UniformDirection, VonMisesFisher};
+use self::direction::{Cone, Direction, Sphere, VonMisesFisher};
 use self::empirical::Empirical;
 use self::exponential::Exponential;
 use self::gamma::Gamma;
@@ -53,14 +53,14 @@ use self::offset::Offset;
 use self::pert::Pert;
 use self::rayleigh::Rayleigh;
 use self::student_t::StudentT;
-use self::target::{JointTarget, Target};
+use self::target::Target;
 use self::triangular::Triangular;
 use self::truncated_normal::TruncatedNormal;
 use self::uniform::Uniform;
 use self::uniform_attitude::UniformAttitude;
 use self::weibull::Weibull;
-use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{Kind, Row, Rule, Written};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::{Kind, Row, Rule, Value, Written};
 
 enumerations::distributions! {
     one number:
@@ -69,11 +69,11 @@ enumerations::distributions! {
         Rayleigh, Exponential, Gamma, Weibull, StudentT;
     several together:
         UniformAttitude = UniformAttitude,
-        UniformDirection = UniformDirection<DistributionKind>,
-        Cone = Cone<DistributionKind>,
-        VonMisesFisher = VonMisesFisher<DistributionKind>,
+        UniformDirection = Direction<Distribution, Sphere>,
+        Cone = Direction<Distribution, Cone>,
+        VonMisesFisher = Direction<Distribution, VonMisesFisher>,
         AttitudeError = AttitudeError,
-        AboutAxis = AboutAxis<DistributionKind>,
+        AboutAxis = AboutAxis<Distribution>,
         Bootstrap = Bootstrap,
 }
 
@@ -99,56 +99,50 @@ pub struct WrittenDistribution {
     pub written: Written,
 }
 
-impl Nested for DistributionKind {
-    type Quantile = Distribution;
-
-    fn quantile(
-        index: usize,
-        key: &'static str,
-        nominal: f64,
-        (name, written): (&str, &Written),
-    ) -> Result<Distribution, DispersionError> {
-        let of = |kind: Self| kind.distributions(&Target { index, nominals: &[nominal], rows: kind.keys(), written });
-        let found = Self::from_name(name).map_or(Ok(None), of).map_err(|inner| {
+impl Nested for Distribution {
+    fn nested(target: &Target<'_>, key: &'static str, nominal: f64) -> Result<Self, DispersionError> {
+        let Some(Value::Distribution(name, written)) = target.written.get(key) else {
+            return target.lacks(key, "given", "write a distribution of one number");
+        };
+        let of = |kind: DistributionKind| {
+            kind.distributions(&Target { nominals: &[nominal], rows: kind.keys(), written, ..*target })
+        };
+        let found = DistributionKind::from_name(name).map_or(Ok(None), of).or_else(|inner| {
             let value = inner.value.map_or("{ ... }".to_owned(), |value| format!("{{ {} = {value} }}", inner.key));
-            error(index, key, value, inner.allowed, inner.remedy)
+            target.refused(key, value, inner.allowed, inner.remedy)
         })?;
-        found.and_then(|found| found.into_iter().next()).ok_or_else(|| {
-            let remedy = "choose \"normal\" or \"uniform\"";
-            error(index, key, format!("{name:?}"), "a distribution of one number", remedy)
-        })
+        match found.and_then(|found| found.into_iter().next()) {
+            Some(found) => Ok(found),
+            None => {
+                let remedy = "choose \"normal\" or \"uniform\"";
+                target.refused(key, format!("{name:?}"), "a distribution of one number", remedy)
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::empirical::{EmpiricalQuantile, Interpolation};
-    use super::log_uniform::LogUniformQuantile;
-    use super::normal::NormalQuantile;
-    use super::triangular::TriangularQuantile;
-    use super::truncated_normal::TruncatedNormalQuantile;
-    use super::uniform::UniformQuantile;
+    use super::empirical::Interpolation;
     use super::*;
     use crate::sampling::stream::Stream;
 
     fn truncated(mean: f64, std: f64, lower: f64, upper: f64) -> Distribution {
-        Distribution::TruncatedNormal(
-            TruncatedNormalQuantile::new(mean, std, lower, upper).expect("mass between the bounds"),
-        )
+        Distribution::TruncatedNormal(TruncatedNormal::new(mean, std, lower, upper).expect("mass between the bounds"))
     }
 
     /// Law: widths and ratios beyond the largest number give the values of the same shape, scaled.
     #[test]
     fn overflowing_widths_keep_the_shape() {
         let most = 1.7e308;
-        let triangle = |size: f64| TriangularQuantile { min: -size, mode: 0.5 * size, max: size };
+        let triangle = |size: f64| Triangular { min: -size, mode: 0.5 * size, max: size };
         for (law, values) in [
-            (Distribution::Uniform(UniformQuantile { min: -most, max: most }), [-0.5 * most, 0.0, 0.5 * most]),
+            (Distribution::Uniform(Uniform { min: -most, max: most }), [-0.5 * most, 0.0, 0.5 * most]),
             (
-                Distribution::Empirical(EmpiricalQuantile::new(&[most, -most], Interpolation::Linear)),
+                Distribution::Empirical(Empirical::new(&[most, -most], Interpolation::Linear)),
                 [-0.5 * most, 0.0, 0.5 * most],
             ),
-            (Distribution::LogUniform(LogUniformQuantile::new(1e-300, 1e300)), [1e-150, 1.0, 1e150]),
+            (Distribution::LogUniform(LogUniform::new(1e-300, 1e300)), [1e-150, 1.0, 1e150]),
             (Distribution::Triangular(triangle(most)), [0.25, 0.5, 0.75].map(|u| most * triangle(1.0).quantile(u))),
             (Distribution::Triangular(triangle(1e160)), [0.25, 0.5, 0.75].map(|u| 1e160 * triangle(1.0).quantile(u))),
         ] {
@@ -165,8 +159,8 @@ mod tests {
             truncated(10.0, 0.1, 9.7, 10.3),
             truncated(10.0, 0.1, 10.2, f64::INFINITY),
             truncated(-1.0, 2.0, f64::NEG_INFINITY, 0.5),
-            Distribution::Uniform(UniformQuantile { min: 2.0, max: 3.0 }),
-            Distribution::Normal(NormalQuantile { mean: 1.0, std: 0.5 }),
+            Distribution::Uniform(Uniform { min: 2.0, max: 3.0 }),
+            Distribution::Normal(Normal { mean: 1.0, std: 0.5 }),
         ] {
             let mut stream = Stream::new(2, "eight");
             for block in 0..500 {

@@ -16,11 +16,8 @@ pub(super) const SPREAD: [Row; 3] = [
 
 pub(super) const ONE_SPREAD: Rule = Rule::One(&[&["std"], &["relative_std"], &["three_sigma"]], "0.1", ALL_BUT_ONE);
 
-#[derive(Clone, Copy, Debug)]
-pub struct Normal;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NormalQuantile {
+pub struct Normal {
     pub mean: f64,
     /// Standard deviation, >= 0.
     pub std: f64,
@@ -30,15 +27,15 @@ impl Scalar for Normal {
     const NAME: &'static str = "normal";
     const KEYS: &'static [Row] = &SPREAD;
     const RULES: &'static [Rule] = &[ONE_SPREAD];
-    type Quantile = NormalQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<NormalQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let stds = target.amounts("std", "relative_std")?;
-        target.all(|k| Ok(NormalQuantile { mean: target.nominals[k], std: stds[k] }))
+        target.all(|k| Ok(Self { mean: target.nominals[k], std: stds[k] }))
     }
 }
 
-impl Quantile for NormalQuantile {
+impl Quantile for Normal {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
         self.mean + self.std * quantile(u)

@@ -6,12 +6,9 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Offset;
-
 /// Always this value; takes no u.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fixed(pub f64);
+pub struct Offset(pub f64);
 
 impl Scalar for Offset {
     const NAME: &'static str = "offset";
@@ -20,15 +17,15 @@ impl Scalar for Offset {
         Row::values("relative_offset", "The same as a fraction of the nominal value"),
     ];
     const RULES: &'static [Rule] = &[Rule::One(&[&["offset"], &["relative_offset"]], "0.1", ALL_BUT_ONE)];
-    type Quantile = Fixed;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<Fixed>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let offsets = target.amounts("offset", "relative_offset")?;
-        target.all(|k| Ok(Fixed(target.nominals[k] + offsets[k])))
+        target.all(|k| Ok(Self(target.nominals[k] + offsets[k])))
     }
 }
 
-impl Quantile for Fixed {
+impl Quantile for Offset {
     #[inline]
     fn quantile(&self, _u: f64) -> f64 {
         self.0

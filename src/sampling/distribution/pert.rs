@@ -11,11 +11,8 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Pert;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PertQuantile {
+pub struct Pert {
     alpha: f64,
     beta: f64,
     min: f64,
@@ -31,7 +28,7 @@ const MOST_STEPS: u32 = 100;
 /// Steps of ln x below this leave x unchanged.
 const SMALLEST_STEP: f64 = f64::EPSILON;
 
-impl PertQuantile {
+impl Pert {
     /// Mean (min + 4 mode + max)/6 (D. G. Malcolm et al., *Operations Research* 7 (1959) 646).
     pub fn new(min: f64, mode: f64, max: f64) -> Self {
         // halves: the width may be beyond the largest number
@@ -39,7 +36,7 @@ impl PertQuantile {
         let shape = |side: f64| 1.0 + 4.0 * (side / width);
         let (alpha, beta) = (shape(0.5 * mode - 0.5 * min), shape(0.5 * max - 0.5 * mode));
         let log_b = libm::lgamma(alpha) + libm::lgamma(beta) - libm::lgamma(alpha + beta);
-        PertQuantile { alpha, beta, min, max, log_b }
+        Pert { alpha, beta, min, max, log_b }
     }
 }
 
@@ -50,16 +47,16 @@ impl Scalar for Pert {
         Row::amounts("max", "Upper end").required("1.0"),
         Row::amounts("mode", "Most likely value").or(Presence::OrNominal),
     ];
-    type Quantile = PertQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<PertQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let (min, max) = target.ends()?;
         let mode = target.mode(&min, &max)?;
-        target.all(|k| Ok(PertQuantile::new(min[k], mode[k], max[k])))
+        target.all(|k| Ok(Self::new(min[k], mode[k], max[k])))
     }
 }
 
-impl Quantile for PertQuantile {
+impl Quantile for Pert {
     /// Relative error of the distance from the nearer end below 1e-12.
     fn quantile(&self, u: f64) -> f64 {
         // 1 - u is exact, so neither tail loses digits

@@ -6,11 +6,8 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Row, above};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Rayleigh;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayleighQuantile {
+pub struct Rayleigh {
     /// Above 0.
     pub scale: f64,
 }
@@ -20,15 +17,15 @@ impl Scalar for Rayleigh {
     const KEYS: &'static [Row] = &[Row::amounts("scale", "Standard deviation of each of the two components")
         .required("0.01")
         .within("> 0", "the standard deviation of each of two components, in the parameter's unit", above(0.0))];
-    type Quantile = RayleighQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<RayleighQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let scale = target.each("scale")?;
-        target.all(|k| Ok(RayleighQuantile { scale: scale[k] }))
+        target.all(|k| Ok(Self { scale: scale[k] }))
     }
 }
 
-impl Quantile for RayleighQuantile {
+impl Quantile for Rayleigh {
     /// sigma sqrt(-2 ln(1 - u)).
     fn quantile(&self, u: f64) -> f64 {
         self.scale * (-2.0 * libm::log1p(-u)).sqrt()

@@ -9,11 +9,8 @@ use crate::math::normal::quantile;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Range, Row, Rule, between};
 
-#[derive(Clone, Copy, Debug)]
-pub struct StudentT;
-
 #[derive(Clone, Debug, PartialEq)]
-pub struct StudentTQuantile {
+pub struct StudentT {
     degrees_of_freedom: f64,
     middle: f64,
     /// Scale times sqrt(nu).
@@ -26,7 +23,7 @@ pub struct StudentTQuantile {
 /// Allowed degrees of freedom: below, values overflow; above, the distribution is normal to four digits.
 const DEGREES: Range = between(0.5, 1e4);
 
-impl StudentTQuantile {
+impl StudentT {
     /// With `degrees_of_freedom` from 0.5 to 1e4 about `middle`.
     pub fn new(degrees_of_freedom: f64, middle: f64, scale: f64) -> Self {
         // t^2 = nu (1 - x)/x at the smaller tail I_x(nu/2, 1/2)/2 (DLMF 8.17); the median, 0, is exact
@@ -39,13 +36,7 @@ impl StudentTQuantile {
             _ => 0.0,
         };
         let factor = scale * degrees_of_freedom.sqrt();
-        StudentTQuantile {
-            degrees_of_freedom,
-            middle,
-            factor,
-            scale,
-            asinh: OfScore::new(&asinh, 0.5 * degrees_of_freedom),
-        }
+        StudentT { degrees_of_freedom, middle, factor, scale, asinh: OfScore::new(&asinh, 0.5 * degrees_of_freedom) }
     }
 
     fn at_score(&self, z: f64) -> f64 {
@@ -64,16 +55,16 @@ impl Scalar for StudentT {
             Row::values("relative_scale", "Scale as a fraction of the nominal value").not_negative(),
         ];
     const RULES: &'static [Rule] = &[Rule::One(&[&["scale"], &["relative_scale"]], "0.1", ALL_BUT_ONE)];
-    type Quantile = StudentTQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<StudentTQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let degrees = target.each("degrees_of_freedom")?;
         let scale = target.amounts("scale", "relative_scale")?;
-        target.all(|k| Ok(StudentTQuantile::new(degrees[k], target.nominals[k], scale[k])))
+        target.all(|k| Ok(Self::new(degrees[k], target.nominals[k], scale[k])))
     }
 }
 
-impl Quantile for StudentTQuantile {
+impl Quantile for StudentT {
     fn quantile(&self, u: f64) -> f64 {
         self.at_score(quantile(u))
     }

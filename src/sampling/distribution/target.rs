@@ -1,5 +1,4 @@
-//! [`Target`]: the components of a distribution of one number, and common checks; [`JointTarget`]: the target of a
-//! joint distribution.
+//! [`Target`]: what a distribution applies to, with common checks.
 
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{Presence, Row, Values, Written};
@@ -7,10 +6,15 @@ use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
 use crate::scene::schema::Limit;
 
+/// The parameter of a `[[disperse]]` table, and the written keys of its distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Target<'a> {
     /// Index of the `[[disperse]]` table.
     pub index: usize,
+    pub parameter: Parameter,
+    /// The only component; wrong for a joint distribution.
+    pub component: Option<usize>,
+    /// One value for each component.
     pub nominals: &'a [f64],
     pub rows: &'static [Row],
     pub written: &'a Written,
@@ -24,7 +28,7 @@ impl Target<'_> {
     pub(super) fn refused<T>(
         &self,
         key: &'static str,
-        value: String,
+        value: impl Into<String>,
         allowed: impl Into<String>,
         remedy: impl Into<String>,
     ) -> Result<T, DispersionError> {
@@ -120,29 +124,6 @@ impl Target<'_> {
             }
         }
         Ok(modes)
-    }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct JointTarget<'a> {
-    /// Index of the `[[disperse]]` table.
-    pub index: usize,
-    pub parameter: Parameter,
-    /// A written component, which is wrong for a joint distribution.
-    pub component: Option<usize>,
-    pub nominals: &'a [f64],
-    pub written: &'a Written,
-}
-
-impl JointTarget<'_> {
-    pub(super) fn refused<T>(
-        &self,
-        key: &'static str,
-        value: impl Into<String>,
-        allowed: impl Into<String>,
-        remedy: impl Into<String>,
-    ) -> Result<T, DispersionError> {
-        Err(error(self.index, key, value, allowed, remedy))
     }
 
     /// A missing key.

@@ -1,8 +1,8 @@
 //! The traits of distributions.
 
-use super::target::{JointTarget, Target};
+use super::target::Target;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, Rule, Value, Written};
+use crate::sampling::keys::{Row, Rule};
 use std::fmt::Debug;
 
 /// Formats of the numbers in a distribution's description.
@@ -29,7 +29,7 @@ pub trait Scalar {
     ///
     /// # Errors
     /// The numbers that do not fit the target.
-    fn quantiles(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
+    fn of(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
 }
 
 /// [`Quantile::of_scores`] of a distribution with the value `of` of the normal score.
@@ -90,7 +90,7 @@ pub trait Together {
 
     /// # Errors
     /// The target or the numbers that do not fit.
-    fn map(target: &JointTarget<'_>) -> Result<Self::Map, DispersionError>;
+    fn map(target: &Target<'_>) -> Result<Self::Map, DispersionError>;
 }
 
 /// A map from several u in (0, 1) to the values of several components.
@@ -114,30 +114,11 @@ pub trait Map: Clone + Debug + PartialEq {
 /// Largest number of u of one distribution.
 pub const MAX_DIMENSIONS: usize = 8;
 
-/// The list of distributions of one number that a magnitude or an angle may have.
-pub trait Nested {
-    type Quantile: Quantile;
-
-    /// The quantile function about `nominal` of the distribution with this name and these keys in the table `key`.
+/// The distribution of a magnitude or an angle in a table of a joint distribution.
+pub trait Nested: Quantile {
+    /// The distribution about `nominal` in the table `key` of `target`.
     ///
     /// # Errors
     /// The distribution is not one of one number, or its numbers do not fit.
-    fn quantile(
-        index: usize,
-        key: &'static str,
-        nominal: f64,
-        distribution: (&str, &Written),
-    ) -> Result<Self::Quantile, DispersionError>;
-}
-
-/// The distribution in the table `key` of a joint distribution, about `nominal`.
-pub(super) fn nested<N: Nested>(
-    target: &JointTarget<'_>,
-    key: &'static str,
-    nominal: f64,
-) -> Result<N::Quantile, DispersionError> {
-    match target.written.get(key) {
-        Some(Value::Distribution(name, written)) => N::quantile(target.index, key, nominal, (name, written)),
-        _ => target.lacks(key, "given", "write a distribution of one number"),
-    }
+    fn nested(target: &Target<'_>, key: &'static str, nominal: f64) -> Result<Self, DispersionError>;
 }

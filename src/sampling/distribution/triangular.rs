@@ -5,11 +5,8 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Row};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Triangular;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TriangularQuantile {
+pub struct Triangular {
     pub min: f64,
     pub mode: f64,
     pub max: f64,
@@ -22,20 +19,20 @@ impl Scalar for Triangular {
         Row::amounts("max", "Upper end").required("1.0"),
         Row::amounts("mode", "Most likely value").or(Presence::OrNominal),
     ];
-    type Quantile = TriangularQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<TriangularQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let (min, max) = target.ends()?;
         let mode = target.mode(&min, &max)?;
-        target.all(|k| Ok(TriangularQuantile { min: min[k], mode: mode[k], max: max[k] }))
+        target.all(|k| Ok(Self { min: min[k], mode: mode[k], max: max[k] }))
     }
 }
 
-impl Quantile for TriangularQuantile {
+impl Quantile for Triangular {
     fn quantile(&self, u: f64) -> f64 {
         if !(self.max - self.min).is_finite() {
             let [min, mode, max] = [self.min, self.mode, self.max].map(|x| 0.25 * x);
-            return 4.0 * TriangularQuantile { min, mode, max }.quantile(u);
+            return 4.0 * Triangular { min, mode, max }.quantile(u);
         }
         let (rise, fall, width) = (self.mode - self.min, self.max - self.mode, self.max - self.min);
         // the product of two finite lengths may overflow

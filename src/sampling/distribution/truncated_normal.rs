@@ -17,9 +17,6 @@ const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
     Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", above(0.0))
 }
 
-#[derive(Clone, Copy, Debug)]
-pub struct TruncatedNormal;
-
 /// The key that messages name for both bounds.
 fn cut_key(written: &Written) -> &'static str {
     ["sigmas"].into_iter().chain(BOTH_KEYS).find(|key| written.has(key)).unwrap_or("lower")
@@ -27,7 +24,7 @@ fn cut_key(written: &Written) -> &'static str {
 
 /// Normal, conditional on two bounds: truncated, not clamped, so the bounds carry no probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TruncatedNormalQuantile {
+pub struct TruncatedNormal {
     mean: f64,
     /// Negative if the distribution is reflected, so that the interval lies at or below the mean or about it.
     std: f64,
@@ -39,9 +36,9 @@ pub struct TruncatedNormalQuantile {
     between: f64,
 }
 
-impl TruncatedNormalQuantile {
+impl TruncatedNormal {
     /// With `std` > 0, `lower` < `upper` (either may be infinite); `None` if less than
-    /// [`TruncatedNormalQuantile::LEAST`] of the distribution lies between them.
+    /// [`TruncatedNormal::LEAST`] of the distribution lies between them.
     pub fn new(mean: f64, std: f64, lower: f64, upper: f64) -> Option<Self> {
         let (a, b) = ((lower - mean) / std, (upper - mean) / std);
         // upper tails are 1 minus something and lose their digits: reflect them
@@ -49,12 +46,12 @@ impl TruncatedNormalQuantile {
         let (below, above) = (probability(a), probability(-b));
         // two forms, each without cancellation
         let between = if b <= 0.0 { probability(b) - below } else { 1.0 - below - above };
-        (between >= Self::LEAST).then_some(TruncatedNormalQuantile { mean, std, lower, upper, below, above, between })
+        (between >= Self::LEAST).then_some(TruncatedNormal { mean, std, lower, upper, below, above, between })
     }
 
     /// A distribution of zero width at its mean.
     fn fixed(mean: f64) -> Self {
-        TruncatedNormalQuantile {
+        TruncatedNormal {
             mean,
             std: 0.0,
             lower: f64::NEG_INFINITY,
@@ -98,9 +95,9 @@ impl Scalar for TruncatedNormal {
         Rule::AtMostOne(&LOWER_KEYS),
         Rule::AtMostOne(&UPPER_KEYS),
     ];
-    type Quantile = TruncatedNormalQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<TruncatedNormalQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let stds = target.amounts("std", "relative_std")?;
         let (lower, upper) = bounds(target, &stds)?;
         target.all(|k| truncated(target, target.nominals[k], stds[k], lower[k], upper[k]))
@@ -142,7 +139,7 @@ fn truncated(
     std: f64,
     lower: f64,
     upper: f64,
-) -> Result<TruncatedNormalQuantile, DispersionError> {
+) -> Result<TruncatedNormal, DispersionError> {
     let refused = || {
         let allowed = format!(
             "bounds with some of the normal distribution of mean {mean:?} and standard deviation {std:?} between them"
@@ -152,16 +149,16 @@ fn truncated(
     };
     // a nominal that is not a number is an error of the scene
     if !(mean + std).is_finite() {
-        return Ok(TruncatedNormalQuantile::fixed(mean));
+        return Ok(TruncatedNormal::fixed(mean));
     }
     if std == 0.0 {
         let inside = lower <= mean && mean <= upper;
-        return if inside { Ok(TruncatedNormalQuantile::fixed(mean)) } else { Err(refused()) };
+        return if inside { Ok(TruncatedNormal::fixed(mean)) } else { Err(refused()) };
     }
-    TruncatedNormalQuantile::new(mean, std, lower, upper).ok_or_else(refused)
+    TruncatedNormal::new(mean, std, lower, upper).ok_or_else(refused)
 }
 
-impl Quantile for TruncatedNormalQuantile {
+impl Quantile for TruncatedNormal {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
         self.reflected(if self.std < 0.0 { 1.0 - u } else { u })

@@ -5,11 +5,8 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Uniform;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct UniformQuantile {
+pub struct Uniform {
     pub min: f64,
     /// Upper bound, >= min.
     pub max: f64,
@@ -27,12 +24,12 @@ impl Scalar for Uniform {
         Rule::One(&[&["half_width"], &["relative_half_width"], &["min", "max"]], "0.1", ALL_BUT_ONE),
         Rule::Together([("min", "0.0"), ("max", "1.0")]),
     ];
-    type Quantile = UniformQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<UniformQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         if target.written.has("min") {
             let (min, max) = target.ends()?;
-            return target.all(|k| Ok(UniformQuantile { min: min[k], max: max[k] }));
+            return target.all(|k| Ok(Self { min: min[k], max: max[k] }));
         }
         let half = target.amounts("half_width", "relative_half_width")?;
         target.all(|k| {
@@ -42,12 +39,12 @@ impl Scalar for Uniform {
                 let allowed = "such that its ends are finite numbers";
                 return target.refused(key, format!("{:?}", half[k]), allowed, "write a smaller one");
             }
-            Ok(UniformQuantile { min: nominal - half[k], max: nominal + half[k] })
+            Ok(Self { min: nominal - half[k], max: nominal + half[k] })
         })
     }
 }
 
-impl Quantile for UniformQuantile {
+impl Quantile for Uniform {
     #[inline]
     fn quantile(&self, u: f64) -> f64 {
         let width = self.max - self.min;

@@ -1,6 +1,6 @@
 //! `uniform_attitude`: an attitude uniform over all rotations.
 
-use super::target::JointTarget;
+use super::target::Target;
 use super::traits::{Map, NumberWords, Together};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Row;
@@ -14,7 +14,7 @@ impl Together for UniformAttitude {
     const KEYS: &'static [Row] = &[];
     type Map = UniformAttitude;
 
-    fn map(target: &JointTarget<'_>) -> Result<UniformAttitude, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<UniformAttitude, DispersionError> {
         target.attitude(Self::NAME).map(|_| UniformAttitude)
     }
 }

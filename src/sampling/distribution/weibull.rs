@@ -6,11 +6,8 @@ use super::traits::{NumberWords, Quantile, Scalar};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Presence, Range, Row, between};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Weibull;
-
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WeibullQuantile {
+pub struct Weibull {
     /// Shape, > 0.
     pub shape: f64,
     /// Scale, > 0.
@@ -31,17 +28,17 @@ impl Scalar for Weibull {
             Row::amounts("scale", "Scale above `min`: 63% of the values are below").required("0.1").scale(),
             Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
         ];
-    type Quantile = WeibullQuantile;
+    type Quantile = Self;
 
-    fn quantiles(target: &Target<'_>) -> Result<Vec<WeibullQuantile>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
         let shape = target.each("shape")?;
         let scale = target.each("scale")?;
         let min = target.each("min")?;
-        target.all(|k| Ok(WeibullQuantile { shape: shape[k], scale: scale[k], min: min[k] }))
+        target.all(|k| Ok(Self { shape: shape[k], scale: scale[k], min: min[k] }))
     }
 }
 
-impl Quantile for WeibullQuantile {
+impl Quantile for Weibull {
     /// min + scale (-ln(1 - u))^(1/shape).
     fn quantile(&self, u: f64) -> f64 {
         self.min + self.scale * libm::pow(-libm::log1p(-u), 1.0 / self.shape)
