@@ -81,8 +81,7 @@ impl Analysis {
         let derived = root.sections("observable", MOST_TABLES, |table| {
             let found = DerivedObservable::read(table)?;
             if known.observable(&found.name).is_some() {
-                table.refuse("name", "a name of its own", "delete one of the two [[observable]] tables");
-                return None;
+                return table.refused("name", "a name of its own", "delete one of the two [[observable]] tables");
             }
             known.add(found.quantity());
             Some(found)

@@ -207,8 +207,7 @@ fn actuators(
     }
     let names: Vec<&str> = known.iter().flatten().map(Name::as_str).collect();
     if names.is_empty() {
-        section.refuse(key, format!("left out where the scene has no {what}"), "delete it");
-        return None;
+        return section.refused(key, format!("left out where the scene has no {what}"), "delete it");
     }
     let place = |text: &str| known.iter().position(|name| name.is_some_and(|name| name.as_str() == text));
     let mut places = section.names(key, &names, place, "none")?;

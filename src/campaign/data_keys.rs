@@ -39,8 +39,7 @@ pub(super) fn column(table: &mut Section<'_, '_>) -> Option<DataColumn> {
         }
         None => {
             let (allowed, remedy) = absent_column(&column, &data);
-            table.refuse("column", allowed, remedy);
-            return None;
+            return table.refused("column", allowed, remedy);
         }
     };
     Some(DataColumn { file, sha256: data.sha256, column, target: None, values })
@@ -68,8 +67,11 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
     table.document.data.0 += 1;
     if tables >= MOST_FILES {
         let allowed = format!("in at most {MOST_FILES} tables of a campaign file");
-        table.refuse("file", allowed, "draw several parameters from the rows of one file (parameters = [...])");
-        return None;
+        return table.refused(
+            "file",
+            allowed,
+            "draw several parameters from the rows of one file (parameters = [...])",
+        );
     }
     let written_at = table.value("file").map_or(0, |value| value.span().start);
     let path = found(table.document.folder_of(written_at), &name, sha256.as_deref());
@@ -85,8 +87,7 @@ fn file(table: &mut Section<'_, '_>, used: &dyn Fn(&str) -> bool) -> Option<(Str
     table.document.files.push((path, data.sha256.clone()));
     if sha256.is_some_and(|sha256| sha256 != data.sha256) {
         let allowed = format!("the SHA-256 of the file, {}", data.sha256);
-        table.refuse("sha256", allowed, "bring back the file that was meant, or delete this line");
-        return None;
+        return table.refused("sha256", allowed, "bring back the file that was meant, or delete this line");
     }
     Some((name, data))
 }
@@ -127,12 +128,11 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
     let (name, data) = read?;
     let names = listed.unwrap_or_else(|| data.names.iter().filter(|name| *name != "sample_id").cloned().collect());
     if names.is_empty() {
-        table.refuse(
+        return table.refused(
             "file",
             "a file with columns that are named like parameters",
             "name its columns wheels.w1.radius_m, ...",
         );
-        return None;
     }
     let mut targets = Vec::with_capacity(names.len());
     for parameter in names {

@@ -142,8 +142,7 @@ fn name(table: &mut Section<'_, '_>, name: &str) -> Option<String> {
         || crate::observables::table::all().any(|column| column.quantity.name() == name)
         || Parameter::all(scene).flat_map(of).any(|quantity| quantity.name() == name);
     if is_column || ["sample_id", "status", "reason"].contains(&name) {
-        table.refuse("name", "a name that no column has", "choose another name");
-        return None;
+        return table.refused("name", "a name that no column has", "choose another name");
     }
     Some(name.to_owned())
 }

@@ -6,6 +6,7 @@
 use super::excerpt::Excerpt;
 use super::known_columns::KnownColumns;
 use super::meaning::{Meant, meant};
+use super::plan::Overrides;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
@@ -81,7 +82,7 @@ pub(super) struct Spans {
 }
 
 impl<'a> Document<'a> {
-    pub(super) fn new(sources: &'a Sources) -> Self {
+    pub(super) fn new(sources: &'a Sources, overrides: &Overrides) -> Self {
         let text = &sources.text;
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset + 1);
         Document {
@@ -95,18 +96,14 @@ impl<'a> Document<'a> {
             unreadable: 0,
             data: (0, 0),
             scene: SceneInput::blank(),
-            law: None,
-            attitude_law: None,
+            law: overrides.law.clone(),
+            attitude_law: overrides.attitude_law,
             is_loop_unknown: false,
             ignored: Vec::new(),
             known: None,
             units: Vec::new(),
             tables: Vec::new(),
         }
-    }
-
-    pub fn under(self, law: Option<ControlLaw>, attitude_law: Option<&'static LawKind>) -> Self {
-        Document { law, attitude_law, ..self }
     }
 
     /// The base folder of a path at byte `offset`.
@@ -129,17 +126,9 @@ impl<'a> Document<'a> {
             let Some(key) = &source.key else { continue };
             let text = &self.text[source.range.clone()];
             put(&mut whole, key, value_at(text, source.range.start)).map_err(|why| {
-                CampaignError::of(Problem {
-                    file: source.name.clone(),
-                    line: None,
-                    key: key.clone(),
-                    value: Some(text.to_owned()),
-                    allowed: format!("set where a campaign has the key ({why})"),
-                    remedy: "write the key as shown in error messages: campaign.duration_s, wheels.w1.rate_rad_s"
-                        .to_owned(),
-                    is_unknown: false,
-                    excerpt: None,
-                })
+                let remedy = "write the key as shown in error messages: campaign.duration_s, wheels.w1.rate_rad_s";
+                let allowed = format!("set where a campaign has the key ({why})");
+                CampaignError::new(&source.name, key, text.to_owned(), allowed, remedy)
             })?;
         }
         Ok(whole)
@@ -147,9 +136,7 @@ impl<'a> Document<'a> {
 
     fn parse_file(&self, source: &'a SourceText) -> Result<DeTable<'a>, CampaignError> {
         let (file, text) = (&source.name, &self.text[source.range.clone()]);
-        if let Some(problem) = size::of_text(file, text) {
-            return Err(CampaignError::of(problem));
-        }
+        size::check_text(file, text.len() as u64)?;
         let (table, errors) = DeTable::parse_recoverable(text);
         // later errors mostly follow from the first
         let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
@@ -172,11 +159,8 @@ impl<'a> Document<'a> {
             return Err(CampaignError { note, ..CampaignError::of(problem) });
         }
         let table = table.into_inner();
-        match size::of_table(file, &table) {
-            Some(problem) => Err(CampaignError::of(problem)),
-            None if self.sources.is_single() => Ok(table),
-            None => Ok(moved_table(table, source.range.start)),
-        }
+        size::check_table(file, &table)?;
+        Ok(if self.sources.list.len() == 1 { table } else { moved_table(table, source.range.start) })
     }
 
     /// Whether `key`, a table around it or a key in it has a problem.

@@ -91,8 +91,7 @@ impl Event {
                 .find(|column| event.quantities().iter().any(|own| own.name() == column.quantity.name()));
             if let Some(column) = taken {
                 let allowed = format!("a name with which no column is there already: {} is", column.quantity.name());
-                table.refuse("name", allowed, "choose another name");
-                return None;
+                return table.refused("name", allowed, "choose another name");
             }
             names.push(event.name.clone());
             Some(event)
@@ -114,23 +113,28 @@ impl Event {
         let (direction, which) = (named(&Direction::ALL, &rest, "direction")?, named(&Which::ALL, &rest, "which")?);
         if (direction, which) == (Direction::Either, Which::Stays) {
             let allowed = "\"first\" or \"last\" where direction is \"either\"";
-            table.refuse("which", allowed, "write direction = \"rising\" or \"falling\": the side on which it stays");
-            return None;
+            return table.refused(
+                "which",
+                allowed,
+                "write direction = \"rising\" or \"falling\": the side on which it stays",
+            );
         }
         let ends_run = rest.flag("ends_run");
         if ends_run && which != Which::First {
-            table.refuse(
+            return table.refused(
                 "which",
                 "\"first\" where ends_run = true",
                 "leave it out: nothing crosses after the end of the run",
             );
-            return None;
         }
         let (mut head, _) = head.zip(variables)?;
         let name = head.text("name")?;
         if taken.iter().any(|other| other == name) {
-            table.refuse("name", "another name than that of the other [[event]] tables", "give each its own name");
-            return None;
+            return table.refused(
+                "name",
+                "another name than that of the other [[event]] tables",
+                "give each its own name",
+            );
         }
         let (name, quantity) = (name.to_owned(), head.text("quantity")?.to_owned());
         let value = rest.number("value")?;

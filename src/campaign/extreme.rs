@@ -58,8 +58,7 @@ impl Extreme {
         let found = root.sections("extreme", MOST_EXTREMES, |table| {
             let extreme = Extreme::read(table, (&series, observed), events)?;
             if names.contains(&extreme.name) {
-                table.refuse("name", "a name that no other column has", "choose another name");
-                return None;
+                return table.refused("name", "a name that no other column has", "choose another name");
             }
             names.push(extreme.name.clone());
             Some(extreme)
@@ -84,8 +83,7 @@ impl Extreme {
                 (Some(meant), _) => meant.remedy(),
                 (None, _) => format!("name one of {}", names().collect::<Vec<_>>().join(", ")),
             };
-            table.refuse("after", "the name of an [[event]] of this file", remedy);
-            return None;
+            return table.refused("after", "the name of an [[event]] of this file", remedy);
         }
         let is_highest = written.text("which") == Some(WHICH[0]);
         let written = written.completed(&ROWS, &[]);

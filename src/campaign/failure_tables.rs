@@ -74,12 +74,11 @@ fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool
             return None;
         }
         [_, second, ..] => {
-            section.refuse(
+            return section.refused(
                 DEVICES[second],
                 "left out where another device is named",
                 "write a [[failure]] table for each",
             );
-            return None;
         }
     };
     let known: Vec<Option<Name>> = match kind {
@@ -93,8 +92,7 @@ fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool
         let what = ["free wheels", "thrusters", "torque rods", "sensors"][kind];
         let remedy =
             if kind == SENSOR && !has_loop { "add a [control] loop with [[sensors]]" } else { "name another device" };
-        section.refuse(DEVICES[kind], format!("left out where the scene has no {what}"), remedy);
-        return None;
+        return section.refused(DEVICES[kind], format!("left out where the scene has no {what}"), remedy);
     }
     let place = |text: &str| known.iter().position(|name| name.is_some_and(|name| name.as_str() == text));
     let place = section.name(DEVICES[kind], &names, place)?;

@@ -118,8 +118,7 @@ impl Section<'_, '_> {
             Kind::Numbers(limit) => {
                 let list = self.numbers(key, of_target)?;
                 if !(limit.test)(&list) {
-                    self.refuse(key, limit.allowed, limit.remedy);
-                    return None;
+                    return self.refused(key, limit.allowed, limit.remedy);
                 }
                 Some(list.as_slice().into())
             }
@@ -171,8 +170,7 @@ impl Section<'_, '_> {
         let known = self.document.known.as_ref()?;
         let Some(quantity) = find(known, name) else {
             let (allowed, remedy) = refusal(known, name);
-            self.refuse(key, allowed, remedy);
-            return None;
+            return self.refused(key, allowed, remedy);
         };
         let unit = unit_of(quantity);
         self.describes(name.to_owned(), unit);
@@ -189,8 +187,7 @@ impl Section<'_, '_> {
                 return None;
             }
             if names[..index].contains(name) {
-                self.refuse(key, "different names", format!("delete the second {name:?}"));
-                return None;
+                return self.refused(key, "different names", format!("delete the second {name:?}"));
             }
         }
         Some(names)
@@ -210,8 +207,7 @@ impl Section<'_, '_> {
     fn list(&mut self, key: &str, unit: &'static str, limit: Option<NumberLimit>) -> Option<Value> {
         let list = self.numbers(key, unit)?;
         if let Some(limit) = limit.filter(|limit| list.is_empty() || !list.iter().all(|x| limit.holds(*x))) {
-            self.refuse(key, limit.allowed, limit.remedy);
-            return None;
+            return self.refused(key, limit.allowed, limit.remedy);
         }
         Some(Value::Numbers(Values::Each(list)))
     }
@@ -219,8 +215,7 @@ impl Section<'_, '_> {
     fn limited_text(&mut self, key: &str, limit: TextLimit) -> Option<&str> {
         let text = self.text(key)?;
         if !(limit.test)(text) {
-            self.refuse(key, limit.allowed, limit.remedy);
-            return None;
+            return self.refused(key, limit.allowed, limit.remedy);
         }
         Some(text)
     }

@@ -1,5 +1,6 @@
 //! Numbers, vectors and matrices of a [`Section`], with units in text.
 
+use super::lists::whole;
 use super::section::Section;
 use super::units::{self, UnitProblem};
 use crate::sampling::Values;
@@ -145,8 +146,7 @@ impl Section<'_, '_> {
     /// A whole number within `range`, if written.
     pub fn count(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
         let value = self.take(key)?;
-        let count = value.get_ref().as_integer().and_then(|x| u64::from_str_radix(x.as_str(), x.radix()).ok());
-        if let Some(count) = count.filter(|count| range.contains(count)) {
+        if let Some(count) = whole(value.get_ref()).filter(|count| range.contains(count)) {
             return Some(count);
         }
         let remedy = match value.get_ref() {

@@ -173,8 +173,7 @@ pub(super) fn read_phase(
         };
         if let Some(taken) = law.parameters.iter().find(|parameter| is_taken(parameter)) {
             let allowed = format!("a law whose parameters are not also keys of the phase ({:?} is)", taken.facts.key);
-            section.refuse("law", allowed, "rename the parameter");
-            return None;
+            return section.refused("law", allowed, "rename the parameter");
         }
         lists.push(law.parameters);
     }

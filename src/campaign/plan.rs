@@ -12,7 +12,7 @@ use super::extreme::Extreme;
 use super::forces;
 use super::known_columns::KnownColumns;
 use super::numbers::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
-use super::problem::{CampaignError, Problem};
+use super::problem::CampaignError;
 use super::retention::Retention;
 use super::settings::Compression;
 use super::size;
@@ -152,6 +152,7 @@ impl Plan {
     /// The plan of the file at `path`.
     ///
     /// # Errors
+    /// An unreadable file, or all its problems.
     pub fn load(path: &Path, overrides: Overrides) -> Result<Plan, CampaignError> {
         Self::load_with_files(path, overrides).map(|(plan, _)| plan)
     }
@@ -210,14 +211,17 @@ impl Plan {
 
 fn read(folder: &Path, file: &str, text: &str, overrides: Overrides) -> Result<(Plan, FilesRead), CampaignError> {
     let sources = Sources::read(folder, file, text, &overrides.settings)?;
-    let mut document = Document::new(&sources).under(overrides.law.clone(), overrides.attitude_law);
+    let mut document = Document::new(&sources, &overrides);
     let table = document.parse()?;
     let mut spec = Spec::read(&mut document, &table);
     override_spec(&mut spec, &overrides, &mut document);
     let plan = resolve(&spec, &mut document);
     let data = std::mem::take(&mut document.files);
     document.verdict()?;
-    let plan = plan.ok_or_else(|| unreachable_plan(file))?;
+    let plan = plan.ok_or_else(|| {
+        let remedy = "this is an error of spindrift: please report it with the file";
+        CampaignError::new(file, "plan", None, "complete", remedy)
+    })?;
     let description = description::of_sources(&sources, plan.description);
     Ok((Plan { description, ..plan }, FilesRead { campaign: PathBuf::new(), extended: sources.extended, data }))
 }
@@ -230,19 +234,6 @@ fn acting_scene(duration: f64, scene: &SceneInput, dispersions: &Dispersions) ->
         acting.actuation.retain(|_| starts.next().is_some_and(|start| start < duration));
     }
     acting
-}
-
-fn unreachable_plan(file: &str) -> CampaignError {
-    CampaignError::of(Problem {
-        file: file.to_owned(),
-        line: None,
-        key: "plan".to_owned(),
-        value: None,
-        allowed: "complete".to_owned(),
-        remedy: "this is an error of spindrift: please report it with the file".to_owned(),
-        is_unknown: false,
-        excerpt: None,
-    })
 }
 
 fn override_spec(spec: &mut Spec, overrides: &Overrides, document: &mut Document<'_>) {

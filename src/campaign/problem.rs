@@ -59,6 +59,26 @@ impl CampaignError {
         CampaignError { problems: vec![problem], more: 0, note: None, is_unreadable: false }
     }
 
+    /// A single problem, without a line.
+    pub(super) fn new(
+        file: &str,
+        key: &str,
+        value: impl Into<Option<String>>,
+        allowed: impl Into<String>,
+        remedy: &str,
+    ) -> Self {
+        CampaignError::of(Problem {
+            file: file.to_owned(),
+            line: None,
+            key: key.to_owned(),
+            value: value.into(),
+            allowed: allowed.into(),
+            remedy: remedy.to_owned(),
+            is_unknown: false,
+            excerpt: None,
+        })
+    }
+
     /// The message with the marked lines of the file.
     pub fn with_excerpts(&self) -> String {
         self.text(|problem| match &problem.excerpt {

@@ -62,8 +62,7 @@ fn parsed(section: &mut Section<'_, '_>, text: &str) -> Option<Retention> {
             let count = runs(section, count)?;
             if observable.is_empty() {
                 let remedy = format!("name the observable: \"worst:{count} by energy_error_max\"");
-                section.refuse(KEY, ALLOWED, remedy);
-                return None;
+                return section.refused(KEY, ALLOWED, remedy);
             }
             let known = section.document.known.as_ref()?;
             if known.observable(observable).is_none() {

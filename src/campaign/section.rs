@@ -189,12 +189,28 @@ impl<'d, 'a> Section<'d, 'a> {
     }
 
     pub fn text(&mut self, key: &str) -> Option<&'d str> {
-        let value = self.take(key)?;
-        let text = value.get_ref().as_str();
-        if text.is_none() {
-            self.refuse(key, "text", "write it in quotes");
+        self.parsed(key, DeValue::as_str, "text", "write it in quotes")
+    }
+
+    /// The value of `key` as `parse` reads it, if written; noted as wrong if it gives `None`.
+    pub(super) fn parsed<T>(
+        &mut self,
+        key: &str,
+        parse: impl FnOnce(&'d DeValue<'a>) -> Option<T>,
+        allowed: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Option<T> {
+        let parsed = parse(self.take(key)?.get_ref());
+        if parsed.is_none() {
+            self.refuse(key, allowed, remedy);
         }
-        text
+        parsed
+    }
+
+    /// Notes that the value of `key` is wrong; `None`.
+    pub(super) fn refused<T>(&mut self, key: &str, allowed: impl Into<String>, remedy: impl Into<String>) -> Option<T> {
+        self.refuse(key, allowed, remedy);
+        None
     }
 
     /// A name that `parse` knows, if written.
@@ -220,27 +236,23 @@ impl<'d, 'a> Section<'d, 'a> {
         let texts: Option<Vec<&str>> =
             value.get_ref().as_array().and_then(|list| list.iter().map(|item| item.get_ref().as_str()).collect());
         let Some(texts) = texts else {
-            self.refuse(key, "an array of names", format!("write it like [{:?}]", names[0]));
-            return None;
+            return self.refused(key, "an array of names", format!("write it like [{:?}]", names[0]));
         };
         let mut parsed = Vec::with_capacity(texts.len());
         for text in texts {
             match parse(text) {
                 Some(item) if parsed.contains(&item) => {
-                    self.refuse(key, "different names", format!("delete the second {text:?}"));
-                    return None;
+                    return self.refused(key, "different names", format!("delete the second {text:?}"));
                 }
                 Some(item) => parsed.push(item),
                 None => {
                     let (allowed, remedy) = choice(text, names);
-                    self.refuse(key, format!("made of names, each {allowed}"), remedy);
-                    return None;
+                    return self.refused(key, format!("made of names, each {allowed}"), remedy);
                 }
             }
         }
         if parsed.is_empty() {
-            self.refuse(key, "at least one name", format!("leave the key out for {default}"));
-            return None;
+            return self.refused(key, "at least one name", format!("leave the key out for {default}"));
         }
         Some(parsed)
     }

@@ -1,7 +1,7 @@
 //! Limits on the size of a campaign file; large tables of numbers belong in data files.
 
 use super::input_file::{self, InputError};
-use super::problem::{CampaignError, Problem};
+use super::problem::CampaignError;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
@@ -15,39 +15,13 @@ pub const MOST_TABLES: usize = 1000;
 /// The TOML parser's limit on nesting.
 const MOST_LEVELS: usize = 80;
 
-pub(super) fn too_large(file: &str, bytes: u64) -> Problem {
-    Problem {
-        file: file.to_owned(),
-        line: None,
-        key: "file".to_owned(),
-        value: Some(format!("{bytes} bytes")),
-        allowed: format!("a campaign file of at most {MOST_BYTES} bytes"),
-        remedy:
-            "name tables of numbers as files of their own ([design] kind = \"table\", distribution = \"empirical\")"
-                .to_owned(),
-        is_unknown: false,
-        excerpt: None,
-    }
-}
-
 pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
-    let problem = |value: String, allowed: &str, remedy: &str| {
-        CampaignError::of(Problem {
-            file: file.to_owned(),
-            line: None,
-            key: "file".to_owned(),
-            value: Some(value),
-            allowed: allowed.to_owned(),
-            remedy: remedy.to_owned(),
-            is_unknown: false,
-            excerpt: None,
-        })
-    };
+    let problem = |value: String, allowed, remedy| CampaignError::new(file, "file", value, allowed, remedy);
     let bytes = input_file::read(path, MOST_BYTES).map_err(|error| match error {
         InputError::Kind(kind) => {
             problem(kind.to_owned(), "a regular file", "write the campaign to a file, and name that")
         }
-        InputError::Size(bytes) => CampaignError::of(too_large(file, bytes)),
+        InputError::Size(bytes) => too_large(file, bytes),
         InputError::Io(error) => CampaignError {
             is_unreadable: input_file::is_unreadable(&error),
             ..problem(error.to_string(), "a readable text file (UTF-8)", "check the path")
@@ -59,23 +33,25 @@ pub(super) fn read(path: &Path, file: &str) -> Result<String, CampaignError> {
     })
 }
 
-pub(super) fn of_text(file: &str, text: &str) -> Option<Problem> {
-    let bytes = text.len() as u64;
-    (bytes > MOST_BYTES).then(|| too_large(file, bytes))
+fn too_large(file: &str, bytes: u64) -> CampaignError {
+    let allowed = format!("a campaign file of at most {MOST_BYTES} bytes");
+    let remedy =
+        "name tables of numbers as files of their own ([design] kind = \"table\", distribution = \"empirical\")";
+    CampaignError::new(file, "file", format!("{bytes} bytes"), allowed, remedy)
 }
 
-pub(super) fn of_table(file: &str, table: &DeTable<'_>) -> Option<Problem> {
+pub(super) fn check_text(file: &str, bytes: u64) -> Result<(), CampaignError> {
+    if bytes > MOST_BYTES { Err(too_large(file, bytes)) } else { Ok(()) }
+}
+
+pub(super) fn check_table(file: &str, table: &DeTable<'_>) -> Result<(), CampaignError> {
     let keys = keys_of(table);
-    (keys > MOST_KEYS).then(|| Problem {
-        file: file.to_owned(),
-        line: None,
-        key: "file".to_owned(),
-        value: Some(format!("{keys} keys")),
-        allowed: format!("a campaign file of at most {MOST_KEYS} keys"),
-        remedy: "delete what the campaign does not need, or divide it into several campaigns".to_owned(),
-        is_unknown: false,
-        excerpt: None,
-    })
+    if keys <= MOST_KEYS {
+        return Ok(());
+    }
+    let allowed = format!("a campaign file of at most {MOST_KEYS} keys");
+    let remedy = "delete what the campaign does not need, or divide it into several campaigns";
+    Err(CampaignError::new(file, "file", format!("{keys} keys"), allowed, remedy))
 }
 
 fn keys_of(table: &DeTable<'_>) -> usize {

@@ -2,7 +2,7 @@
 //! (`--set campaign.duration_s=20`), which are merged into one table whose values keep their places.
 
 use super::input_file::is_unreadable;
-use super::problem::{CampaignError, Problem};
+use super::problem::CampaignError;
 use super::size;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -49,18 +49,9 @@ impl Sources {
         while let Some((written, line)) = extended(&text) {
             let path = folder.join(&written);
             let refuse = |allowed: &str, remedy: &str| {
-                let (value, allowed, remedy) = (Some(format!("{written:?}")), allowed.to_owned(), remedy.to_owned());
-                let (file, key) = (name.clone(), "extends".to_owned());
-                Err(CampaignError::of(Problem {
-                    file,
-                    line: Some(line),
-                    key,
-                    value,
-                    allowed,
-                    remedy,
-                    is_unknown: false,
-                    excerpt: None,
-                }))
+                let mut error = CampaignError::new(&name, "extends", format!("{written:?}"), allowed, remedy);
+                error.problems[0].line = Some(line);
+                Err(error)
             };
             if !path.is_file() && !path.metadata().is_err_and(|error| is_unreadable(&error)) {
                 return refuse("a campaign file, by its path from the folder of this file", "check the path");
@@ -97,10 +88,6 @@ impl Sources {
     pub fn at(&self, offset: usize) -> &SourceText {
         let found = self.list.iter().rfind(|source| source.range.start <= offset);
         found.unwrap_or(&self.list[0])
-    }
-
-    pub fn is_single(&self) -> bool {
-        self.list.len() == 1
     }
 }
 

@@ -22,8 +22,7 @@ pub(super) fn variables(
 ) -> Option<Vec<BandSeries>> {
     let parsed = Expression::parse(text).ok()?;
     if parsed.variables().is_empty() {
-        table.refuse("quantity", "made of quantities over time", "name one, such as \"angular_rate_rad_s\"");
-        return None;
+        return table.refused("quantity", "made of quantities over time", "name one, such as \"angular_rate_rad_s\"");
     }
     let mut found = Vec::new();
     for name in parsed.variables() {
