@@ -5,7 +5,7 @@
 //! The row plan is the part on which rows and their encoding depend: without the campaign's name, and with the number
 //! of samples only if the design's points depend on it. Equal row hashes mean equal rows.
 
-use super::draws::{correlation_lines, derivation_lines, design_lines, dispersion_lines};
+use super::draws::{design_lines, dispersion_lines};
 use super::lines::Lines;
 use super::plan::Plan;
 use super::{bands, control, scene, settings};
@@ -57,14 +57,14 @@ impl Plan {
             dispersion_lines(dispersion, &mut lines);
         }
         for correlation in &self.correlated {
-            correlation_lines(correlation, &mut lines);
+            lines.rows("[[correlate]]", &correlation.written);
         }
         for replaced in self.dispersions.replaced_correlations() {
             lines.note(&format!("components: {}", replaced.names.join(", ")));
             lines.note(&format!("nearest correlation of the normal scores, which is used: {:?}", replaced.used));
         }
         for derivation in &self.derived {
-            derivation_lines(derivation, &mut lines);
+            lines.rows("[[derive]]", &derivation.written);
         }
         self.write_settings(&settings::TAIL, whole, &mut lines);
         let is_of_rows = |header: &str| ["[[event]]", "[[extreme]]"].contains(&header);

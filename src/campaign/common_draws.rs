@@ -22,9 +22,7 @@ integrator = { method = "auto", tolerance = 1e-10 }
 observe = { points = 11 }
 campaign = { name = "small", seed = 1, duration_s = 1.0, samples = 9 }
 design = { kind = "random" }
-
-[initial]
-angular_velocity_rad_s = [0.0, 0.1, 0.5]
+initial = { angular_velocity_rad_s = [0.0, 0.1, 0.5] }
 
 [body]
 mass_kg = 500.0
@@ -42,11 +40,6 @@ parameter = "initial.angular_velocity_rad_s.y"
 distribution = "uniform"
 min = 0.05
 max = 0.15
-
-[[disperse]]
-parameter = "initial.attitude"
-distribution = "attitude_error"
-std_rad = 0.01
 "#;
 
     /// Law: plans draw alike if seed, design and one dimension are equal, whatever the distributions; another seed or

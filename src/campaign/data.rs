@@ -6,7 +6,6 @@
 use super::data_columns::{ReadError, TextCells, csv_columns, parquet_columns};
 use super::input_file::{self, InputError};
 use sha2::{Digest, Sha256};
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -75,7 +74,7 @@ impl DataFile {
             let allowed = format!("a file of at most {most} numbers{others} (this one has {size})");
             (format!("{shown:?}"), allowed, "keep fewer rows, or name fewer columns".to_owned())
         };
-        let (file, size) = input_file::open(path, LARGEST_FILE).map_err(|error| match error {
+        let bytes = bytes(path).map_err(|error| match error {
             InputError::Kind(kind) => {
                 Unused::from(unreadable(kind.to_owned(), "name a regular file: what it has must not change or wait"))
             }
@@ -85,13 +84,6 @@ impl DataFile {
                 refusal: unreadable(error.to_string(), "its path counts from the folder of the campaign file"),
             },
         })?;
-        let failed =
-            |error: std::io::Error| Unused { refusal: unreadable(error.to_string(), "try again"), is_unreadable: true };
-        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
-        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(too_large(format!("{LARGEST_FILE} bytes or more")).into());
-        }
         let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         let refused = |error: ReadError| match error {
             ReadError::Format(why) => unreadable(why, "correct the file"),
@@ -168,10 +160,6 @@ mod tests {
     use parquet::schema::parser::parse_message_type;
     use std::sync::Arc;
 
-    fn small(compression: Compression) -> Vec<u8> {
-        file("required", None, compression)
-    }
-
     /// `levels` marks the rows of three that have a value.
     fn file(kind: &str, levels: Option<&[i16]>, compression: Compression) -> Vec<u8> {
         let schema = Arc::new(parse_message_type(&format!("message m {{ {kind} double x; }}")).expect("a schema"));
@@ -190,11 +178,10 @@ mod tests {
     fn read(name: &str, bytes: &[u8]) -> Result<Vec<f64>, Refusal> {
         let path = std::env::temp_dir().join(format!("spindrift-{}-{name}.parquet", std::process::id()));
         std::fs::write(&path, bytes).expect("written");
-        let found = DataFile::read(&path, MOST_NUMBERS, &|_| true)
-            .map_err(|unused| unused.refusal)
-            .and_then(|data| data.column("x").expect("the column"));
+        let found = DataFile::read(&path, MOST_NUMBERS, &|_| true).map_err(|unused| unused.refusal);
         std::fs::remove_file(&path).expect("removed");
-        found
+        let absent = || (String::new(), "a column x".to_owned(), String::new());
+        found.and_then(|data| data.column("x").unwrap_or_else(|| Err(absent())))
     }
 
     /// Law: a row without a value is refused by its number, not read as zero.
@@ -213,16 +200,15 @@ mod tests {
     /// Law: codecs that are read give the same numbers; brotli is refused by name.
     #[test]
     fn compressions_are_read_or_refused_in_words() {
-        let gzip = small(Compression::GZIP(parquet::basic::GzipLevel::default()));
-        for bytes in [&small(Compression::UNCOMPRESSED), &small(Compression::SNAPPY), &gzip] {
+        let gzip = file("required", None, Compression::GZIP(parquet::basic::GzipLevel::default()));
+        for bytes in
+            [&file("required", None, Compression::UNCOMPRESSED), &file("required", None, Compression::SNAPPY), &gzip]
+        {
             assert_eq!(read("codec", bytes), Ok(vec![1.5, 2.5]));
         }
         // nothing here writes brotli: change the codec in the footer (thrift zigzag 4 to 8)
         let codecs = |bytes: &[u8]| {
-            let path = std::env::temp_dir().join(format!("spindrift-{}-footer.parquet", std::process::id()));
-            std::fs::write(&path, bytes).expect("written");
-            let reader = SerializedFileReader::new(std::fs::File::open(&path).expect("a file"));
-            std::fs::remove_file(&path).expect("removed");
+            let reader = SerializedFileReader::new(bytes::Bytes::copy_from_slice(bytes));
             reader.ok().map(|reader| reader.metadata().row_group(0).column(0).compression())
         };
         let brotli = (gzip.len() / 2..gzip.len()).filter(|at| gzip[*at] == 4).find_map(|at| {
@@ -239,26 +225,17 @@ mod tests {
     /// Law: a Parquet file with any byte changed is read or refused without a panic.
     #[test]
     fn damaged_tables_are_refused() {
-        let whole = small(Compression::SNAPPY);
+        let whole = file("required", None, Compression::SNAPPY);
         std::panic::set_hook(Box::new(|_| {})); // the reader's panics are wanted
         let mut refused = 0;
         for at in 0..whole.len() {
             for change in [0x01, 0x80, 0xff] {
                 let mut changed = whole.clone();
                 changed[at] ^= change;
-                refused += usize::from(catch_unwind(AssertUnwindSafe(|| read_or_absent(&changed))).expect("no panic"));
+                refused += usize::from(catch_unwind(|| read("damaged", &changed).is_err()).expect("no panic"));
             }
         }
         let _ = std::panic::take_hook();
         assert!(refused > whole.len() / 2, "{refused} of {}", 3 * whole.len());
-    }
-
-    fn read_or_absent(bytes: &[u8]) -> bool {
-        let path = std::env::temp_dir().join(format!("spindrift-{}-damaged.parquet", std::process::id()));
-        std::fs::write(&path, bytes).expect("written");
-        let found = DataFile::read(&path, MOST_NUMBERS, &|_| true)
-            .map(|data| data.column("x").is_none_or(|column| column.is_err()));
-        std::fs::remove_file(&path).expect("removed");
-        found.unwrap_or(true)
     }
 }

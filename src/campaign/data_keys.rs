@@ -2,7 +2,7 @@
 
 use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, Unused, copy_name};
 use super::meaning::meant;
-use super::parameter::{named, unknown_parameter, without_effect};
+use super::parameter::{named, refuse_unknown, without_effect};
 use super::section::Section;
 use crate::sampling::DataColumn;
 use crate::sampling::keys::{ANY_TEXT, Kind, Row};
@@ -171,11 +171,8 @@ fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (P
         return Some((0..parameter.width()).map(|k| (parameter.component_name(k), (parameter, k))).collect());
     }
     let Some(component) = named(&table.document.scene, name) else {
-        if !table.document.may_be_of_loop(name) {
-            let key = if table.has("parameters") { "parameters" } else { "file" };
-            let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
-            table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
-        }
+        let key = if table.has("parameters") { "parameters" } else { "file" };
+        refuse_unknown(table, key, name);
         return None;
     };
     refuse_without_effect(table, name, component.0);

@@ -3,21 +3,21 @@
 
 use super::lines::Lines;
 use super::numbers::MAX_SAMPLES;
-use super::parameter::{PARAMETER, parameter, unknown_parameter};
+use super::parameter::{PARAMETER, name_of};
 use super::section::Section;
 use super::units;
 use crate::sampling::design::replicates::REPLICATES;
-use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule};
-use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure, Numbers, Table};
+use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule, Value};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure, Table};
 use crate::scene::Parameter;
 
 pub const CORRELATE: [Row; 5] = [
-    Row::new("parameters", Kind::Names, "The dispersed parameters that depend on each other")
+    Row::new("parameters", Kind::Parameters, "The dispersed parameters that depend on each other")
         .required_as("an array of texts", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]"),
     Row::new("correlation", Kind::Correlations, "Correlation of their normal scores"),
     Row::new("rank_correlation", Kind::Correlations, "Rank correlation"),
     Row::new("covariance", Kind::Correlations, "Covariance of normal distributions"),
-    Row::new("nearest_psd", Kind::Flag, "Whether to take the nearest matrix of correlations; default: false"),
+    Row::new("nearest_psd", Kind::Flag, "Whether to take the nearest matrix of correlations; default: false").sparse(),
 ];
 
 const MEASURE: Rule = Rule::One(&[&["correlation"], &["rank_correlation"], &["covariance"]], "0.5", ALL_BUT_ONE);
@@ -30,50 +30,23 @@ pub const DERIVE: [Row; 2] = [
 
 /// Reads a `[[correlate]]` table; `None` after a problem.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
-    table.right_rows(&CORRELATE[..1]);
-    let names = table.texts("parameters", "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]");
-    let parameters = names.and_then(|names| {
-        let mut parameters = Vec::with_capacity(names.len());
-        for name in names {
-            let Some(found) = Parameter::find(&table.document.scene, &name) else {
-                if !table.document.may_be_of_loop(&name) {
-                    let (allowed, remedy) = unknown_parameter(&table.document.scene, &name);
-                    table.refuse_value(
-                        "parameters",
-                        format!("{name:?}"),
-                        format!("made of names, each {allowed}"),
-                        remedy,
-                    );
-                }
-                return None;
-            };
-            parameters.push(found);
-        }
-        Some(parameters)
-    });
-    let is_one = table.obeys(&MEASURE, true);
-    let mut numbers = Vec::new();
-    for measure in Measure::ALL {
-        numbers.extend(table.correlations(measure.key()).map(|numbers| (measure, numbers)));
-    }
-    let nearest_psd = table.flag("nearest_psd");
-    let flag_passed = !table.has("nearest_psd") || nearest_psd.is_some();
-    table.finish();
-    match (parameters, numbers.pop()) {
-        (Some(parameters), Some((measure, numbers))) if flag_passed && is_one => {
-            Some(Correlation { parameters, measure, numbers, nearest_psd: nearest_psd.unwrap_or(false) })
-        }
+    let written = table.whole(&CORRELATE, &[MEASURE])?;
+    let numbers = |measure: Measure| match written.get(measure.key())? {
+        Value::Correlations(numbers) => Some((measure, numbers.clone())),
         _ => None,
-    }
+    };
+    let (measure, numbers) = Measure::ALL.into_iter().find_map(numbers)?;
+    let find = |name: &String| Parameter::find(&table.document.scene, name);
+    let parameters = written.texts("parameters").iter().map(find).collect::<Option<_>>()?;
+    let nearest_psd = written.flag("nearest_psd");
+    Some(Correlation { parameters, measure, numbers, nearest_psd, written: written.completed(&CORRELATE, &[]) })
 }
 
 /// Reads a `[[derive]]` table; `None` after a problem.
 pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
-    let target = parameter(table, "parameter");
-    let expression = table.right_rows(&DERIVE[1..]).text("expression").map(str::to_owned);
-    table.finish();
-    let ((parameter, component), expression) = target.zip(expression)?;
-    Some(Derivation { parameter, component, expression })
+    let written = table.whole(&DERIVE, &[])?;
+    let (parameter, component) = Parameter::find(&table.document.scene, written.text("parameter")?)?;
+    Some(Derivation { parameter, component, expression: written.text("expression")?.to_owned(), written })
 }
 
 /// Reads `[design]`; `None` after a problem.
@@ -107,7 +80,8 @@ pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
         let (parameter, component) = distribution.written.columns().first()?.target?;
         return Some(Dispersion { parameter, component: Some(component), distribution });
     }
-    let target = parameter(table, "parameter");
+    let written = table.right_rows(&[PARAMETER]);
+    let target = written.text("parameter").and_then(|name| Parameter::find(&table.document.scene, name));
     // a wrong name is reported; any unit is accepted then
     match target {
         Some((parameter, _)) => table.describes(parameter.name(), parameter.unit()),
@@ -150,10 +124,8 @@ impl DrawTables {
 
 pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
     lines.table("[[disperse]]");
-    match dispersion.component {
-        _ if dispersion.distribution.kind.names_parameters() => {}
-        Some(component) => lines.key("parameter", dispersion.parameter.component_name(component)),
-        None => lines.key("parameter", dispersion.parameter.name()),
+    if !dispersion.distribution.kind.names_parameters() {
+        lines.key("parameter", name_of((dispersion.parameter, dispersion.component)));
     }
     lines.key("distribution", dispersion.distribution.kind.name());
     lines.written("disperse", &dispersion.distribution.written);
@@ -165,29 +137,4 @@ pub(super) fn design_lines(design: &Design, lines: &mut Lines) {
         lines.key("kind", design.name());
         lines.written("design", &design.written());
     }
-}
-
-pub(super) fn correlation_lines(correlation: &Correlation, lines: &mut Lines) {
-    lines.table("[[correlate]]");
-    let name = |(parameter, component): &(Parameter, Option<usize>)| match component {
-        Some(component) => parameter.component_name(*component),
-        None => parameter.name().to_owned(),
-    };
-    lines.key("parameters", correlation.parameters.iter().map(name).collect::<Vec<_>>());
-    match &correlation.numbers {
-        Numbers::One(number) => lines.key(correlation.measure.key(), number),
-        Numbers::Rows(rows) => lines.key(correlation.measure.key(), rows),
-    }
-    if correlation.nearest_psd {
-        lines.key("nearest_psd", true);
-    }
-}
-
-pub(super) fn derivation_lines(derivation: &Derivation, lines: &mut Lines) {
-    lines.table("[[derive]]");
-    match derivation.component {
-        Some(component) => lines.key("parameter", derivation.parameter.component_name(component)),
-        None => lines.key("parameter", derivation.parameter.name()),
-    }
-    lines.key("expression", &derivation.expression);
 }

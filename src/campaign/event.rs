@@ -77,10 +77,6 @@ pub const ROWS: [Row; 6] = [
 impl Event {
     /// Reads the tables and omits invalid ones. `observed`: the columns without events.
     pub(super) fn read_all(root: &mut Section<'_, '_>, observed: &Request) -> Vec<Event> {
-        if !root.has("event") {
-            root.know("event");
-            return Vec::new();
-        }
         let series = event_series(observed);
         let mut names: Vec<String> = Vec::new();
         let found = root.sections("event", MOST_EVENTS, |table| {

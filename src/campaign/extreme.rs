@@ -48,10 +48,6 @@ pub const ROWS: [Row; 5] = [
 impl Extreme {
     /// Reads the tables and omits invalid ones. `observed`: the columns without extremes.
     pub(super) fn read_all(root: &mut Section<'_, '_>, observed: &Request, events: &[Event]) -> Vec<Extreme> {
-        if !root.has("extreme") {
-            root.know("extreme");
-            return Vec::new();
-        }
         let series = event_series(observed);
         let mut names: Vec<String> =
             observed.columns().iter().map(|column| column.quantity.name().to_owned()).collect();

@@ -3,6 +3,7 @@
 use super::known_columns::{KnownColumns, unit_of};
 use super::lines::Lines;
 use super::numbers::FINITE;
+use super::parameter::{parameter, parameters};
 use super::section::Section;
 use super::{data_keys, display, units};
 use crate::math::vector::norm;
@@ -11,7 +12,7 @@ use crate::sampling::expression::Expression;
 use crate::sampling::keys::{
     ALL_BUT_ONE, Condition, Counts, Kind, NumberLimit, Presence, Row, Rule, TextLimit, Value, Values, Written,
 };
-use crate::sampling::{DistributionKind, WrittenDistribution};
+use crate::sampling::{DistributionKind, Numbers, WrittenDistribution};
 
 impl Section<'_, '_> {
     /// The values of `rows` if all are valid and obey `rules`; problems are noted.
@@ -145,8 +146,11 @@ impl Section<'_, '_> {
             }
             Kind::Units => Some(Value::Words(display::of_quantities(self, key))),
             Kind::UnitsByName => Some(Value::Units(display::by_name(self, key))),
+            Kind::Parameter => parameter(self, key),
+            Kind::Parameters => parameters(self, key),
+            Kind::Correlations => self.correlations(key).map(Value::Correlations),
             // read by the table's own code
-            Kind::Name | Kind::Names | Kind::ByName | Kind::Correlations => {
+            Kind::Name | Kind::Names | Kind::ByName => {
                 self.know(key);
                 None
             }
@@ -319,6 +323,8 @@ impl Lines {
                 Value::Numbers(Values::All(number)) => self.key(key, number),
                 Value::Numbers(Values::Each(list)) => self.key(key, list),
                 Value::Matrix(matrix) => self.key(key, matrix),
+                Value::Correlations(Numbers::One(number)) => self.key(key, number),
+                Value::Correlations(Numbers::Rows(rows)) => self.key(key, rows),
                 Value::Counts(Counts::All(count)) => self.key(key, count),
                 Value::Counts(Counts::Each(counts)) => self.key(key, counts),
                 Value::Word(word) => self.key(key, word),

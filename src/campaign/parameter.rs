@@ -2,17 +2,15 @@
 
 use super::meaning::meant;
 use super::section::Section;
-use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row};
+use crate::sampling::keys::{Kind, Row, Value};
 use crate::scene::{EnvironmentInput, LawParameter, Parameter, SceneInput};
 
 /// The key for the subject of a table.
-pub const PARAMETER: Row = Row::new("parameter", Kind::Text(ANY_TEXT), "A number of the scene or of the control loop")
+pub const PARAMETER: Row = Row::new("parameter", Kind::Parameter, "A number of the scene or of the control loop")
     .required_as("a numeric key of scene or initial state", "\"initial.angular_velocity_rad_s\"");
 
-pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Option<(Parameter, Option<usize>)> {
-    if let Presence::Required { allowed, example } = PARAMETER.presence {
-        table.require(key, allowed, example);
-    }
+/// The parameter that `key` names, by its whole name or that of a component.
+pub(super) fn parameter(table: &mut Section<'_, '_>, key: &str) -> Option<Value> {
     let name = table.text(key)?;
     let found = Parameter::find(&table.document.scene, name);
     if found.is_none() && !table.document.may_be_of_loop(name) {
@@ -22,7 +20,34 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &'static str) -> Optio
     if let Some((allowed, remedy)) = found.and_then(|(parameter, _)| without_effect(table, parameter)) {
         table.refuse(key, allowed, remedy);
     }
-    found
+    found.map(|found| name_of(found).as_str().into())
+}
+
+/// The parameters that `key` names.
+pub(super) fn parameters(table: &mut Section<'_, '_>, key: &str) -> Option<Value> {
+    let names = table.texts(key, "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]")?;
+    let mut found = Vec::with_capacity(names.len());
+    for name in names {
+        let Some(parameter) = Parameter::find(&table.document.scene, &name) else {
+            refuse_unknown(table, key, &name);
+            return None;
+        };
+        found.push(name_of(parameter));
+    }
+    Some(Value::Texts(found))
+}
+
+/// Notes that `name`, in the list of `key`, is not a parameter.
+pub(super) fn refuse_unknown(table: &mut Section<'_, '_>, key: &str, name: &str) {
+    if !table.document.may_be_of_loop(name) {
+        let (allowed, remedy) = unknown_parameter(&table.document.scene, name);
+        table.refuse_value(key, format!("{name:?}"), format!("made of names, each {allowed}"), remedy);
+    }
+}
+
+/// The name of a parameter, or of one component.
+pub(super) fn name_of((parameter, component): (Parameter, Option<usize>)) -> String {
+    component.map_or_else(|| parameter.name(), |component| parameter.component_name(component))
 }
 
 /// The setting without which a key of the table `header` has no effect.

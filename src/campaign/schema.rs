@@ -246,9 +246,10 @@ fn of_kind(row: &Row) -> Json {
         | Kind::Observable
         | Kind::Band
         | Kind::Expression
+        | Kind::Parameter
         | Kind::Column
         | Kind::Columns => text(),
-        Kind::Observables | Kind::Names | Kind::Units => list(text(), None),
+        Kind::Observables | Kind::Names | Kind::Parameters | Kind::Units => list(text(), None),
         Kind::UnitsByName => json!({"type": "object", "additionalProperties": text()}),
         Kind::ByName => json!({"type": "object", "additionalProperties": number(ANY)}),
         Kind::Flag => json!({"type": "boolean"}),

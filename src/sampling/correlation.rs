@@ -6,6 +6,7 @@
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::{Distribution, Quantile};
 use super::error::{DispersionError, Table, error_of};
+use super::keys::Written;
 use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
 
@@ -44,6 +45,8 @@ pub struct Correlation {
     pub numbers: Numbers,
     /// Whether to replace a matrix that is not positive semidefinite by the nearest one.
     pub nearest_psd: bool,
+    /// The table as in canonical text.
+    pub written: Written,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -4,6 +4,7 @@ use super::columns::Columns;
 use super::correlation::components_of;
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error_of};
 use super::expression::Expression;
+use super::keys::Written;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
 
@@ -13,6 +14,8 @@ pub struct Derivation {
     /// One component; `None` for all.
     pub component: Option<usize>,
     pub expression: String,
+    /// The table as in canonical text.
+    pub written: Written,
 }
 
 impl Derivation {

@@ -1,6 +1,7 @@
 //! Declared keys of campaign tables: [`Row`], one key; [`Rule`], a relation of several keys; [`Written`], the values of
 //! a file. Reading, messages, canonical text and documents follow from them.
 
+use super::correlation::Numbers;
 use crate::scene::{Name, Parameter};
 use std::collections::BTreeMap;
 use std::ops::{Bound, RangeBounds};
@@ -88,6 +89,9 @@ pub enum Kind {
     /// The name of a quantity with bands, which becomes the table's subject.
     Band,
     Expression,
+    /// The name of a parameter, as a whole or of a component.
+    Parameter,
+    Parameters,
     Flag,
     /// Only `true`.
     Yes,
@@ -354,6 +358,7 @@ pub enum Value {
     /// One number, one for each component, a list or a vector.
     Numbers(Values),
     Matrix([[f64; 3]; 3]),
+    Correlations(Numbers),
     Counts(Counts),
     Text(String),
     Word(&'static str),

@@ -28,9 +28,9 @@ impl Scalar for Beta {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let (alpha, beta) = (target.each("alpha")?, target.each("beta")?);
-        let (min, max) = target.ends()?;
-        target.all(|k| Ok(Self::new(alpha[k], beta[k], min[k], max[k])))
+        target.each("alpha").and(target.each("beta")).and(target.ends())?;
+        let of = |[alpha, beta, min, max]: [f64; 4]| Beta::new(alpha, beta, min, max);
+        target.of_numbers(["alpha", "beta", "min", "max"], of)
     }
 }
 

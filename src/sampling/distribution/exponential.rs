@@ -22,9 +22,7 @@ impl Scalar for Exponential {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let scale = target.each("scale")?;
-        let min = target.each("min")?;
-        target.all(|k| Ok(Self { scale: scale[k], min: min[k] }))
+        target.of_numbers(["scale", "min"], |[scale, min]| Exponential { scale, min })
     }
 }
 

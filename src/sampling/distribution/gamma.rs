@@ -49,10 +49,7 @@ impl Scalar for Gamma {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let shape = target.each("shape")?;
-        let scale = target.each("scale")?;
-        let min = target.each("min")?;
-        target.all(|k| Ok(Self::new(shape[k], scale[k], min[k])))
+        target.of_numbers(["shape", "scale", "min"], |[shape, scale, min]| Gamma::new(shape, scale, min))
     }
 }
 

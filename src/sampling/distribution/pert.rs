@@ -50,9 +50,8 @@ impl Scalar for Pert {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let (min, max) = target.ends()?;
-        let mode = target.mode(&min, &max)?;
-        target.all(|k| Ok(Self::new(min[k], mode[k], max[k])))
+        target.check_mode()?;
+        target.of_numbers(["min", "mode", "max"], |[min, mode, max]| Pert::new(min, mode, max))
     }
 }
 

@@ -20,8 +20,7 @@ impl Scalar for Rayleigh {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let scale = target.each("scale")?;
-        target.all(|k| Ok(Self { scale: scale[k] }))
+        target.of_numbers(["scale"], |[scale]| Rayleigh { scale })
     }
 }
 

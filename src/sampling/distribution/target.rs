@@ -54,6 +54,16 @@ impl Target<'_> {
         }
     }
 
+    /// The distributions of all components, each from its numbers of `keys`.
+    pub(super) fn of_numbers<T, const N: usize>(
+        &self,
+        keys: [&'static str; N],
+        of: impl Fn([f64; N]) -> T,
+    ) -> Result<Vec<T>, DispersionError> {
+        let lists = keys.into_iter().map(|key| self.each(key)).collect::<Result<Vec<_>, _>>()?;
+        Ok((0..self.nominals.len()).map(|component| of(std::array::from_fn(|key| lists[key][component]))).collect())
+    }
+
     /// One finite number for each component.
     fn spread_out(&self, key: &'static str, values: &Values) -> Numbers {
         let width = self.nominals.len();
@@ -114,16 +124,17 @@ impl Target<'_> {
         }
     }
 
-    /// The most likely value of each component, within its ends.
-    pub(super) fn mode(&self, min: &[f64], max: &[f64]) -> Numbers {
+    /// `min` < `max`, and `mode` within them.
+    pub(super) fn check_mode(&self) -> Result<(), DispersionError> {
+        let (min, max) = self.ends()?;
         let modes = self.each("mode")?;
-        for ((mode, min), max) in modes.iter().zip(min).zip(max) {
-            if mode < min || mode > max {
+        match modes.iter().zip(min.iter().zip(&max)).find(|(mode, (min, max))| mode < min || mode > max) {
+            Some((mode, (min, max))) => {
                 let allowed = format!("from min ({min:?}) to max ({max:?}); without mode the nominal is meant");
-                return self.refused("mode", format!("{mode:?}"), allowed, "write mode, or move min and max");
+                self.refused("mode", format!("{mode:?}"), allowed, "write mode, or move min and max")
             }
+            None => Ok(()),
         }
-        Ok(modes)
     }
 
     /// A missing key.

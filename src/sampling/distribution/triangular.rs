@@ -22,9 +22,8 @@ impl Scalar for Triangular {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let (min, max) = target.ends()?;
-        let mode = target.mode(&min, &max)?;
-        target.all(|k| Ok(Self { min: min[k], mode: mode[k], max: max[k] }))
+        target.check_mode()?;
+        target.of_numbers(["min", "mode", "max"], |[min, mode, max]| Triangular { min, mode, max })
     }
 }
 

@@ -31,10 +31,7 @@ impl Scalar for Weibull {
     type Quantile = Self;
 
     fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
-        let shape = target.each("shape")?;
-        let scale = target.each("scale")?;
-        let min = target.each("min")?;
-        target.all(|k| Ok(Self { shape: shape[k], scale: scale[k], min: min[k] }))
+        target.of_numbers(["shape", "scale", "min"], |[shape, scale, min]| Weibull { shape, scale, min })
     }
 }
 
