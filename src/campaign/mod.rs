@@ -1,31 +1,16 @@
-//! Layer 5: campaign files. What was written ([`Spec`]) -> what will run ([`Plan`]), or every reason why not
-//! ([`CampaignError`]).
+//! Layer 5: campaign files: as written ([`Spec`]), resolved ([`Plan`]), or with all problems ([`CampaignError`]).
 //!
-//! - [`problem`]: one reason, with file, line, key, value, allowed range and remedy. [`excerpt`]: the line with a mark.
-//!   [`meaning`]: what an unknown name probably means.
-//! - [`input_file`]: regular files of bounded size. [`size`]: how large a campaign file may be.
-//! - [`document`], [`section`], [`numbers`], [`lists`]: a TOML document that is read key by key and remembers the
-//!   lines. By hand and not by serde's derive, which stops at the first error and knows no line of a key that passed.
-//! - [`spec`]: a campaign file as written. [`settings`]: keys outside the scene. [`scene`], [`scene_table`]: keys of
-//!   the scene, with the numbers that [`crate::scene::schema`] declares. `control`, `sensor_tables`, `phase_tables`:
-//!   control loops. [`failure_tables`]: devices that fail. [`draws`]: dispersions and designs. `keys`: rows of keys,
-//!   read and written. [`schema`]: the JSON Schema of campaign files. [`data`], `data_columns`, `data_keys`: files of
-//!   numbers. [`parameter`]: names of parameters. [`bands`].
-//! - [`analysis`]: what is made of the rows: [`requirement`], [`derived_observable`], [`stop`]; [`known_columns`]: what
-//!   they can name; [`columns`]: what runs are observed for; [`event`]: quantities that cross a value; [`extreme`]:
-//!   their largest values; `watched_quantity`: which there are; [`event_columns`]: when events and failures happened.
-//!   [`retention`]: which runs keep their time series.
-//! - [`plan`]: defaults filled in, scene and dispersions checked against each other.
-//! - [`chosen`], `plan_rows`: which samples are its rows.
-//! - `units`: units in values.
-//! - [`notes`]: what is allowed and probably not meant.
-//! - [`mod@draw`]: from a plan and the number of a sample to its scene.
-//! - [`canonical`], `lines`: the plan as text that reads back to the same plan, and its hash.
-//! - [`difference`]: the keys in which two plans differ; [`common_draws`]: whether they draw the same samples.
-//! - [`mod@find`]: which file a name means.
+//! - Reading: [`mod@find`], [`input_file`], [`size`], `sources`; [`document`] and [`section`] (with [`numbers`],
+//!   [`lists`], `units`) read key by key and keep lines, since serde's derive stops at the first error and knows no
+//!   line of a valid key. [`problem`], [`excerpt`] and [`meaning`] make the messages.
+//! - Keys: `keys` reads and writes declared rows. [`settings`], [`scene`] (with [`scene_table`], [`failure_tables`]),
+//!   `control` (with `sensor_tables`, `phase_tables`), [`draws`], [`analysis`] ([`requirement`],
+//!   [`derived_observable`], [`stop`]), [`event`], [`extreme`], [`retention`], [`data`]; [`parameter`] and
+//!   [`known_columns`] resolve names, [`schema`] is the JSON Schema.
+//! - Plans: [`plan`], [`canonical`] and `lines` (text and hash), [`columns`] and [`event_columns`], `plan_rows` and
+//!   [`chosen`], [`mod@draw`] (from a sample's number to its scene), [`notes`], [`difference`], [`common_draws`].
 //!
-//! Not here: what is physical ([`crate::scene`]) and what can be drawn ([`crate::sampling`]); their errors get lines
-//! here.
+//! Scenes and dispersions are checked in [`crate::scene`] and [`crate::sampling`]; their errors get lines here.
 
 pub mod analysis;
 pub mod bands;

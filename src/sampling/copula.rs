@@ -1,13 +1,12 @@
-//! [`Copula`]: dependence between the u of several dimensions, whatever their distributions (Gaussian copula).
+//! [`Copula`]: a Gaussian copula between the u of several dimensions.
 //!
-//! Normal scores z = Phi^-1(u) of independent u become y = L z with the Cholesky factor of the correlation matrix R = L
-//! L^T, and u' = Phi(y) feeds the distributions: marginals are unchanged, and R is the correlation of the scores, for
-//! normal distributions of the values too. A rank correlation rho_s needs r = 2 sin(pi rho_s/6) (K. Pearson 1907; W. H.
-//! Kruskal, *J. Am. Stat. Assoc.* 53 (1958) 814).
+//! Normal scores z = Phi^-1(u) of independent u become y = L z, with the Cholesky factor of the correlation matrix R =
+//! L L^T, and u' = Phi(y): marginals stay, and R correlates the scores, or normal values. A rank correlation rho_s
+//! needs r = 2 sin(pi rho_s/6) (K. Pearson 1907; W. H. Kruskal, *J. Am. Stat. Assoc.* 53 (1958) 814).
 //!
-//! A matrix that is not positive semidefinite is refused, or replaced by the nearest one that is (N. J. Higham,
-//! *Computing the nearest correlation matrix*, IMA J. Numer. Anal. 22 (2002) 329, algorithm 3.3). All arithmetic is
-//! portable: the factor is on the path of a row.
+//! A matrix that is not positive semidefinite is refused, or replaced by the nearest one (N. J. Higham, *Computing the
+//! nearest correlation matrix*, IMA J. Numer. Anal. 22 (2002) 329, algorithm 3.3). Arithmetic is portable, since rows
+//! depend on the factor.
 
 use super::design::BLOCK;
 use crate::math::normal::{probability, quantiles};
@@ -17,30 +16,29 @@ pub type Matrix = Vec<Vec<f64>>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Copula {
     pub dimensions: Vec<usize>,
-    /// The Cholesky factor by rows, row i of i + 1 numbers.
+    /// By rows, row i of i + 1 numbers.
     factor: Matrix,
 }
 
-/// Eigenvalues above minus this count as zero: rounding of a matrix in 15 digits, times its order.
+/// Eigenvalues above minus this, times the order, are zero: rounding in 15 digits.
 const SLACK: f64 = 1e-12;
-/// A pivot below this is zero: the row depends on those above it.
+/// Below, a row depends on those above it.
 const SMALLEST_PIVOT: f64 = 1e-12;
-/// Steps of alternating projections; convergence is linear, hundreds are typical.
+/// Hundreds are typical.
 const MOST_PROJECTIONS: usize = 5000;
 
 impl Copula {
-    /// The dependence of `dimensions` by a correlation matrix that is positive semidefinite to rounding.
+    /// `correlation` is positive semidefinite to rounding.
     pub fn new(dimensions: Vec<usize>, correlation: &Matrix) -> Self {
         Copula { dimensions, factor: cholesky(correlation) }
     }
 
-    /// Replaces the independent u of a block by dependent ones and writes their normal scores to `scores`, both by
-    /// dimension.
+    /// Makes the u of a block dependent and writes their normal scores.
     pub fn apply(&self, u: &mut [[f64; BLOCK]], scores: &mut [[f64; BLOCK]]) {
         for dimension in &self.dimensions {
             quantiles(&u[*dimension], &mut scores[*dimension]);
         }
-        // from the last row upwards, each needs only the independent scores above it
+        // upwards, each row needs only independent scores above it
         for (row, dimension) in self.factor.iter().zip(&self.dimensions).rev() {
             let mut sum = [0.0; BLOCK];
             for (weight, other) in row.iter().zip(&self.dimensions) {
@@ -62,12 +60,12 @@ fn inside(p: f64) -> f64 {
     p.clamp(LEAST, 1.0 - LEAST)
 }
 
-/// The correlation of normal scores that gives a rank correlation (Spearman's).
+/// The correlation of normal scores for Spearman's.
 pub fn score_correlation(rank_correlation: f64) -> f64 {
     2.0 * libm::sin(core::f64::consts::PI / 6.0 * rank_correlation)
 }
 
-/// The Cholesky factor of a positive semidefinite matrix; a row that depends on those above it has a zero diagonal.
+/// The Cholesky factor; a row that depends on those above it has a zero diagonal.
 fn cholesky(matrix: &Matrix) -> Matrix {
     let mut factor: Matrix = Vec::with_capacity(matrix.len());
     for (i, entries) in matrix.iter().enumerate() {
@@ -88,15 +86,14 @@ fn cholesky(matrix: &Matrix) -> Matrix {
     factor
 }
 
-/// The smallest eigenvalue of a symmetric matrix that is not positive semidefinite to rounding.
+/// The smallest eigenvalue, if negative beyond rounding.
 pub fn smallest_negative_eigenvalue(matrix: &Matrix) -> Option<f64> {
     let (values, _) = eigen(matrix);
     let smallest = values.into_iter().fold(f64::INFINITY, f64::min);
     (smallest < -SLACK * matrix.len() as f64).then_some(smallest)
 }
 
-/// The nearest correlation matrix to a symmetric one with unit diagonal, in the Frobenius norm (Higham 2002, algorithm
-/// 3.3).
+/// The nearest correlation matrix in the Frobenius norm (Higham 2002, algorithm 3.3).
 pub fn nearest_correlation(matrix: &Matrix) -> Matrix {
     let n = matrix.len();
     let (mut y, mut correction) = (matrix.clone(), vec![vec![0.0; n]; n]);
@@ -112,7 +109,6 @@ pub fn nearest_correlation(matrix: &Matrix) -> Matrix {
             break;
         }
     }
-    // the negative eigenvalues left are rounding: cut them and scale to a unit diagonal
     let x = semidefinite_part(&y);
     (0..n).map(|i| (0..n).map(|j| if i == j { 1.0 } else { x[i][j] / (x[i][i] * x[j][j]).sqrt() }).collect()).collect()
 }
@@ -121,7 +117,7 @@ fn combined(a: &Matrix, b: &Matrix, factor: f64) -> Matrix {
     a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + factor * b).collect()).collect()
 }
 
-/// The nearest positive semidefinite matrix: negative eigenvalues become zero.
+/// Without the negative eigenvalues.
 fn semidefinite_part(matrix: &Matrix) -> Matrix {
     let (values, vectors) = eigen(matrix);
     let n = matrix.len();
@@ -129,8 +125,8 @@ fn semidefinite_part(matrix: &Matrix) -> Matrix {
     (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
 }
 
-/// Eigenvalues of a symmetric matrix and its eigenvectors as columns, by cyclic Jacobi rotations (Golub & Van Loan,
-/// *Matrix Computations*, 4th ed. (2013), section 8.5).
+/// Eigenvalues and eigenvectors (columns), by cyclic Jacobi rotations (Golub & Van Loan, *Matrix Computations*, 4th ed.
+/// (2013), section 8.5).
 #[expect(clippy::needless_range_loop, reason = "two rows of one matrix change together")]
 fn eigen(matrix: &Matrix) -> (Vec<f64>, Matrix) {
     const SWEEPS: usize = 60;

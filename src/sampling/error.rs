@@ -1,12 +1,10 @@
-//! [`DispersionError`]: the reason why a campaign's dispersions cannot be drawn.
+//! [`DispersionError`]: why dispersions cannot be drawn.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Table {
-    /// A `[[disperse]]` table, counted from zero.
+    /// Counted from zero, as below.
     Disperse(usize),
-    /// A `[[correlate]]` table, counted from zero.
     Correlate(usize),
-    /// A `[[derive]]` table, counted from zero.
     Derive(usize),
     Design,
     Campaign,
@@ -29,11 +27,10 @@ impl std::fmt::Display for Table {
     |value| format!(" = {value}")))]
 pub struct DispersionError {
     pub table: Table,
-    /// The wrong key: `parameter`, `std`, ...
     pub key: &'static str,
-    /// Its value; `None` if the key is missing.
+    /// `None` for a missing key.
     pub value: Option<String>,
-    /// Allowed values (to follow the words `must be`).
+    /// Follows `must be`.
     pub allowed: String,
     pub remedy: String,
 }

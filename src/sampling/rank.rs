@@ -21,11 +21,11 @@ enum Grades {
     Steps(Vec<[f64; 3]>),
 }
 
-/// Less probable discrete values are joined with their neighbours: the rank correlation changes by about its square.
+/// Less probable values are joined: the rank correlation changes by about the square.
 const FINEST: f64 = 1.0 / 64.0;
-/// Intervals of Simpson's rule: errors below 1e-7 where the steps are apart by more than 0.01.
+/// Errors below 1e-7 for steps more than 0.01 apart.
 const INTERVALS: u32 = 128;
-/// Most steps of regula falsi (ten are usual).
+/// Ten are usual.
 const MOST_STEPS: u32 = 60;
 /// Tolerance of the rank correlation.
 const NEAR: f64 = 1e-9;
@@ -66,7 +66,7 @@ impl Grades {
     }
 }
 
-/// The covariance of the grades for r = 1 (`sign` 1) or r = -1 (`sign` -1).
+/// The covariance of the grades for r = `sign`, 1 or -1.
 fn extreme_covariance(a: &Grades, b: &Grades, sign: f64) -> f64 {
     let half = |steps: &[[f64; 3]]| 0.5 * sign * steps.iter().map(|[p, _, d]| d * p * (1.0 - p)).sum::<f64>();
     match (a, b) {
@@ -79,7 +79,7 @@ fn extreme_covariance(a: &Grades, b: &Grades, sign: f64) -> f64 {
     }
 }
 
-/// The derivative of the covariance of the grades with respect to theta = asin r.
+/// Derivative of the covariance of the grades by theta = asin r.
 fn slope(a: &Grades, b: &Grades, theta: f64) -> f64 {
     let (sine, cosine) = libm::sincos(theta);
     let mixed = |steps: &[[f64; 3]]| {
@@ -104,7 +104,7 @@ fn slope(a: &Grades, b: &Grades, theta: f64) -> f64 {
     }
 }
 
-/// The covariance of the grades at theta = asin r, by Simpson's rule.
+/// At theta = asin r, by Simpson's rule.
 fn covariance(a: &Grades, b: &Grades, theta: f64) -> f64 {
     let width = theta / f64::from(INTERVALS);
     let term = |k: u32| {
@@ -118,8 +118,7 @@ fn covariance(a: &Grades, b: &Grades, theta: f64) -> f64 {
     (0..=INTERVALS).map(term).sum::<f64>() * width / 3.0
 }
 
-/// The correlation of the normal scores that gives `a` and `b` the rank correlation `rank`; or the lowest and the
-/// highest rank correlation that they can have.
+/// The correlation of the normal scores for a rank correlation; or the lowest and highest possible one.
 pub(super) fn scores_of_ranks(rank: f64, a: &Distribution, b: &Distribution) -> Result<f64, [f64; 2]> {
     let (a, b) = (Grades::of(a), Grades::of(b));
     if a == Grades::Continuous && b == Grades::Continuous {

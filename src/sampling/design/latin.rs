@@ -1,20 +1,18 @@
 //! `latin_hypercube`: in each dimension one sample in each of n equal strata (M. D. McKay, R. J. Beckman & W. J.
 //! Conover, *Technometrics* 21 (1979) 239).
 //!
-//! The stratum of a sample is its image under a keyed permutation of 0..n: a Feistel network over the next even number
-//! of bits, walked until it falls below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*, CT-RSA
-//! 2002), which takes no memory. Within its stratum a sample lies where the random design would put it in the cube. n =
-//! samples - 1, since sample 0 is the nominal scene.
+//! The stratum of a sample is its image under a keyed permutation of 0..n without memory: a Feistel network over the
+//! next even number of bits, walked until below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*,
+//! CT-RSA 2002). Within it a sample lies as in the random design. n = samples - 1, without the nominal scene.
 
 use super::hash::keyed;
 use super::replicates::{REPLICATES, Replicates};
 use super::traits::{BLOCK, Dimensions, Facts, Kind, Options, PointSource, streams};
 use crate::sampling::stream::{Stream, key};
 
-/// Feistel rounds: four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two
-/// more for safety.
+/// Four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two more for safety.
 const ROUNDS: usize = 6;
-/// Minimum number of bits of half a block: in a small block a Feistel network reaches few of the permutations.
+/// Least bits of half a block: small networks reach few permutations.
 const MIN_HALF: u32 = 4;
 
 /// A permutation of 0..`n`, chosen by a key.
@@ -26,7 +24,7 @@ pub struct Permutation {
 }
 
 impl Permutation {
-    /// The permutation of 0..`n` that `key` chooses, n <= 2^62.
+    /// n <= 2^62.
     pub fn new(n: u64, key: u64) -> Self {
         let bits = u64::BITS - n.saturating_sub(1).leading_zeros();
         let keys = std::array::from_fn(|round| keyed(key, round as u64));
@@ -43,7 +41,7 @@ impl Permutation {
         }
     }
 
-    /// One walk through the network: a permutation of all numbers of 2 `half` bits.
+    /// A permutation of all numbers of 2 `half` bits.
     fn walk(&self, index: u64) -> u64 {
         let mask = (1u64 << self.half) - 1;
         let (mut left, mut right) = (index >> self.half, index & mask);
@@ -54,18 +52,16 @@ impl Permutation {
     }
 }
 
-/// The points of a Latin hypercube, or of replicates.
 #[derive(Debug)]
 pub struct LatinHypercube {
     strata: u64,
-    /// The permutations of each dimension, one for each hypercube.
+    /// Permutations of each dimension, one for each hypercube.
     permutations: Vec<Vec<Permutation>>,
     within: Vec<Stream>,
 }
 
 impl PointSource for LatinHypercube {
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
-        /// The largest number below one that a draw can be.
         const LAST: f64 = 1.0 - f64::EPSILON / 2.0;
         let n = self.strata as f64;
         for ((permutations, within), u) in self.permutations.iter().zip(&mut self.within).zip(u) {
@@ -74,7 +70,6 @@ impl PointSource for LatinHypercube {
             for (lane, u) in u.iter_mut().enumerate() {
                 let point = (block * BLOCK as u64 + lane as u64).saturating_sub(1);
                 let permutation = &permutations[(point % replicates) as usize];
-                // a sample beyond the last has no stratum of its own
                 *u = ((permutation.image(point / replicates % self.strata) as f64 + *u) / n).min(LAST);
             }
         }

@@ -1,18 +1,17 @@
-//! [`Replicates`]: several designs of one kind in place of one, each scrambled independently.
+//! [`Replicates`]: several designs of one kind, scrambled independently.
 //!
-//! Points of one scrambled net or hypercube depend on each other, so intervals for independent runs do not hold. Means
-//! over independently scrambled replicates are independent and identically distributed; their spread gives an interval
-//! (A. B. Owen, *Scrambled net variance for integrals of smooth functions*, Ann. Statist. 25 (1997) 1541, section 1;
-//! *Monte Carlo theory, methods and examples*, chapter 17.4).
+//! Points of one net or hypercube depend on each other, so intervals for independent runs do not hold; the spread of
+//! the means of independent replicates gives one (A. B. Owen, *Scrambled net variance for integrals of smooth
+//! functions*, Ann. Statist. 25 (1997) 1541, section 1; *Monte Carlo theory, methods and examples*, chapter 17.4).
 //!
-//! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R: R more samples add one to each replicate.
+//! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R.
 
 use super::traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, Options, PointSource, by_point};
 use crate::sampling::error::{DispersionError, Table, error_of};
 use crate::sampling::keys::{self, Row, Written};
 use std::fmt::Debug;
 
-/// Most replicates: each has its own scrambling in memory, and more than some dozens narrow no interval.
+/// Each has its own scrambling in memory.
 const MOST: u64 = 1024;
 
 pub const REPLICATES: Row = Row::new(
@@ -21,7 +20,7 @@ pub const REPLICATES: Row = Row::new(
     "Number of designs of this kind, each scrambled independently; default: 1",
 );
 
-/// The number of replicates, at least 1.
+/// At least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replicates(u64);
 
@@ -33,7 +32,7 @@ impl Replicates {
         (1..=MOST).contains(&count).then_some(Replicates(count))
     }
 
-    /// The names that scramble the dimensions `names`, replicate by replicate.
+    /// Names that scramble the dimensions, by replicate.
     pub(super) fn names(self, names: &[String]) -> Vec<Vec<String>> {
         match self.0 {
             1 => vec![names.to_vec()],
@@ -60,14 +59,14 @@ impl Options for Replicates {
         self.0
     }
 
-    /// All replicates have the same number of samples.
+    /// Replicates have equally many samples.
     fn check(&self, _dimensions: usize, samples: Option<u64>) -> Result<(), DispersionError> {
         let allowed = format!("1 and a multiple of {0}: the nominal scene and {0} replicates of the design", self.0);
         whole_blocks(samples, self.0, allowed, ", or other replicates in [design]")
     }
 }
 
-/// Checks that `samples`, sample 0 included, are 1 and a multiple of `block`.
+/// Checks that `samples` are 1 and a multiple of `block`.
 pub(super) fn whole_blocks(
     samples: Option<u64>,
     block: u64,
@@ -89,10 +88,10 @@ pub trait Sequence: Debug {
     const NAME: &'static str;
     const MAX_DIMENSIONS: usize;
 
-    /// The sequence in the dimensions `names`, scrambled by seed and name.
+    /// Scrambled by seed and name.
     fn new(seed: u64, names: &[String]) -> Self;
 
-    /// u in (0, 1) of a point.
+    /// In (0, 1).
     fn number(&self, dimension: usize, point: u64) -> f64;
 }
 

@@ -1,14 +1,13 @@
 //! `saltelli`: blocks of samples for first-order and total sensitivity indices (A. Saltelli et al., *Variance based
 //! sensitivity analysis of model output*, Comput. Phys. Commun. 181 (2010) 259, section 3).
 //!
-//! A block of k + 2 samples, k distributions, has two independent points A and B: A, then A with the numbers of
-//! distribution 1, ..., k from B, then B. Point j is member j mod (k + 2) of block j div (k + 2); adding blocks leaves
-//! the earlier ones unchanged.
+//! A block of k + 2 samples, for k distributions, has two independent points A and B: A, then A with the numbers of
+//! distribution 1, ..., k from B, then B. More blocks leave earlier ones unchanged.
 //!
-//! In each dimension, A and B are the two coordinates of a scrambled Sobol sequence, in an order drawn for that
-//! dimension (A. B. Owen, *Latin supercube sampling for very high-dimensional simulations*, ACM TOMACS 8 (1998) 71).
-//! One sequence for all dimensions was rejected: leading bits of three dimensions depend on each other, and scrambling
-//! keeps that. The first-order index of x in the exclusive or of x and y, 0, was then estimated as -1.
+//! In each dimension A and B are the two coordinates of a scrambled Sobol sequence in an order of its own (A. B. Owen,
+//! *Latin supercube sampling for very high-dimensional simulations*, ACM TOMACS 8 (1998) 71). In one sequence for all
+//! dimensions, leading bits of three depend on each other: it estimated the first-order index of x in the exclusive or
+//! of x and y as -1 instead of 0.
 
 use super::hash::keyed;
 use super::latin::Permutation;
@@ -21,20 +20,19 @@ use crate::sampling::stream::key;
 /// The points of the blocks.
 #[derive(Clone, Debug)]
 pub struct Saltelli {
-    /// The sequence of A and B in each dimension, and the key of its order.
+    /// The sequence of each dimension, and the key of its order.
     sequences: Vec<(Sobol, u64)>,
     /// The distribution of each dimension.
     factors: Vec<usize>,
     members: u64,
 }
 
-/// Number of samples of a block: the number of distributions, and two.
+/// Samples of a block.
 pub fn members(factors: &[usize]) -> u64 {
     factors.iter().max().map_or(0, |last| *last as u64 + 1) + 2
 }
 
 impl Saltelli {
-    /// Blocks for the dimensions `names` of the distributions `factors`, numbered from zero without gaps.
     pub fn new(seed: u64, names: &[String], factors: &[usize]) -> Self {
         let sequence =
             |name: &String| (Sobol::new(seed, &[name.clone(), format!("{name}/B")]), key(seed, name, *b"saltelli"));
@@ -53,8 +51,8 @@ impl Saltelli {
     }
 }
 
-/// The point of a sequence that `block` has in the order of `key`: points 2^m to 2^(m+1) are shuffled among themselves,
-/// for every m, so that the first 2^m blocks have the first 2^m points.
+/// The point of `block` in the order of `key`: points 2^m to 2^(m+1) are shuffled among themselves, so that the first
+/// 2^m blocks have the first 2^m points.
 fn place(key: u64, block: u64) -> u64 {
     let Some(level) = block.checked_ilog2() else { return 0 };
     let first = 1 << level;

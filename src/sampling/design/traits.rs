@@ -1,59 +1,55 @@
-//! [`Kind`]: what every design implements; [`Options`]: the keys that designs share.
+//! [`Kind`]: the trait of designs; [`Options`]: their keys.
 
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{DataColumn, Row, Rule, Written};
 use crate::sampling::stream::Stream;
 use std::fmt::Debug;
 
-/// Samples of a block: block b holds samples 8 b to 8 b + 7.
+/// Block b holds samples 8 b to 8 b + 7.
 pub const BLOCK: usize = 8;
 
-/// Largest number of samples of a campaign: ids stay exact in a double.
+/// Ids stay exact in a double.
 pub const MAX_SAMPLES: u64 = 1 << 53;
 
-/// Stands for u where a dimension keeps its nominal value.
+/// u of a dimension at its nominal value.
 pub const NOMINAL: f64 = f64::NAN;
 
-/// The random dimensions of a campaign.
 #[derive(Clone, Copy, Debug)]
 pub struct Dimensions<'a> {
     pub seed: u64,
-    /// Number of samples, sample 0 included.
+    /// Sample 0 included.
     pub samples: u64,
     pub names: &'a [String],
-    /// The distribution of each dimension, numbered from zero without gaps.
+    /// The distribution of each, by consecutive indices.
     pub factors: &'a [usize],
 }
 
-/// The number of points of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// As many as the file asks for.
+    /// As the file states.
     Any,
     Points(u64),
     /// More than can be numbered.
     TooMany,
 }
 
-/// The properties of a kind of design that do not depend on its options.
+/// Properties of a kind of design.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
-    /// The name in campaign files.
     pub name: &'static str,
     pub keys: &'static [Row],
-    /// Rules between keys.
     pub rules: &'static [Rule],
     /// Whether a dimension may keep its nominal value ([`NOMINAL`]).
     pub leaves_nominal: bool,
     pub max_dimensions: usize,
-    /// Why a different number of samples changes every row, and the remedy.
+    /// Why every row depends on the number of samples, and the remedy.
     pub depends_on_samples: Option<[&'static str; 2]>,
     /// Why parameters cannot be correlated, and the remedy.
     pub excludes_correlation: Option<[&'static str; 2]>,
 }
 
 impl Facts {
-    /// A design for any number of dimensions and samples, correlated or not.
+    /// For any number of dimensions and samples, correlated or not.
     pub const fn new(name: &'static str, keys: &'static [Row], rules: &'static [Rule]) -> Self {
         Facts {
             name,
@@ -77,7 +73,7 @@ pub trait Options: Clone + Debug + PartialEq {
         1
     }
 
-    /// Checks the options against the number of dimensions and the number of samples in the file.
+    /// Checks the options against dimensions and samples of the file.
     ///
     /// # Errors
     /// The key that does not fit.
@@ -85,7 +81,7 @@ pub trait Options: Clone + Debug + PartialEq {
         Ok(())
     }
 
-    /// The columns of a data file whose rows are the samples.
+    /// Columns of a data file, one row a sample.
     fn columns(&self) -> &[DataColumn] {
         &[]
     }
@@ -103,15 +99,12 @@ pub trait Kind: PointSource + Sized {
     const FACTS: Facts;
     type Options: Options;
 
-    /// Number of points in so many random dimensions.
     fn size(_options: &Self::Options, _dimensions: usize) -> Size {
         Size::Any
     }
 
-    /// Checks the number of samples in the file against the dimensions.
-    ///
     /// # Errors
-    /// Where the design has no such number of samples.
+    /// An impossible number of samples.
     fn check(_dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         Ok(())
     }
@@ -119,10 +112,9 @@ pub trait Kind: PointSource + Sized {
     fn points(options: &Self::Options, dimensions: Dimensions<'_>) -> Self;
 }
 
-/// The points of a design, for one worker. State only makes neighbours cheap.
+/// The points of a design, for one worker.
 pub trait PointSource: Debug {
-    /// Writes u of the samples of `block`, dimension by dimension, or [`NOMINAL`]. The values of sample 0 are
-    /// arbitrary.
+    /// Writes u of the samples of `block`, by dimension, or [`NOMINAL`]; arbitrary for sample 0.
     fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]);
 }
 
@@ -130,7 +122,7 @@ pub(super) fn streams(seed: u64, names: &[String]) -> Vec<Stream> {
     names.iter().map(|name| Stream::new(seed, name)).collect()
 }
 
-/// Fills a block from a function of dimension and point: sample k >= 1 is point k - 1.
+/// Sample k >= 1 is point k - 1.
 pub(super) fn by_point(block: u64, u: &mut [[f64; BLOCK]], number: impl Fn(usize, u64) -> f64) {
     for (dimension, u) in u.iter_mut().enumerate() {
         for (lane, u) in u.iter_mut().enumerate() {

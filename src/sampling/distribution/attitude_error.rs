@@ -17,8 +17,7 @@ pub struct AttitudeError {
 }
 
 impl AttitudeError {
-    /// About the unit quaternion `nominal`, with `covariance`, rad^2; `None` if that is not symmetric positive
-    /// semidefinite (to 1e-12 of its trace).
+    /// `covariance` in rad^2; `None` unless symmetric positive semidefinite (to 1e-12 of its trace).
     pub fn new(nominal: [f64; 4], covariance: [[f64; 3]; 3]) -> Option<Self> {
         Some(AttitudeError { nominal, factor: factor(covariance)? })
     }
@@ -106,7 +105,7 @@ fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3], DispersionE
     Ok([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]])
 }
 
-/// The unit quaternion of the rotation vector `theta`, rad.
+/// Of the rotation vector `theta`, rad.
 pub fn rotation(theta: [f64; 3]) -> [f64; 4] {
     let half = 0.5 * norm(theta);
     let (sine, cosine) = libm::sincos(half);
@@ -116,8 +115,7 @@ pub fn rotation(theta: [f64; 3]) -> [f64; 4] {
     [cosine, x, y, z]
 }
 
-/// The lower Cholesky factor of a symmetric positive semidefinite matrix; `None` for other matrices. A pivot that is
-/// zero to rounding gives a column of zeros.
+/// The lower Cholesky factor; `None` unless symmetric positive semidefinite. A zero pivot gives a column of zeros.
 fn factor(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     /// Entries come from files, with twelve digits.
     const SLACK: f64 = 1e-12;

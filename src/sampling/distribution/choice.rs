@@ -1,5 +1,5 @@
-//! `choice`: one of a list of `values`, with `weights` or equal ones. Values are sorted, so that quantiles rise with u
-//! and a rank correlation of u is one of values.
+//! `choice`: one of `values`, with `weights` or equal ones. They are sorted, so that u and values have equal rank
+//! correlations.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
@@ -7,16 +7,15 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row};
 use std::sync::Arc;
 
-/// One of a list of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     values: Arc<[f64]>,
-    /// Probability of this value or a smaller one.
+    /// Up to and including each value.
     cumulative: Arc<[f64]>,
 }
 
 impl Choice {
-    /// `values` with relative `weights`; at least one is above zero.
+    /// At least one weight is above zero.
     pub fn new(values: &[f64], weights: &[f64]) -> Self {
         let mut pairs: Vec<(f64, f64)> = values.iter().copied().zip(weights.iter().copied()).collect();
         pairs.retain(|(_, weight)| *weight > 0.0);
@@ -31,11 +30,10 @@ impl Choice {
     }
 }
 
-/// Most values listed in words besides the last.
 const LISTED: usize = 4;
 
 impl Choice {
-    /// Each different value with its probability.
+    /// Different values with their probabilities.
     fn shares(&self) -> Vec<(f64, f64)> {
         let mut shares: Vec<(f64, f64)> = Vec::new();
         let mut before = 0.0;
@@ -86,7 +84,7 @@ impl Scalar for Choice {
 }
 
 impl Quantile for Choice {
-    /// The smallest value whose cumulative probability reaches `u`.
+    /// The smallest value whose cumulative probability reaches u.
     fn quantile(&self, u: f64) -> f64 {
         let place = self.cumulative.partition_point(|below| *below < u);
         // rounding may leave the last sum below one

@@ -1,10 +1,10 @@
 //! `pert`: the beta distribution between `min` and `max` with shapes 1 + 4 (mode - min)/(max - min) and
 //! 1 + 4 (max - mode)/(max - min); `mode` defaults to the nominal value.
 //!
-//! The shapes are 1 to 5 with sum 6: the continued fraction of the incomplete beta function (DLMF 8.17.22, evaluated by
-//! the method of Lentz as modified by Thompson & Barnett, *J. Comput. Phys.* 64 (1986) 490) needs few terms, and no
-//! table as for [`super::beta`]. Its inverse is Newton's method for ln I in ln x, which rises and is concave (x f(x)/I
-//! falls): steps after the first come from the left without overshoot.
+//! The shapes, 1 to 5 with sum 6, need few terms of the continued fraction of the incomplete beta function (DLMF
+//! 8.17.22, by Lentz's method as modified by Thompson & Barnett, *J. Comput. Phys.* 64 (1986) 490) and no table as
+//! [`super::beta`]. The inverse is Newton's method for ln I in ln x, which rises and is concave: steps after the first
+//! do not overshoot.
 
 use super::target::Target;
 use super::traits::{NumberWords, Quantile, Scalar};
@@ -21,11 +21,11 @@ pub struct Pert {
     log_b: f64,
 }
 
-/// Most terms of the continued fraction (a dozen are needed).
+/// A dozen are needed.
 const MOST_TERMS: u32 = 2000;
-/// Newton steps: six to ten are typical.
+/// Six to ten are typical.
 const MOST_STEPS: u32 = 100;
-/// Steps of ln x below this leave x unchanged.
+/// Smaller steps of ln x leave x unchanged.
 const SMALLEST_STEP: f64 = f64::EPSILON;
 
 impl Pert {
@@ -56,7 +56,7 @@ impl Scalar for Pert {
 }
 
 impl Quantile for Pert {
-    /// Relative error of the distance from the nearer end below 1e-12.
+    /// The distance from the nearer end has a relative error below 1e-12.
     fn quantile(&self, u: f64) -> f64 {
         // 1 - u is exact, so neither tail loses digits
         let width = self.max - self.min;
@@ -119,13 +119,13 @@ fn continued_fraction(x: f64, a: f64, b: f64) -> f64 {
 /// x with I_x(a, b) = `p`, 0 < p <= 1/2.
 fn inverse(p: f64, a: f64, b: f64, log_b: f64) -> f64 {
     let log_p = libm::log(p);
-    // the first term of the series, below the root for b > 1; half the interval if it lies outside
+    // the series' first term, below the root for b > 1; else half the interval
     let start = (log_p + libm::log(a) + log_b) / a;
     let mut log_x = if start < -core::f64::consts::LN_2 { start } else { -core::f64::consts::LN_2 };
     for _ in 0..MOST_STEPS {
         let (log, slope) = log_probability(libm::exp(log_x), a, b, log_b);
         let step = (log_p - log) / slope;
-        // from the right of the root a step may go too far left; on the right it ends before x = 1
+        // from the right of the root a step may go too far left
         let next = (log_x + step).min(0.5 * log_x);
         let moved = (next - log_x).abs();
         log_x = next;

@@ -8,31 +8,28 @@ use std::fmt::Debug;
 /// Formats of the numbers in a distribution's description.
 #[derive(Clone, Copy)]
 pub struct NumberWords<'a> {
-    /// In the unit of the parameter.
     pub amount: &'a dyn Fn(f64) -> String,
-    /// Angles, rad, whatever the unit of the parameter.
+    /// Angles, rad.
     pub angle: &'a dyn Fn(f64) -> String,
-    /// Pure numbers: shapes, components of a direction.
+    /// Pure numbers.
     pub number: &'a dyn Fn(f64) -> String,
 }
 
-/// A distribution of one number, the same for each component of a parameter.
+/// A distribution of one number for each component.
 pub trait Scalar {
-    /// The name in campaign files.
     const NAME: &'static str;
     const KEYS: &'static [Row];
-    /// Rules between keys.
     const RULES: &'static [Rule] = &[];
     type Quantile: Quantile;
 
-    /// The quantile function of each component.
+    /// The distribution of each component.
     ///
     /// # Errors
-    /// The numbers that do not fit the target.
+    /// Numbers that do not fit the target.
     fn of(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
 }
 
-/// [`Quantile::of_scores`] of a distribution with the value `of` of the normal score.
+/// [`Quantile::of_scores`] by a function of the score.
 #[inline]
 pub fn each_score(z: &[f64; 8], values: &mut [f64; 8], of: impl Fn(f64) -> f64) -> bool {
     for (value, z) in values.iter_mut().zip(z) {
@@ -53,25 +50,25 @@ pub trait Quantile: Clone + Debug + PartialEq {
         }
     }
 
-    /// The values at eight normal scores, the quantiles of Phi(z); false, with `_values` unchanged, for a distribution
-    /// that is no function of z. A score has more digits than its u in the upper tail.
+    /// The values at eight normal scores z, the quantiles of Phi(z); false, with `_values` unchanged, if the
+    /// distribution is no function of z. In the upper tail a score has more digits than its u.
     #[inline]
     fn of_scores(&self, _z: &[f64; 8], _values: &mut [f64; 8]) -> bool {
         false
     }
 
-    /// Number of u: 0 for a fixed value.
+    /// 0 for a fixed value.
     #[inline]
     fn dimensions(&self) -> usize {
         1
     }
 
-    /// The standard deviation, if normal.
+    /// If normal.
     fn normal_std(&self) -> Option<f64> {
         None
     }
 
-    /// The cumulative probabilities of a discrete distribution, ascending; the last is 1 to rounding.
+    /// Cumulative probabilities of a discrete distribution, ascending, up to 1.
     fn steps(&self) -> Option<Vec<f64>> {
         None
     }
@@ -79,39 +76,35 @@ pub trait Quantile: Clone + Debug + PartialEq {
     fn text(&self, words: NumberWords<'_>) -> String;
 }
 
-/// A joint distribution of the components of a vector or an attitude, or of the parameters that a file names.
+/// A joint distribution of a vector, an attitude, or the parameters that a file names.
 pub trait Together {
-    /// The name in campaign files.
     const NAME: &'static str;
     const KEYS: &'static [Row];
-    /// Rules between keys.
     const RULES: &'static [Rule] = &[];
     type Map: Map;
 
     /// # Errors
-    /// The target or the numbers that do not fit.
+    /// A target or numbers that do not fit.
     fn map(target: &Target<'_>) -> Result<Self::Map, DispersionError>;
 }
 
 /// A map from several u in (0, 1) to the values of several components.
 pub trait Map: Clone + Debug + PartialEq {
-    /// Number of u, at most [`MAX_DIMENSIONS`].
+    /// At most [`MAX_DIMENSIONS`].
     fn dimensions(&self) -> usize;
 
     fn dimension_name(&self, dimension: usize) -> String {
         (dimension + 1).to_string()
     }
 
-    /// Number of values.
     fn components(&self) -> usize;
 
-    /// Writes the values at `u` ([`Map::dimensions`] numbers) to the first [`Map::components`] of `values`.
+    /// Writes the values at `u`, one for each component.
     fn values(&self, u: &[f64], values: &mut [f64]);
 
     fn text(&self, words: NumberWords<'_>) -> String;
 }
 
-/// Largest number of u of one distribution.
 pub const MAX_DIMENSIONS: usize = 8;
 
 /// The distribution of a magnitude or an angle in a table of a joint distribution.

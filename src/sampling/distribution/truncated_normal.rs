@@ -7,49 +7,45 @@ use crate::math::normal::{probability, quantile, quantiles};
 use crate::sampling::error::{DispersionError, error};
 use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, Written, above};
 
-/// The keys of the lower and of the upper bound: absolute, relative, in sigmas.
+/// Absolute, relative, in sigmas.
 const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];
 const UPPER_KEYS: [&str; 3] = ["upper", "relative_upper", "upper_sigmas"];
 const BOTH_KEYS: [&str; 6] = [LOWER_KEYS[0], LOWER_KEYS[1], LOWER_KEYS[2], UPPER_KEYS[0], UPPER_KEYS[1], UPPER_KEYS[2]];
 
-/// A number of standard deviations.
 const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
     Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", above(0.0))
 }
 
-/// The key that messages name for both bounds.
+/// The key in messages.
 fn cut_key(written: &Written) -> &'static str {
     ["sigmas"].into_iter().chain(BOTH_KEYS).find(|key| written.has(key)).unwrap_or("lower")
 }
 
-/// Normal, conditional on two bounds: truncated, not clamped, so the bounds carry no probability.
+/// Truncated, not clamped: the bounds carry no probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruncatedNormal {
     mean: f64,
-    /// Negative if the distribution is reflected, so that the interval lies at or below the mean or about it.
+    /// Negative after reflection, so that the interval is at or below the mean.
     std: f64,
     lower: f64,
     upper: f64,
-    /// Probability below, above and between the bounds, after reflection.
+    /// Probabilities after reflection.
     below: f64,
     above: f64,
     between: f64,
 }
 
 impl TruncatedNormal {
-    /// With `std` > 0, `lower` < `upper` (either may be infinite); `None` if less than
-    /// [`TruncatedNormal::LEAST`] of the distribution lies between them.
+    /// `std` > 0, `lower` < `upper`, which may be infinite; `None` below [`TruncatedNormal::LEAST`].
     pub fn new(mean: f64, std: f64, lower: f64, upper: f64) -> Option<Self> {
         let (a, b) = ((lower - mean) / std, (upper - mean) / std);
-        // upper tails are 1 minus something and lose their digits: reflect them
+        // reflect upper tails, which would lose digits
         let (std, a, b) = if a > 0.0 { (-std, -b, -a) } else { (std, a, b) };
         let (below, above) = (probability(a), probability(-b));
-        // two forms, each without cancellation
         let between = if b <= 0.0 { probability(b) - below } else { 1.0 - below - above };
         (between >= Self::LEAST).then_some(TruncatedNormal { mean, std, lower, upper, below, above, between })
     }
 
-    /// A distribution of zero width at its mean.
     fn fixed(mean: f64) -> Self {
         TruncatedNormal {
             mean,
@@ -62,15 +58,13 @@ impl TruncatedNormal {
         }
     }
 
-    /// The least probability between the bounds: beyond some 8.2 standard deviations a scene is unlike its nominal.
+    /// Least probability between the bounds: some 8.2 standard deviations.
     pub const LEAST: f64 = 1e-16;
 
-    /// The quantile of the lower tail after reflection.
     #[inline]
     fn reflected(&self, u: f64) -> f64 {
         let p = self.below + u * self.between;
         let z = if p <= 0.5 { quantile(p) } else { -quantile(self.above + (1.0 - u) * self.between) };
-        // the clamp catches a last bit only
         (self.mean + self.std * z).clamp(self.lower, self.upper)
     }
 }
@@ -104,7 +98,6 @@ impl Scalar for TruncatedNormal {
     }
 }
 
-/// Lower and upper bound of each component.
 fn bounds(target: &Target<'_>, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
     let end = |[absolute, relative, sigmas]: [&'static str; 3], sign: f64| {
         let away = if target.written.has(sigmas) {
@@ -147,7 +140,7 @@ fn truncated(
         let remedy = "move the bounds to the nominal, or widen them";
         error(target.index, cut_key(target.written), format!("{lower:?} to {upper:?}"), allowed, remedy)
     };
-    // a nominal that is not a number is an error of the scene
+    // NaN is an error of the scene
     if !(mean + std).is_finite() {
         return Ok(TruncatedNormal::fixed(mean));
     }
