@@ -25,6 +25,20 @@ const SHADOWS: [&str; Shadow::ALL.len()] = ["cone", "cylinder"];
 const EPOCH: TextLimit =
     TextLimit { allowed: Epoch::ALLOWED, remedy: "correct the date", test: |text| Epoch::parse(text).is_some() };
 
+/// Commands of an arc by the names of actuators, which [`read_commands`] reads.
+macro_rules! by_name {
+    ($key:ident, $list:ident, $meaning:literal) => {
+        Field {
+            row: Row::new(stringify!($key), Kind::ByName, $meaning),
+            get: |scene, arc| {
+                let names = scene.$list.iter().map(|one| one.name);
+                Some(Value::ByName(names.zip(scene.actuation[arc].$key).collect()))
+            },
+            set: |_, _, _| {},
+        }
+    };
+}
+
 /// All tables of the scene except control loop and failures, in the order of canonical text.
 #[rustfmt::skip]
 pub static TABLES: [SceneTable; 12] = [
@@ -99,22 +113,8 @@ pub static TABLES: [SceneTable; 12] = [
     })
     .checked(read_commands)
     .with(&[], &[
-        Field {
-            row: Row::new("thrust_n", Kind::ByName, "Commanded thrusts, by the names of thrusters"),
-            get: |scene, arc| {
-                let names = scene.thrusters.iter().map(|thruster| thruster.name);
-                Some(Value::ByName(names.zip(scene.actuation[arc].thrust_n).collect()))
-            },
-            set: |_, _, _| {},
-        },
-        Field {
-            row: Row::new("torque_n_m", Kind::ByName, "Commanded motor torques, by the names of wheels"),
-            get: |scene, arc| {
-                let names = scene.wheels.iter().map(|wheel| wheel.name);
-                Some(Value::ByName(names.zip(scene.actuation[arc].torque_n_m).collect()))
-            },
-            set: |_, _, _| {},
-        },
+        by_name!(thrust_n, thrusters, "Commanded thrusts, by the names of thrusters"),
+        by_name!(torque_n_m, wheels, "Commanded motor torques, by the names of wheels"),
     ]),
     SceneTable::new(&[Table::Actuators], |scene| !scene.actuation.is_empty()).checked(|section, scene, _| {
         if section.is_present() && scene.actuation.is_empty() {
@@ -198,26 +198,15 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
         let allowed = "left out without [control]: a schedule does not command torque rods";
         root.refuse("torque_rods", allowed, "add a [control] table, or delete this one");
     }
-    let wheels = scene.wheels.iter().map(|wheel| {
-        let values =
-            [wheel.torque_limit_n_m, wheel.speed_limit_rad_s, wheel.coulomb_friction_n_m, wheel.viscous_friction_n_m_s];
-        ("wheels", wheel.name, WheelInput::DRIVE.into_iter().zip(values).collect::<Vec<_>>())
-    });
-    let thrusters = scene.thrusters.iter().map(|thruster| {
-        let values = [thruster.max_thrust_n, thruster.min_on_time_s];
-        ("thrusters", thruster.name, ThrusterInput::DRIVE.into_iter().zip(values).collect::<Vec<_>>())
-    });
-    for (header, name, keys) in wheels.chain(thrusters) {
-        for (key, value) in keys {
-            if let Some(value) = value {
+    let drives = [(Table::Wheel, &WheelInput::DRIVE[..]), (Table::Thruster, &ThrusterInput::DRIVE)];
+    for (table, drive) in drives {
+        for (place, name) in table.owners(scene).into_iter().enumerate() {
+            for key in table.keys_in(scene, place).filter(|key| drive.contains(&key.facts().key)) {
+                let Some([value]) = key.read(scene, place) else { continue };
+                let path = format!("{}.{name}.{}", table.header(), key.facts().key);
+                let allowed = "left out without [control]: a schedule commands what is applied";
                 let remedy = "delete it, or add a [control] table";
-                let path = format!("{header}.{name}.{key}");
-                root.document.add(
-                    &path,
-                    Some(format!("{value:?}")),
-                    "left out without [control]: a schedule commands what is applied",
-                    remedy,
-                );
+                root.document.add(&path, Some(format!("{value:?}")), allowed, remedy);
             }
         }
     }
