@@ -40,9 +40,7 @@ pub(super) fn read_sensor(
     let latency = written.number("latency_s").unwrap_or(0.0);
     let declared = kind.map_or(&[][..], |kind| sensors::KINDS[kind].parameters_in(scene));
     scene.control.sensors.push(DeclaredTable::of(name, declared));
-    let Some(kind) = kind else {
-        return None;
-    };
+    let kind = kind?;
     let place = scene.control.sensors.len() - 1;
     read_keys(section, Table::Sensors, place, scene);
     if let Some(key) = sensors::KINDS[kind].replaced(scene).filter(|key| section.has(key)) {

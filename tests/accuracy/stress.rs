@@ -50,8 +50,7 @@ fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
 }
 
 fn error_of(what: &str, scene: &SceneInput, duration: f64) -> f64 {
-    let worst = largest_error(what, &rows(&plan(scene, duration, 41)));
-    worst
+    largest_error(what, &rows(&plan(scene, duration, 41)))
 }
 
 fn table_one() -> SceneInput {

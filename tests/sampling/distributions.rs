@@ -29,9 +29,7 @@ fn law(name: &str, p: &[f64]) -> Distribution {
         "triangular" => Distribution::Triangular(Triangular { min: p[0], mode: p[1], max: p[2] }),
         "beta" => Distribution::Beta(Beta::new(p[0], p[1], p[2], p[3])),
         "pert" => Distribution::Pert(Pert::new(p[0], p[1], p[2])),
-        "truncated_normal" => Distribution::TruncatedNormal(
-            TruncatedNormal::new(p[0], p[1], p[2], p[3]).unwrap(),
-        ),
+        "truncated_normal" => Distribution::TruncatedNormal(TruncatedNormal::new(p[0], p[1], p[2], p[3]).unwrap()),
         other => panic!("{other}"),
     }
 }

@@ -20,8 +20,6 @@ pub enum ThrustMode {
     },
 }
 
-/// A thruster's valve.
-
 /// Memory of a thruster between periods.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PulseState {
