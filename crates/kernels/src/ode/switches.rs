@@ -347,7 +347,8 @@ mod tests {
     /// Law: difficult switch functions cost no more than some steps.
     #[test]
     fn nothing_hangs() {
-        let switches: [(&str, &dyn Fn(f64) -> f64, u64); 5] = [
+        type Switch<'f> = (&'f str, &'f dyn Fn(f64) -> f64, u64);
+        let switches: [Switch<'_>; 5] = [
             ("zero to rounding", &|t| 1e-15 * libm::sin(1e5 * t), 100),
             ("touches zero", &|t| 1.0 - libm::cos(t), 200),
             ("has a kink", &|t| (t - 3.0).abs() - 1e-9, 200),
