@@ -1,4 +1,4 @@
-//! [`ThrusterDrive`]: the response of a thruster to a wanted mean thrust over a control period.
+//! The response of a thruster to a wanted mean thrust over a control period.
 
 use crate::scene::ThrusterModel;
 

@@ -10,7 +10,7 @@ use crate::scene::{FailureInput, Scene, WheelModel};
 /// A wheel's motor and bearing. Torques are about its axis and act on the wheel; the body takes the opposite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelDrive {
-    /// Torque over the change of the rate relative to the body, kg m^2: [`relative_inertia`].
+    /// Torque over the change of the rate relative to the body, kg m^2: `relative_inertia`.
     pub inertia: f64,
     pub model: WheelModel,
 }
