@@ -254,7 +254,7 @@ fn filters_that_do_not_know_their_errors_are_named() {
         let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
         assert_eq!(shown, [is_named; 2], "{}", found.said);
         if is_named {
-            let factor = "attitude and gyro bias typically end # sigma off";
+            let factor = "attitude and gyro bias end # sigma off";
             assert!(median > 2.0, "{median}");
             for said in [notes[0].as_str().unwrap(), &found.said, &html.to_lowercase()] {
                 let of = screen_numbers::numbers(said, factor);
