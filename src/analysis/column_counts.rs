@@ -1,4 +1,5 @@
-//! [`Collector`]: counts the values of observables, part by part, on any thread. Parts are merged in order and sketches hold counts, so that results do not depend on threads.
+//! [`Collector`]: counts the values of observables, part by part, on any thread. Parts are merged in order and sketches
+//! hold counts, so that results do not depend on threads.
 
 use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};

@@ -1,4 +1,5 @@
-//! [`Expected`]: the expected distribution of a dispersed column, from evenly spread draws that differ from the campaign's; components of vectors have no closed form in general.
+//! [`Expected`]: the expected distribution of a dispersed column, from evenly spread draws that differ from the
+//! campaign's; components of vectors have no closed form in general.
 
 use crate::campaign::Plan;
 use crate::sampling::design::replicates::Sequence;

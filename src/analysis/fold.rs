@@ -1,4 +1,5 @@
-//! [`Gathered`]: the results of one fold over the parts, from rows in memory ([`RunningFold`]) or from files ([`Gathered::of_files`]), with the same bits.
+//! [`Gathered`]: the results of one fold over the parts, from rows in memory ([`RunningFold`]) or from files
+//! ([`Gathered::of_files`]), with the same bits.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;

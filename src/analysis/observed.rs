@@ -1,4 +1,5 @@
-//! [`Observed`]: an observable as a column of the rows, or an expression over columns. An `ok` run has no value if its subject never happened, or if the value is not a number ([`Observed::undefined`]).
+//! [`Observed`]: an observable as a column of the rows, or an expression over columns. An `ok` run has no value if its
+//! subject never happened, or if the value is not a number ([`Observed::undefined`]).
 
 use std::borrow::Cow;
 

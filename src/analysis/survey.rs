@@ -1,4 +1,5 @@
-//! [`Survey`]: the data of the page: a thinned table, the worst runs, audits, and sketches of the main outcomes. Its memory does not depend on the number of parts.
+//! [`Survey`]: the data of the page: a thinned table, the worst runs, audits, and sketches of the main outcomes. Its
+//! memory does not depend on the number of parts.
 //!
 //! The thinned rows are chosen by a hash of the sample number, reproducibly and independent of the order of a design
 //! and of the parts.

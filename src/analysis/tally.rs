@@ -1,4 +1,5 @@
-//! [`Tally`]: statuses, worst runs and audits. It keeps counts, extremes and sample numbers, no floating-point sums: the order of the parts does not matter. The nominal sample 0 is among the worst runs and audits only if it is alone.
+//! [`Tally`]: statuses, worst runs and audits. It keeps counts, extremes and sample numbers, no floating-point sums:
+//! the order of the parts does not matter. The nominal sample 0 is among the worst runs and audits only if it is alone.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};

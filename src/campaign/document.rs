@@ -6,7 +6,6 @@
 use super::excerpt::Excerpt;
 use super::known_columns::KnownColumns;
 use super::meaning::{Meant, meant};
-use super::plan::Overrides;
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
@@ -19,6 +18,20 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+/// Values of the command line that replace the file's, and laws of the calling program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    pub samples: Option<u64>,
+    pub seed: Option<u64>,
+    pub audit_fraction: Option<f64>,
+    /// `--set`: dotted keys and values.
+    pub settings: Vec<(String, String)>,
+    /// A control law whose parameters `[control]` sets.
+    pub law: Option<ControlLaw>,
+    /// A law of attitude that phases may name.
+    pub attitude_law: Option<&'static LawKind>,
+}
 
 /// Noted problems; further ones are counted. More than are shown, which are the first by line.
 const NOTED: usize = 10 * SHOWN;

@@ -10,9 +10,9 @@ use crate::math::vector::norm;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::sampling::keys::{
-    ALL_BUT_ONE, Condition, Counts, Kind, NumberLimit, Presence, Row, Rule, TextLimit, Value, Values, Written,
+    ALL_BUT_ONE, Condition, Counts, Kind, NumberLimit, Numbers, Presence, Row, Rule, TextLimit, Value, Values, Written,
 };
-use crate::sampling::{DistributionKind, Numbers, WrittenDistribution};
+use crate::sampling::{DistributionKind, WrittenDistribution};
 
 impl Section<'_, '_> {
     /// The values of `rows` if all are valid and obey `rules`; problems are noted.

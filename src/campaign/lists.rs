@@ -1,9 +1,8 @@
 //! Lists of numbers, texts and counts in a [`Section`].
 
-use super::numbers::number;
+use super::numbers::{number, whole};
 use super::section::Section;
-use crate::sampling::Numbers;
-use crate::sampling::keys::Counts;
+use crate::sampling::keys::{Counts, Numbers};
 use toml::de::DeValue;
 
 impl Section<'_, '_> {
@@ -71,12 +70,6 @@ impl Section<'_, '_> {
     pub fn flag(&mut self, key: &str) -> Option<bool> {
         self.parsed(key, DeValue::as_bool, "true or false", "write it without quotes")
     }
-}
-
-/// A whole number of at least 0.
-pub(super) fn whole(value: &DeValue<'_>) -> Option<u64> {
-    let integer = value.as_integer()?;
-    u64::from_str_radix(integer.as_str(), integer.radix()).ok()
 }
 
 fn numbers(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {

@@ -1,6 +1,5 @@
 //! Numbers, vectors and matrices of a [`Section`], with units in text.
 
-use super::lists::whole;
 use super::section::Section;
 use super::units::{self, UnitProblem};
 use crate::sampling::Values;
@@ -233,3 +232,9 @@ pub const FRACTION: NumberLimit = NumberLimit {
     remedy: "0.01 runs one sample in a hundred again exactly, 1 all of them",
     range: between(0.0, 1.0),
 };
+
+/// A whole number of at least 0.
+pub(super) fn whole(value: &DeValue<'_>) -> Option<u64> {
+    let integer = value.as_integer()?;
+    u64::from_str_radix(integer.as_str(), integer.radix()).ok()
+}

@@ -5,7 +5,7 @@ use super::bands;
 use super::chosen::Chosen;
 use super::columns::request;
 use super::description;
-use super::document::Document;
+use super::document::{Document, Overrides};
 use super::draws::DrawTables;
 use super::event::Event;
 use super::extreme::Extreme;
@@ -95,20 +95,6 @@ impl FilesRead {
             .cloned()
             .collect()
     }
-}
-
-/// Values of the command line that replace the file's, and laws of the calling program.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Overrides {
-    pub samples: Option<u64>,
-    pub seed: Option<u64>,
-    pub audit_fraction: Option<f64>,
-    /// `--set`: dotted keys and values.
-    pub settings: Vec<(String, String)>,
-    /// A control law whose parameters `[control]` sets.
-    pub law: Option<ControlLaw>,
-    /// A law of attitude that phases may name.
-    pub attitude_law: Option<&'static LawKind>,
 }
 
 const POINTS: u64 = 101;

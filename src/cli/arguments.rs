@@ -31,10 +31,16 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a campaign: rows, statistics, verdicts and the report page.
-    #[command(after_help = examples!("campaign spin_sweep.toml --samples 10000", "campaign net_launch.toml --set control.delay_s=0.2 --out slow"))]
+    #[command(after_help = examples!(
+        "campaign spin_sweep.toml --samples 10000",
+        "campaign net_launch.toml --set control.delay_s=0.2 --out slow"
+    ))]
     Campaign(CampaignOptions),
     /// Merge shards into a finished result.
-    #[command(name = "finish", after_help = examples!("finish results/spin_sweep", "finish results/spin_sweep --junit verdicts.xml"))]
+    #[command(name = "finish", after_help = examples!(
+        "finish results/spin_sweep",
+        "finish results/spin_sweep --junit verdicts.xml"
+    ))]
     CompleteResult(FinishOptions),
     /// Print again what a finished result has found, as text or JSON.
     #[command(after_help = examples!("show results/spin_sweep --verbose", "show results/spin_sweep --json"))]
@@ -46,13 +52,22 @@ pub enum Command {
     #[command(after_help = examples!("check spin_sweep.toml", "check net_launch.toml --set campaign.samples=100000"))]
     Check(CheckOptions),
     /// Compare two results: plans, verdicts, and the shift of every outcome.
-    #[command(after_help = examples!("compare results/before results/after", "compare results/before results/after --out shifts.json"))]
+    #[command(after_help = examples!(
+        "compare results/before results/after",
+        "compare results/before results/after --out shifts.json"
+    ))]
     Compare(CompareOptions),
     /// Run one sample as a time series: a table, a Parquet or CSV file, a plot.
-    #[command(after_help = examples!("simulate spin_sweep.toml --sample 17 --plot run17.svg", "simulate net_launch.toml --sample 7 --out run7.csv"))]
+    #[command(after_help = examples!(
+        "simulate spin_sweep.toml --sample 17 --plot run17.svg",
+        "simulate net_launch.toml --sample 7 --out run7.csv"
+    ))]
     Simulate(SimulateOptions),
     /// Draw the dispersed parameters without running: percentiles, a table, histograms and correlations.
-    #[command(after_help = examples!("sample spin_sweep.toml --plot inputs.svg", "sample spin_sweep.toml --samples 100000 --out inputs.parquet"))]
+    #[command(after_help = examples!(
+        "sample spin_sweep.toml --plot inputs.svg",
+        "sample spin_sweep.toml --samples 100000 --out inputs.parquet"
+    ))]
     Sample(SampleOptions),
     /// Rebuild the report page of a finished result, and write its figures as files.
     #[command(after_help = examples!("report results/spin_sweep", "report results/net_launch --figures figures"))]
@@ -61,7 +76,10 @@ pub enum Command {
     #[command(after_help = examples!("index results", "index /data/studies"))]
     Index(IndexOptions),
     /// Measure run time against error for methods and tolerances.
-    #[command(after_help = examples!("precision spin_sweep.toml", "precision burn.toml --methods auto,dop853 --tolerances 1e-6,1e-12"))]
+    #[command(after_help = examples!(
+        "precision spin_sweep.toml",
+        "precision burn.toml --methods auto,dop853 --tolerances 1e-6,1e-12"
+    ))]
     Precision(PrecisionOptions),
     /// Write a campaign file to start from.
     #[command(after_help = examples!("new my_sweep.toml", "new studies/first.toml"))]

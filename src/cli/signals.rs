@@ -1,4 +1,5 @@
-//! [`watch`]: graceful termination. The first signal gives current parts [`GRACE`] to end, the second ends the program at once. Committed parts stay and the same command continues. Signals ignored at the start (`nohup`) stay ignored.
+//! [`watch`]: graceful termination. The first signal gives current parts [`GRACE`] to end, the second ends the program
+//! at once. Committed parts stay and the same command continues. Signals ignored at the start (`nohup`) stay ignored.
 
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::time::Duration;

@@ -1,4 +1,5 @@
-//! [`Figure`]: the content of a figure. `assets/report/chart.js` draws it, on the page ([`super::page`]) and in files ([`super::figure_files`]).
+//! [`Figure`]: the content of a figure. `assets/report/chart.js` draws it, on the page ([`super::page`]) and in files
+//! ([`super::figure_files`]).
 
 use crate::campaign::{Display, ShownUnit};
 use crate::findings::number::short;

@@ -9,7 +9,8 @@ use crate::findings::names;
 use crate::findings::number::short;
 use crate::findings::origin::origin;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
-use crate::sampling::correlation::{Measure, Numbers};
+use crate::sampling::correlation::Measure;
+use crate::sampling::keys::Numbers;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
 /// Maximum number of input histograms.

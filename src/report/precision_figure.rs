@@ -1,4 +1,5 @@
-//! [`precision_figure`]: work-precision diagrams, CPU time against maximum error on logarithmic axes, one panel per error; lower left is better.
+//! [`precision_figure`]: work-precision diagrams, CPU time against maximum error on logarithmic axes, one panel per
+//! error; lower left is better.
 
 use crate::ensemble::precision::{Deviation, Measurement};
 use crate::propagation::Method;

@@ -1,4 +1,5 @@
-//! [`simulation_figure`]: one run over time with the figures of its scene ([`crate::report::over_time::figure_list`]). The energy panels are Figures 3 to 5 of the paper.
+//! [`simulation_figure`]: one run over time with the figures of its scene ([`crate::report::over_time::figure_list`]).
+//! The energy panels are Figures 3 to 5 of the paper.
 
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;

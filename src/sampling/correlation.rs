@@ -6,7 +6,7 @@
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::{Distribution, Quantile};
 use super::error::{DispersionError, Table, error_of};
-use super::keys::Written;
+use super::keys::{Numbers, Written};
 use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
 
@@ -27,14 +27,6 @@ impl Measure {
             Measure::Covariance => "covariance",
         }
     }
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub enum Numbers {
-    /// For two components.
-    One(f64),
-    /// A square matrix of all components, or the block of one parameter with another.
-    Rows(Matrix),
 }
 
 #[derive(Clone, Debug, PartialEq)]

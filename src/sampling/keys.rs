@@ -1,7 +1,6 @@
 //! Declared keys of campaign tables: [`Row`], one key; [`Rule`], a relation of several keys; [`Written`], the values of
 //! a file. Reading, messages, canonical text and documents follow from them.
 
-use super::correlation::Numbers;
 use crate::scene::{Name, Parameter};
 use std::collections::BTreeMap;
 use std::ops::{Bound, RangeBounds};
@@ -351,6 +350,15 @@ impl DataColumn {
     pub fn target_name(&self) -> String {
         self.target.map_or_else(|| self.column.clone(), |(parameter, component)| parameter.component_name(component))
     }
+}
+
+/// Correlations of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Numbers {
+    /// For two components.
+    One(f64),
+    /// A square matrix of all components, or the block of one parameter with another.
+    Rows(Vec<Vec<f64>>),
 }
 
 #[derive(Clone, Debug, PartialEq)]

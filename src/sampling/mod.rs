@@ -24,7 +24,7 @@ pub mod sampler;
 pub mod stream;
 
 pub use columns::Column;
-pub use correlation::{Correlation, Measure, Numbers, Replaced};
+pub use correlation::{Correlation, Measure, Replaced};
 pub use derivation::Derivation;
 pub use design::{Design, Points};
 pub use dispersions::{Dispersion, Dispersions, Draws, Transform};

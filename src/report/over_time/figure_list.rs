@@ -1,4 +1,5 @@
-//! [`FIGURES`]: the figures over time of a scene, on the page and in `simulate --plot`; `simulate` prints their columns. A figure appears if the scene or a requirement calls for it.
+//! [`FIGURES`]: the figures over time of a scene, on the page and in `simulate --plot`; `simulate` prints their
+//! columns. A figure appears if the scene or a requirement calls for it.
 
 use crate::campaign::Plan;
 use crate::observables::Series;

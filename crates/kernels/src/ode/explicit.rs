@@ -46,8 +46,8 @@ pub(super) fn scaled<R: Real, const N: usize>(length: R, slope: &[R; N]) -> [R; 
     each!(length, |n| length * slope[n])
 }
 
-/// sum_j w_j k_j, unrolled for lanes. Single numbers on x86-64 mean a library call per term, for which loops take a fifth
-/// of the code at the same speed.
+/// sum_j w_j k_j, unrolled for lanes. Single numbers on x86-64 mean a library call per term, for which loops take a
+/// fifth of the code at the same speed.
 #[inline(always)]
 pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
     if cfg!(target_arch = "x86_64") && R::LANES == 1 {
