@@ -18,7 +18,6 @@ use super::settings::Compression;
 use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
-use crate::control::laws::LawKind;
 use crate::control::{ControlLaw, LoopSpec};
 use crate::observables::request::NutationAxis;
 use crate::observables::window::MAX_WINDOWS;
