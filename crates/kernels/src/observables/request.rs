@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::group::{Group, Groups};
 use super::law_columns::LawColumns;
 use super::reduction::{Passes, Reduction, Stored};
-use super::rows::SeriesSource;
+use super::rows::{Facts, SeriesSource};
 use super::table::{self, Column, ColumnId, Series};
 use super::window::Windows;
 use crate::dynamics::effects::ForceModel;
@@ -109,6 +109,11 @@ pub(super) struct SeriesTask {
 }
 
 impl Request {
+    fn facts(&self) -> Facts {
+        let Request { debris, actuated, effects, constrained, .. } = *self;
+        Facts { debris, actuated, effects, constrained, wheels: self.wheels.len() }
+    }
+
     /// Columns of a row, in order: those of the requested groups that exist in this kind of scene.
     pub fn columns(&self) -> Vec<Column> {
         let shown = |(column, wheel): (&Column, Option<usize>)| match wheel {
@@ -138,7 +143,8 @@ impl Request {
 
     /// The [`Request::columns`] of the table, each with its wheel; not named, which takes most of the time.
     fn rows(&self) -> Vec<(&'static Column, Option<usize>)> {
-        let is_requested = |column: &&Column| self.groups.contains(column.group) && column.scenes.include(self);
+        let facts = self.facts();
+        let is_requested = |column: &&Column| self.groups.contains(column.group) && column.scenes.include(&facts);
         let mut rows = Vec::new();
         for family in table::families() {
             let requested: Vec<&Column> = family.iter().filter(is_requested).collect();
@@ -219,9 +225,9 @@ impl Request {
 
     /// Groups, fields and purposes, in the order of the columns, without repetition.
     fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
-        let mut needs = Vec::new();
+        let (facts, mut needs) = (self.facts(), Vec::new());
         for ColumnId { group, value } in self.ids() {
-            for need in value.needs().filter(|need| need.scenes.include(self)) {
+            for need in value.needs().filter(|need| need.scenes.include(&facts)) {
                 let entry = (group, need.field, need.why);
                 if !needs.contains(&entry) {
                     needs.push(entry);

@@ -1,8 +1,8 @@
 //! Types and macros of the table of observables; the rows are in [`super::table`].
 
-use super::request::Request;
-use crate::dynamics::effects::Effect;
+use crate::dynamics::effects::{Effect, ForceModel};
 use crate::run::StateField;
+use crate::scene::Actuated;
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +11,16 @@ pub enum ColumnKind {
     Float,
     /// A count, at most 2^53.
     Count,
+}
+
+/// Properties of the scenes of a campaign, which decide what their rows contain.
+pub(super) struct Facts {
+    pub(super) debris: bool,
+    pub(super) actuated: Actuated,
+    pub(super) effects: ForceModel,
+    pub(super) constrained: bool,
+    /// Number of turning wheels.
+    pub(super) wheels: usize,
 }
 
 /// An enum with the list of its variants.
@@ -30,7 +40,7 @@ macro_rules! listed {
 }
 
 macro_rules! scenes {
-    ($request:ident: $($name:ident: $words:literal, $included:expr;)*) => {
+    ($facts:ident: $($name:ident: $words:literal, $included:expr;)*) => {
         /// Kinds of scene with a column.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Scenes {
@@ -44,8 +54,8 @@ macro_rules! scenes {
                 }
             }
 
-            /// True if the runs of `$request` are of this kind.
-            pub(super) fn include(self, $request: &Request) -> bool {
+            /// True if the scenes with `$facts` are of this kind.
+            pub(super) fn include(self, $facts: &Facts) -> bool {
                 match self {
                     $(Scenes::$name => $included,)*
                 }
@@ -55,28 +65,28 @@ macro_rules! scenes {
 }
 
 scenes! {
-    request:
+    facts:
     All: "", true;
-    Debris: "with debris", request.debris;
-    Actuated: "with actuation", request.actuated.any();
-    Thrusters: "with thrusters that act", request.actuated.thrusters;
-    ExternalTorque: "with thrusters that act or a torque on the body", request.actuated.external();
-    Motors: "with motors that act", request.actuated.motors && !request.wheels.is_empty();
-    Free: "without actuation", !request.actuated.any();
-    Constrained: "null-space method", request.constrained;
+    Debris: "with debris", facts.debris;
+    Actuated: "with actuation", facts.actuated.any();
+    Thrusters: "with thrusters that act", facts.actuated.thrusters;
+    ExternalTorque: "with thrusters that act or a torque on the body", facts.actuated.external();
+    Motors: "with motors that act", facts.actuated.motors && facts.wheels > 0;
+    Free: "without actuation", !facts.actuated.any();
+    Constrained: "null-space method", facts.constrained;
     ConstrainedBodies: "null-space method, with wheels that turn or debris",
-        request.constrained && (request.debris || !request.wheels.is_empty());
-    ConstrainedDebris: "null-space method, with debris", request.constrained && request.debris;
+        facts.constrained && (facts.debris || facts.wheels > 0);
+    ConstrainedDebris: "null-space method, with debris", facts.constrained && facts.debris;
     IntegratedVelocity: "with thrusters that act, or null-space method",
-        request.constrained || request.actuated.thrusters;
-    Unconstrained: "not the null-space method", !request.constrained;
-    Wheels: "with wheels that turn", !request.wheels.is_empty();
-    SeveralWheels: "with several wheels", request.wheels.len() > 1;
-    Orbit: "on an orbit", request.effects.contains(Effect::Gravity);
-    GravityGradient: "with a gravity gradient", request.effects.contains(Effect::GravityGradient);
-    MagneticTorque: "with a magnetic dipole or torque rods", request.effects.contains(Effect::MagneticTorque);
-    Drag: "with drag", request.effects.contains(Effect::Drag);
-    SolarPressure: "with solar pressure", request.effects.contains(Effect::SolarPressure);
+        facts.constrained || facts.actuated.thrusters;
+    Unconstrained: "not the null-space method", !facts.constrained;
+    Wheels: "with wheels that turn", facts.wheels > 0;
+    SeveralWheels: "with several wheels", facts.wheels > 1;
+    Orbit: "on an orbit", facts.effects.contains(Effect::Gravity);
+    GravityGradient: "with a gravity gradient", facts.effects.contains(Effect::GravityGradient);
+    MagneticTorque: "with a magnetic dipole or torque rods", facts.effects.contains(Effect::MagneticTorque);
+    Drag: "with drag", facts.effects.contains(Effect::Drag);
+    SolarPressure: "with solar pressure", facts.effects.contains(Effect::SolarPressure);
 }
 
 /// A field of the state table that a value needs in some kinds of scene.

@@ -2,20 +2,18 @@
 //! its consequences (masses and inertias that overflow, vanish or are not positive definite). Both collect all
 //! problems.
 
+use super::Name;
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::{Body, MassProperties};
 use super::schedule::applied;
 use super::schema::limit::{INERTIA_SLACK, shown};
 use super::schema::{ArcErrors, FieldModel, InitialInput, PartInput, WheelInput, WheelMode};
+use super::surroundings::{self, ADD_ORBIT};
 use super::table::Table;
 use super::tensor::extremes;
-use super::{Name, surroundings};
 use crate::math::symmetric::{is_positive_definite, principal_axes};
 use crate::math::vector::{difference, norm};
-
-/// Remedy for what needs an orbit.
-pub(super) const ADD_ORBIT: &str = "add an [orbit] table, or delete this line";
 
 /// Largest mass (kg) and moment of inertia (kg m^2): products of two, in sums over pairs and determinants, are finite.
 const LARGEST: f64 = 1e150;

@@ -1,6 +1,5 @@
 //! Needs of air and light beyond single keys: orbit, date, plates.
 
-use super::check::ADD_ORBIT;
 use super::error::Problems;
 use super::input::SceneInput;
 use super::orbit::Orbit;
@@ -8,6 +7,9 @@ use super::plate;
 use super::schema::limit::shown;
 use super::schema::{EnvironmentInput, MAX_PLATES, PlateInput};
 use super::table::Table;
+
+/// Remedy for what needs an orbit.
+pub(super) const ADD_ORBIT: &str = "add an [orbit] table, or delete this line";
 
 /// Height of free molecular flow, m; below it the drag is that of a flow around the body.
 const FREE_MOLECULAR: f64 = 100e3;
