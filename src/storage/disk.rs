@@ -23,6 +23,9 @@ pub fn folder(root: &Path) -> Arc<dyn Store> {
     Arc::new(Disk(root.to_owned()))
 }
 
+/// How often a temporary file that another process has cleared away is written again.
+const MOST_CLEARED: usize = 8;
+
 impl Disk {
     /// The path of the file `name`, which is about to change: in this folder, and not through a link in its place.
     fn own(&self, name: &str) -> io::Result<PathBuf> {
@@ -33,16 +36,27 @@ impl Disk {
     }
 
     /// Writes a file under a temporary name and checks it, then lets `place` give it its name.
-    fn place(&self, name: &str, bytes: &[u8], place: impl FnOnce(&Path, &Path) -> io::Result<()>) -> io::Result<()> {
+    fn place(&self, name: &str, bytes: &[u8], place: impl Fn(&Path, &Path) -> io::Result<()>) -> io::Result<()> {
         let path = self.own(name)?;
         new_folder(above(&path))?;
         // through a link that has come meanwhile nothing is written
         no_link(above(&path))?;
-        let temporary = written(&path, bytes, &create)?;
-        place(&temporary, &path).inspect_err(|_| {
-            // the first error is reported; a file that cannot be removed is recognised by its name
-            let _ = fs::remove_file(&temporary);
-        })?;
+        let put = || {
+            let temporary = written(&path, bytes, &create)?;
+            place(&temporary, &path).inspect_err(|_| {
+                // the first error is reported; a file that cannot be removed is recognised by its name
+                let _ = fs::remove_file(&temporary);
+            })
+        };
+        let mut placed = put();
+        // without locks, each process that begins clears the temporary files of the others away
+        for _ in 0..MOST_CLEARED {
+            match &placed {
+                Err(error) if error.kind() == ErrorKind::NotFound => placed = put(),
+                _ => break,
+            }
+        }
+        placed?;
         sync_folder(above(&path))
     }
 }
@@ -60,7 +74,6 @@ impl Store for Disk {
         self.place(name, bytes, |temporary, path| match fs::hard_link(temporary, path) {
             // a file system where a file has one name
             Err(_) if !path.exists() => fs::rename(temporary, path),
-            // without locks, another process may have cleared temporary files away
             _ => fs::remove_file(temporary).or_else(unless_absent),
         })
     }
@@ -274,7 +287,17 @@ mod tests {
         let altering = |path: &Path, bytes: &[u8]| create(path, &[bytes, b"x"].concat());
         assert!(written(&root.join("b"), b"12", &altering).is_err());
         assert_eq!(disk.list("").unwrap().len(), 1, "nothing is left of it");
-        for name in ["runs/a", "runs", "runs", ""] {
+        // of two temporary files that another process clears away, both are written again
+        let cleared = std::cell::Cell::new(0);
+        let place = |temporary: &Path, path: &Path| {
+            if cleared.replace(cleared.get() + 1) < 2 {
+                fs::remove_file(temporary)?;
+            }
+            fs::rename(temporary, path)
+        };
+        disk.place("c", b"34", place).unwrap();
+        assert_eq!((disk.get("c").unwrap(), cleared.get(), disk.list("").unwrap().len()), (b"34".to_vec(), 3, 2));
+        for name in ["c", "runs/a", "runs", "runs", ""] {
             disk.remove(name).unwrap();
         }
         assert!(!root.exists());
