@@ -293,3 +293,32 @@ fn the_flight_code_is_that_of_the_example() {
     let fields = header.lines().filter_map(|line| line.trim().strip_prefix("double ")?.split([';', '[']).next());
     assert_eq!(names, fields.collect::<Vec<_>>());
 }
+
+/// Law: each line that a worked example adds stands in the sources, however it is wrapped there; only the effect is in
+/// no tree.
+#[test]
+fn worked_examples_quote_the_sources() {
+    let letters = |text: &str| text.replace("///", "").split_whitespace().collect::<String>().replace('\\', "");
+    let mut sources = String::new();
+    let mut open = vec![root().join("src"), root().join("crates")];
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|found| found == "rs") {
+            sources += &letters(&text(&path));
+        }
+    }
+    let document = text(&root().join("CONTRIBUTING.md"));
+    let mut quoted = 0;
+    for section in document.split("\n### ").filter(|section| !section.starts_with("Worked example: an effect")) {
+        let examples = blocks(section).into_iter().filter(|block| block.language == "diff");
+        for line in examples.flat_map(|block| block.text.lines().map(str::to_owned).collect::<Vec<_>>()) {
+            let Some(added) = line.strip_prefix('+') else { continue };
+            for piece in added.split("...").map(letters).filter(|piece| !piece.is_empty()) {
+                assert!(sources.contains(&piece), "CONTRIBUTING.md: no source has `{added}`");
+                quoted += 1;
+            }
+        }
+    }
+    assert!(quoted > 30, "{quoted}");
+}
