@@ -197,7 +197,7 @@ fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<Strin
 }
 
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
-    let Some(first) = ranking.inputs.first().filter(|first| first.input.rows > 0) else { return String::new() };
+    let Some(first) = ranking.inputs.first() else { return String::new() };
     let runs = counted(first.input.rows, "run");
     let direction = |ranked: &Ranked<'_>| match ranked.input.direction {
         Some(Direction::Rises) => " (rises with it)",
@@ -320,7 +320,8 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
     let mut found: Vec<(Finding, [bool; 3])> = Vec::new();
     let mut few: Vec<u64> = Vec::new();
     for outcome in outcomes(plan, all) {
-        for ranking in &ranked(plan, all, outcome) {
+        let has_runs = |ranking: &&Ranking<'_>| ranking.inputs.first().is_some_and(|first| first.input.rows > 0);
+        for ranking in ranked(plan, all, outcome).iter().filter(has_runs) {
             few.extend(too_few(ranking));
             let one = finding(plan, analysed, outcome, ranking);
             let order = [one.children.is_empty(), is_met(verdicts, outcome), is_settled(verdicts, ranking)];

@@ -121,6 +121,10 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
         let sentence = format!("yes in {}", share.text());
         return Finding { numbers: vec![share], sentence, ..found };
     }
+    let what = names::of_quantity(&column.quantity);
+    if count == 0 && column.quantiles.iter().all(|one| one.interval == [None; 2]) {
+        return Finding { sentence: without_values(&what), ..found };
+    }
     let quantiles = column.quantiles.iter().map(|one| {
         let what = if one.p == 0.5 { "median".to_owned() } else { format!("p{}", percent(one.p)) };
         (one.p, number(&what, known(one.value), one.interval.map(known)))
@@ -145,7 +149,6 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
         .unwrap_or(3)
         .min(MOST_DIGITS);
     numbers.iter_mut().for_each(|one| one.digits = one.digits.max(digits));
-    let what = names::of_quantity(&column.quantity);
     let of_mean = column.note.as_ref().map(|note| format!("mean of {what}: {note}"));
     let notes = column.quantiles.iter().filter_map(|one| one.note.clone()).chain(of_mean).collect();
     let sentence = sentence(&what, &numbers, count);
@@ -157,11 +160,15 @@ fn digits(text: &str) -> usize {
     text.split('e').next().map_or(0, |text| text.chars().filter(char::is_ascii_digit).count())
 }
 
+fn without_values(name: &str) -> String {
+    format!("no run has a value of {name}")
+}
+
 /// The spread, then the extremes, for readers without a table.
 fn sentence(name: &str, numbers: &[Number], runs: u64) -> String {
     let number = |what: &str| numbers.iter().find(|one| one.name == what).filter(|one| one.value.is_finite());
     let text = |one: &Number| Number { interval: [f64::NAN; 2], ..one.clone() }.text();
-    let (Some(min), Some(max)) = (number("min"), number("max")) else { return format!("no run has a value of {name}") };
+    let (Some(min), Some(max)) = (number("min"), number("max")) else { return without_values(name) };
     if runs == 1 {
         return format!("the only run has {name} {}", text(max));
     }

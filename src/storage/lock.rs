@@ -15,7 +15,7 @@ const PAUSE: Duration = Duration::from_millis(10);
 
 /// A lock that keeps other processes away until it is dropped; none where there are no locks.
 #[derive(Debug, Default)]
-pub struct Lock(#[allow(dead_code, reason = "is closed when it is dropped")] Option<File>);
+pub struct Lock(#[expect(dead_code, reason = "is closed when it is dropped")] Option<File>);
 
 /// Locks `store`, shared with other shards and readers or not.
 ///

@@ -58,6 +58,9 @@ fn what_is_not_a_number_passes_nothing() {
     let tables: String = requirements.iter().map(|(name, more, _)| required(name, more)).collect();
     scratch.file("c.toml", &(TEXT.to_owned() + &tables));
     let said = scratch.prints("campaign c.toml --out r --verbose", 5);
+    // an outcome without values is a sentence: it has no row of numbers and no driver
+    assert!(said.contains("no run has a value of time until never"), "{said}");
+    assert!(!said.contains("(in 0 of") && !said.lines().any(|line| line.ends_with(": ")), "{said}");
     let rows = scratch.rows("r");
     for (name, ..) in requirements.iter().filter(|(name, ..)| *name != "slow") {
         let is_null = |batch: &RecordBatch| batch.column_by_name(name).expect(name).null_count() == batch.num_rows();
