@@ -46,21 +46,9 @@ pub(super) fn scaled<R: Real, const N: usize>(length: R, slope: &[R; N]) -> [R; 
     each!(length, |n| length * slope[n])
 }
 
-/// sum_j w_j k_j, unrolled for lanes. Without lanes on x86-64 there is no fused instruction: each term is a library
-/// call, and one loop for all uses keeps machine code small.
+/// sum_j w_j k_j.
 #[inline(always)]
 pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
-    if cfg!(target_arch = "x86_64") && R::LANES == 1 {
-        return k[0][0].apart(
-            #[inline(always)]
-            || weighted_sum(k, weights),
-        );
-    }
-    weighted_sum(k, weights)
-}
-
-#[inline(always)]
-fn weighted_sum<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S], weights: &[f64; S]) -> [R; N] {
     each!(k[0][0], |n| {
         let mut sum = k[0][n].zero();
         for j in 0..S {
