@@ -94,7 +94,7 @@ fn failures(title: &str, plan: &Plan, probe: &RunProbe) -> Vec<Finding> {
         _ => "there would be no statistics, and the requirements would fail",
     };
     let head = probe.is_hopeless().then(|| about(title, format!("EVERY RUN FAILS: {lost}")));
-    let mut children = loss::reasons(&probe.reasons(), count as u64);
+    let mut children = loss::reasons(plan, &probe.reasons(), count as u64);
     let more = children.len().saturating_sub(MOST_REASONS);
     children.truncate(MOST_REASONS);
     let all = about(title, format!("{failed} of the first {} failed:", counted(count, "run")));
@@ -200,8 +200,8 @@ fn estimate(probed: &Probed<'_>) -> Vec<Finding> {
     if let Some(LongRun { sample, reached }) = probe.too_long {
         let duration = plan.grid.duration();
         let end = if is_out_of_reach(plan.max_steps, reached, duration) {
-            let (most, remedy) = (plan.max_steps, loss::remedy(Status::StepLimit).unwrap_or_default());
-            format!("; at that pace integrator.max_steps ({most}) does not suffice; {remedy}")
+            let remedy = loss::remedy(plan, Status::StepLimit).unwrap_or_default();
+            format!("; at that pace the steps do not suffice; {remedy}")
         } else {
             String::new()
         };

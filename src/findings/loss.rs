@@ -13,7 +13,7 @@ use crate::ensemble::failure_reasons::with_numbers;
 use crate::ensemble::{FailureReason, FailureReasons};
 use crate::findings::finding::{Finding, Kind, Number};
 use crate::findings::names;
-use crate::findings::number::{brief, share, trimmed};
+use crate::findings::number::{brief, share, trimmed, written};
 use crate::run::Status;
 use crate::statistics::quantile::percent as exactly;
 
@@ -21,16 +21,22 @@ use crate::statistics::quantile::percent as exactly;
 const LISTED: usize = 3;
 
 /// The remedy for a status; `None` if the reason contains it.
-pub fn remedy(status: Status) -> Option<&'static str> {
-    match status {
-        Status::StepLimit => Some("to fix: increase integrator.max_steps or integrator.tolerance"),
-        Status::StepFloor => Some("to fix: increase integrator.tolerance"),
-        Status::Inaccurate => Some("to fix: decrease integrator.tolerance or integrator.step_s"),
-        Status::Surface => {
-            Some("to fix: raise the orbit, or end such runs before by an [[event]] with ends_run = true")
+pub fn remedy(plan: &Plan, status: Status) -> Option<String> {
+    let tolerance = written(plan.tolerance.relative);
+    Some(match status {
+        Status::StepLimit => {
+            format!("to fix: increase integrator.max_steps ({}) or tolerance ({tolerance})", plan.max_steps)
         }
-        _ => None,
-    }
+        Status::StepFloor => format!("to fix: increase integrator.tolerance ({tolerance})"),
+        Status::Inaccurate => match plan.step_s {
+            Some(step) => format!("to fix: decrease integrator.step_s ({})", written(step)),
+            None => format!("to fix: decrease integrator.tolerance ({tolerance})"),
+        },
+        Status::Surface => {
+            "to fix: raise the orbit, or end such runs before by an [[event]] with ends_run = true".to_owned()
+        }
+        _ => return None,
+    })
 }
 
 /// A reason for people: six digits instead of all bits, words instead of column names.
@@ -63,21 +69,21 @@ pub fn status_words(status: Status) -> &'static str {
 }
 
 /// A finding for each reason that left some of `runs` runs without numbers.
-pub fn reasons(all: &FailureReasons, runs: u64) -> Vec<Finding> {
+pub fn reasons(plan: &Plan, all: &FailureReasons, runs: u64) -> Vec<Finding> {
     let of = |one: &&FailureReason| {
         let which = if one.count == 1 { "" } else { "first " };
         let sentence = format!("{} ({which}sample {})", readable(&one.text).trim_end_matches('.'), one.first);
         let found = Finding::new(Kind::Loss, "reason", format!("{} {}", one.count, one.status.name()), sentence);
         let share = one.count as f64 / runs.max(1) as f64;
         let numbers = vec![Number::share("share of the runs", share, [f64::NAN; 2], runs)];
-        let notes = remedy(one.status).map(str::to_owned).into_iter().collect();
+        let notes = remedy(plan, one.status).into_iter().collect();
         Finding { numbers, notes, sample: Some(one.first), ..found }
     };
     all.groups().iter().map(of).collect()
 }
 
 /// The number of computed runs, with the reasons for the others as children.
-pub(super) fn losses(analysed: &Analysed) -> Vec<Finding> {
+pub(super) fn losses(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let statuses = &analysed.tally.statuses;
     let (runs, ok) = (statuses.runs(), statuses.ok());
     let said = match (runs, ok) {
@@ -93,7 +99,7 @@ pub(super) fn losses(analysed: &Analysed) -> Vec<Finding> {
         let found = Finding::new(Kind::Loss, "status", format!("{} {}", one.count, one.status.name()), sentence);
         Finding { numbers: vec![of(one.count)], sample: one.first.first().map(|(sample, _)| *sample), ..found }
     };
-    let mut children = reasons(statuses.reasons(), runs);
+    let mut children = reasons(plan, statuses.reasons(), runs);
     if children.is_empty() {
         children = statuses.failed().map(by_status).collect();
     }
@@ -271,6 +277,7 @@ pub fn of_run(row: &[(String, f64)]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::Overrides;
 
     /// Known: long numbers are rounded; names, counts, short numbers and full stops stay.
     #[test]
@@ -290,6 +297,8 @@ mod tests {
     fn every_status_is_explained() {
         let keys = include_str!("../../docs/campaign-files.md");
         let columns = include_str!("../../docs/columns.md");
+        let campaign = include_str!("../../campaigns/no_debris.toml");
+        let plan = Plan::from_text("x.toml", campaign, Overrides::default()).unwrap();
         for (place, status) in Status::ALL.into_iter().enumerate() {
             let name = status.name();
             assert!(keys.contains(&format!("\n| `{name}` |")), "{name} is not in campaign-files.md");
@@ -299,7 +308,7 @@ mod tests {
             let of_run =
                 [Status::Done, Status::InvalidSample, Status::InternalError, Status::Inaccurate, Status::Diverged];
             assert_eq!(status.reason(1.0).is_none(), of_run.contains(&status), "{name}");
-            let is_of_steps = remedy(status).is_some_and(|remedy| remedy.contains("max_steps"));
+            let is_of_steps = remedy(&plan, status).is_some_and(|remedy| remedy.contains("max_steps"));
             assert_eq!(is_of_steps, status == Status::StepLimit, "{name}");
         }
     }

@@ -38,7 +38,7 @@ pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findi
     let required = requirement::required(plan, &verdicts);
     list.extend(verdicts);
     list.extend(loss::stop(plan, analysed));
-    list.extend(loss::losses(analysed));
+    list.extend(loss::losses(plan, analysed));
     list.extend(loss::missions(plan, analysed));
     list.extend(loss::notes(analysed));
     // the terminal shows them before the campaign

@@ -240,9 +240,11 @@ fn sentence(one: &Assessment, numbers: &[Number]) -> String {
     said.join("; ")
 }
 
-/// Qualifications of a verdict, the deciding one first.
+/// Qualifications of a verdict: the assumption of a mean, then the deciding one.
 fn notes(one: &Assessment) -> Vec<String> {
-    let mut notes: Vec<String> = decided_by(one).into_iter().collect();
+    let assumed =
+        assumed(one).map(|assumed| [assumed, "with bounded = [lowest, highest] nothing is assumed".to_owned()]);
+    let mut notes: Vec<String> = assumed.into_iter().flatten().chain(decided_by(one)).collect();
     notes.extend(one.reason.clone());
     if let Some(worst) = one.worst {
         if worst.unresolved > 0 {
@@ -256,7 +258,6 @@ fn notes(one: &Assessment) -> Vec<String> {
             worst.points
         ));
     }
-    notes.extend(assumed(one));
     notes.extend(one.note.clone());
     notes
 }
@@ -265,8 +266,7 @@ fn notes(one: &Assessment) -> Vec<String> {
 pub fn assumed(one: &Assessment) -> Option<String> {
     let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
     Some(format!(
-        "provided that events rarer than {RARE} in {} runs move the mean by less than {}; with bounded = [lowest, \
-         highest] nothing is assumed",
+        "provided that events rarer than {RARE} in {} runs move the mean by less than {}",
         one.runs,
         room.trim_end(),
     ))

@@ -180,12 +180,11 @@ impl<'f> Row<'f> {
         let said = number.text();
         let (value, rest) =
             said.split_once(" [").map_or((said.as_str(), String::new()), |(value, rest)| (value, format!("[{rest}")));
-        let name = text(&number.name);
-        format!(
-            "<b>{}</b> <span class=\"quiet\">{}</span><br><span class=\"quiet\">{name}</span>",
-            text(value),
-            text(&rest)
-        )
+        // a verdict on a mean assumes something about rare events
+        let assumed = self.finding.notes.first().filter(|_| self.is_of_mean);
+        let below = core::iter::once(&number.name).chain(assumed);
+        let below: String = below.map(|line| format!("<br><span class=\"quiet\">{}</span>", text(line))).collect();
+        format!("<b>{}</b> <span class=\"quiet\">{}</span>{below}", text(value), text(&rest))
     }
 
     /// The outcome as a small picture with its numbers.

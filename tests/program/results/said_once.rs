@@ -8,7 +8,7 @@ fn untagged(page: &str) -> String {
 }
 
 fn plain(text: &str) -> String {
-    let mut out = text.replace('\u{2212}', "-").replace(['\u{202f}', '\u{a0}'], "");
+    let mut out = text.replace('\u{2212}', "-").replace('\u{202f}', "");
     for (digit, raised) in "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().enumerate() {
         out = out.replace(raised, &digit.to_string());
     }
