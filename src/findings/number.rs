@@ -234,7 +234,7 @@ pub fn typeset(text: &str) -> String {
         let is_after_number = before.is_some_and(|letter| letter.is_ascii_digit() || letter == ']');
         let is_joined = letters[at] == ' ' && is_after_number && {
             let word = letters[at + 1..].iter().take_while(|letter| **letter != ' ').count();
-            (1..=MOST_JOINED).contains(&word)
+            (1..=MOST_JOINED).contains(&word) && letters[at + 1] != '['
         };
         out.push(match letters[at] {
             _ if is_minus => '\u{2212}',
@@ -355,7 +355,7 @@ mod tests {
         assert_eq!(apart([1.000_001_2, 1.000_003_4, 2.0]), ["1.000001", "1.000003", "2"]);
         assert_eq!(apart([0.5, 0.5]), ["0.500", "0.500"]);
         assert_eq!([90.0, 7200.0, 172_800.0, 12_345.6].map(time), ["90 s", "2 h", "2 days", "12345.6 s"]);
-        assert_eq!(typeset("2 deg/s, 3 [1, 4] N m"), "2\u{a0}deg/s, 3\u{a0}[1, 4]\u{a0}N m");
+        assert_eq!(typeset("2 deg/s, 3 [1, 4] N m"), "2\u{a0}deg/s, 3 [1, 4]\u{a0}N m");
         assert_eq!(typeset("-3e-13 [-4, 5-6]"), "\u{2212}3\u{202f}\u{d7}\u{202f}10⁻¹³ [\u{2212}4, 5-6]");
     }
 }
