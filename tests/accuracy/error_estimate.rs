@@ -28,7 +28,7 @@ fn too_large(method: Method, family: &str) -> f64 {
         (GAUSS_LEGENDRE, "slew by thrusters") => 200.0,
         (Method::Taylor, "spin_sweep" | "no_debris") => 200.0,
         (Method::Auto | Method::Taylor, LIBRATING | SPINNING | "separatrix" | "on the separatrix") => 200.0,
-        (RUNGE_KUTTA, "separatrix" | "eccentric, any") => 2e3,
+        (RUNGE_KUTTA, "separatrix" | "eccentric, any" | "eccentric, flat") => 2e3,
         (_, "eccentric, flat" | "eccentric, any" | "eccentric, dipole" | "eccentric, in air") => 500.0,
         (Method::Gyrostat(Integrator::DormandPrince | Integrator::Dop853), TURNING_FAST | SPINNING) => 400.0,
         (RUNGE_KUTTA, SPINNING) => 300.0,
