@@ -10,7 +10,7 @@ use super::sensor_tables::{check_sensors, read_sensor};
 use super::size::MOST_TABLES;
 use super::tables::{ignore_others, read_keys};
 use crate::control::actuators::modulation;
-use crate::control::laws::rod_law::RodUse;
+use crate::control::laws::rod_law::RodLaw;
 use crate::control::observes::Observes;
 use crate::control::sensor_spec::SensorSpec;
 use crate::control::spec::{LoopSpec, PhaseSpec};
@@ -144,7 +144,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         (ModuleKey::Absent, _) => None,
         (ModuleKey::Wrong, _) => return None,
         (ModuleKey::Read(module), phases) => {
-            let kind = module.code.kind();
+            let kind = &module.code.kind;
             if phases.as_ref().is_some_and(|phases| phases.iter().all(|phase| phase.law != Some(kind))) {
                 let allowed = "left out where no phase has law = \"module\"";
                 let remedy = "write law = \"module\" in a [[guidance]] table, or delete this line";
@@ -243,7 +243,7 @@ fn check_rods(
             "add a [[sensors]] table with kind = \"magnetometer\"",
         );
     }
-    if phases.iter().all(|phase| phase.rods == RodUse::None) {
+    if phases.iter().all(|phase| phase.rods == RodLaw::None) {
         refuse("left out in a loop without a phase that uses them", "add rods = \"b_dot\" to a [[guidance]] table");
     }
 }

@@ -32,7 +32,7 @@ impl ModuleKey {
     /// Its law.
     pub fn kind(&self) -> Option<&'static LawKind> {
         match self {
-            ModuleKey::Read(module) => Some(module.code.kind()),
+            ModuleKey::Read(module) => Some(&module.code.kind),
             _ => None,
         }
     }
@@ -47,7 +47,7 @@ pub(super) fn read(section: &mut Section<'_, '_>, written: &mut Written) -> Modu
     let Some(file) = file else { return ModuleKey::Wrong };
     match module(section, &file, sha256.as_deref()) {
         Ok(code) => {
-            written.set("module_sha256", code.sha256());
+            written.set("module_sha256", &*code.sha256);
             ModuleKey::Read(ModuleSpec { file, code })
         }
         Err((key, allowed, remedy)) => {
@@ -61,7 +61,7 @@ pub(super) fn read(section: &mut Section<'_, '_>, written: &mut Written) -> Modu
 pub(super) fn check_sensors(root: &mut Section<'_, '_>, module: &ModuleSpec, sensors: &[Option<SensorSpec>]) {
     let has = |sensor: &SensorSpec| (sensor.name.to_string(), sensors::KINDS[sensor.kind].name);
     let there: Vec<(String, &str)> = sensors.iter().flatten().map(has).collect();
-    for wanted in module.code.sensors() {
+    for wanted in module.code.sensors {
         if there.iter().any(|(name, kind)| name == wanted.name && *kind == wanted.kind) {
             continue;
         }
@@ -109,8 +109,8 @@ fn module(
         return Err(("module_sha256", format!("the SHA-256 of the module, {found}"), remedy.to_owned()));
     }
     let code = flight_code::kept(&bytes, &found).map_err(|(allowed, remedy)| ("module", allowed, remedy))?;
-    let parameters = code.kind().parameters.iter().map(|parameter| (parameter.facts.key, parameter.facts.unit));
-    for (key, written) in parameters.chain(code.telemetry().iter().map(|declared| (declared.key, declared.unit))) {
+    let parameters = code.kind.parameters.iter().map(|parameter| (parameter.facts.key, parameter.facts.unit));
+    for (key, written) in parameters.chain(code.telemetry.iter().map(|declared| (declared.key, declared.unit))) {
         let unit = units::in_name(key);
         if written != unit {
             let allowed = format!(

@@ -7,7 +7,7 @@ use crate::control::flight_code;
 use crate::control::guidance::condition::Condition;
 use crate::control::guidance::phase::{MANEUVERS, Maneuver, Next};
 use crate::control::guidance::target::{TARGETS, Target};
-use crate::control::laws::rod_law::{ROD_USES, RodUse};
+use crate::control::laws::rod_law::{ROD_LAWS, RodLaw};
 use crate::control::laws::{self, LawKind, callback};
 use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
@@ -22,7 +22,7 @@ const LAUNCH: &str = "launch";
 const GYROSCOPIC: &str = "mrp_feedback";
 const TARGET_NAMES: [&str; TARGETS.len()] = words(&TARGETS);
 const MANEUVER_NAMES: [&str; MANEUVERS.len()] = words(&MANEUVERS);
-const ROD_USE_NAMES: [&str; ROD_USES.len()] = words(&ROD_USES);
+const ROD_USE_NAMES: [&str; ROD_LAWS.len()] = words(&ROD_LAWS);
 
 /// The keys of `[[guidance]]` that are not parameters.
 #[rustfmt::skip]
@@ -130,9 +130,9 @@ pub(super) fn read_phase(
     let mut is_known = !(section.has("law") && law.is_none() || section.has("target") && target.is_none());
     let (target_name, target) = target.unwrap_or(TARGETS[0]);
     let thrust = meaning(&MANEUVERS, &written, "thrust");
-    let rods = meaning(&ROD_USES, &written, "rods");
+    let rods = meaning(&ROD_LAWS, &written, "rods");
     is_known &= thrust.is_some() && rods.is_some();
-    let (thrust, rods) = (thrust.unwrap_or(Maneuver::None), rods.unwrap_or(RodUse::None));
+    let (thrust, rods) = (thrust.unwrap_or(Maneuver::None), rods.unwrap_or(RodLaw::None));
     if thrust != Maneuver::None && !(has_thrusters && has_debris) {
         let allowed = "\"none\" in a loop without thrusters, or without debris";
         section.refuse(
@@ -141,11 +141,11 @@ pub(super) fn read_phase(
             "add thrusters = [...] to [control] and a [debris] table, or delete this line",
         );
     }
-    if rods != RodUse::None && !has_rods {
+    if rods != RodLaw::None && !has_rods {
         let remedy = "add torque_rods = [...] to [control], or delete this line";
         section.refuse("rods", "\"none\" in a loop without torque rods", remedy);
     }
-    if rods == RodUse::Unloading && scene.wheels.iter().all(|wheel| wheel.mode == WheelMode::Locked) {
+    if rods.unloads() && scene.wheels.iter().all(|wheel| wheel.mode == WheelMode::Locked) {
         section.refuse("rods", "another use where no wheel turns", "add a [[wheels]] table, or write rods = \"b_dot\"");
     }
     if matches!((target, thrust), (Target::Transfer, Maneuver::Stop) | (Target::Stop, Maneuver::Transfer)) {

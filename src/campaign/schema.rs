@@ -15,7 +15,7 @@ use super::{data_keys, draws, failure_tables, phase_tables, scene, sensor_tables
 use crate::control::actuators::modulation;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::TARGETS;
-use crate::control::laws::rod_law::ROD_USES;
+use crate::control::laws::rod_law::ROD_LAWS;
 use crate::control::sensors::{self, SensorKind};
 use crate::control::{estimators, laws, net_launch, parameters};
 use crate::sampling::keys::{ANY, Kind, Presence, Range, Row, above, at_least};
@@ -167,7 +167,7 @@ fn guidance() -> Json {
             .iter()
             .for_each(|list| keys.add_parameters(list));
     }
-    ROD_USES.iter().for_each(|(_, rods)| keys.add_parameters(rods.parameters()));
+    ROD_LAWS.iter().for_each(|(_, rods)| keys.add_parameters(rods.parameters()));
     laws::KINDS.iter().for_each(|kind| keys.add_parameters(kind.parameters));
     let laws = keys.0["law"].clone();
     let of_others = json!({"required": ["law"], "properties": {"law": {"type": "string", "not": laws}}});

@@ -18,7 +18,7 @@ pub struct Measurements<'a> {
 pub type MotorCommand = [f64; MAX_WHEELS];
 
 /// Commands of a control tick, for telemetry.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Commanded {
     pub motor_torque: MotorCommand,
     /// Mean thrusts over the control period.
@@ -26,13 +26,8 @@ pub struct Commanded {
     pub dipoles: [f64; MAX_TORQUE_RODS],
 }
 
-impl Commanded {
-    pub const NOTHING: Commanded =
-        Commanded { motor_torque: [0.0; MAX_WHEELS], thrust: [0.0; MAX_THRUSTERS], dipoles: [0.0; MAX_TORQUE_RODS] };
-}
-
 /// A command of the thrusters.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pulses {
     pub begin: f64,
     /// Thrusts while they last, by thruster.
@@ -40,8 +35,6 @@ pub struct Pulses {
     /// Durations by thruster.
     pub on_time: [f64; MAX_THRUSTERS],
 }
-
-pub const NO_PULSES: Pulses = Pulses { begin: 0.0, thrust: [0.0; MAX_THRUSTERS], on_time: [0.0; MAX_THRUSTERS] };
 
 /// Commands that act at a time.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,6 @@
 //! [`Estimate`]: flight software's belief of the state at a tick.
 
+use super::measurement::PointMotion;
 use crate::scene::MAX_WHEELS;
 
 /// The motion of the debris.
@@ -34,6 +35,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Motion of the centres of mass of spacecraft and debris; `None` without debris.
+    pub fn centers(&self) -> Option<[PointMotion; 2]> {
+        let own = PointMotion { r_e: self.r_co_e, v_e: self.v_co_e };
+        self.debris.map(|debris| [own, PointMotion { r_e: debris.r_gdo_e, v_e: debris.v_gdo_e }])
+    }
+
     pub fn is_finite(&self) -> bool {
         // 0 times a non-finite number is NaN, and the sum cannot overflow
         let zero = |numbers: &[f64]| numbers.iter().fold(0.0, |sum, number| sum + 0.0 * number);

@@ -5,8 +5,7 @@
 //! debris, `_e` the inertial F_e; `q_es` turns F_s to F_e, scalar first.
 //!
 //! - [`spec`], [`parameters`], `declared`: the structure of a loop in a campaign file, and its numbers.
-//! - [`law`], [`context`], [`runs`]: the law of a plan, its settings for one run, and the laws of runs that share an
-//!   engine.
+//! - [`law`], [`context`]: the law of a plan with the laws of runs that share an engine, and its settings for one run.
 //! - [`control_loop`]: the loop of one run, in which plant and flight software exchange the data of [`bus`].
 //! - [`plant`]: the [`truth`], measured by [`sensors`] and moved by [`actuators`].
 //! - [`flight_software`]: [`estimators`], [`guidance`], [`laws`] (those of WebAssembly modules: [`flight_code`]) and
@@ -14,7 +13,7 @@
 //! - [`outcome`], [`failure`], [`recorder`], [`loop_record`]: results of a run, at its end and over time.
 //! - [`net_launch`]: launch of a net at debris.
 //! - [`capacity`], [`review`], [`stability`]: checks before a loop flies.
-//! - [`vector`], [`rotation`], [`small_matrix`], [`tick_times`]: arithmetic and times.
+//! - [`vector`], [`tick_times`]: arithmetic and times.
 
 pub mod actuators;
 pub mod allocation;
@@ -40,11 +39,8 @@ pub mod parameters;
 pub mod plant;
 pub mod recorder;
 pub mod review;
-pub mod rotation;
-pub mod runs;
 pub mod sensor_spec;
 pub mod sensors;
-pub mod small_matrix;
 pub mod spec;
 pub mod stability;
 pub mod tick_times;
@@ -52,7 +48,6 @@ pub mod truth;
 pub mod vector;
 
 pub use context::LawContext;
-pub use law::ControlLaw;
+pub use law::{ControlLaw, LawRuns};
 pub use outcome::STANDARD_GRAVITY;
-pub use runs::LawRuns;
 pub use spec::LoopSpec;

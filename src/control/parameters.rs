@@ -10,26 +10,14 @@ use crate::scene::schema::{Facts, Limit, Shape};
 declared! {
     LoopNumbers = LOOP {
         delay: f64 = number("delay_s", "s", "Time from a tick to the effect of its commands", &[0.0]);
-        settling_band: f64 = number(
-            "settling_band_rad",
-            "rad",
-            "Pointing error within which the attitude counts as settled",
-            &[0.017_453_292_519_943_295],
-        );
-        stability_from: f64 = number(
-            "stability_from_s",
-            "s",
-            "Start of the window over which stability is measured; 0: when the mission has settled",
-            &[0.0],
-        );
+        settling_band: f64 = number("settling_band_rad", "rad",
+            "Pointing error within which the attitude counts as settled", &[0.017_453_292_519_943_295]);
+        stability_from: f64 = number("stability_from_s", "s",
+            "Start of the window over which stability is measured; 0: when the mission has settled", &[0.0]);
         stability_window: f64 = number("stability_window_s", "s", "Length of that window; 0: to the end of the run",
             &[0.0]);
-        saturation_timeout: f64 = number(
-            "saturation_timeout_s",
-            "s",
-            "How long a wheel's speed limit may cut off its motor before the mission fails; 0: forever",
-            &[0.0],
-        );
+        saturation_timeout: f64 = number("saturation_timeout_s", "s",
+            "How long a wheel's speed limit may cut off its motor before the mission fails; 0: forever", &[0.0]);
     }
 }
 
@@ -53,12 +41,8 @@ declared! {
 
 declared! {
     UnloadingNumbers = UNLOADING {
-        time: f64 = number(
-            "unloading_time_s",
-            "s",
-            "Time constant with which thrusters unload the wheels; 0: they do not",
-            &[0.0],
-        );
+        time: f64 = number("unloading_time_s", "s",
+            "Time constant with which thrusters unload the wheels; 0: they do not", &[0.0]);
         dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Wheel momentum that need not be unloaded",
             &[0.0]);
     }

@@ -1,14 +1,16 @@
 //! [`notes`]: likely mistakes in the structure of a control loop (numbers: `ensemble::plausibility`).
 
+use super::declared::limit;
 use super::guidance::phase::Next;
 use super::laws::interface::LawSettings;
 use super::observes::Observes;
 use super::parameters::{ConditionNumbers, LoopNumbers, PhaseNumbers};
+use super::sensor_spec::SensorSpec;
 use super::spec::{LoopSpec, PhaseSpec};
 use super::stability::beyond_limit;
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::sampling::SampleId;
-use crate::scene::{ControlInput, DeclaredTable, Scene};
+use crate::scene::{ControlInput, DeclaredTable, Name, Scene};
 
 /// Relative tolerance for equal times: a sum of two has an error of 1e-16.
 const SAME: f64 = 1e-12;
@@ -73,16 +75,13 @@ fn transfers_about_a_point_mass(phases: &[(&PhaseSpec, &DeclaredTable)], scene: 
 /// A stability window that outlasts the run.
 fn window(table: &DeclaredTable, duration: f64) -> Option<String> {
     let LoopNumbers { stability_from: from, stability_window: window, .. } = LoopNumbers::of(table);
-    let end = if window > 0.0 { from + window } else { from };
-    let is_beyond = end > duration * (1.0 + SAME) || from > 0.0 && from >= duration;
+    let is_beyond = from + window > duration * (1.0 + SAME) || from > 0.0 && from >= duration;
     is_beyond.then(|| {
-        let columns = "relative_performance_error_rms_rad and relative_performance_error_peak_to_peak_rad are null in \
-            every run";
         let start = if from > 0.0 { format!("stability_from_s = {from:?}") } else { "the start".to_owned() };
         let last = if window > 0.0 { format!(", stability_window_s = {window:?}") } else { String::new() };
         format!(
-            "control: the window of stability from {start}{last} is not over at campaign.duration_s = \
-            {duration:?}: {columns}"
+            "control: the window of stability from {start}{last} is not over at campaign.duration_s = {duration:?}: \
+            relative_performance_error_rms_rad and relative_performance_error_peak_to_peak_rad are null in every run"
         )
     })
 }
@@ -92,12 +91,8 @@ fn number(table: &DeclaredTable, key: &str) -> f64 {
     table.named(key).map_or(0.0, |numbers| numbers[0])
 }
 
-fn followers(phase: &PhaseSpec) -> Vec<usize> {
-    let next = match phase.next {
-        Next::Phase(next) => Some(next),
-        Next::Stay | Next::Launch => None,
-    };
-    next.into_iter().chain(phase.otherwise).collect()
+fn is_followed(phase: &PhaseSpec, by: usize) -> bool {
+    phase.next == Next::Phase(by) || phase.otherwise == Some(by)
 }
 
 /// Phases that follow themselves, form endless cycles, or are unreachable.
@@ -109,17 +104,17 @@ fn order(phases: &[PhaseSpec]) -> Vec<String> {
         set
     };
     let first = (0..phases.len()).map(|place| place == 0).collect();
-    let reached =
-        grow(first, &|place, set| (0..phases.len()).any(|from| set[from] && followers(&phases[from]).contains(&place)));
-    let last = phases.iter().map(|phase| phase.next == Next::Launch || phase.next == Next::Stay).collect();
-    let ends = grow(last, &|place, set| followers(&phases[place]).iter().any(|next| set[*next]));
+    let all = 0..phases.len();
+    let reached = grow(first, &|place, set| all.clone().any(|from| set[from] && is_followed(&phases[from], place)));
+    let last = phases.iter().map(|phase| !matches!(phase.next, Next::Phase(_))).collect();
+    let ends = grow(last, &|place, set| all.clone().any(|next| set[next] && is_followed(&phases[place], next)));
     let mut notes = Vec::new();
     let mut endless = Vec::new();
     for (place, phase) in phases.iter().enumerate() {
         let name = phase.name;
         if !reached[place] {
             notes.push(format!("guidance.{name} is never reached: no phase that is flown is followed by it"));
-        } else if phase.next == Next::Phase(place) || phase.otherwise == Some(place) {
+        } else if is_followed(phase, place) {
             notes.push(format!(
                 "guidance.{name} follows itself: it begins anew each time, and so do its law, hold_s and timeout_s; \
                 without `until` a phase goes on to the end of the run"
@@ -153,15 +148,11 @@ fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<Str
             until.text
         ));
     }
-    if timeout > 0.0 && hold > timeout {
+    let limits = [("its timeout_s", limit(timeout)), ("campaign.duration_s", duration)];
+    if let Some((name_of_limit, most)) = limits.into_iter().find(|(_, most)| hold > *most) {
         notes.push(format!(
-            "guidance.{name}.hold_s = {hold:?} is beyond its timeout_s = {timeout:?}: the condition \
-            never holds for so long"
-        ));
-    } else if hold > duration {
-        notes.push(format!(
-            "guidance.{name}.hold_s = {hold:?} is beyond campaign.duration_s = {duration:?}: the \
-            condition never holds for so long"
+            "guidance.{name}.hold_s = {hold:?} is beyond {name_of_limit} = {most:?}: the condition never holds for so \
+            long"
         ));
     }
     notes
@@ -170,21 +161,18 @@ fn condition(phase: &PhaseSpec, table: &DeclaredTable, duration: f64) -> Vec<Str
 /// A slew too fast for a star tracker.
 fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &DeclaredTable)) -> Vec<String> {
     let (name, rate) = (phase.name, number(table, "max_rate_rad_s"));
-    let mut notes = Vec::new();
-    let trackers = spec.sensors.iter().zip(&numbers.sensors);
-    let trackers =
-        trackers.filter(|(sensor, _)| matches!(sensor.observes(), Observes::Attitude(_)) && !spec.knows_the_truth());
-    for (tracker, table) in trackers {
+    let note = |(sensor, table): (&SensorSpec, &DeclaredTable)| {
         let most = number(table, "max_rate_rad_s");
-        if most > 0.0 && rate > most {
-            notes.push(format!(
+        let is_tracker = matches!(sensor.observes(), Observes::Attitude(_)) && !spec.knows_the_truth();
+        (is_tracker && most > 0.0 && rate > most).then(|| {
+            format!(
                 "guidance.{name}.max_rate_rad_s = {rate:?} is above sensors.{}.max_rate_rad_s = {most:?}: the tracker \
                 gives nothing in such a slew",
-                tracker.name
-            ));
-        }
-    }
-    notes
+                sensor.name
+            )
+        })
+    };
+    spec.sensors.iter().zip(&numbers.sensors).filter_map(note).collect()
 }
 
 /// A law with unstable small errors at the loop's period and delay.
@@ -209,7 +197,7 @@ fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usiz
 /// Wheels above their speed limit at the start.
 fn fast_wheels(spec: &LoopSpec, scene: &Scene) -> Vec<String> {
     let wheels = spec.wheel_names.iter().enumerate();
-    let note = |(place, name): (usize, &crate::scene::Name)| {
+    let note = |(place, name): (usize, &Name)| {
         let (rate, limit) = (scene.initial.wheel_rates[place], scene.actuators.wheels[place].speed_limit);
         (rate.abs() > limit).then(|| {
             format!(

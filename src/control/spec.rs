@@ -2,12 +2,12 @@
 //! scene.
 
 use super::estimators::estimator::EstimatorKind;
-use super::flight_code::module::FlightCode;
+use super::flight_code::module::{DeclaredTelemetry, FlightCode};
 use super::guidance::condition::Condition;
 use super::guidance::phase::{Maneuver, Next};
 use super::guidance::target::Target;
 use super::laws::LawKind;
-use super::laws::rod_law::RodUse;
+use super::laws::rod_law::RodLaw;
 use super::observes::Observes;
 use super::sensor_spec::SensorSpec;
 use crate::observables::{LawSeries, Series};
@@ -80,7 +80,7 @@ pub struct PhaseSpec {
     /// Target attitude; an inertial target's quaternion is a parameter.
     pub target: Target,
     pub thrust: Maneuver,
-    pub rods: RodUse,
+    pub rods: RodLaw,
     pub until: Option<Condition>,
     pub next: Next,
     /// Phase that begins at once if the condition is not met.
@@ -96,6 +96,11 @@ impl LoopSpec {
 
     pub fn code(&self) -> Option<&'static FlightCode> {
         self.module.as_ref().map(|module| module.code)
+    }
+
+    /// Telemetry of the module, if any.
+    pub fn telemetry(&self) -> &'static [DeclaredTelemetry] {
+        self.code().map_or(&[], |code| code.telemetry)
     }
 
     /// Quantities that the loop records over time.

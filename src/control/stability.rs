@@ -19,11 +19,9 @@ use super::allocation::{ThrustAllocation, WheelTorque};
 use super::guidance::target::Target;
 use super::laws::interface::{KnownBody, LawInput, digits};
 use super::laws::{AttitudeLaw, callback};
-use super::rotation::quaternion_of;
-use super::small_matrix::{added, inverse, multiplied};
 use super::spec::{LoopSpec, PhaseSpec};
 use super::tick_times::SAME_TIME;
-use super::vector::{dot, product, scaled};
+use super::vector::{added, dot, inverse, multiplied, product, quaternion_of, scaled};
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
 
@@ -42,52 +40,44 @@ const LEAST_SHARE: f64 = 1e-3;
 
 /// Gains of a law about one axis: stiffness k, 1/s^2; damping c, 1/s; and per tick the integrals i of the angle, 1/s^2,
 /// and j of the rate, 1/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AxisGains(pub [f64; 4]);
+type AxisGains = [f64; 4];
 
-impl AxisGains {
-    /// True if small errors decay at a period of `period` and a delay of `delay` seconds.
-    pub fn is_stable(&self, period: f64, delay: f64) -> bool {
-        let [k, c, i, j] = self.0;
-        let (k, c, i, j) = (k * period * period, c * period, i * period * period, j * period);
-        let whole = (delay / period + SAME_TIME).floor();
-        let f = (delay / period - whole).max(0.0);
-        let (d, b) = (vec![1.0 - f, f], vec![0.5 * (1.0 - f) * (1.0 - f), f - 0.5 * f * f]);
-        let step = vec![1.0, -1.0];
-        let times = |a: &[f64], b: &[f64]| {
-            let mut product = vec![0.0; a.len() + b.len() - 1];
-            for (p, x) in a.iter().enumerate() {
-                b.iter().enumerate().for_each(|(q, y)| product[p + q] += x * y);
-            }
-            product
-        };
-        // coefficients of falling powers
-        let late = |a: Vec<f64>| [a, vec![0.0; whole as usize + 1]].concat();
-        let plus = |mut a: Vec<f64>, factor: f64, b: &[f64]| {
-            let first = a.len() - b.len();
-            a[first..].iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
-            a
-        };
-        let square = times(&step, &step);
-        let angle = plus(times(&step, &b), 1.0, &d);
-        // c (z-1) + j z
-        let of_rate = times(&[c + j, -c], &d);
-        let polynomial = if i != 0.0 {
-            let free = plus(late(times(&square, &step)), 1.0, &times(&of_rate, &step));
-            plus(free, 1.0, &times(&[k + i, -k], &angle))
-        } else if k != 0.0 || j != 0.0 {
-            plus(plus(late(square), 1.0, &of_rate), k, &angle)
-        } else if c != 0.0 {
-            plus(late(step), c, &d)
-        } else {
-            return true;
-        };
-        is_within_unit_circle(polynomial)
-    }
-
-    fn times(self, share: f64) -> Self {
-        AxisGains(self.0.map(|gain| share * gain))
-    }
+/// True if small errors decay at a period of `period` and a delay of `delay` seconds.
+fn is_stable([k, c, i, j]: AxisGains, period: f64, delay: f64) -> bool {
+    let (k, c, i, j) = (k * period * period, c * period, i * period * period, j * period);
+    let whole = (delay / period + SAME_TIME).floor();
+    let f = (delay / period - whole).max(0.0);
+    let (d, b) = (vec![1.0 - f, f], vec![0.5 * (1.0 - f) * (1.0 - f), f - 0.5 * f * f]);
+    let step = vec![1.0, -1.0];
+    let times = |a: &[f64], b: &[f64]| {
+        let mut product = vec![0.0; a.len() + b.len() - 1];
+        for (p, x) in a.iter().enumerate() {
+            b.iter().enumerate().for_each(|(q, y)| product[p + q] += x * y);
+        }
+        product
+    };
+    // coefficients of falling powers
+    let late = |a: Vec<f64>| [a, vec![0.0; whole as usize + 1]].concat();
+    let plus = |mut a: Vec<f64>, factor: f64, b: &[f64]| {
+        let first = a.len() - b.len();
+        a[first..].iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
+        a
+    };
+    let square = times(&step, &step);
+    let angle = plus(times(&step, &b), 1.0, &d);
+    // c (z-1) + j z
+    let of_rate = times(&[c + j, -c], &d);
+    let polynomial = if i != 0.0 {
+        let free = plus(late(times(&square, &step)), 1.0, &times(&of_rate, &step));
+        plus(free, 1.0, &times(&[k + i, -k], &angle))
+    } else if k != 0.0 || j != 0.0 {
+        plus(plus(late(square), 1.0, &of_rate), k, &angle)
+    } else if c != 0.0 {
+        plus(late(step), c, &d)
+    } else {
+        return true;
+    };
+    is_within_unit_circle(polynomial)
 }
 
 /// True if all roots of the polynomial, coefficients in falling powers, are within the unit circle.
@@ -105,7 +95,7 @@ fn is_within_unit_circle(mut a: Vec<f64>) -> bool {
 
 /// The gains of `law` about each axis that torques within the projection `reach` control, for a body of inertia
 /// `inertia` (K, kg m^2), all in F_s; without a target the attitude is free.
-pub fn axis_gains(
+fn axis_gains(
     law: &AttitudeLaw,
     known: &KnownBody,
     has_target: bool,
@@ -141,15 +131,15 @@ pub fn axis_gains(
         let along = |columns: &[[f64; 3]; 3]| (0..3).map(|i| dot(columns[i], direction) * turn[i]).sum::<f64>();
         let found = [&stiffness, &damping, &integral, &rate_integral].map(along);
         let least = NO_GAIN * found.iter().fold(0.0_f64, |most, gain| most.max(gain.abs()));
-        AxisGains(found.map(|gain| if gain.abs() > least { gain } else { 0.0 }))
+        found.map(|gain| if gain.abs() > least { gain } else { 0.0 })
     });
     gains.collect()
 }
 
 /// The largest share of the gains, given as `gains(share)`, at which small errors decay about every axis: `None` if
 /// they do at full gain, zero if no share suffices.
-pub fn stable_share(gains: impl Fn(f64) -> Vec<AxisGains>, period: f64, delay: f64) -> Option<f64> {
-    let is_stable = |share: f64| gains(share).iter().all(|gains| gains.is_stable(period, delay));
+fn stable_share(gains: impl Fn(f64) -> Vec<AxisGains>, period: f64, delay: f64) -> Option<f64> {
+    let is_stable = |share: f64| gains(share).iter().all(|gains| is_stable(*gains, period, delay));
     if delay / period > MOST_DELAY || is_stable(1.0) {
         return None;
     }
@@ -166,8 +156,7 @@ pub fn stable_share(gains: impl Fn(f64) -> Vec<AxisGains>, period: f64, delay: f
 
 /// Projection onto the torques that the loop can hold over a period with the actuators of `believed`; pulses cannot.
 fn reach(spec: &LoopSpec, believed: &Scene) -> [[f64; 3]; 3] {
-    let axes: Vec<[f64; 3]> = spec.wheels.iter().map(|place| believed.mass.wheels[*place].axis).collect();
-    let by_wheels = WheelTorque::new(&axes).reachable;
+    let by_wheels = WheelTorque::of_loop(believed, &spec.wheels).reachable;
     if spec.thrusters.is_empty() || modulation::is_on_off(spec.modulation) {
         return by_wheels;
     }
@@ -185,7 +174,7 @@ pub fn beyond_limit(
 ) -> Option<String> {
     let PhaseSpec { law: kind, target, .. } = &spec.phases[phase];
     // such laws need a loop that measures and estimates
-    let reads_sensors = spec.code().is_some_and(|code| *kind == Some(code.kind()) && !code.sensors().is_empty());
+    let reads_sensors = spec.code().is_some_and(|code| *kind == Some(&code.kind) && !code.sensors.is_empty());
     if *kind == Some(&callback::KIND) || reads_sensors {
         return None;
     }
@@ -196,7 +185,7 @@ pub fn beyond_limit(
     let gains = |law: &AttitudeLaw| axis_gains(law, &known, has_target, body, period);
     let scaled = |share: f64| match law.weaker(share) {
         Some((weaker, _)) => gains(&weaker),
-        None => gains(law).into_iter().map(|gains| gains.times(share)).collect(),
+        None => gains(law).into_iter().map(|gains| gains.map(|gain| share * gain)).collect(),
     };
     let share = stable_share(scaled, period, delay)?;
     let written = law.weaker(1.0).map_or_else(|| "its gains".to_owned(), |(_, gains)| gains);
@@ -218,7 +207,7 @@ mod tests {
     use super::*;
 
     /// Largest angle and rate, early and late, of a double integrator under held torque, flown from instant to instant.
-    fn flown(AxisGains([k, c, i, j]): AxisGains, period: f64, delay: f64) -> [f64; 2] {
+    fn flown([k, c, i, j]: AxisGains, period: f64, delay: f64) -> [f64; 2] {
         const TICKS: usize = 6000;
         let (mut angle, mut rate, mut summed, mut summed_rate) = (1.0, 0.3 / period, 0.0, 0.0);
         let mut commands: Vec<(f64, f64)> = Vec::new();
@@ -268,15 +257,15 @@ mod tests {
                     (0.05, 0.0, 0.05),
                     (0.05, 0.0005, 0.05),
                 ] {
-                    let shape = AxisGains([k / (period * period), 0.4 / period, i / (period * period), j / period]);
-                    let large = shape.times(1e3);
-                    let share = match stable_share(|share| vec![large.times(share)], period, delay * period) {
+                    let shape = [k / (period * period), 0.4 / period, i / (period * period), j / period];
+                    let times = |factor: f64| shape.map(|gain| factor * (1e3 * gain));
+                    let share = match stable_share(|share| vec![times(share)], period, delay * period) {
                         Some(share) if share > 0.0 => share,
                         // too little damping at any gain
                         _ => continue,
                     };
                     for (factor, grows) in [(0.98, false), (1.02, true)] {
-                        let [early, late] = flown(large.times(factor * share), period, delay * period);
+                        let [early, late] = flown(times(factor * share), period, delay * period);
                         assert_eq!(late > early, grows, "{shape:?} {delay} {factor}: {early:e} {late:e}");
                     }
                     tried += 1;

@@ -2,8 +2,7 @@
 
 use super::estimate::{DebrisState, Estimate};
 use super::measurement::PointMotion;
-use super::rotation::quaternion_of;
-use super::vector::{cross, dcm_from_quaternion, difference, hamilton, product, scaled, sum};
+use super::vector::{cross, dcm_from_quaternion, difference, hamilton, product, quaternion_of, scaled, sum};
 use crate::dynamics::actuation::BodyState;
 use crate::dynamics::debris::is_isotropic;
 use crate::dynamics::orbit_path::OrbitPath;
@@ -53,7 +52,7 @@ impl DebrisMotion {
             q_ed: initial.q_ed,
             omega_de_d: initial.omega_de_d,
         };
-        let inverse = crate::control::small_matrix::inverse(body.inertia);
+        let inverse = crate::control::vector::inverse(body.inertia);
         let is_isotropic = is_isotropic(body);
         let orbit = scene.orbit.as_ref().zip(scene.offsets.as_ref());
         let orbit = orbit.map(|(orbit, Offsets { debris, .. })| RelativeOrbit::new(&OrbitPath::new(orbit), *debris));

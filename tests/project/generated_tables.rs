@@ -222,7 +222,7 @@ fn keys_of_loops() -> String {
     lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
     lists.push(("`[[guidance]]` with `until`".into(), &parameters::CONDITION));
     lists.push(("`[[guidance]]` with thrusters".into(), &parameters::UNLOADING));
-    for (name, of) in laws::rod_law::ROD_USES {
+    for (name, of) in laws::rod_law::ROD_LAWS {
         lists.push((named("[[guidance]]", "rods", name), of.parameters()));
     }
     lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &net_launch::parameters::TRANSFER));

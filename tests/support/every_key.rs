@@ -233,7 +233,7 @@ pub fn every_loop() -> Vec<String> {
         let name = kind.name;
         format!("{text}[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\nlatency_s = 0.25\n")
     });
-    for (name, of) in spindrift::control::laws::rod_law::ROD_USES.iter().filter(|(name, _)| *name != "none") {
+    for (name, of) in spindrift::control::laws::rod_law::ROD_LAWS.iter().filter(|(name, _)| *name != "none") {
         let own = numbers(of.parameters());
         files.push(format!(
             "{orbit}[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5.0\n[control]\nperiod_s = \

@@ -6,7 +6,6 @@ use std::collections::VecDeque;
 const MOST_ROOM: usize = 1000;
 
 /// Commands that each act from a later time until the next one.
-#[derive(Clone, Debug)]
 pub struct DelayQueue<C> {
     acting: C,
     /// Commands yet to act, with their ascending start times.
@@ -18,11 +17,6 @@ impl<C: Copy> DelayQueue<C> {
     pub fn new(initial: C, delay: f64, period: f64) -> Self {
         let room = ((delay / period).ceil() as usize).min(MOST_ROOM) + 2;
         DelayQueue { acting: initial, waiting: VecDeque::with_capacity(room) }
-    }
-
-    /// `initial` acts forever, without reserved room.
-    pub fn constant(initial: C) -> Self {
-        DelayQueue { acting: initial, waiting: VecDeque::new() }
     }
 
     /// Adds `command`, which acts from `time` on, no earlier than its predecessors.

@@ -67,7 +67,7 @@ fn without_force(vectors: &mut [Wrench]) {
 mod tests {
     use super::super::tests::{ALL, NONE, eight, report};
     use super::*;
-    use crate::control::rotation::turned;
+    use crate::control::vector::turned;
     use crate::scene::Thruster;
     use crate::scene::thruster::REPORT_DIRECTIONS;
 

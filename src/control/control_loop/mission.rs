@@ -11,11 +11,8 @@ use crate::control::guidance::Progress;
 use crate::control::guidance::target::{OrbitMotion, Target, TargetInput};
 use crate::control::loop_record::{KnownOverTime, NOTHING_KNOWN, SharedRecord, place};
 use crate::control::net_launch::geometry::LaunchState;
-use crate::control::net_launch::launch::{PlumeCone, centers_of};
-use crate::control::net_launch::parameters::DebrisNumbers;
-use crate::control::outcome::MissionOutcome;
-use crate::control::outcome::criteria::MissionCriteria;
 use crate::control::outcome::estimation::{Consistency, EstimateErrors};
+use crate::control::outcome::{MissionCriteria, MissionOutcome};
 use crate::control::parameters::{LoopNumbers, ThrusterNumbers};
 use crate::control::plant::{Applied, Plant};
 use crate::control::recorder::{Recorder, Tick};
@@ -29,7 +26,6 @@ use crate::scene::{MAX_WHEELS, WheelMode};
 
 pub struct Mission {
     spec: Arc<LoopSpec>,
-    pub(super) criteria: MissionCriteria,
     pub(super) outcome: MissionOutcome,
     pub(super) recorder: Option<Recorder>,
     /// Quantities over time, and their record.
@@ -46,19 +42,15 @@ impl Mission {
     /// Judges the run of `context`.
     pub fn new(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Self {
         let numbers = &context.parameters.law;
-        let (of_loop, near_debris) = (LoopNumbers::of(numbers), DebrisNumbers::of(numbers));
+        let of_loop = LoopNumbers::of(numbers);
         Mission {
             spec: spec.clone(),
-            criteria: MissionCriteria {
+            outcome: MissionOutcome::new(MissionCriteria {
                 launch: LaunchState::of(numbers, context.drawn.orbit.as_ref()),
-                keep_out: near_debris.keep_out,
-                plume: PlumeCone { range: near_debris.plume_range, half_angle: near_debris.plume_half_angle },
-                settling_band: of_loop.settling_band,
-                stability: [of_loop.stability_from, of_loop.stability_window],
+                of_loop,
                 period: spec.period,
                 isp: ThrusterNumbers::of(numbers).isp,
-            },
-            outcome: MissionOutcome::default(),
+            }),
             recorder: context.records.then(|| Recorder::new(spec)),
             over_time: NOTHING_KNOWN,
             record: context.record.cloned().inspect(|record| record.lock().restart()),
@@ -72,12 +64,12 @@ impl Mission {
     pub fn keep_out(&self, truth: &Truth) -> Option<Failure> {
         let debris = truth.debris.as_ref()?;
         let distance = norm(difference(debris.r_gdo_e, truth.body.r_co_e));
-        (distance < self.criteria.keep_out).then_some(Failure::KeepOut)
+        (distance < self.outcome.criteria.launch.numbers.keep_out).then_some(Failure::KeepOut)
     }
 
     /// Failure by a wheel at its speed limit for too long.
     pub fn saturation(&self, time: f64) -> Option<Failure> {
-        let longest = self.saturation_timeout + SAME_TIME * self.criteria.period;
+        let longest = self.saturation_timeout + SAME_TIME * self.outcome.criteria.period;
         (time - self.saturated_since > longest).then_some(Failure::WheelSaturated)
     }
 
@@ -96,7 +88,7 @@ impl Mission {
             if knows {
                 return guided.error;
             }
-            let geometry = centers_of(truth).map(|centers| self.criteria.launch.geometry(&centers));
+            let geometry = truth.state().centers().map(|centers| self.outcome.criteria.launch.geometry(centers));
             let to_go = software.velocity_to_go(geometry.as_ref(), truth.time);
             let (r_e, v_e) = (truth.body.r_co_e, truth.body.v_co_e);
             let orbit = plant.drawn.orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, truth.time, r_e, v_e));
@@ -120,13 +112,14 @@ impl Mission {
         }
         self.over_time.values[place(Series::Impulse)] = self.outcome.impulse_total();
         if is_judged {
-            self.outcome.tick(&plant.drawn, truth, (error.as_ref(), guided.begins), &errors, &self.criteria);
+            self.outcome.tick(&plant.drawn, truth, (error.as_ref(), guided.begins), &errors);
         }
     }
 
     pub fn record(&mut self, (plant, truth): (&Plant, &Truth), software: &FlightSoftware, guided: &Guided) {
         if let Some(recorder) = &mut self.recorder {
             recorder.tick(&Tick {
+                spec: &self.spec,
                 time: truth.time,
                 phase: software.guidance.phase,
                 pointing_error: guided.error.angle(),
@@ -163,7 +156,7 @@ impl Mission {
             let thrust = plant.thrust(time, actuation);
             let hits = self.spec.approaches() && {
                 let truth = plant.truth(time, body, wheels);
-                self.criteria.plume.hits(&plant.drawn, &truth, &thrust)
+                self.outcome.criteria.launch.numbers.plume_hits(&plant.drawn, &truth, &thrust)
             };
             self.outcome.fires(&plant.drawn, applied.length, thrust, hits);
         }

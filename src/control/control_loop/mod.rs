@@ -7,66 +7,102 @@
 //! not act.
 //!
 //! Measurements pass from [`super::plant`], the truth, to [`super::flight_software`] and commands back; only this
-//! module knows both. `mission` judges the run by the truth, and `growth` its commands.
+//! module knows both. `mission` judges the run by the truth.
 
-mod construction;
-mod growth;
 mod mission;
 
 use std::sync::Arc;
 
-use self::growth::Growth;
 use self::mission::{Mission, consistency};
+use super::context::LawContext;
 use super::failure::Failure;
 use super::flight_software::FlightSoftware;
 use super::guidance::Progress;
 use super::laws::interface::digits;
+use super::net_launch::launch::AtLaunch;
 use super::outcome::columns::OutcomeColumns;
-use super::plant::Plant;
+use super::plant::{Applied, Plant};
+use super::sensor_spec::SensorSpec;
+use super::sensors::failing::FailingSensor;
+use super::sensors::{KINDS as SENSORS, SampledSensor, SensorContext};
+use super::spec::LoopSpec;
 use super::stability::beyond_limit;
 use super::tick_times::SAME_TIME;
 use super::truth::Truth;
+use super::vector::{cross, difference, inverse, norm, product, scaled, sum};
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState};
 use crate::run::Telemetry;
-
-/// Ticks of a loop.
-#[derive(Clone, Copy, Debug)]
-struct Clock {
-    /// Number of the next tick.
-    tick: u64,
-    /// Sensor ticks in a control period.
-    ticks_per_period: u64,
-    tick_period: f64,
-    next: f64,
-    /// Control period and end of the run.
-    period: f64,
-    end: f64,
-}
+use crate::scene::{DeclaredTable, Device, Scene};
 
 pub struct ControlLoop {
     columns: Arc<OutcomeColumns>,
     plant: Plant,
     flight_software: FlightSoftware,
     mission: Mission,
-    clock: Clock,
+    /// Number and time of the next tick.
+    tick: u64,
+    next: f64,
+    /// Sensor ticks in a control period.
+    ticks_per_period: u64,
+    tick_period: f64,
+    /// End of the run.
+    end: f64,
     has_ended: bool,
     growth: Growth,
     /// Reason of a divergence, if any.
     divergence: Option<String>,
 }
 
+fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<SampledSensor> {
+    let sampled = |(place, (sensor, parameters)): (usize, (&SensorSpec, &DeclaredTable))| {
+        let LawContext { drawn, sample, seed, .. } = *context;
+        let of_run = SensorContext { parameters, drawn, period: sensor.period, sample, seed };
+        let ticks = |time: f64| (time / tick_period).round() as u64;
+        let kind = &SENSORS[sensor.kind];
+        let made = match drawn.failures.iter().find(|failure| failure.device == Device::Sensor(place)) {
+            Some(failure) => Box::new(FailingSensor::new(kind, &of_run, failure)),
+            None => (kind.make)(&of_run),
+        };
+        SampledSensor::new(made, ticks(sensor.period).max(1), ticks(sensor.latency), tick_period)
+    };
+    spec.sensors.iter().zip(&context.parameters.sensors).enumerate().map(sampled).collect()
+}
+
 impl ControlLoop {
-    fn is_due(&self, time: f64) -> bool {
-        !self.has_ended && time >= self.clock.next - SAME_TIME * self.clock.tick_period
+    /// The loop of a run, from its specification and drawn numbers.
+    pub fn new(spec: &Arc<LoopSpec>, columns: &Arc<OutcomeColumns>, context: &LawContext<'_>) -> Self {
+        let ticks_per_period = spec.ticks_per_period();
+        let tick_period = spec.period / ticks_per_period as f64;
+        let sensors = sensors(spec, context, tick_period);
+        ControlLoop {
+            plant: Plant::new(spec, context.drawn.clone(), sensors, [context.duration, context.end]),
+            flight_software: FlightSoftware::new(spec, context, tick_period),
+            mission: Mission::new(spec, context),
+            tick: 0,
+            next: 0.0,
+            ticks_per_period,
+            tick_period,
+            end: context.end,
+            columns: columns.clone(),
+            has_ended: false,
+            growth: Growth::new(context.drawn, spec.period),
+            divergence: None,
+        }
+    }
+
+    /// The truth at `time` if a tick is due.
+    fn due(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Option<Truth> {
+        let is_due = !self.has_ended && time >= self.next - SAME_TIME * self.tick_period;
+        is_due.then(|| self.plant.truth(time, body, wheels))
     }
 
     fn at_tick(&mut self, truth: &Truth, is_last: bool) {
-        self.flight_software.tick(&self.plant.measure(self.clock.tick, truth));
-        if self.clock.tick.is_multiple_of(self.clock.ticks_per_period) {
+        self.flight_software.tick(&self.plant.measure(self.tick, truth));
+        if self.tick.is_multiple_of(self.ticks_per_period) {
             self.control(truth, is_last);
         }
-        self.clock.tick += 1;
-        self.clock.next = self.clock.tick as f64 * self.clock.tick_period;
+        self.tick += 1;
+        self.next = self.tick as f64 * self.tick_period;
     }
 
     fn control(&mut self, truth: &Truth, is_last: bool) {
@@ -79,26 +115,24 @@ impl ControlLoop {
         let is_judged = !is_last || guided.progress != Progress::Flies;
         self.mission.judge((&self.plant, truth), &self.flight_software, &guided, is_judged);
         let ends = match guided.progress {
-            Progress::Flies => {
-                let failure = self.flight_software.command(truth.time, &guided).err();
-                failure.inspect(|failure| self.mission.outcome.cannot_go_on(truth.time, *failure))
-            }
+            Progress::Flies => self.flight_software.command(truth.time, &guided).err(),
             Progress::Launches => Some(Failure::None),
             Progress::Fails(failure) => Some(failure),
         };
         self.has_ended = ends.is_some();
-        if guided.progress != Progress::Flies
-            && let Some(failure) = ends
-        {
-            let Mission { outcome, criteria, .. } = &mut self.mission;
-            outcome.ends(&self.plant.drawn, truth, failure, &criteria.launch);
+        let outcome = &mut self.mission.outcome;
+        if let Some(failure) = ends {
+            (outcome.end, outcome.failure) = (truth.time, failure);
+        }
+        if guided.progress == Progress::Launches {
+            outcome.at_launch = AtLaunch::of(&self.plant.drawn, truth, &outcome.criteria.launch);
         }
         if is_judged && guided.progress == Progress::Flies {
-            self.mission.outcome.take_telemetry(self.flight_software.law.telemetry());
+            outcome.take_telemetry(self.flight_software.law.telemetry());
         }
         self.mission.record((&self.plant, truth), &self.flight_software, &guided);
         // rows have the last tick's value only
-        let is_final = truth.time + (1.0 + SAME_TIME) * self.clock.period >= self.clock.end;
+        let is_final = truth.time + (1.0 + SAME_TIME) * self.flight_software.spec.period >= self.end;
         if is_judged && (self.has_ended || is_final) {
             self.mission.outcome.consistency = consistency(&self.plant, truth, &self.flight_software);
         }
@@ -106,7 +140,7 @@ impl ControlLoop {
 
     fn arc_from(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         let mut commands = self.flight_software.acting(time);
-        commands.until = commands.until.min(self.clock.next);
+        commands.until = commands.until.min(self.next);
         let mut actuation = Actuation::none(commands.until);
         let applied = self.plant.apply(time, &commands, wheels, &mut actuation);
         if let Some(change) =
@@ -146,26 +180,23 @@ impl ControlLoop {
 
 impl ActuationLaw for ControlLoop {
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
-        if self.is_due(time) {
-            let truth = self.plant.truth(time, body, wheels);
+        if let Some(truth) = self.due(time, body, wheels) {
             self.at_tick(&truth, false);
         }
         let actuation = if self.has_ended { Actuation::end_of_run() } else { self.arc_from(time, body, wheels) };
-        self.mission.record_over_time(time - SAME_TIME * self.clock.tick_period);
+        self.mission.record_over_time(time - SAME_TIME * self.tick_period);
         actuation
     }
 
     fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
-        if self.is_due(time) {
-            let truth = self.plant.truth(time, body, wheels);
+        if let Some(truth) = self.due(time, body, wheels) {
             self.at_tick(&truth, true);
-            self.mission.record_over_time(time - SAME_TIME * self.clock.tick_period);
+            self.mission.record_over_time(time - SAME_TIME * self.tick_period);
         }
     }
 
     fn report(&self, values: &mut [f64]) {
-        let Mission { outcome, criteria, .. } = &self.mission;
-        self.columns.report(outcome, &self.flight_software.guidance, criteria, values);
+        self.columns.report(&self.mission.outcome, &self.flight_software.guidance, values);
     }
 
     fn divergence(&self) -> Option<String> {
@@ -174,5 +205,47 @@ impl ActuationLaw for ControlLoop {
 
     fn telemetry(&self) -> Option<&Telemetry> {
         self.mission.recorder.as_ref().map(|recorder| &recorder.telemetry)
+    }
+}
+
+/// Change of the rate in a period, times the period, rad.
+const TURN: f64 = 100.0;
+/// Change of the rate in a period over the initial rate.
+const RISE: f64 = 1e3;
+
+/// Bounds on the commands of a run, beyond which a loop has diverged.
+///
+/// Under a stable loop k T^2 < 4 and c T < 2 ([`super::stability`]), so that in a period T it changes the rate by at
+/// most 4 pi/T + 2 |omega|. Divergence is a change above both [`TURN`]/T, a dozen revolutions until the next tick, and
+/// [`RISE`] times the initial rate. Disturbances and stuck thrusters do not count.
+struct Growth {
+    /// Inverse of K, 1/(kg m^2), F_s.
+    inverse: [[f64; 3]; 3],
+    /// Largest change of the rate in a control period.
+    most: f64,
+    period: f64,
+}
+
+impl Growth {
+    /// Bounds for a run of `scene` under a loop of period `period`.
+    fn new(scene: &Scene, period: f64) -> Self {
+        let start = norm(scene.initial.omega_se_s);
+        let most = (TURN / period).max(RISE * start);
+        Growth { inverse: inverse(scene.mass.inertia_rotating()), most, period }
+    }
+
+    /// The change of the rate in a control period by the commands of an arc, if beyond the bounds; `field_s` is the
+    /// measured field.
+    fn beyond(&self, plant: &Plant, (actuation, applied): (&Actuation, &Applied), field_s: [f64; 3]) -> Option<f64> {
+        let scene = &plant.drawn;
+        let mut torque = cross(actuation.dipole, field_s);
+        for (wheel, motor) in scene.mass.wheels.iter().zip(actuation.motor_torque) {
+            torque = difference(torque, scaled(motor, wheel.axis));
+        }
+        // a pulse ends before the period does
+        let pulse = if plant.is_on_off { applied.length.min(self.period) } else { self.period };
+        let impulse = scaled(pulse, scene.thruster_torque_s(actuation.thrust));
+        let change = norm(product(self.inverse, sum(scaled(self.period, torque), impulse)));
+        (change > self.most).then_some(change)
     }
 }

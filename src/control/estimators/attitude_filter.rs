@@ -8,15 +8,15 @@
 
 use std::sync::Arc;
 
-use super::attitude_innovation::AttitudeSensor;
-use super::attitude_innovation::{AttitudeInnovation, WholeAttitude};
+use super::attitude_innovation::{AttitudeInnovation, AttitudeSensor, WholeAttitude};
 use super::delayed::Filter;
 use super::kalman::{NormalizedSquare, blocks, corners, halves, symmetric};
 use crate::control::measurement::{Values, values};
 use crate::control::observes::GyroNoise;
-use crate::control::rotation::quaternion_of;
-use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
-use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, scaled, sum};
+use crate::control::vector::{
+    added, conjugate, cross, dcm_from_quaternion, diagonal, difference, hamilton, multiplied, norm, quaternion_of,
+    scaled, sum, transposed,
+};
 
 /// A step by a measured rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,9 +185,9 @@ mod tests {
                 filter.propagate(GyroStep { rotation_s, rate_s: [0.0; 3], interval });
             }
             for seen in golden.attitudes.iter().filter(|seen| seen.taken + seen.age == tick) {
-                filter.update(AttitudeObservation::whole(seen.q_es, covariance), seen.age).expect("an innovation");
+                filter.update(AttitudeObservation::whole(seen.q_es, covariance), seen.age);
             }
-            let now = filter.now();
+            let now = filter.at(0);
             let c_es = dcm_from_quaternion(now.q_es);
             let found = c_es.iter().flatten().chain(&now.bias_s);
             for (a, b) in found.zip(expected.c_es.iter().chain(&expected.bias_s)) {

@@ -4,8 +4,7 @@ use std::fmt::Debug;
 
 use super::kalman::{Gain, NormalizedSquare};
 use crate::control::measurement::{Values, part};
-use crate::control::rotation::vector_of;
-use crate::control::vector::{conjugate, hamilton};
+use crate::control::vector::{conjugate, hamilton, vector_of};
 
 /// An innovation of M components, e = H d + n: d is the attitude error, true = estimated (x) d, a rotation vector in
 /// F_s; n has the covariance R.

@@ -4,14 +4,13 @@
 //! repeated. The estimate equals that of a filter without latency.
 
 use std::collections::VecDeque;
-use std::fmt::Debug;
 
 use super::kalman::NormalizedSquare;
 
 /// A filter that steps from tick to tick.
 pub trait Filter: Clone {
-    type Step: Clone + Debug;
-    type Observation: Clone + Debug;
+    type Step;
+    type Observation;
 
     fn propagate(&mut self, step: &Self::Step);
 
@@ -20,7 +19,6 @@ pub trait Filter: Clone {
     fn update(&mut self, observation: &Self::Observation) -> Option<NormalizedSquare>;
 }
 
-#[derive(Clone, Debug)]
 struct Past<F: Filter> {
     /// The step that led to it; `None` at the start.
     step: Option<F::Step>,
@@ -28,23 +26,29 @@ struct Past<F: Filter> {
     state: F,
 }
 
-#[derive(Clone, Debug)]
 pub struct Delayed<F: Filter> {
+    /// From the oldest state kept to that of this tick.
     past: VecDeque<Past<F>>,
-    now: F,
     /// Largest age of a measurement, ticks.
     oldest: usize,
+    pub innovations: Innovations,
+}
+
+/// Normalised squares of innovations.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Innovations {
+    /// Sum of this tick's.
+    pub of_tick: Option<NormalizedSquare>,
+    /// Sum and number of squares per degree of freedom since the start.
+    pub sum: f64,
+    pub count: f64,
 }
 
 impl<F: Filter> Delayed<F> {
     /// Starts at `start`, for measurements up to `oldest` ticks old.
     pub fn new(start: F, oldest: usize) -> Self {
-        let first = Past { step: None, observations: Vec::new(), state: start.clone() };
-        Delayed { past: VecDeque::from([first]), now: start, oldest }
-    }
-
-    pub fn now(&self) -> &F {
-        &self.now
+        let first = Past { step: None, observations: Vec::new(), state: start };
+        Delayed { past: VecDeque::from([first]), oldest, innovations: Innovations::default() }
     }
 
     /// The state `age` ticks ago, after all measurements delivered since; the oldest kept if that is younger.
@@ -53,7 +57,9 @@ impl<F: Filter> Delayed<F> {
     }
 
     pub fn propagate(&mut self, step: F::Step) {
-        self.now.propagate(&step);
+        self.innovations.of_tick = None;
+        let mut state = self.at(0).clone();
+        state.propagate(&step);
         let mut observations = Vec::new();
         if self.past.len() > self.oldest
             && let Some(first) = self.past.pop_front()
@@ -61,15 +67,15 @@ impl<F: Filter> Delayed<F> {
             observations = first.observations;
             observations.clear();
         }
-        self.past.push_back(Past { step: Some(step), observations, state: self.now.clone() });
+        self.past.push_back(Past { step: Some(step), observations, state });
     }
 
-    /// Applies a measurement `age` ticks old. `None`, with no change, if it is older than all kept states or its
-    /// innovation's covariance is singular to rounding.
-    pub fn update(&mut self, observation: F::Observation, age: usize) -> Option<NormalizedSquare> {
-        let index = self.past.len().checked_sub(age + 1)?;
+    /// Applies a measurement `age` ticks old, unless it is older than all kept states or its innovation's covariance is
+    /// singular to rounding.
+    pub fn update(&mut self, observation: F::Observation, age: usize) {
+        let Some(index) = self.past.len().checked_sub(age + 1) else { return };
         let at = &mut self.past[index];
-        let square = at.state.update(&observation)?;
+        let Some(square) = at.state.update(&observation) else { return };
         at.observations.push(observation);
         let mut state = at.state.clone();
         for past in self.past.range_mut(index + 1..) {
@@ -81,7 +87,11 @@ impl<F: Filter> Delayed<F> {
             }
             past.state = state.clone();
         }
-        self.now = state;
-        Some(square)
+        let Innovations { of_tick, sum, count } = &mut self.innovations;
+        (*sum, *count) = (*sum + square.value / square.degrees as f64, *count + 1.0);
+        *of_tick = Some(of_tick.map_or(square, |before| NormalizedSquare {
+            value: before.value + square.value,
+            degrees: before.degrees + square.degrees,
+        }));
     }
 }

@@ -1,6 +1,6 @@
 //! [`Estimator`] and [`EstimatorKind`]: the interface of estimators.
 
-use super::kalman::NormalizedSquare;
+use super::delayed::Innovations;
 use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::measurement::{Measurement, PointMotion};
 use crate::control::observes::Observes;
@@ -21,27 +21,15 @@ pub struct Update<'a> {
     pub state: Option<&'a Estimate>,
 }
 
-/// Indices into [`Filters`]; the debris's filters come last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FilterPlace {
-    Attitude,
-    Motion,
-    DebrisMotion,
-    DebrisAttitude,
-}
-
 pub const FILTERS: usize = 4;
 
-/// Confidence of each filter, if it exists.
+/// Confidence of each filter, if it exists: attitude, motion, and those of the debris, motion and attitude.
 pub type Filters = [Option<Confidence>; FILTERS];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confidence {
     pub covariance: Covariance,
-    /// Normalised square of this tick's innovations, if any.
-    pub innovation: Option<NormalizedSquare>,
-    /// Mean of those squares per degree of freedom since the start.
-    pub mean_innovation: Option<f64>,
+    pub innovations: Innovations,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! The Kalman update, and normalised squares for tests of consistency.
 
-use crate::control::small_matrix::{added, cholesky, multiplied, solved, transposed};
+use crate::control::vector::{added, cholesky, multiplied, solved, transposed};
 
 /// e^T S^-1 e of an innovation or an estimation error: chi-square with `degrees` degrees of freedom if the filter is
 /// consistent.

@@ -13,23 +13,22 @@ use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroStep};
 use super::attitude_innovation::AttitudeSensor;
 use super::delayed::Delayed;
 use super::estimator::{
-    Confidence, Covariance, Estimator, EstimatorContext, EstimatorKind, FILTERS, FilterPlace, Filters, KnownSensor,
-    Update, center_of,
+    Confidence, Covariance, Estimator, EstimatorContext, EstimatorKind, Filters, KnownSensor, Update, center_of,
 };
-use super::kalman::{NormalizedSquare, corners};
+use super::kalman::corners;
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
-use crate::control::declared::declared;
+use crate::control::declared::{declared, number};
 use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::laws::interface::wheel_momenta;
 use crate::control::measurement::{Measurement, PointMotion, part};
 use crate::control::observes::{GyroNoise, Observes};
-use crate::control::rotation::{quaternion_of, vector_of};
-use crate::control::small_matrix::{added, diagonal, multiplied, transposed};
-use crate::control::vector::{conjugate, dcm_from_quaternion, difference, dot, hamilton, product, scaled, sum};
+use crate::control::vector::{
+    added, conjugate, dcm_from_quaternion, diagonal, difference, dot, hamilton, multiplied, product, quaternion_of,
+    scaled, sum, transposed, vector_of,
+};
 use crate::dynamics::gravity::Gravity;
-use crate::scene::schema::Limit;
-use crate::scene::{LawParameter, MAX_WHEELS, MassProperties, Scene, WheelMode};
+use crate::scene::{MAX_WHEELS, MassProperties, Scene, WheelMode};
 
 pub(super) const KIND: EstimatorKind = EstimatorKind {
     name: "mekf",
@@ -40,63 +39,38 @@ pub(super) const KIND: EstimatorKind = EstimatorKind {
     make: |context| Box::new(Mekf::new(context)),
 };
 
-const fn belief(key: &'static str, unit: &'static str, meaning: &'static str, default: &'static [f64]) -> LawParameter {
-    LawParameter::number(key, unit, meaning, Limit::NotNegative).or(default)
-}
-
 declared! {
     /// Initial standard deviations and process noise of the filters.
     Beliefs = PARAMETERS {
-        attitude_sigma: f64 = belief("initial_attitude_sigma_rad", "rad",
+        attitude_sigma: f64 = number("initial_attitude_sigma_rad", "rad",
             "Initial standard deviation of the attitude, about each axis", &[0.1]);
-        bias_sigma: f64 = belief(
-        "initial_bias_sigma_rad_s",
-        "rad/s",
-        "Initial standard deviation of the gyro bias, whose first estimate is zero",
-        &[1e-4],
-    );
-        rate_sigma: f64 = belief("initial_rate_sigma_rad_s", "rad/s",
+        bias_sigma: f64 = number("initial_bias_sigma_rad_s", "rad/s",
+            "Initial standard deviation of the gyro bias, whose first estimate is zero", &[1e-4]);
+        rate_sigma: f64 = number("initial_rate_sigma_rad_s", "rad/s",
             "Initial standard deviation of the rate; used without a gyro", &[0.1]);
-        rate_walk: f64 = belief(
-        "rate_random_walk_rad_s_sqrt_s",
-        "rad/s/sqrt(s)",
-        "Process noise of the rate: unknown torque; used without a gyro",
-        &[1e-4],
-    );
-        position_sigma: f64 = belief("initial_position_sigma_m", "m",
+        rate_walk: f64 = number("rate_random_walk_rad_s_sqrt_s", "rad/s/sqrt(s)",
+            "Process noise of the rate: unknown torque; used without a gyro", &[1e-4]);
+        position_sigma: f64 = number("initial_position_sigma_m", "m",
             "Initial standard deviation of the position, along each axis", &[10.0]);
-        velocity_sigma: f64 = belief("initial_velocity_sigma_m_s", "m/s",
+        velocity_sigma: f64 = number("initial_velocity_sigma_m_s", "m/s",
             "Initial standard deviation of the velocity, along each axis", &[0.1]);
-        velocity_walk: f64 = belief(
-        "velocity_random_walk_m_s_sqrt_s",
-        "m/s/sqrt(s)",
-        "Process noise of the velocity: unknown acceleration",
-        &[1e-4],
-    );
-        debris_position_sigma: f64 = belief("debris_position_sigma_m", "m",
+        velocity_walk: f64 = number("velocity_random_walk_m_s_sqrt_s", "m/s/sqrt(s)",
+            "Process noise of the velocity: unknown acceleration", &[1e-4]);
+        debris_position_sigma: f64 = number("debris_position_sigma_m", "m",
             "Initial standard deviation of the debris's position", &[10.0]);
-        debris_velocity_sigma: f64 = belief("debris_velocity_sigma_m_s", "m/s",
+        debris_velocity_sigma: f64 = number("debris_velocity_sigma_m_s", "m/s",
             "Initial standard deviation of the debris's velocity", &[0.1]);
-        debris_velocity_walk: f64 = belief(
-        "debris_velocity_random_walk_m_s_sqrt_s",
-        "m/s/sqrt(s)",
-        "Process noise of the debris's velocity: unknown acceleration",
-        &[1e-5],
-    );
-        debris_attitude_sigma: f64 = belief("debris_attitude_sigma_rad", "rad",
+        debris_velocity_walk: f64 = number("debris_velocity_random_walk_m_s_sqrt_s", "m/s/sqrt(s)",
+            "Process noise of the debris's velocity: unknown acceleration", &[1e-5]);
+        debris_attitude_sigma: f64 = number("debris_attitude_sigma_rad", "rad",
             "Initial standard deviation of the debris's attitude", &[1.0]);
-        debris_rate_sigma: f64 = belief("debris_rate_sigma_rad_s", "rad/s",
+        debris_rate_sigma: f64 = number("debris_rate_sigma_rad_s", "rad/s",
             "Initial standard deviation of the debris's rate", &[0.1]);
-        debris_rate_walk: f64 = belief(
-        "debris_rate_random_walk_rad_s_sqrt_s",
-        "rad/s/sqrt(s)",
-        "Process noise of the debris's rate: unknown torque",
-        &[1e-5],
-    );
+        debris_rate_walk: f64 = number("debris_rate_random_walk_rad_s_sqrt_s", "rad/s/sqrt(s)",
+            "Process noise of the debris's rate: unknown torque", &[1e-5]);
     }
 }
 
-#[derive(Clone, Debug)]
 enum SensorModel {
     /// Noise and period (s).
     Gyro(GyroNoise, f64),
@@ -135,14 +109,6 @@ struct GyroPropagation {
     variance: f64,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct InnovationSum {
-    of_tick: Option<NormalizedSquare>,
-    /// Sum and number of normalised squares per degree of freedom since the start.
-    sum: f64,
-    count: f64,
-}
-
 struct Mekf {
     mass: MassProperties,
     tick: f64,
@@ -153,7 +119,6 @@ struct Mekf {
     debris_motion: Option<Delayed<TranslationFilter>>,
     debris: Option<Delayed<RigidBodyFilter>>,
     wheel_rates: [f64; MAX_WHEELS],
-    innovations: [InnovationSum; FILTERS],
 }
 
 impl Mekf {
@@ -208,7 +173,6 @@ impl Mekf {
             debris_motion,
             debris,
             wheel_rates: start.wheel_rates,
-            innovations: [InnovationSum::default(); FILTERS],
         }
     }
 
@@ -231,10 +195,6 @@ impl Mekf {
                 [of_turn, of_rate]
             }
         }
-    }
-
-    fn take_innovation(&mut self, place: FilterPlace, square: Option<NormalizedSquare>) {
-        self.innovations[place as usize].take(square);
     }
 
     fn propagate(&mut self, update: &Update<'_>) {
@@ -282,12 +242,10 @@ impl Mekf {
                 if let Some(base) = PointMotion::of(values, 0) {
                     let (q_es, omega) = self.attitude_at(age);
                     let motion = center_of(base, self.mass.center, q_es, omega);
-                    let square = self.motion.update(MotionObservation { motion, sigmas }, age);
-                    self.take_innovation(FilterPlace::Motion, square);
+                    self.motion.update(MotionObservation { motion, sigmas }, age);
                 }
                 if let (Some(motion), Some(filter)) = (PointMotion::of(values, 6), &mut self.debris_motion) {
-                    let square = filter.update(MotionObservation { motion, sigmas }, age);
-                    self.take_innovation(FilterPlace::DebrisMotion, square);
+                    filter.update(MotionObservation { motion, sigmas }, age);
                 }
             }
             SensorModel::DebrisAttitude(sigmas) => {
@@ -305,8 +263,7 @@ impl Mekf {
                     rate_covariance: added(&in_debris(rate_covariance), &noise(of_rate)),
                 };
                 if let Some(filter) = &mut self.debris {
-                    let square = filter.update(BodyObservation::AttitudeAndRate(seen), age);
-                    self.take_innovation(FilterPlace::DebrisAttitude, square);
+                    filter.update(BodyObservation::AttitudeAndRate(seen), age);
                 }
             }
             SensorModel::WheelRates => self.wheel_rates = part(values, 0),
@@ -338,21 +295,6 @@ impl GyroPropagation {
     }
 }
 
-impl InnovationSum {
-    fn take(&mut self, square: Option<NormalizedSquare>) {
-        let Some(square) = square else { return };
-        (self.sum, self.count) = (self.sum + square.value / square.degrees as f64, self.count + 1.0);
-        self.of_tick = Some(self.of_tick.map_or(square, |before| NormalizedSquare {
-            value: before.value + square.value,
-            degrees: before.degrees + square.degrees,
-        }));
-    }
-
-    fn mean(&self) -> Option<f64> {
-        (self.count > 0.0).then(|| self.sum / self.count)
-    }
-}
-
 fn ticks(time: f64, tick: f64) -> usize {
     (time / tick).round() as usize
 }
@@ -363,32 +305,30 @@ impl Estimator for Mekf {
             self.propagate(update);
         }
         self.time += update.interval;
-        self.innovations.iter_mut().for_each(|innovations| innovations.of_tick = None);
         for measurement in update.measurements {
             if let SensorModel::Attitude(sensor) = &self.sensors[measurement.sensor] {
                 let time = self.time - measurement.age;
                 let observation = AttitudeObservation { values: measurement.values, sensor: sensor.clone(), time };
                 let age = ticks(measurement.age, self.tick);
-                let square = match &mut self.attitude {
+                match &mut self.attitude {
                     Attitude::WithGyro(filter, _) => filter.update(observation, age),
                     Attitude::WithoutGyro(filter) => filter.update(BodyObservation::Attitude(observation), age),
-                };
-                self.take_innovation(FilterPlace::Attitude, square);
+                }
             }
         }
         for measurement in update.measurements {
             self.take(measurement);
         }
         let (q_es, omega_se_s) = self.attitude_at(0);
-        let motion = self.motion.now().motion;
+        let motion = self.motion.at(0).motion;
         let debris = self.debris.as_ref().zip(self.debris_motion.as_ref()).map(|(body, point)| DebrisState {
-            r_gdo_e: point.now().motion.r_e,
-            v_gdo_e: point.now().motion.v_e,
-            q_ed: body.now().q,
-            omega_de_d: body.now().omega,
+            r_gdo_e: point.at(0).motion.r_e,
+            v_gdo_e: point.at(0).motion.v_e,
+            q_ed: body.at(0).q,
+            omega_de_d: body.at(0).omega,
         });
         let gyro_bias_s = match &self.attitude {
-            Attitude::WithGyro(filter, _) => filter.now().bias_s,
+            Attitude::WithGyro(filter, _) => filter.at(0).bias_s,
             Attitude::WithoutGyro(_) => [0.0; 3],
         };
         let (r_co_e, v_co_e) = (motion.r_e, motion.v_e);
@@ -396,23 +336,25 @@ impl Estimator for Mekf {
     }
 
     fn filters(&self) -> Filters {
-        let attitude = match &self.attitude {
-            Attitude::WithGyro(filter, turned) => {
-                Covariance::AttitudeAndBias { covariance: filter.now().covariance, rate_variance: turned.variance }
-            }
-            Attitude::WithoutGyro(filter) => Covariance::AttitudeAndRate(filter.now().covariance),
+        let motion = |filter: &Delayed<TranslationFilter>| Confidence {
+            covariance: Covariance::Motion(filter.at(0).covariance),
+            innovations: filter.innovations,
         };
-        let motion = |filter: &Delayed<TranslationFilter>| Covariance::Motion(filter.now().covariance);
-        let covariances = [
-            Some(attitude),
-            Some(motion(&self.motion)),
-            self.debris_motion.as_ref().map(motion),
-            self.debris.as_ref().map(|filter| Covariance::AttitudeAndRate(filter.now().covariance)),
-        ];
-        std::array::from_fn(|place| {
-            let InnovationSum { of_tick: innovation, .. } = self.innovations[place];
-            let mean_innovation = self.innovations[place].mean();
-            covariances[place].map(|covariance| Confidence { covariance, innovation, mean_innovation })
-        })
+        let body = |filter: &Delayed<RigidBodyFilter>| Confidence {
+            covariance: Covariance::AttitudeAndRate(filter.at(0).covariance),
+            innovations: filter.innovations,
+        };
+        let attitude = match &self.attitude {
+            Attitude::WithGyro(filter, turned) => Confidence {
+                covariance: Covariance::AttitudeAndBias {
+                    covariance: filter.at(0).covariance,
+                    rate_variance: turned.variance,
+                },
+                innovations: filter.innovations,
+            },
+            Attitude::WithoutGyro(filter) => body(filter),
+        };
+        let of_debris = (self.debris_motion.as_ref().map(motion), self.debris.as_ref().map(body));
+        [Some(attitude), Some(motion(&self.motion)), of_debris.0, of_debris.1]
     }
 }

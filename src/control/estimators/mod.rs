@@ -24,6 +24,4 @@ pub fn kind(name: &str) -> Option<&'static EstimatorKind> {
 }
 
 #[cfg(test)]
-mod camera_tests;
-#[cfg(test)]
 mod tests;

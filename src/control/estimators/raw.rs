@@ -8,8 +8,7 @@ use super::estimator::{Estimator, EstimatorContext, EstimatorKind, Update, cente
 use crate::control::estimate::Estimate;
 use crate::control::measurement::{PointMotion, part};
 use crate::control::observes::Observes;
-use crate::control::rotation::vector_of;
-use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum};
+use crate::control::vector::{conjugate, dcm_from_quaternion, hamilton, product, scaled, sum, vector_of};
 use crate::dynamics::gravity::Gravity;
 
 pub(super) const KIND: EstimatorKind = EstimatorKind {

@@ -8,9 +8,10 @@
 use super::attitude_filter::{AttitudeObservation, normalized};
 use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, blocks, halves, symmetric, transported};
-use crate::control::rotation::{quaternion_of, vector_of};
-use crate::control::small_matrix::{added, diagonal, inverse, multiplied};
-use crate::control::vector::{conjugate, cross, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
+use crate::control::vector::{
+    added, conjugate, cross, dcm_from_quaternion, diagonal, difference, hamilton, inverse, multiplied, norm, product,
+    quaternion_of, scaled, sum, vector_of,
+};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyStep {
@@ -74,7 +75,7 @@ impl RigidBodyFilter {
             let of_momentum: [f64; 3] = std::array::from_fn(|i| self.inertia[i][j]);
             product(self.inverse, sum(cross(momentum, of_rate), cross(of_momentum, omega)))
         });
-        crate::control::small_matrix::transposed(&columns)
+        crate::control::vector::transposed(&columns)
     }
 
     /// Steps by `h` seconds: the rate by the classical Runge-Kutta method, the attitude by a rotation vector of fourth

@@ -4,17 +4,17 @@
 use super::*;
 use crate::control::estimate::{DebrisState, Estimate};
 use crate::control::laws::plant::Body;
-use crate::control::measurement::{Measurement, Values};
-use crate::control::observes::Observes;
+use crate::control::measurement::{Measurement, Values, values};
 use crate::control::outcome::estimation::{Consistency, EstimateErrors};
-use crate::control::rotation::{quaternion_of, vector_of};
 use crate::control::sensors;
 use crate::control::sensors::bench::{chi_square, input_on_orbit, sensor, table, truth};
-use crate::control::sensors::sensor::Sensor;
 use crate::control::truth::Truth;
-use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, scaled, sum};
+use crate::control::vector::{
+    conjugate, dcm_from_quaternion, difference, hamilton, norm, product, quaternion_of, scaled, sum,
+    transposed_product, vector_of,
+};
 use crate::sampling::{Noise, SampleId};
-use crate::scene::{DebrisInput, MAX_WHEELS, Scene, SceneInput};
+use crate::scene::{DebrisInput, DeclaredTable, MAX_WHEELS, Scene, SceneInput};
 
 /// Number of times judged, and the family-wise error rate shared by NEES and innovations at each of them, at rest and
 /// in a slew.
@@ -53,13 +53,11 @@ const START: [f64; 2] = [5e-3, 1e-3];
 #[test]
 fn attitude_and_bias_are_consistent() {
     let (runs, omega) = (1_000_u64, [0.2, -0.5, 0.3]);
-    let nominal = &Scene::resolve(&SceneInput::report()).expect("a valid scene");
+    let nominal = &scene(&SceneInput::report());
     let own = &[("initial_attitude_sigma_rad", &START[..1]), ("initial_bias_sigma_rad_s", &START[1..])];
-    let parameters = &table("mekf", kind("mekf").expect("a kind").parameters, own);
-    let declared = |kind: &str| sensors::kind(kind).expect("a kind").parameters;
-    let gyro = &table("gyro", declared("rate_gyro"), &GYRO);
-    let tracker = &table("tracker", declared("star_tracker"), &[("noise_rad", &TRACKER_NOISE)]);
-    let sensors = [known("rate_gyro", 1.0, gyro), known("star_tracker", 1.0, tracker)];
+    let (parameters, gyro) = (&table("mekf", own), &table("rate_gyro", &GYRO));
+    let tracker = &table("star_tracker", &[("noise_rad", &TRACKER_NOISE)]);
+    let sensors = [known("rate_gyro", [1.0, 0.0], gyro), known("star_tracker", [1.0, 0.0], tracker)];
     let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 1.0 };
     let (mut errors, mut innovations, mut bias_square) = ([0.0; TIMES], [0.0; TIMES], 0.0);
     for run in 1..=runs {
@@ -96,13 +94,19 @@ fn attitude_and_bias_are_consistent() {
     assert!(bias < START[1] / 10.0, "{bias}");
 }
 
+fn scene(input: &SceneInput) -> Scene {
+    Scene::resolve(input).expect("a valid scene")
+}
+
+const DEBRIS: DebrisInput = DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 };
+
 /// A sensor of the kind `kind` as estimators know it.
-pub fn known<'a>(kind: &str, period: f64, parameters: &'a crate::scene::DeclaredTable) -> KnownSensor<'a> {
-    KnownSensor { observes: observes(kind), period, latency: 0.0, parameters }
+fn known<'a>(kind: &str, [period, latency]: [f64; 2], parameters: &'a DeclaredTable) -> KnownSensor<'a> {
+    KnownSensor { observes: sensors::kind(kind).expect("a kind").observes, period, latency, parameters }
 }
 
 /// Input at a tick without actuation.
-pub fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_> {
+fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_> {
     Update {
         interval: if tick == 0 { 0.0 } else { period },
         measurements,
@@ -114,64 +118,35 @@ pub fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_
 }
 
 /// A measurement without latency by the sensor at the index `sensor`.
-pub fn at_once(sensor: usize, values: Values) -> Measurement {
+fn at_once(sensor: usize, values: Values) -> Measurement {
     Measurement { sensor, values, age: 0.0 }
 }
 
-pub fn observes(kind: &str) -> Observes {
-    sensors::kind(kind).expect("a kind").observes
-}
-
-/// Noiseless sensors, with the filters' models; `gyro_period` in ticks of 0.1 s, 0 for none.
-struct Nominal {
-    names: Vec<&'static str>,
-    /// Period and latency, s.
-    times: Vec<[f64; 2]>,
-    tables: Vec<crate::scene::DeclaredTable>,
-    sampled: Vec<sensors::SampledSensor>,
-}
-
-impl Nominal {
-    fn new(gyro_period: u64) -> Self {
-        let mut all = Nominal { names: Vec::new(), times: Vec::new(), tables: Vec::new(), sampled: Vec::new() };
-        if gyro_period > 0 {
-            all.add("rate_gyro", gyro_period, 0, &[GYRO[0], ("bias_rad_s", &[2e-4, 0.0, -1e-4])]);
-        }
-        all.add("star_tracker", 5, 2, &[("noise_rad", &[1e-5, 1e-5, 1e-5])]);
-        all.add("ground_radar", 10, 3, &[("position_noise_m", &[0.1]), ("velocity_noise_m_s", &[0.001])]);
-        all.add("relative_camera", 4, 4, &[("attitude_noise_rad", &[1e-3]), ("rate_noise_rad_s", &[1e-3])]);
-        all
-    }
-
-    fn add(&mut self, kind: &'static str, every: u64, latency: u64, values: &[(&str, &[f64])]) {
-        self.names.push(kind);
-        self.times.push([every, latency].map(|ticks| 0.1 * ticks as f64));
-        self.tables.push(table("nominal", sensors::kind(kind).expect("a kind").parameters, values));
-        let model: Box<dyn Sensor> = sensor(kind, values, 0.1 * every as f64, 0);
-        self.sampled.push(sensors::SampledSensor::new(model, every, latency, 0.1));
-    }
-}
-
 /// Estimate and truth after 60 s of a slew at constant rate under thrust beside tumbling debris, with noiseless but
-/// late sensors and a truth that starts off the nominal scene.
+/// late sensors and a truth that starts off the nominal scene; `gyro_period` in ticks of 0.1 s, 0 for none.
 fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
-    let input = SceneInput::report().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
-    let mut nominal = Scene::resolve(&input).expect("a valid scene");
+    let mut nominal = scene(&SceneInput::report().with_debris(DEBRIS));
     // p turns about c, so that c relative to it depends on the time of the measurement
     nominal.mass.center = [0.4, -0.3, 0.2];
     let nominal = &nominal;
-    let mut sensors = Nominal::new(gyro_period);
-    let kind = kind("mekf").expect("a kind");
-    let parameters = &table("estimator", kind.parameters, &[]);
-    let known = |((kind, [period, latency]), parameters): ((&'static str, [f64; 2]), _)| KnownSensor {
-        observes: observes(kind),
-        period,
-        latency,
-        parameters,
-    };
-    let names = sensors.names.iter().copied().zip(sensors.times.iter().copied());
-    let tables: Vec<_> = names.zip(&sensors.tables).map(known).collect();
-    let context = EstimatorContext { nominal, parameters, sensors: &tables, tick: 0.1 };
+    let mut list: Vec<(&str, [u64; 2], &[(&str, &[f64])])> = vec![
+        ("star_tracker", [5, 2], &[("noise_rad", &[1e-5; 3])]),
+        ("ground_radar", [10, 3], &[("position_noise_m", &[0.1]), ("velocity_noise_m_s", &[0.001])]),
+        ("relative_camera", [4, 4], &[("attitude_noise_rad", &[1e-3]), ("rate_noise_rad_s", &[1e-3])]),
+    ];
+    if gyro_period > 0 {
+        list.insert(0, ("rate_gyro", [gyro_period, 0], &[GYRO[0], ("bias_rad_s", &[2e-4, 0.0, -1e-4])]));
+    }
+    let tables: Vec<_> = list.iter().map(|(kind, _, values)| table(kind, values)).collect();
+    let times = |ticks: &[u64; 2]| ticks.map(|ticks| 0.1 * ticks as f64);
+    let sensors = list.iter().zip(&tables).map(|((kind, ticks, _), table)| known(kind, times(ticks), table));
+    let sensors: Vec<_> = sensors.collect();
+    let sampled = list.iter().map(|(kind, [every, latency], values)| {
+        sensors::SampledSensor::new(sensor(kind, values, 0.1 * *every as f64, 0), *every, *latency, 0.1)
+    });
+    let mut sampled: Vec<_> = sampled.collect();
+    let (kind, parameters) = (kind("mekf").expect("a kind"), &table("mekf", &[]));
+    let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 0.1 };
     let (mut estimator, mut estimate) = ((kind.make)(&context), context.start());
     let body = nominal.mass.debris.as_ref().expect("debris").inertia;
     let mut debris =
@@ -190,7 +165,7 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
         let r_gdo_e = sum(r_gdo, scaled(at.time, v_gdo));
         at.debris = Some(DebrisState { r_gdo_e, v_gdo_e: v_gdo, q_ed: debris.q_es, omega_de_d: debris.omega });
         let mut measurements = Vec::new();
-        for (place, sensor) in sensors.sampled.iter_mut().enumerate() {
+        for (place, sensor) in sampled.iter_mut().enumerate() {
             measurements.extend(sensor.deliver(place, tick, &at));
         }
         estimator.update(&Update { acceleration_s, ..update(tick, 0.1, &measurements) }, &mut estimate);
@@ -232,16 +207,15 @@ fn estimates_without_noise_are_the_truth() {
 /// sensors.
 #[test]
 fn each_sensor_that_is_used_changes_the_estimate() {
-    let input = input_on_orbit().with_debris(DebrisInput::Box { size_m: [1.0, 2.0, 3.0], density_kg_m3: 100.0 });
-    let nominal = &Scene::resolve(&input).expect("a valid scene");
+    let nominal = &scene(&input_on_orbit().with_debris(DEBRIS));
     let half = std::f64::consts::FRAC_PI_2;
     let quarters = [[0.1, 0.0, 0.0], [half, 0.1, 0.0], [0.1, half, 0.0], [-half, 0.0, 0.1], [0.0, -half, 0.1]];
     let mut pairs = 0;
     for estimator in KINDS.iter().filter(|kind| !kind.knows_the_truth) {
-        let parameters = &table("estimator", estimator.parameters, &[]);
+        let parameters = &table(estimator.name, &[]);
         for kind in &sensors::KINDS {
-            let known = table("unit", kind.parameters, &[]);
-            let sensors = [KnownSensor { observes: kind.observes, period: 0.1, latency: 0.0, parameters: &known }];
+            let numbers = table(kind.name, &[]);
+            let sensors = [known(kind.name, [0.1, 0.0], &numbers)];
             let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 0.1 };
             // an attitude with the sensor's object in its field of view
             let delivered = quarters.iter().find_map(|turn| {
@@ -274,4 +248,48 @@ fn each_sensor_that_is_used_changes_the_estimate() {
         }
     }
     assert!(pairs > sensors::KINDS.len(), "{pairs}");
+}
+
+/// Law: an image of the debris is as uncertain, about the same axes, as the attitude through which it was taken: after
+/// one image the debris's attitude has, about each axis of F_s, the variance that follows from those of attitude,
+/// camera and start by the sum of information, whatever the rotation from F_d to F_s.
+#[test]
+fn an_image_is_as_uncertain_as_the_attitude() {
+    // standard deviations, rad: of the start, of the tracker (poor about its boresight), of camera and debris
+    let (start, noise, of_camera, of_debris) = (0.1, [1e-3, 2e-3, 5e-2], 1e-4, 1.0);
+    let nominal = &scene(&SceneInput::report().with_debris(DEBRIS));
+    let mekf = kind("mekf").expect("a kind");
+    let own: [(&str, &[f64]); 2] =
+        [("initial_attitude_sigma_rad", &[start]), ("debris_attitude_sigma_rad", &[of_debris])];
+    let (parameters, tracker) = (&table("mekf", &own), &table("star_tracker", &[("noise_rad", &noise)]));
+    let camera = &table("relative_camera", &[("attitude_noise_rad", &[of_camera])]);
+    let list = [known("star_tracker", [0.1, 0.0], tracker), known("relative_camera", [0.1, 0.0], camera)];
+    for turn in [[0.0; 3], [1.2, 0.0, 0.0], [0.4, -0.9, 1.7]] {
+        let context = EstimatorContext { nominal, parameters, sensors: &list, tick: 0.1 };
+        let (mut estimator, mut estimate) = ((mekf.make)(&context), context.start());
+        let q_es = nominal.initial.q_es;
+        let q_sd = quaternion_of(turn);
+        let mut at = truth(0.0, q_es, [0.0; 3]);
+        let debris = |q_ed| DebrisState { r_gdo_e: [0.0; 3], v_gdo_e: [0.0; 3], q_ed, omega_de_d: [0.0; 3] };
+        at.debris = Some(debris(hamilton(q_es, q_sd)));
+        let seen = [at_once(0, values(&[&q_es])), at_once(1, values(&[&q_sd, &[0.0; 3]]))];
+        estimator.update(&update(0, 0.1, &seen), &mut estimate);
+        let found = estimate.debris.expect("debris");
+        for axis in 0..3 {
+            let mut unit = [0.0; 3];
+            unit[axis] = 1.0;
+            // the axis of F_s in F_d
+            let unit_d = transposed_product(dcm_from_quaternion(q_sd), unit);
+            let error = 1e-6;
+            at.debris = Some(DebrisState {
+                omega_de_d: found.omega_de_d,
+                ..debris(hamilton(found.q_ed, quaternion_of(scaled(error, unit_d))))
+            });
+            let square = 6.0 * Consistency::of(&estimator.filters(), &estimate, &at, None).squares[3][0];
+            let attitude = 1.0 / (1.0 / (start * start) + 1.0 / (noise[axis] * noise[axis]));
+            let variance = 1.0 / (1.0 / (of_debris * of_debris) + 1.0 / (attitude + of_camera * of_camera));
+            let expected = error * error / variance;
+            assert!((square / expected - 1.0).abs() < 1e-6, "{turn:?} {axis}: {square:e} for {expected:e}");
+        }
+    }
 }

@@ -11,8 +11,7 @@
 use super::delayed::Filter;
 use super::kalman::{Gain, NormalizedSquare, symmetric, transported};
 use crate::control::measurement::PointMotion;
-use crate::control::small_matrix::{added, diagonal};
-use crate::control::vector::{difference, norm, scaled, sum};
+use crate::control::vector::{added, diagonal, difference, norm, scaled, sum};
 use crate::dynamics::gravity::Gravity;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,7 @@ const MOST_NESTED: u64 = 1_000;
 const MOST_TARGETS: u64 = 20_000;
 /// Most data and element segments, each of which is code run by an instance at its start: 45,000 of data take half a
 /// minute and over a gigabyte.
-const MOST_SEGMENTS: u32 = 2_000;
+const MOST_SEGMENTS: u64 = 2_000;
 /// Most parameters and results of all types plus those of all functions, for each of which the compiler makes code:
 /// 4,000 types of 990 took 103 s and 618 MB.
 const MOST_PASSED: u64 = 100_000;
@@ -31,7 +31,7 @@ const MOST_VALUES: u64 = 3_000_000;
 /// # Errors
 /// The exceeded limit.
 pub fn check(bytes: &[u8]) -> Result<()> {
-    let (mut targets, mut values, mut squares, mut segments, mut passed) = (0, 0, 0, 0, 0);
+    let (mut counted, mut segments, mut passed) = ([0; 3], 0, 0);
     let mut types = Vec::new();
     for payload in Parser::new(0).parse_all(bytes) {
         match payload? {
@@ -53,30 +53,24 @@ pub fn check(bytes: &[u8]) -> Result<()> {
                 bail!("{size} bytes of code are more than {MOST_CODE}")
             }
             Payload::CodeSectionEntry(body) => {
-                let of_function = counts(&body)?;
-                targets += of_function[0];
-                values += of_function[1];
-                squares += of_function[2];
+                counts(&body)?.into_iter().zip(&mut counted).for_each(|(one, all)| *all += one);
             }
-            Payload::DataSection(list) => segments += list.count(),
-            Payload::ElementSection(list) => segments += list.count(),
+            Payload::DataSection(list) => segments += u64::from(list.count()),
+            Payload::ElementSection(list) => segments += u64::from(list.count()),
             _ => {}
         }
     }
-    if passed > MOST_PASSED {
-        bail!("its types and functions have {passed} parameters and results in all, which are more than {MOST_PASSED}");
-    }
-    if segments > MOST_SEGMENTS {
-        bail!("{segments} segments of data and elements are more than {MOST_SEGMENTS}");
-    }
-    if squares > MOST_SQUARES {
-        bail!("the squares of the blocks of its functions are {squares} in all, which is more than {MOST_SQUARES}");
-    }
-    if values > MOST_VALUES {
-        bail!("its functions have {values} blocks times locals in all, which are more than {MOST_VALUES}");
-    }
-    if targets > MOST_TARGETS {
-        bail!("{targets} targets in tables of branches are more than {MOST_TARGETS}");
+    let [targets, values, squares] = counted;
+    for (found, most, before, after) in [
+        (passed, MOST_PASSED, "its types and functions have ", "parameters and results in all, which are"),
+        (segments, MOST_SEGMENTS, "", "segments of data and elements are"),
+        (squares, MOST_SQUARES, "the squares of the blocks of its functions are ", "in all, which is"),
+        (values, MOST_VALUES, "its functions have ", "blocks times locals in all, which are"),
+        (targets, MOST_TARGETS, "", "targets in tables of branches are"),
+    ] {
+        if found > most {
+            bail!("{before}{found} {after} more than {most}");
+        }
     }
     Ok(())
 }

@@ -57,30 +57,12 @@ impl DeclaredTelemetry {
 
 /// A checked and compiled module.
 pub struct FlightCode {
-    pub(super) sha256: String,
-    pub(super) kind: LawKind,
-    pub(super) sensors: &'static [WantedSensor],
-    pub(super) telemetry: &'static [DeclaredTelemetry],
-}
-
-impl FlightCode {
     /// SHA-256 of its bytes, in hexadecimal.
-    pub fn sha256(&self) -> &str {
-        &self.sha256
-    }
-
+    pub sha256: String,
     /// The law, with the parameters that it declares.
-    pub fn kind(&'static self) -> &'static LawKind {
-        &self.kind
-    }
-
-    pub fn sensors(&self) -> &'static [WantedSensor] {
-        self.sensors
-    }
-
-    pub fn telemetry(&self) -> &'static [DeclaredTelemetry] {
-        self.telemetry
-    }
+    pub kind: LawKind,
+    pub sensors: &'static [WantedSensor],
+    pub telemetry: &'static [DeclaredTelemetry],
 }
 
 impl fmt::Debug for FlightCode {

@@ -29,10 +29,16 @@ const MOST_ELEMENTS: usize = 10_000;
 const LONGEST_TEXT: usize = 1 << 14;
 /// Numbers in the output.
 const OUTPUT: usize = 3;
-/// Exports that return the address of numbers and of the text that declares them.
-const PARAMETERS: [&str; 2] = ["spindrift_parameters", "spindrift_parameter_table"];
-const MEASUREMENTS: [&str; 2] = ["spindrift_measurements", "spindrift_measurement_table"];
-const TELEMETRY: [&str; 2] = ["spindrift_telemetry", "spindrift_telemetry_table"];
+/// Exports that return the address of numbers and of the text that declares them; the last two since interface 2.
+const TABLES: [[&str; 2]; 3] = [
+    ["spindrift_parameters", "spindrift_parameter_table"],
+    ["spindrift_measurements", "spindrift_measurement_table"],
+    ["spindrift_telemetry", "spindrift_telemetry_table"],
+];
+/// Their places in [`TABLES`].
+const PARAMETERS: usize = 0;
+const MEASUREMENTS: usize = 1;
+const TELEMETRY: usize = 2;
 
 /// The compiler of this process.
 fn engine() -> Result<&'static Engine> {
@@ -97,20 +103,23 @@ fn compiled(bytes: &[u8]) -> Result<(Compiled, Declared)> {
     }
     let compiled = Linker::new(module.engine()).instantiate_pre(&module)?;
     let mut running = Running::start(&compiled)?;
-    let interface: i32 = running.required("spindrift_interface")?.call(&mut running.store, ())?;
+    let interface: i32 = running
+        .optional("spindrift_interface")?
+        .ok_or_else(|| missing("spindrift_interface"))?
+        .call(&mut running.store, ())?;
     if !INTERFACES.contains(&interface) {
         let [first, last] = INTERFACES;
         bail!("its interface is {interface}, and this version of spindrift has {first} and {last}");
     }
-    let later = [MEASUREMENTS, TELEMETRY].as_flattened().iter().find(|name| module.get_export(name).is_some());
+    let later = TABLES[MEASUREMENTS..].as_flattened().iter().find(|name| module.get_export(name).is_some());
     if let Some(later) = later.filter(|_| interface < 2) {
         bail!("it exports {later}, which interface 2 has, and its interface is {interface}");
     }
     running.optional::<()>("spindrift_init")?;
     let declared = Declared {
-        parameters: running.declared(PARAMETERS, running.parameters, 1, declared::parameters)?,
-        sensors: running.declared(MEASUREMENTS, running.measurements, MEASURED, declared::sensors)?,
-        telemetry: running.declared(TELEMETRY, running.telemetry, 1, declared::telemetry)?,
+        parameters: running.declared(PARAMETERS, 1, declared::parameters)?,
+        sensors: running.declared(MEASUREMENTS, MEASURED, declared::sensors)?,
+        telemetry: running.declared(TELEMETRY, 1, declared::telemetry)?,
     };
     Ok((compiled, declared))
 }
@@ -124,9 +133,7 @@ struct Running {
     /// Addresses in its memory.
     input: usize,
     output: usize,
-    parameters: Option<usize>,
-    measurements: Option<usize>,
-    telemetry: Option<usize>,
+    tables: [Option<usize>; 3],
 }
 
 impl Running {
@@ -144,13 +151,12 @@ impl Running {
             constructors.call(&mut store, ())?;
         }
         let step = function(&instance, &mut store, "spindrift_step")?.ok_or_else(|| missing("spindrift_step"))?;
-        let (input, output, parameters, measurements, telemetry) = (0, 0, None, None, None);
-        let mut running = Running { store, instance, memory, step, input, output, parameters, measurements, telemetry };
+        let mut running = Running { store, instance, memory, step, input: 0, output: 0, tables: [None; 3] };
         running.input = running.place("spindrift_input")?.ok_or_else(|| missing("spindrift_input"))?;
         running.output = running.place("spindrift_output")?.ok_or_else(|| missing("spindrift_output"))?;
-        running.parameters = running.place(PARAMETERS[0])?;
-        running.measurements = running.place(MEASUREMENTS[0])?;
-        running.telemetry = running.place(TELEMETRY[0])?;
+        for (place, [name, _]) in TABLES.into_iter().enumerate() {
+            running.tables[place] = running.place(name)?;
+        }
         running.area(running.input, NUMBERS, "spindrift_input")?;
         running.area(running.output, OUTPUT, "spindrift_output")?;
         Ok(running)
@@ -158,10 +164,6 @@ impl Running {
 
     fn optional<R: WasmResults>(&mut self, name: &str) -> Result<Option<TypedFunc<(), R>>> {
         function(&self.instance, &mut self.store, name)
-    }
-
-    fn required<R: WasmResults>(&mut self, name: &str) -> Result<TypedFunc<(), R>> {
-        self.optional(name)?.ok_or_else(|| missing(name))
     }
 
     /// The address that the function `name` returns, if it exists.
@@ -180,14 +182,14 @@ impl Running {
         Ok(())
     }
 
-    /// The declarations in the text at `table`; their numbers, `count` each, are at `place`, the result of `name`.
+    /// The declarations of a table of [`TABLES`], each of `count` numbers.
     fn declared<T>(
         &mut self,
-        [name, table]: [&str; 2],
-        place: Option<usize>,
+        which: usize,
         count: usize,
         parse: fn(String) -> std::result::Result<&'static [T], String>,
     ) -> Result<&'static [T]> {
+        let ([name, table], place) = (TABLES[which], self.tables[which]);
         let text = match (self.optional::<i32>(table)?, place) {
             (None, None) => return Ok(&[]),
             (Some(text), Some(_)) => text.call(&mut self.store, ())?,
@@ -215,7 +217,7 @@ impl Running {
 
     /// Writes parameters and the first input, and calls `spindrift_init`.
     fn prepare(&mut self, parameters: &[f64], known: &Known) -> Result<()> {
-        if let Some(place) = self.parameters {
+        if let Some(place) = self.tables[PARAMETERS] {
             let bytes: Vec<u8> = parameters.iter().flat_map(|number| number.to_le_bytes()).collect();
             self.write(place, &bytes);
         }
@@ -228,7 +230,7 @@ impl Running {
 
     fn tell(&mut self, known: &Known) {
         self.write(self.input, &known.input);
-        if let Some(place) = self.measurements {
+        if let Some(place) = self.tables[MEASUREMENTS] {
             self.write(place, &known.measured);
         }
     }
@@ -239,7 +241,7 @@ impl Running {
         self.store.set_fuel(STEP_FUEL)?;
         self.step.call(&mut self.store, ())?;
         telemetry.iter_mut().enumerate().for_each(|(index, value)| {
-            let number = self.number(self.telemetry.unwrap_or(0) + 8 * index);
+            let number = self.number(self.tables[TELEMETRY].unwrap_or(0) + 8 * index);
             *value = if number.is_finite() { number } else { f64::NAN };
         });
         Ok(std::array::from_fn(|index| self.number(self.output + 8 * index)))
@@ -265,10 +267,8 @@ fn function<R: WasmResults>(
     if instance.get_export(&mut *store, name).is_none() {
         return Ok(None);
     }
-    let found = instance.get_typed_func(store, name);
-    found
-        .map(Some)
-        .map_err(|_| format_err!("{name} is not a function with the arguments and results that it must have"))
+    let wrong = |_| format_err!("{name} is not a function with the arguments and results that it must have");
+    instance.get_typed_func(store, name).map(Some).map_err(wrong)
 }
 
 fn missing(name: &str) -> Error {
@@ -323,18 +323,16 @@ impl PhaseLaw for ModuleLaw {
             input: input::bytes(body, input, elapsed, self.times),
             measured: input::measured(self.declared.sensors, input),
         };
-        let stopped = match self.step(&known) {
-            Ok(torque) => return torque,
-            Err(error) => error,
-        };
-        self.telemetry.clear();
-        self.failure = match stopped.downcast_ref() {
-            Some(Trap::OutOfFuel) => Some(Failure::ModuleFuel),
-            Some(_) => Some(Failure::ModuleTrap),
-            // a trial instance has started before, so that this machine is at fault, and no row may blame the module
-            None => panic!("no instance of the module can be made: {stopped:#}"),
-        };
-        [f64::NAN; 3]
+        self.step(&known).unwrap_or_else(|stopped| {
+            self.telemetry.clear();
+            self.failure = match stopped.downcast_ref() {
+                Some(Trap::OutOfFuel) => Some(Failure::ModuleFuel),
+                Some(_) => Some(Failure::ModuleTrap),
+                // a trial instance has started before: this machine is at fault, and no row may blame the module
+                None => panic!("no instance of the module can be made: {stopped:#}"),
+            };
+            [f64::NAN; 3]
+        })
     }
 
     fn telemetry(&self) -> &[f64] {

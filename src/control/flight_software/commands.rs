@@ -2,7 +2,7 @@
 
 use super::{CommandedImpulse, FlightSoftware, Guided, stored_momentum};
 use crate::control::allocation::rods::NO_DIPOLES;
-use crate::control::bus::{ActingCommands, Commanded, NO_PULSES, Pulses};
+use crate::control::bus::{ActingCommands, Commanded, Pulses};
 use crate::control::failure::Failure;
 use crate::control::guidance::phase::Maneuver;
 use crate::control::guidance::target::Target;
@@ -56,7 +56,7 @@ impl FlightSoftware {
                 }
             };
             let thrust = allocation.allocate(force, wanted);
-            let mut pulses = Pulses { begin, ..NO_PULSES };
+            let mut pulses = Pulses { begin, ..Pulses::default() };
             for &i in &self.spec.thrusters {
                 let period = self.spec.period;
                 let valve = &self.believed.actuators.thrusters[i];
@@ -65,13 +65,13 @@ impl FlightSoftware {
                 mean[i] = pulse.thrust * pulse.on_time / period;
             }
             by_thrusters = self.believed.thruster_torque_s(mean);
-            self.under_way.thrust.push(begin, pulses);
+            self.thrust_under_way.push(begin, pulses);
         }
         let (mut by_others, mut rods) = (by_thrusters, NO_DIPOLES);
         if let Some(allocation) = &self.rods {
             let wanted = phase.rods.dipole(&self.field, stored_momentum(&self.believed, estimate));
             rods = allocation.limited(wanted);
-            self.under_way.rods.push(begin, rods);
+            self.rods_under_way.push(begin, rods);
             if phase.rods.unloads() {
                 by_others = sum(by_others, cross(allocation.dipole(&rods.dipoles), self.field.field_s));
             }
@@ -87,7 +87,7 @@ impl FlightSoftware {
         if !total.is_finite() {
             return Err(Failure::Diverged);
         }
-        self.under_way.motors.push(begin, motor_torque);
+        self.motors_under_way.push(begin, motor_torque);
         if self.is_recorded {
             self.latest = Commanded { motor_torque, thrust: mean, dipoles: rods.dipoles };
         }
@@ -97,16 +97,16 @@ impl FlightSoftware {
     /// The commands that act at `time`, which does not descend.
     pub fn acting(&mut self, time: f64) -> ActingCommands<'_> {
         let same = SAME_TIME * self.spec.period;
-        let (motor_torque, mut until) = self.under_way.motors.at(time + same);
+        let (motor_torque, mut until) = self.motors_under_way.at(time + same);
         let mut pulses = None;
         if !self.spec.thrusters.is_empty() {
-            let (acting, next) = self.under_way.thrust.at(time + same);
+            let (acting, next) = self.thrust_under_way.at(time + same);
             (pulses, until) = (Some(acting), until.min(next));
         }
         let mut rods = &NO_DIPOLES;
         if self.rods.is_some() {
             let next;
-            (rods, next) = self.under_way.rods.at(time + same);
+            (rods, next) = self.rods_under_way.at(time + same);
             until = until.min(next);
         }
         ActingCommands { motor_torque, pulses, rods, until }
@@ -120,7 +120,7 @@ impl FlightSoftware {
         }
         let same = SAME_TIME * self.spec.period;
         if !self.spec.thrusters.is_empty() {
-            let (pulses, _) = self.under_way.thrust.all();
+            let (pulses, _) = self.thrust_under_way.all();
             let mut thrust = [0.0; MAX_THRUSTERS];
             for &i in &self.spec.thrusters {
                 // a real valve may fire longer than its believed pulse
@@ -136,11 +136,11 @@ impl FlightSoftware {
             }
         }
         if let Some(allocation) = &self.rods {
-            let (command, _) = self.under_way.rods.all();
+            let (command, _) = self.rods_under_way.all();
             let torque = cross(allocation.dipole(&command.dipoles), self.field.field_s);
             self.commanded.torque_s = sum(self.commanded.torque_s, scaled(length, torque));
         }
-        let (motor_torque, _) = self.under_way.motors.all();
+        let (motor_torque, _) = self.motors_under_way.all();
         for (i, wheel) in self.believed.mass.wheels.iter().enumerate() {
             let most = self.believed.actuators.wheels[i].torque_limit;
             let impulse = length * motor_torque[i].clamp(-most, most);

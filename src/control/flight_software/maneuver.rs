@@ -40,7 +40,7 @@ impl FlightSoftware {
 
     /// Impulse per mass, in F_e, of commanded thrust that has yet to act at `time`, at the attitude `q_es`.
     fn on_its_way(&self, q_es: [f64; 4], time: f64) -> [f64; 3] {
-        let (acting, waiting) = self.under_way.thrust.all();
+        let (acting, waiting) = self.thrust_under_way.all();
         let mut impulse = [0.0; MAX_THRUSTERS];
         for &i in &self.spec.thrusters {
             let left = (acting.begin + acting.on_time[i] - time).clamp(0.0, acting.on_time[i]);

@@ -3,50 +3,46 @@
 //! hold the truth.
 
 mod commands;
-mod construction;
 mod maneuver;
-pub mod under_way;
 
 use std::sync::Arc;
 
-use self::under_way::CommandsUnderWay;
-use super::actuators::{PulseState, ThrustMode};
-use super::allocation::rods::RodAllocation;
-use super::allocation::thrust::ThrustAllocation;
-use super::allocation::wheel_torque::WheelTorque;
-use super::bus::{Commanded, Measurements};
+use super::actuators::{DelayQueue, PulseState, ThrustMode, modulation};
+use super::allocation::rods::{NO_DIPOLES, RodAllocation, RodCommand};
+use super::allocation::{ThrustAllocation, WheelTorque};
+use super::bus::{Commanded, Measurements, MotorCommand, Pulses};
+use super::context::LawContext;
+use super::declared::limit;
 use super::estimate::Estimate;
 use super::estimators::estimator::{Estimator, Update};
+use super::estimators::{EstimatorContext, KnownSensor};
 use super::failure::Failure;
 use super::guidance::condition::GuidanceInput;
 use super::guidance::phase::Phase;
-use super::guidance::target::{AttitudeError, OrbitMotion};
+use super::guidance::target::{AttitudeError, OrbitMotion, Target};
 use super::guidance::{Guidance, Progress};
-use super::laws::AttitudeLaw;
-use super::laws::interface::KnownBody;
+use super::laws::callback::is_law_of;
+use super::laws::interface::NoTorque;
+use super::laws::momentum_unloading::MomentumUnloading;
 use super::laws::rod_law::MeasuredField;
+use super::laws::{AttitudeLaw, KnownBody, LawSettings};
 use super::measurement::{Measurement, PointMotion, Reading, part};
-use super::net_launch::geometry::{Centers, LaunchGeometry, LaunchState};
+use super::net_launch::geometry::{LaunchGeometry, LaunchState};
+use super::net_launch::parameters::TransferNumbers;
 use super::observes::Observes;
-use super::spec::LoopSpec;
+use super::parameters::{AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers, UnloadingNumbers};
+use super::sensor_spec::SensorSpec;
+use super::spec::{LoopSpec, PhaseSpec};
 use super::tick_times::TickTimes;
 use super::vector::{dcm_from_quaternion, norm, product, scaled, sum};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
+use crate::scene::{DeclaredTable, MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// Momentum of the wheels relative to the body at the estimated rates, in F_s.
 fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
     let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
     wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
-}
-
-/// The estimated launch geometry; `None` without debris.
-fn geometry_of(launch: &LaunchState, estimate: &Estimate) -> Option<LaunchGeometry> {
-    let debris = estimate.debris.as_ref()?;
-    let centers =
-        Centers { r_co_e: estimate.r_co_e, v_co_e: estimate.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e };
-    Some(launch.geometry(&centers))
 }
 
 /// Decision of guidance at a control tick.
@@ -62,7 +58,7 @@ pub struct Guided {
 }
 
 /// Impulses commanded since the last tick.
-#[derive(Clone, Copy, Debug)]
+#[derive(Default)]
 struct CommandedImpulse {
     force_s: [f64; 3],
     /// On the body.
@@ -70,9 +66,6 @@ struct CommandedImpulse {
     /// By wheel.
     motors: [f64; MAX_WHEELS],
 }
-
-const NO_IMPULSE: CommandedImpulse =
-    CommandedImpulse { force_s: [0.0; 3], torque_s: [0.0; 3], motors: [0.0; MAX_WHEELS] };
 
 pub struct FlightSoftware {
     pub spec: Arc<LoopSpec>,
@@ -100,11 +93,12 @@ pub struct FlightSoftware {
     orbit: Option<OrbitPath>,
     /// Estimated launch geometry at the control tick; `None` without debris.
     geometry: Option<LaunchGeometry>,
-    /// Time without the debris in sight after which it is lost; may be infinite.
-    lost_target_timeout: f64,
     is_recorded: bool,
     pub delay: f64,
-    pub under_way: CommandsUnderWay,
+    /// Commands from their tick until they cease to act; empty without such actuators.
+    motors_under_way: DelayQueue<MotorCommand>,
+    thrust_under_way: DelayQueue<Pulses>,
+    rods_under_way: DelayQueue<RodCommand>,
     /// Commands of the last control tick in a recorded run.
     pub latest: Commanded,
     commanded: CommandedImpulse,
@@ -115,16 +109,94 @@ pub struct FlightSoftware {
     last_update: f64,
 }
 
+fn phase((phase, table): (&PhaseSpec, &DeclaredTable)) -> Phase {
+    Phase {
+        until: phase.until.clone(),
+        next: phase.next,
+        otherwise: phase.otherwise,
+        hold: ConditionNumbers::of(table).hold,
+        timeout: limit(PhaseNumbers::of(table).timeout),
+        target: match phase.target {
+            Target::Attitude(_) => Target::Attitude(AttitudeNumbers::of(table).attitude),
+            Target::Orbital(_) => Target::Orbital(AttitudeNumbers::of(table).attitude),
+            target => target,
+        },
+        thrust: phase.thrust,
+        transfer_time: TransferNumbers::of(table).time,
+        rods: phase.rods.with(table),
+        unloading: {
+            let UnloadingNumbers { time, dead_band } = UnloadingNumbers::of(table);
+            (time > 0.0).then_some(MomentumUnloading { dead_band, time_constant: time })
+        },
+    }
+}
+
 impl FlightSoftware {
+    /// Flight software of the run of `context`, on a loop with ticks of `tick` seconds.
+    pub fn new(spec: &Arc<LoopSpec>, context: &LawContext<'_>, tick: f64) -> Self {
+        let numbers = &context.parameters.law;
+        let believed = spec.believed(context.nominal);
+        let known = |(sensor, parameters): (&SensorSpec, _)| KnownSensor {
+            observes: sensor.observes(),
+            period: sensor.period,
+            latency: sensor.latency,
+            parameters,
+        };
+        let sensors: Vec<_> = spec.sensors.iter().zip(&context.nominal_parameters.sensors).map(known).collect();
+        let parameters = &context.nominal_parameters.law;
+        let of_run = EstimatorContext { nominal: &believed, parameters, sensors: &sensors, tick };
+        let (estimator, estimate) = ((spec.estimator_kind().make)(&of_run), of_run.start());
+        let (period, delay) = (spec.period, LoopNumbers::of(numbers).delay);
+        let tables = || spec.phases.iter().zip(&context.parameters.guidance);
+        let law = |(phase, table): (&PhaseSpec, _)| {
+            let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay, sample: context.sample };
+            phase.law.map_or_else(|| AttitudeLaw::new(NoTorque), |law| (law.make)(&settings))
+        };
+        let (laws, phases): (Vec<_>, Vec<_>) = (tables().map(law).collect(), tables().map(phase).collect());
+        let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
+        let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
+        let thrusters =
+            (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels));
+        let reads_sensors = is_law_of(spec) || spec.code().is_some_and(|code| !code.sensors.is_empty());
+        FlightSoftware {
+            body: KnownBody::of(&believed.mass),
+            estimator,
+            estimate,
+            guidance: Guidance::new(&phases),
+            law: AttitudeLaw::clone(&laws[0]),
+            laws,
+            phases,
+            wheels,
+            two_sided: thrusters.as_ref().map_or([[0.0; 3]; 3], |all| all.two_sided_torques(spec.holds_force)),
+            thrusters,
+            rods: (!spec.rods.is_empty()).then(|| RodAllocation::of_loop(&believed, &spec.rods)),
+            field: MeasuredField::NONE,
+            readings: if reads_sensors { vec![Reading::NONE; spec.sensors.len()] } else { Vec::new() },
+            thrust_mode: modulation::mode(spec.modulation, numbers),
+            pulses: [PulseState::default(); MAX_THRUSTERS],
+            launch: LaunchState::of(numbers, believed.orbit.as_ref()),
+            orbit: believed.orbit.as_ref().map(OrbitPath::new),
+            geometry: None,
+            is_recorded: context.records,
+            delay,
+            motors_under_way: DelayQueue::new([0.0; MAX_WHEELS], delay, period),
+            thrust_under_way: DelayQueue::new(Pulses::default(), delay, period),
+            rods_under_way: DelayQueue::new(NO_DIPOLES, delay, period),
+            latest: Commanded::default(),
+            commanded: CommandedImpulse::default(),
+            debris_seen: 0.0,
+            has_camera: spec.has_camera(),
+            started: false,
+            last_update: 0.0,
+            believed,
+            ticks: TickTimes::new(period, spec.ticks_per_period()),
+            spec: spec.clone(),
+        }
+    }
+
     /// Updates the estimate by the measurements of a tick and the commands since the last.
     pub fn tick(&mut self, measurements: &Measurements<'_>) {
-        self.note_debris(measurements);
-        self.note_field(measurements);
-        if !self.readings.is_empty() {
-            for Measurement { sensor, values, age } in measurements.delivered {
-                self.readings[*sensor] = Reading { values: *values, time: measurements.time - age };
-            }
-        }
+        self.note(measurements);
         let interval = measurements.time - self.last_update;
         let mean = |impulse: [f64; 3]| if interval > 0.0 { scaled(1.0 / interval, impulse) } else { [0.0; 3] };
         let motor_torques = self.commanded.motors.map(|impulse| if interval > 0.0 { impulse / interval } else { 0.0 });
@@ -139,31 +211,28 @@ impl FlightSoftware {
         self.estimator.update(&update, &mut self.estimate);
         self.last_update = measurements.time;
         if measurements.state.is_none() {
-            self.commanded = NO_IMPULSE;
+            self.commanded = CommandedImpulse::default();
         }
     }
 
-    fn note_field(&mut self, measurements: &Measurements<'_>) {
-        for measurement in measurements.delivered {
-            if matches!(self.spec.sensors[measurement.sensor].observes(), Observes::Field(_)) {
-                self.field.take(measurements.time - measurement.age, part(&measurement.values, 0));
-            }
-        }
-    }
-
-    /// Notes when the debris was seen: by the camera if there is one, else by the radar.
-    fn note_debris(&mut self, measurements: &Measurements<'_>) {
+    /// Notes the field, the readings of laws, and when the debris was seen: by the camera if there is one, else by the
+    /// radar.
+    fn note(&mut self, measurements: &Measurements<'_>) {
         if measurements.state.is_some() {
             self.debris_seen = measurements.time;
         }
-        for measurement in measurements.delivered {
-            let sees = match self.spec.sensors[measurement.sensor].observes() {
-                Observes::DebrisAttitude(_) => true,
-                Observes::Motion(_) => !self.has_camera && PointMotion::of(&measurement.values, 6).is_some(),
-                _ => false,
-            };
-            if sees {
-                self.debris_seen = measurements.time - measurement.age;
+        for Measurement { sensor, values, age } in measurements.delivered {
+            let time = measurements.time - age;
+            match self.spec.sensors[*sensor].observes() {
+                Observes::Field(_) => self.field.take(time, part(values, 0)),
+                Observes::DebrisAttitude(_) => self.debris_seen = time,
+                Observes::Motion(_) if !self.has_camera && PointMotion::of(values, 6).is_some() => {
+                    self.debris_seen = time;
+                }
+                _ => {}
+            }
+            if let Some(reading) = self.readings.get_mut(*sensor) {
+                *reading = Reading { values: *values, time };
             }
         }
     }
@@ -187,7 +256,7 @@ impl FlightSoftware {
         }
         if self.is_recorded {
             // no commands at the end of the mission
-            self.latest = Commanded::NOTHING;
+            self.latest = Commanded::default();
         }
         Guided { progress, begins, error, velocity_to_go }
     }
@@ -195,7 +264,7 @@ impl FlightSoftware {
     /// The failure that flight software detects at a control tick; call before [`FlightSoftware::guide`].
     pub fn failure(&mut self, time: f64) -> Option<Failure> {
         if self.spec.has_debris {
-            self.geometry = geometry_of(&self.launch, &self.estimate);
+            self.geometry = self.estimate.centers().map(|centers| self.launch.geometry(centers));
         }
         if !self.estimate.is_finite() {
             return Some(Failure::Diverged);
@@ -203,7 +272,7 @@ impl FlightSoftware {
         if self.spec.needs_axis() && !self.geometry.is_some_and(|geometry| geometry.has_axis()) {
             return Some(Failure::NoAxis);
         }
-        let is_lost = time - self.debris_seen > self.lost_target_timeout + self.ticks.same();
+        let is_lost = time - self.debris_seen > limit(self.launch.numbers.lost_target_timeout) + self.ticks.same();
         (self.spec.has_debris && is_lost).then_some(Failure::LostTarget)
     }
 

@@ -2,7 +2,7 @@
 
 use super::condition::Condition;
 use super::target::Target;
-use crate::control::laws::MomentumUnloading;
+use crate::control::laws::momentum_unloading::MomentumUnloading;
 use crate::control::laws::rod_law::RodLaw;
 
 /// Use of thrust along s3.

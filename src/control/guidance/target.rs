@@ -1,8 +1,9 @@
 //! [`Target`]: the attitude that a phase wants.
 
 use crate::control::net_launch::geometry::LaunchGeometry;
-use crate::control::rotation::quaternion_of;
-use crate::control::vector::{conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, scaled, transposed_product};
+use crate::control::vector::{
+    conjugate, cross, dcm_from_quaternion, dot, hamilton, norm, quaternion_of, scaled, transposed_product,
+};
 use crate::dynamics::environment::sun::sun_after;
 use crate::dynamics::gravity::Gravity;
 use crate::math::vector::quaternion_from_dcm;
@@ -136,40 +137,38 @@ impl Target {
     /// Attitude `q_es` relative to the target defined by `input`.
     pub fn error(self, q_es: [f64; 4], input: &TargetInput<'_>) -> AttitudeError {
         let TargetInput { geometry, to_go, orbit } = *input;
-        // fixed in F_e, or on an orbit to the axis
-        let fixed = |geometry: &LaunchGeometry, direction: [f64; 3]| pointing(q_es, direction, geometry.turn());
-        match (self, geometry) {
-            (Target::Attitude(q_et), _) => {
-                AttitudeError { q_ts: hamilton(conjugate(q_et), q_es), ..AttitudeError::NONE }
+        // s3 to a direction that rotates at a rate
+        let aim = match self {
+            Target::None => None,
+            Target::Attitude(q_et) => {
+                return AttitudeError { q_ts: hamilton(conjugate(q_et), q_es), ..AttitudeError::NONE };
             }
-            (Target::Orbital(q_os), _) => orbit.map_or(AttitudeError::NONE, |orbit| {
+            Target::Orbital(q_os) => {
+                let Some(orbit) = orbit else { return AttitudeError::NONE };
                 let (q_eo, omega_oe_e) = orbit.local_frame();
-                AttitudeError {
+                return AttitudeError {
                     q_ts: hamilton(conjugate(hamilton(q_eo, q_os)), q_es),
                     omega_te_s: transposed_product(dcm_from_quaternion(q_es), omega_oe_e),
-                }
-            }),
-            (Target::Nadir, _) => orbit.map_or(AttitudeError::NONE, |OrbitMotion { r_e, v_e, .. }| {
-                pointing(q_es, scaled(-1.0, r_e), turn_of(r_e, v_e))
-            }),
-            (Target::OrbitalVelocity, _) => {
-                orbit.map_or(AttitudeError::NONE, |OrbitMotion { v_e, a_e, .. }| pointing(q_es, v_e, turn_of(v_e, a_e)))
+                };
             }
+            Target::Nadir => orbit.map(|orbit| (scaled(-1.0, orbit.r_e), turn_of(orbit.r_e, orbit.v_e))),
+            Target::OrbitalVelocity => orbit.map(|orbit| (orbit.v_e, turn_of(orbit.v_e, orbit.a_e))),
             // the Sun turns by 2e-7 rad/s
-            (Target::Sun, _) => orbit.map_or(AttitudeError::NONE, |orbit| pointing(q_es, orbit.sun_e, [0.0; 3])),
-            (Target::LineToDebris, Some(geometry)) => {
+            Target::Sun => orbit.map(|orbit| (orbit.sun_e, [0.0; 3])),
+            Target::LineToDebris => geometry.map(|geometry| {
                 let line = geometry.to_debris;
                 // the line moves against the spacecraft's relative velocity
                 let change = geometry.inertial_change(line, scaled(-1.0, geometry.relative_velocity));
-                pointing(q_es, line, turn_of(line, change))
+                (line, turn_of(line, change))
+            }),
+            // fixed in F_e, or on an orbit to the axis
+            Target::LaunchAxis => geometry.map(|geometry| (geometry.axis, geometry.turn())),
+            Target::Velocity => geometry.map(|geometry| (geometry.relative_velocity, geometry.turn())),
+            Target::Transfer | Target::Stop => {
+                geometry.map(|_| (to_go.velocity_e, turn_of(to_go.velocity_e, to_go.change_e)))
             }
-            (Target::LaunchAxis, Some(geometry)) => fixed(geometry, geometry.axis),
-            (Target::Transfer | Target::Stop, Some(_)) => {
-                pointing(q_es, to_go.velocity_e, turn_of(to_go.velocity_e, to_go.change_e))
-            }
-            (Target::Velocity, Some(geometry)) => fixed(geometry, geometry.relative_velocity),
-            _ => AttitudeError::NONE,
-        }
+        };
+        aim.map_or(AttitudeError::NONE, |(direction, turn)| pointing(q_es, direction, turn))
     }
 }
 
@@ -204,8 +203,7 @@ fn pointing(q_es: [f64; 4], direction: [f64; 3], turn: [f64; 3]) -> AttitudeErro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::rotation::vector_of;
-    use crate::control::vector::{difference, product, sum};
+    use crate::control::vector::{difference, product, sum, vector_of};
     use crate::scene::Epoch;
 
     const NO_IMPULSE: VelocityToGo = VelocityToGo { velocity_e: [0.0; 3], change_e: [0.0; 3] };

@@ -1,9 +1,9 @@
-//! [`Eigenaxis`]: a slew about one axis fixed in the body and in space.
+//! A slew about one axis fixed in the body and in space.
 
 use super::integral::{self, Integral};
 use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
 use super::slew::Slew;
-use crate::control::declared::{declared, limit};
+use crate::control::declared::{declared, limit, number};
 use crate::control::vector::{norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
@@ -16,17 +16,17 @@ use crate::scene::schema::Limit;
 /// A rate limit cuts k (e + z) to the length c max_rate, at which the body coasts (cascade saturation; Wie, *Space
 /// Vehicle Dynamics and Control*, 2008, section 7.3). Under a torque limit K (...) keeps its direction, and a `Slew`
 /// removes large errors, braking in time. The integral rests while a limit is active.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eigenaxis {
+#[derive(Clone, Copy)]
+struct Eigenaxis {
     /// k, 1/s^2.
-    pub stiffness: f64,
+    stiffness: f64,
     /// c, 1/s.
-    pub damping: f64,
+    damping: f64,
     /// Largest rate; may be infinite.
-    pub largest_rate: f64,
+    largest_rate: f64,
     /// Largest torque on the body besides feedforward; may be infinite.
-    pub largest_torque: f64,
-    pub integral: Integral,
+    largest_torque: f64,
+    integral: Integral,
     /// Removes large errors under a torque limit.
     slew: Slew,
 }
@@ -37,12 +37,8 @@ declared! {
             "Natural frequency w of small errors: k = 2 w^2", Limit::Positive);
         damping: f64 = LawParameter::number("damping", "1", "Damping ratio z of small errors: c = 2 z w",
             Limit::Positive);
-        max_rate: f64 = LawParameter::number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit",
-            Limit::NotNegative)
-            .or(&[0.0]);
-        max_torque: f64 = LawParameter::number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit",
-            Limit::NotNegative)
-            .or(&[0.0]);
+        max_rate: f64 = number("max_rate_rad_s", "rad/s", "Largest rate of a slew; zero: no limit", &[0.0]);
+        max_torque: f64 = number("max_torque_n_m", "N m", "Largest torque of a slew; zero: no limit", &[0.0]);
         integral_gain: f64 = integral::GAIN;
         integral_limit: f64 = integral::LIMIT;
     }
@@ -53,25 +49,18 @@ pub(super) const KIND: LawKind = LawKind {
     parameters: &PARAMETERS,
     make: &|settings| {
         let numbers = EigenaxisNumbers::of(settings.table);
-        let (bandwidth, damping) = (numbers.bandwidth, numbers.damping);
         AttitudeLaw::new(Eigenaxis {
+            stiffness: 2.0 * numbers.bandwidth * numbers.bandwidth,
+            damping: 2.0 * numbers.damping * numbers.bandwidth,
             largest_rate: limit(numbers.max_rate),
             largest_torque: limit(numbers.max_torque),
-            integral: Integral::new(numbers.integral_gain, limit(numbers.integral_limit)),
+            integral: Integral::new(numbers.integral_gain, numbers.integral_limit),
             slew: Slew::new(settings.period, settings.delay),
-            ..Eigenaxis::new(2.0 * bandwidth * bandwidth, 2.0 * damping * bandwidth)
         })
     },
 };
 
 impl Eigenaxis {
-    /// Without limits and integral.
-    pub fn new(stiffness: f64, damping: f64) -> Self {
-        let (largest_rate, largest_torque) = (f64::INFINITY, f64::INFINITY);
-        let slew = Slew::new(1.0, 0.0);
-        Eigenaxis { stiffness, damping, largest_rate, largest_torque, integral: Integral::NONE, slew }
-    }
-
     /// The acceleration for small errors, without limits and integral.
     fn uncut(&self, input: &LawInput) -> [f64; 3] {
         let error = scaled(self.stiffness, input.error_vector());
@@ -98,10 +87,8 @@ impl PhaseLaw for Eigenaxis {
             return sum(product(craft.inertia, self.small(input, period)), input.feedforward(craft));
         }
         let bounds = [self.largest_rate, self.largest_torque];
-        let acceleration = match self.slew.acceleration(craft, input, bounds, self.uncut(input)) {
-            Some(acceleration) => acceleration,
-            None => self.small(input, period),
-        };
+        let slew = self.slew.acceleration(craft, input, bounds, self.uncut(input));
+        let acceleration = slew.unwrap_or_else(|| self.small(input, period));
         let wanted = product(craft.inertia, acceleration);
         let size = norm(wanted);
         let share = if size > self.largest_torque { self.largest_torque / size } else { 1.0 };
@@ -122,8 +109,7 @@ impl PhaseLaw for Eigenaxis {
 mod tests {
     use super::*;
     use crate::control::laws::plant::Body;
-    use crate::control::rotation::{quaternion_of, vector_of};
-    use crate::control::vector::dot;
+    use crate::control::vector::{dot, quaternion_of, vector_of};
     use core::f64::consts::FRAC_PI_2;
 
     /// Law: a slew from rest under torque and rate limits takes the textbook's time, 2 sqrt(theta/a) or theta/v + v/a
@@ -143,7 +129,9 @@ mod tests {
                         largest_rate: rate,
                         largest_torque: torque,
                         slew: Slew::new(period, delay),
-                        ..Eigenaxis::new(2.0 * bandwidth * bandwidth, 1.8 * bandwidth)
+                        stiffness: 2.0 * bandwidth * bandwidth,
+                        damping: 1.8 * bandwidth,
+                        integral: Integral::new(0.0, 0.0),
                     };
                     let mut body = Body { inertia, q_es: quaternion_of(scaled(start, axis)), omega: [0.0; 3] };
                     let craft = KnownBody { inertia: body.matrix() };

@@ -1,9 +1,8 @@
-//! [`MrpFeedback`]: feedback of modified Rodrigues parameters, rate and an integral.
+//! Feedback of modified Rodrigues parameters, rate and an integral.
 
 use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
-use crate::control::declared::{declared, limit};
-use crate::control::rotation::mrp_of;
-use crate::control::vector::{cross, difference, product, scaled, sum};
+use crate::control::declared::{declared, limit, number};
+use crate::control::vector::{cross, difference, mrp_of, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -12,18 +11,12 @@ use crate::scene::schema::Limit;
 /// wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4, as in Basilisk's
 /// `mrpFeedback`: without an integral, the third term vanishes for a target at rest). With `gyroscopic`, omega x H
 /// replaces (omega_te + Ki z) x H and balances the body's gyroscopic torque.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MrpFeedback {
-    /// K, N m.
-    pub stiffness: f64,
-    /// P, N m s.
-    pub damping: f64,
-    /// Ki, 1/(N m s); zero for no integral.
-    pub integral: f64,
-    /// Largest magnitude of each component of the integral of K s, N m s.
-    pub integral_limit: f64,
+#[derive(Clone, Copy)]
+struct MrpFeedback {
+    /// K, P and Ki, and the limit of the integral.
+    numbers: MrpNumbers,
     /// True if omega x H is included.
-    pub gyroscopic: bool,
+    gyroscopic: bool,
     /// Integral of K s, N m s.
     summed: [f64; 3],
 }
@@ -34,15 +27,9 @@ declared! {
             Limit::Positive);
         damping: f64 = LawParameter::number("damping_n_m_s", "N m s", "Torque opposing a rate of 1 rad/s: P",
             Limit::NotNegative);
-        integral: f64 = LawParameter::number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki",
-            Limit::NotNegative).or(&[0.0]);
-        integral_limit: f64 = LawParameter::number(
-            "integral_limit_n_m_s",
-            "N m s",
-            "Largest magnitude of each component of the integral of K s; zero: no limit",
-            Limit::NotNegative,
-        )
-        .or(&[0.0]);
+        integral: f64 = number("integral_1_n_m_s", "1/(N m s)", "Gain of the integral: Ki", &[0.0]);
+        integral_limit: f64 = number("integral_limit_n_m_s", "N m s",
+            "Largest magnitude of each component of the integral of K s; zero: no limit", &[0.0]);
     }
 }
 
@@ -50,35 +37,23 @@ pub(super) const KIND: LawKind = LawKind {
     name: "mrp_feedback",
     parameters: &PARAMETERS,
     make: &|settings| {
-        let numbers = MrpNumbers::of(settings.table);
-        AttitudeLaw::new(MrpFeedback {
-            integral: numbers.integral,
-            integral_limit: limit(numbers.integral_limit),
-            gyroscopic: settings.gyroscopic,
-            ..MrpFeedback::new(numbers.stiffness, numbers.damping)
-        })
+        let (numbers, gyroscopic) = (MrpNumbers::of(settings.table), settings.gyroscopic);
+        AttitudeLaw::new(MrpFeedback { numbers, gyroscopic, summed: [0.0; 3] })
     },
 };
 
-impl MrpFeedback {
-    /// Without integral and omega x H.
-    pub fn new(stiffness: f64, damping: f64) -> Self {
-        let (integral, integral_limit) = (0.0, f64::INFINITY);
-        MrpFeedback { stiffness, damping, integral, integral_limit, gyroscopic: false, summed: [0.0; 3] }
-    }
-}
-
 impl PhaseLaw for MrpFeedback {
     fn torque(&mut self, craft: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {
+        let MrpNumbers { stiffness, damping, integral, integral_limit } = self.numbers;
         let (mrp, relative) = (mrp_of(input.q_ts), input.omega_st_s());
-        let mut torque = sum(scaled(self.stiffness, mrp), scaled(self.damping, relative));
+        let mut torque = sum(scaled(stiffness, mrp), scaled(damping, relative));
         let mut rate = input.omega_te_s;
-        if self.integral > 0.0 {
-            let added = sum(self.summed, scaled(self.stiffness * period, mrp));
-            self.summed = added.map(|x| x.clamp(-self.integral_limit, self.integral_limit));
+        if integral > 0.0 {
+            let (added, most) = (sum(self.summed, scaled(stiffness * period, mrp)), limit(integral_limit));
+            self.summed = added.map(|x| x.clamp(-most, most));
             let z = sum(self.summed, product(craft.inertia, relative));
-            torque = sum(torque, scaled(self.damping * self.integral, z));
-            rate = sum(rate, scaled(self.integral, z));
+            torque = sum(torque, scaled(damping * integral, z));
+            rate = sum(rate, scaled(integral, z));
         }
         if self.gyroscopic {
             rate = input.omega_se_s;
@@ -89,9 +64,10 @@ impl PhaseLaw for MrpFeedback {
     }
 
     fn weaker(&self, share: f64) -> Option<(AttitudeLaw, String)> {
-        let [stiffness, damping] = [self.stiffness, self.damping].map(|gain| share * gain);
+        let (stiffness, damping) = (share * self.numbers.stiffness, share * self.numbers.damping);
         let gains = format!("stiffness_n_m = {}, damping_n_m_s = {}", digits(stiffness), digits(damping));
-        Some((AttitudeLaw::new(MrpFeedback { stiffness, damping, ..*self }), gains))
+        let numbers = MrpNumbers { stiffness, damping, ..self.numbers };
+        Some((AttitudeLaw::new(MrpFeedback { numbers, ..*self }), gains))
     }
 }
 
@@ -120,14 +96,16 @@ mod tests {
         let without = [[-17.115, 24.065, -24.495], [-17.115, 24.065, -24.495], [-17.14215, 24.1124, -24.5829]];
         let proportional = [-2.5840975403785, 3.1143559006308337, -2.592678360252333];
         let alone = [-2.435, 2.865, -2.495];
-        for (integral, limit, momentum, expected) in [
-            (0.01, 0.0, with_wheels, [at_first; 3]),
+        // a limit of zero is none, hence one below any sum here
+        for (integral, integral_limit, momentum, expected) in [
+            (0.01, 1e-300, with_wheels, [at_first; 3]),
             (0.01, 20.0, with_wheels, [at_first, at_first, later]),
             (0.01, 20.0, [0.0; 3], without),
-            (0.0, 0.0, with_wheels, [proportional; 3]),
-            (0.0, 0.0, [0.0; 3], [alone; 3]),
+            (0.0, 1.0, with_wheels, [proportional; 3]),
+            (0.0, 1.0, [0.0; 3], [alone; 3]),
         ] {
-            let mut law = MrpFeedback { integral, integral_limit: limit, ..MrpFeedback::new(0.15, 150.0) };
+            let numbers = MrpNumbers { stiffness: 0.15, damping: 150.0, integral, integral_limit };
+            let mut law = MrpFeedback { numbers, gyroscopic: false, summed: [0.0; 3] };
             let input = LawInput {
                 q_ts: [(1.0 - square) / (1.0 + square), x, y, z],
                 omega_se_s,
@@ -139,7 +117,7 @@ mod tests {
             for (period, expected) in [0.0, 0.0, 0.5].into_iter().zip(expected) {
                 let found = law.torque(&craft, &input, period);
                 let difference = norm(difference(found, expected.map(|torque| torque + 1.0)));
-                assert!(difference < 1e-8, "{integral} {limit} {period}: {found:?} for {expected:?}");
+                assert!(difference < 1e-8, "{integral} {integral_limit} {period}: {found:?} for {expected:?}");
             }
         }
     }

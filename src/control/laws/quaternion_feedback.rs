@@ -1,8 +1,8 @@
-//! [`QuaternionFeedback`]: feedback of the error quaternion and the rate.
+//! Feedback of the error quaternion and the rate.
 
 use super::integral::{self, Integral};
 use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
-use crate::control::declared::{declared, limit};
+use crate::control::declared::declared;
 use crate::control::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
@@ -11,13 +11,13 @@ use crate::scene::schema::Limit;
 /// the attitude q and the rate omega_st, both relative to the target, z_i = Ki int e dt, bandwidth w and damping z of
 /// small errors, K = J less the axial inertias of free wheels, and H the momentum with the wheels (B. Wie, *Space
 /// Vehicle Dynamics and Control*, 2008, section 7.3; the last term tracks a turning target).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QuaternionFeedback {
+#[derive(Clone, Copy)]
+struct QuaternionFeedback {
     /// w, rad/s.
-    pub bandwidth: f64,
+    bandwidth: f64,
     /// z.
-    pub damping: f64,
-    pub integral: Integral,
+    damping: f64,
+    integral: Integral,
 }
 
 declared! {
@@ -36,16 +36,10 @@ pub(super) const KIND: LawKind = LawKind {
     make: &|settings| {
         let QuaternionNumbers { bandwidth, damping, integral_gain, integral_limit } =
             QuaternionNumbers::of(settings.table);
-        let integral = Integral::new(integral_gain, limit(integral_limit));
+        let integral = Integral::new(integral_gain, integral_limit);
         AttitudeLaw::new(QuaternionFeedback { bandwidth, damping, integral })
     },
 };
-
-impl QuaternionFeedback {
-    pub fn new(bandwidth: f64, damping: f64) -> Self {
-        QuaternionFeedback { bandwidth, damping, integral: Integral::NONE }
-    }
-}
 
 impl PhaseLaw for QuaternionFeedback {
     fn torque(&mut self, craft: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {

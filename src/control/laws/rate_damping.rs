@@ -1,18 +1,18 @@
-//! [`RateDamping`]: a torque against the rate.
+//! A torque against the rate.
 
 use super::integral::{self, Integral};
 use super::interface::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw, digits};
-use crate::control::declared::{declared, limit};
+use crate::control::declared::declared;
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
 /// u = -gain (omega + z), omega relative to F_e, z = Ki int omega dt. Without the integral the rotational energy falls
 /// at gain |omega|^2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RateDamping {
+#[derive(Clone, Copy)]
+struct RateDamping {
     /// N m s.
-    pub gain: f64,
-    pub integral: Integral,
+    gain: f64,
+    integral: Integral,
 }
 
 declared! {
@@ -28,7 +28,7 @@ pub(super) const KIND: LawKind = LawKind {
     parameters: &PARAMETERS,
     make: &|settings| {
         let RateDampingNumbers { gain, integral_gain, integral_limit } = RateDampingNumbers::of(settings.table);
-        AttitudeLaw::new(RateDamping { gain, integral: Integral::new(integral_gain, limit(integral_limit)) })
+        AttitudeLaw::new(RateDamping { gain, integral: Integral::new(integral_gain, integral_limit) })
     },
 };
 

@@ -6,20 +6,6 @@ use crate::control::vector::{cross, difference, dot, scaled};
 use crate::scene::schema::Limit;
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// Use of torque rods in a phase.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RodUse {
-    None,
-    /// Against the rotation.
-    BDot,
-    /// Against the wheels' momentum.
-    Unloading,
-}
-
-/// Names of the uses in campaign files.
-pub const ROD_USES: [(&str, RodUse); 3] =
-    [("none", RodUse::None), ("b_dot", RodUse::BDot), ("unloading", RodUse::Unloading)];
-
 declared! {
     BDotNumbers = B_DOT {
         gain: f64 = LawParameter::number("b_dot_gain_a_m2_s_t", "A m^2 s/T",
@@ -29,26 +15,13 @@ declared! {
 
 declared! {
     RodUnloadingNumbers = ROD_UNLOADING {
-        time: f64 = LawParameter::number(
-            "rod_unloading_time_s",
-            "s",
+        time: f64 = LawParameter::number("rod_unloading_time_s", "s",
             "Time constant with which torque rods unload the wheels of momentum perpendicular to the field",
-            Limit::Positive,
-        );
+            Limit::Positive);
     }
 }
 
-impl RodUse {
-    pub fn parameters(self) -> &'static [LawParameter] {
-        match self {
-            RodUse::None => &[],
-            RodUse::BDot => &B_DOT,
-            RodUse::Unloading => &ROD_UNLOADING,
-        }
-    }
-}
-
-/// The law of torque rods in a phase of a run.
+/// The law of torque rods in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RodLaw {
     None,
@@ -67,12 +40,29 @@ pub enum RodLaw {
     },
 }
 
+/// Names of the laws in campaign files; their numbers are parameters.
+pub const ROD_LAWS: [(&str, RodLaw); 3] = [
+    ("none", RodLaw::None),
+    ("b_dot", RodLaw::BDot { gain: 0.0 }),
+    ("unloading", RodLaw::Unloading { time_constant: 0.0 }),
+];
+
 impl RodLaw {
-    pub fn new(of: RodUse, table: &DeclaredTable) -> Self {
-        match of {
-            RodUse::None => RodLaw::None,
-            RodUse::BDot => RodLaw::BDot { gain: BDotNumbers::of(table).gain },
-            RodUse::Unloading => RodLaw::Unloading { time_constant: RodUnloadingNumbers::of(table).time },
+    pub fn parameters(self) -> &'static [LawParameter] {
+        match self {
+            RodLaw::None => &[],
+            RodLaw::BDot { .. } => &B_DOT,
+            RodLaw::Unloading { .. } => &ROD_UNLOADING,
+        }
+    }
+
+    /// The law with the numbers of `table`.
+    #[must_use]
+    pub fn with(self, table: &DeclaredTable) -> Self {
+        match self {
+            RodLaw::None => RodLaw::None,
+            RodLaw::BDot { .. } => RodLaw::BDot { gain: BDotNumbers::of(table).gain },
+            RodLaw::Unloading { .. } => RodLaw::Unloading { time_constant: RodUnloadingNumbers::of(table).time },
         }
     }
 

@@ -6,8 +6,7 @@
 //! period, so that following it takes no gain or bandwidth.
 
 use super::interface::{KnownBody, LawInput};
-use crate::control::rotation::vector_of;
-use crate::control::vector::{dot, norm, product, scaled, sum};
+use crate::control::vector::{dot, norm, product, scaled, sum, vector_of};
 
 /// b/a, the share of the available deceleration used for braking. The rest covers an inertia wrong by up to 5% and
 /// costs 1.3% of the time of a slew without coasting, sqrt((1 + 1/0.95)/2).
@@ -20,7 +19,7 @@ const ANEW: f64 = 2.0;
 /// Commands under way that are remembered; earlier ones count as none.
 const MOST_COMMANDS: usize = 16;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 enum Stage {
     /// Before the first tick of the phase.
     Begins,
@@ -30,7 +29,7 @@ enum Stage {
 }
 
 /// A slew with its memory.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 pub struct Slew {
     period: f64,
     /// Delay from a tick to the effect of its command.
@@ -46,7 +45,7 @@ pub struct Slew {
 }
 
 impl Slew {
-    pub const fn new(period: f64, delay: f64) -> Self {
+    pub fn new(period: f64, delay: f64) -> Self {
         let commands = [[0.0; 3]; MOST_COMMANDS];
         let stage = Stage::Begins;
         Slew { period, delay, stage, near: 0, was_closing: false, has_stopped: false, commands }

@@ -9,26 +9,15 @@
 //! rate (W. H. Clohessy & R. S. Wiltshire, Journal of the Aerospace Sciences 27, 1960); on an ellipse its error is of
 //! the order of the eccentricity and left to the loop.
 
+use super::parameters::DebrisNumbers;
+use crate::control::measurement::PointMotion;
 use crate::control::vector::{cross, difference, dot, norm, product, scaled, sum, transposed_product};
-
-/// True or estimated motion of both centres of mass, in F_e.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Centers {
-    pub r_co_e: [f64; 3],
-    pub v_co_e: [f64; 3],
-    pub r_gdo_e: [f64; 3],
-    pub v_gdo_e: [f64; 3],
-}
+use crate::scene::{DeclaredTable, Orbit};
 
 /// Definition of the launch state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 pub struct LaunchState {
-    /// Distance L of the spacecraft behind the debris.
-    pub distance: f64,
-    /// Speed of the debris below which its velocity defines no axis.
-    pub least_speed: f64,
-    /// Unit vector of the axis in that case, in F_e; zero for none.
-    pub approach_axis: [f64; 3],
+    pub numbers: DebrisNumbers,
     /// Gravitational parameter of the central body at the origin, if there is an orbit.
     pub mu: Option<f64>,
 }
@@ -73,11 +62,6 @@ impl TurningFrame {
         scaled(self.rate, self.axes[2])
     }
 
-    /// Derivative in F_e of a vector with the derivative `change` in this frame.
-    fn inertial_change(&self, vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
-        sum(change, cross(self.turn(), vector))
-    }
-
     /// Free acceleration at `position` and `velocity` relative to the debris in this frame, components in F_e: Clohessy
     /// & Wiltshire's x'' = 3 n^2 x + 2 n y', y'' = -2 n x', z'' = -n^2 z.
     fn acceleration(&self, position: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
@@ -101,24 +85,32 @@ impl TurningFrame {
 }
 
 impl LaunchState {
-    /// The axis A_d for the debris velocity `v_gdo_e` (F_e), if it is defined.
-    pub fn axis(&self, v_gdo_e: [f64; 3]) -> Option<[f64; 3]> {
-        let speed = norm(v_gdo_e);
-        if speed >= self.least_speed && speed > 0.0 {
-            return Some(scaled(1.0 / speed, v_gdo_e));
-        }
-        (self.approach_axis != [0.0; 3]).then_some(self.approach_axis)
+    /// The launch state by the numbers of `[control]`, on `orbit`.
+    pub fn of(table: &DeclaredTable, orbit: Option<&Orbit>) -> Self {
+        LaunchState { numbers: DebrisNumbers::of(table), mu: orbit.map(|orbit| orbit.mu) }
     }
 
-    pub fn geometry(&self, centers: &Centers) -> LaunchGeometry {
-        let axis = self.axis(centers.v_gdo_e).unwrap_or([0.0; 3]);
-        let to_debris = difference(centers.r_gdo_e, centers.r_co_e);
-        let frame = self.mu.map(|mu| TurningFrame::of(mu, centers.r_gdo_e, centers.v_gdo_e));
-        let inertial = difference(centers.v_co_e, centers.v_gdo_e);
+    /// The axis A_d for the debris velocity `v_gdo_e` (F_e), if it is defined.
+    pub fn axis(&self, v_gdo_e: [f64; 3]) -> Option<[f64; 3]> {
+        let DebrisNumbers { least_debris_speed, approach_axis, .. } = self.numbers;
+        let speed = norm(v_gdo_e);
+        if speed >= least_debris_speed && speed > 0.0 {
+            return Some(scaled(1.0 / speed, v_gdo_e));
+        }
+        let length = norm(approach_axis);
+        (length > 0.0).then(|| scaled(1.0 / length, approach_axis))
+    }
+
+    /// The geometry for the true or estimated motion of both centres of mass.
+    pub fn geometry(&self, [own, debris]: [PointMotion; 2]) -> LaunchGeometry {
+        let axis = self.axis(debris.v_e).unwrap_or([0.0; 3]);
+        let to_debris = difference(debris.r_e, own.r_e);
+        let frame = self.mu.map(|mu| TurningFrame::of(mu, debris.r_e, debris.v_e));
+        let inertial = difference(own.v_e, debris.v_e);
         LaunchGeometry {
             axis,
             to_debris,
-            from_station: difference(scaled(self.distance, axis), to_debris),
+            from_station: difference(scaled(self.numbers.launch_distance, axis), to_debris),
             relative_velocity: frame.map_or(inertial, |frame| sum(inertial, cross(frame.turn(), to_debris))),
             frame,
         }
@@ -137,7 +129,7 @@ impl LaunchGeometry {
 
     /// Derivative in F_e of a vector with the derivative `change` relative to axis and station.
     pub fn inertial_change(&self, vector: [f64; 3], change: [f64; 3]) -> [f64; 3] {
-        self.frame.map_or(change, |frame| frame.inertial_change(vector, change))
+        self.frame.map_or(change, |frame| sum(change, cross(frame.turn(), vector)))
     }
 
     /// Free relative acceleration in the frame of the relative velocity, F_e; zero without gravity.
@@ -157,10 +149,8 @@ impl LaunchGeometry {
     }
 
     fn transfer_of(&self, from_station: [f64; 3], relative_velocity: [f64; 3], time: f64) -> [f64; 3] {
-        let wanted = match &self.frame {
-            None => scaled(-1.0 / time, from_station),
-            Some(frame) => frame.velocity_to_origin(from_station, time),
-        };
+        let straight = scaled(-1.0 / time, from_station);
+        let wanted = self.frame.map_or(straight, |frame| frame.velocity_to_origin(from_station, time));
         difference(wanted, relative_velocity)
     }
 
@@ -188,30 +178,40 @@ impl LaunchGeometry {
 mod tests {
     use super::*;
 
-    const STATE: LaunchState = LaunchState { distance: 10.0, least_speed: 0.01, approach_axis: [0.0; 3], mu: None };
-
     const MU: f64 = 3.986004418e14;
+    const NUMBERS: DebrisNumbers = DebrisNumbers {
+        launch_distance: 10.0,
+        least_debris_speed: 0.01,
+        approach_axis: [0.0; 3],
+        keep_out: 0.0,
+        lost_target_timeout: 0.0,
+        plume_range: 0.0,
+        plume_half_angle: 0.0,
+    };
+    const STATE: LaunchState = LaunchState { numbers: NUMBERS, mu: Some(MU) };
 
     /// Spacecraft and debris on a circle of 7,000 km, with position (up, ahead, normal) and velocity relative to the
     /// debris in the turning frame.
-    fn beside_a_circle(position: [f64; 3], velocity: [f64; 3]) -> (Centers, LaunchGeometry) {
+    fn beside_a_circle(position: [f64; 3], velocity: [f64; 3]) -> ([PointMotion; 2], LaunchGeometry) {
         let (r, n) = (7e6_f64, (MU / 7e6_f64.powi(3)).sqrt());
-        let (r_gdo_e, v_gdo_e) = ([r, 0.0, 0.0], [0.0, r * n, 0.0]);
+        let debris = PointMotion { r_e: [r, 0.0, 0.0], v_e: [0.0, r * n, 0.0] };
         let inertial = sum(velocity, cross([0.0, 0.0, n], position));
-        let centers = Centers { r_co_e: sum(r_gdo_e, position), v_co_e: sum(v_gdo_e, inertial), r_gdo_e, v_gdo_e };
-        (centers, LaunchState { mu: Some(MU), ..STATE }.geometry(&centers))
+        let own = PointMotion { r_e: sum(debris.r_e, position), v_e: sum(debris.v_e, inertial) };
+        ([own, debris], STATE.geometry([own, debris]))
     }
 
-    /// The centres after `time` seconds on their two-body orbits.
-    fn later(centers: &Centers, time: f64) -> Centers {
-        let fall = |position, velocity| {
-            let orbit = crate::scene::Orbit { mu: MU, position, velocity, body_radius: 0.0, j2: None, epoch: None };
+    /// The geometry after `time` seconds on two-body orbits.
+    fn later(centers: [PointMotion; 2], time: f64) -> LaunchGeometry {
+        STATE.geometry(centers.map(|PointMotion { r_e: position, v_e: velocity }| {
+            let orbit = Orbit { mu: MU, position, velocity, body_radius: 0.0, j2: None, epoch: None };
             let state = crate::dynamics::orbit::KeplerOrbit::new(&orbit).state(time);
-            (state.position, state.velocity)
-        };
-        let (r_co_e, v_co_e) = fall(centers.r_co_e, centers.v_co_e);
-        let (r_gdo_e, v_gdo_e) = fall(centers.r_gdo_e, centers.v_gdo_e);
-        Centers { r_co_e, v_co_e, r_gdo_e, v_gdo_e }
+            PointMotion { r_e: state.position, v_e: state.velocity }
+        }))
+    }
+
+    /// The centres after a push of the spacecraft.
+    fn pushed([own, debris]: [PointMotion; 2], by: [f64; 3]) -> [PointMotion; 2] {
+        [PointMotion { v_e: sum(own.v_e, by), ..own }, debris]
     }
 
     /// Law: a spacecraft at rest behind the debris on its orbit is at the station and stays there.
@@ -219,12 +219,11 @@ mod tests {
     fn the_station_turns_with_the_orbit() {
         let (centers, there) = beside_a_circle([0.0, -10.0, 0.0], [0.0; 3]);
         assert!(there.position_error() < 1e-8 && norm(there.relative_velocity) < 1e-11, "{there:?}");
-        let state = LaunchState { mu: Some(MU), ..STATE };
-        let after = state.geometry(&later(&centers, 1500.0));
+        let after = later(centers, 1500.0);
         // the line is tangent to the circle: ten metres back it is 7 micrometres above
         assert!(after.position_error() < 1e-3 && norm(after.relative_velocity) < 1e-6, "{after:?}");
         // not at rest without the turning frame
-        let flat = LaunchState { mu: None, ..state }.geometry(&centers);
+        let flat = LaunchState { mu: None, ..STATE }.geometry(centers);
         assert!(norm(flat.relative_velocity) > 0.01);
     }
 
@@ -237,13 +236,10 @@ mod tests {
         {
             let (centers, start) = beside_a_circle(position, velocity);
             for time in [60.0, 300.0, 900.0] {
-                let state = LaunchState { mu: Some(MU), ..STATE };
-                let pushed = Centers { v_co_e: sum(centers.v_co_e, start.transfer(time)), ..centers };
-                let end = state.geometry(&later(&pushed, time));
+                let end = later(pushed(centers, start.transfer(time)), time);
                 assert!(end.position_error() < 3e-3, "{time}: {} m", end.position_error());
                 let straight = LaunchGeometry { frame: None, ..start }.transfer(time);
-                let pushed = Centers { v_co_e: sum(centers.v_co_e, straight), ..centers };
-                let missed = state.geometry(&later(&pushed, time)).position_error();
+                let missed = later(pushed(centers, straight), time).position_error();
                 assert!(time < 300.0 || missed > 1.0, "{time}: {missed} m");
             }
         }
@@ -254,9 +250,8 @@ mod tests {
     #[test]
     fn what_changes_without_thrust_is_known() {
         let (centers, start) = beside_a_circle([8.0, -45.0, 5.0], [0.03, 0.02, -0.01]);
-        let state = LaunchState { mu: Some(MU), ..STATE };
         let slope = |of: &dyn Fn(&LaunchGeometry) -> [f64; 3]| {
-            let [before, after] = [-2.0, 2.0].map(|time| of(&state.geometry(&later(&centers, time))));
+            let [before, after] = [-2.0, 2.0].map(|time| of(&later(centers, time)));
             scaled(0.25, difference(after, before))
         };
         for (found, expected) in [

@@ -1,6 +1,7 @@
 //! The true state at the launch of a net, and plumes that hit the debris before.
 
-use super::geometry::{Centers, LaunchState};
+use super::geometry::LaunchState;
+use super::parameters::DebrisNumbers;
 use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled};
 use crate::scene::{MAX_THRUSTERS, Scene};
@@ -23,28 +24,18 @@ pub struct AtLaunch {
     pub speed_margin: f64,
 }
 
-/// The cone in which a thruster's plume counts as hitting the debris.
-#[derive(Clone, Copy, Debug)]
-pub struct PlumeCone {
-    /// Largest distance to the debris.
-    pub range: f64,
-    /// Half angle about the plume's direction.
-    pub half_angle: f64,
-}
-
-impl PlumeCone {
-    /// True if a thruster that fires at `thrust` hits the debris.
-    pub fn hits(&self, scene: &Scene, truth: &Truth, thrust: &[f64; MAX_THRUSTERS]) -> bool {
-        let mut firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
-        firing.any(|(thruster, _)| self.hits_from(truth, thruster.direction))
-    }
-
-    /// True if the plume of a thruster with the thrust direction `direction` (F_s) hits the debris.
-    fn hits_from(&self, truth: &Truth, direction: [f64; 3]) -> bool {
+impl DebrisNumbers {
+    /// True if the plume of a thruster that fires at `thrust` hits the debris, within range and cone.
+    pub fn plume_hits(&self, scene: &Scene, truth: &Truth, thrust: &[f64; MAX_THRUSTERS]) -> bool {
         let Some(debris) = &truth.debris else { return false };
         let to_debris = difference(debris.r_gdo_e, truth.body.r_co_e);
-        let plume = scaled(-1.0, product(dcm_from_quaternion(truth.body.q_es), direction));
-        norm(to_debris) < self.range && angle_between(plume, to_debris) < self.half_angle
+        let c_es = dcm_from_quaternion(truth.body.q_es);
+        let mut firing = scene.thrusters.iter().zip(thrust).filter(|(_, thrust)| **thrust > 0.0);
+        norm(to_debris) < self.plume_range
+            && firing.any(|(thruster, _)| {
+                let plume = scaled(-1.0, product(c_es, thruster.direction));
+                angle_between(plume, to_debris) < self.plume_half_angle
+            })
     }
 }
 
@@ -52,16 +43,10 @@ fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
     libm::atan2(norm(cross(a, b)), dot(a, b))
 }
 
-pub fn centers_of(truth: &Truth) -> Option<Centers> {
-    let debris = truth.debris.as_ref()?;
-    let body = &truth.body;
-    Some(Centers { r_co_e: body.r_co_e, v_co_e: body.v_co_e, r_gdo_e: debris.r_gdo_e, v_gdo_e: debris.v_gdo_e })
-}
-
 impl AtLaunch {
     /// The state `truth` relative to the launch state `launch`; `None` without debris.
     pub fn of(scene: &Scene, truth: &Truth, launch: &LaunchState) -> Option<AtLaunch> {
-        let geometry = launch.geometry(&centers_of(truth)?);
+        let geometry = launch.geometry(truth.state().centers()?);
         let (body, debris) = (scene.mass.debris.as_ref()?, truth.debris.as_ref()?);
         let s3 = product(dcm_from_quaternion(truth.body.q_es), [0.0, 0.0, 1.0]);
         let momentum = product(dcm_from_quaternion(debris.q_ed), product(body.inertia, debris.omega_de_d));

@@ -1,47 +1,23 @@
 //! Keys of `[control]` and of phases for the launch of a net.
 
-use super::geometry::LaunchState;
 use crate::control::declared::{declared, number};
-use crate::control::vector::{norm, scaled};
+use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
-use crate::scene::{DeclaredTable, LawParameter, Orbit};
 
 declared! {
     DebrisNumbers = DEBRIS {
-        launch_distance: f64 = LawParameter::number(
-            "launch_distance_m",
-            "m",
-            "Distance behind the debris at which the net is launched",
-            Limit::Positive,
-        )
-        .or(&[10.0]);
-        least_debris_speed: f64 = number(
-            "least_debris_speed_m_s",
-            "m/s",
-            "Speed of the debris below which its velocity does not define the launch axis",
-            &[1e-3],
-        );
-        approach_axis: [f64; 3] = LawParameter::number(
-            "approach_axis",
-            "1",
+        launch_distance: f64 = LawParameter::number("launch_distance_m", "m",
+            "Distance behind the debris at which the net is launched", Limit::Positive).or(&[10.0]);
+        least_debris_speed: f64 = number("least_debris_speed_m_s", "m/s",
+            "Speed of the debris below which its velocity does not define the launch axis", &[1e-3]);
+        approach_axis: [f64; 3] = LawParameter::number("approach_axis", "1",
             "Launch axis below that speed, a direction in F_e along which s3 points; zero: the mission fails",
-            Limit::Finite,
-        )
-        .with_components(&["x", "y", "z"])
-        .or(&[0.0; 3]);
+            Limit::Finite).with_components(&["x", "y", "z"]).or(&[0.0; 3]);
         keep_out: f64 = number("keep_out_m", "m", "Distance from the debris below which the mission fails", &[0.0]);
-        lost_target_timeout: f64 = number(
-            "lost_target_timeout_s",
-            "s",
-            "How long the debris may go unmeasured before the mission fails; 0: forever",
-            &[0.0],
-        );
-        plume_range: f64 = number(
-            "plume_range_m",
-            "m",
-            "Distance to the debris within which the plume of a thruster counts as hitting it",
-            &[0.0],
-        );
+        lost_target_timeout: f64 = number("lost_target_timeout_s", "s",
+            "How long the debris may go unmeasured before the mission fails; 0: forever", &[0.0]);
+        plume_range: f64 = number("plume_range_m", "m",
+            "Distance to the debris within which the plume of a thruster counts as hitting it", &[0.0]);
         plume_half_angle: f64 = number("plume_half_angle_rad", "rad", "Half angle of the cone of a plume", &[0.0]);
     }
 }
@@ -50,19 +26,5 @@ declared! {
     TransferNumbers = TRANSFER {
         time: f64 = LawParameter::number("transfer_time_s", "s", "Time of the transfer to the station",
             Limit::Positive);
-    }
-}
-
-impl LaunchState {
-    /// The launch state by the numbers of `[control]`, on `orbit`.
-    pub fn of(table: &DeclaredTable, orbit: Option<&Orbit>) -> Self {
-        let DebrisNumbers { launch_distance, least_debris_speed, approach_axis, .. } = DebrisNumbers::of(table);
-        let length = norm(approach_axis);
-        LaunchState {
-            distance: launch_distance,
-            least_speed: least_debris_speed,
-            approach_axis: if length > 0.0 { scaled(1.0 / length, approach_axis) } else { approach_axis },
-            mu: orbit.map(|orbit| orbit.mu),
-        }
     }
 }

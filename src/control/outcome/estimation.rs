@@ -1,11 +1,11 @@
 //! Estimation errors ([`EstimateErrors`]), and their ratio to the filters' covariances ([`Consistency`]).
 
 use crate::control::estimate::{DebrisState, Estimate};
+use crate::control::estimators::delayed::Innovations;
 use crate::control::estimators::estimator::{Confidence, Covariance, FILTERS, Filters};
 use crate::control::estimators::kalman::{NormalizedSquare, corners, normalized_square};
-use crate::control::rotation::vector_of;
 use crate::control::truth::Truth;
-use crate::control::vector::{conjugate, difference, hamilton, norm};
+use crate::control::vector::{conjugate, difference, hamilton, norm, vector_of};
 
 /// Errors of an estimate; the relative ones are NaN without debris.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,10 +60,10 @@ impl Consistency {
         let per_degree = |square: NormalizedSquare| square.value / square.degrees as f64;
         let squares = std::array::from_fn(|place| match &filters[place] {
             None => [f64::NAN; 3],
-            Some(Confidence { covariance, innovation, mean_innovation }) => {
+            Some(Confidence { covariance, innovations: Innovations { of_tick, sum, count } }) => {
                 let error = error_square(covariance, place, estimate, (truth, gyro_bias_s));
-                let [error, innovation] = [error, *innovation].map(|square| square.map_or(f64::NAN, per_degree));
-                [error, innovation, mean_innovation.unwrap_or(f64::NAN)]
+                let [error, innovation] = [error, *of_tick].map(|square| square.map_or(f64::NAN, per_degree));
+                [error, innovation, if *count > 0.0 { sum / count } else { f64::NAN }]
             }
         });
         Consistency { squares, expected: expected(filters) }

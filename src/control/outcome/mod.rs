@@ -1,32 +1,39 @@
 //! [`MissionOutcome`]: the outcome of a run under a loop, from the true state at every tick.
 
 pub mod columns;
-pub mod criteria;
 pub mod estimation;
 mod stability;
 
-use self::criteria::MissionCriteria;
 use self::estimation::{Consistency, EstimateErrors};
 use self::stability::Stability;
 use super::failure::Failure;
 use super::guidance::target::AttitudeError;
 use super::net_launch::geometry::LaunchState;
 use super::net_launch::launch::AtLaunch;
+use super::parameters::LoopNumbers;
 use super::plant::Applied;
-use super::rotation::vector_of;
 use super::truth::Truth;
-use super::vector::{dot, norm, scaled};
+use super::vector::{difference, dot, norm, scaled, sum, vector_of};
 use crate::dynamics::actuation::Actuation;
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// Standard gravity, which turns a specific impulse into an exhaust velocity, m/s^2 (ISO 80000-3).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-#[derive(Clone, Debug)]
+/// Numbers that judge the outcome of a run.
+pub struct MissionCriteria {
+    pub launch: LaunchState,
+    pub of_loop: LoopNumbers,
+    pub period: f64,
+    /// Specific impulse, s; zero if unknown.
+    pub isp: f64,
+}
+
 pub struct MissionOutcome {
-    failure: Failure,
-    end: f64,
-    at_launch: Option<AtLaunch>,
+    pub criteria: MissionCriteria,
+    pub failure: Failure,
+    pub end: f64,
+    pub at_launch: Option<AtLaunch>,
     /// Largest rotation past the target, rad, and the direction of the phase's first error.
     overshoot: f64,
     first_error: Option<[f64; 3]>,
@@ -55,9 +62,10 @@ pub struct MissionOutcome {
     pub consistency: Consistency,
 }
 
-impl Default for MissionOutcome {
-    fn default() -> Self {
+impl MissionOutcome {
+    pub fn new(criteria: MissionCriteria) -> Self {
         MissionOutcome {
+            criteria,
             failure: Failure::None,
             end: f64::NAN,
             at_launch: None,
@@ -83,9 +91,22 @@ impl Default for MissionOutcome {
             consistency: Consistency::NONE,
         }
     }
-}
 
-impl MissionOutcome {
+    /// A value at launch; NaN without one.
+    fn launch(&self, value: fn(&AtLaunch) -> f64) -> f64 {
+        self.at_launch.as_ref().map_or(f64::NAN, value)
+    }
+
+    /// Last value or largest magnitude of the telemetry number `place`.
+    fn telemetry(&self, place: usize, which: usize) -> f64 {
+        self.telemetry.get(place).map_or(f64::NAN, |found| found[which])
+    }
+
+    /// Root mean square or peak to peak of the relative performance error, rad.
+    fn relative_error(&self, which: usize) -> f64 {
+        self.stability.relative_error(self.criteria.of_loop.stability_window, self.criteria.period)[which]
+    }
+
     /// Adds a tick. `error` is the true attitude relative to the phase's target, if it has one; `begins` marks the
     /// first tick of a phase.
     pub fn tick(
@@ -94,23 +115,22 @@ impl MissionOutcome {
         truth: &Truth,
         (error, begins): (Option<&AttitudeError>, bool),
         errors: &EstimateErrors,
-        criteria: &MissionCriteria,
     ) {
+        let MissionCriteria { of_loop, period, .. } = self.criteria;
         let vector = error.map(|error| vector_of(error.q_ts));
-        self.stability.tick(truth.time, vector, criteria);
+        self.stability.tick(truth.time, vector, &of_loop, period);
         if let Some(vector) = vector {
-            self.pointing(truth.time, vector, begins, criteria.settling_band);
+            self.pointing(truth.time, vector, begins, of_loop.settling_band);
         }
         let mut momentum = [0.0; 3];
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {
             let rate = truth.wheel_rates[i];
             self.speed_peak[i] = self.speed_peak[i].max(rate.abs());
-            momentum = crate::control::vector::sum(momentum, scaled(wheel.axial * rate, wheel.axis));
+            momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
         }
         self.momentum_peak = self.momentum_peak.max(norm(momentum));
         if let Some(debris) = &truth.debris {
-            let apart = crate::control::vector::difference(debris.r_gdo_e, truth.body.r_co_e);
-            self.debris_distance = self.debris_distance.min(norm(apart));
+            self.debris_distance = self.debris_distance.min(norm(difference(debris.r_gdo_e, truth.body.r_co_e)));
         }
         self.attitude_error = [errors.attitude, self.attitude_error[1].max(errors.attitude)];
         self.relative_error = [errors.relative_position, errors.relative_velocity];
@@ -164,30 +184,7 @@ impl MissionOutcome {
         self.plume_time += if hits { length } else { 0.0 };
     }
 
-    fn has_launched(&self) -> bool {
-        self.failure == Failure::None && self.end.is_finite()
-    }
-
-    /// Largest rotation past the target, rad; NaN without a target.
-    fn overshoot_of_target(&self) -> f64 {
-        if self.pointing_since.is_nan() { f64::NAN } else { self.overshoot }
-    }
-
     pub fn impulse_total(&self) -> f64 {
         self.impulse.iter().sum()
-    }
-
-    /// Ends the run at `time` (s), at which flight software gives no command.
-    pub fn cannot_go_on(&mut self, time: f64, failure: Failure) {
-        (self.end, self.failure) = (time, failure);
-    }
-
-    /// Ends the run at `truth` by launch or failure.
-    pub fn ends(&mut self, scene: &Scene, truth: &Truth, failure: Failure, launch: &LaunchState) {
-        self.end = truth.time;
-        self.failure = failure;
-        if failure == Failure::None {
-            self.at_launch = AtLaunch::of(scene, truth, launch);
-        }
     }
 }

@@ -34,8 +34,8 @@ pub(super) const KIND: SensorKind = SensorKind {
 
 declared! {
     RadarNumbers = PARAMETERS {
-    position: f64 = optional("position_noise_m", "m", "Standard deviation of each component of a position");
-    velocity: f64 = optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity");
+        position: f64 = optional("position_noise_m", "m", "Standard deviation of each component of a position");
+        velocity: f64 = optional("velocity_noise_m_s", "m/s", "Standard deviation of each component of a velocity");
     }
 }
 

@@ -8,10 +8,11 @@ use crate::control::declared::declared;
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::observes::Observes;
-use crate::control::rotation::{from_s3_to, quaternion_of};
-use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
-use crate::control::vector::{cross, dcm_from_quaternion, dot, sum, transposed_product};
+use crate::control::vector::{
+    cross, dcm_from_quaternion, diagonal, dot, from_s3_to, multiplied, quaternion_of, sum, transposed,
+    transposed_product,
+};
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::scene::schema::Limit;
@@ -45,12 +46,12 @@ pub(super) const KIND: SensorKind = SensorKind {
 
 declared! {
     MagnetometerNumbers = PARAMETERS {
-    noise: [f64; 3] = axes("noise_t", "T", "Standard deviation of each component", Limit::NotNegative);
-    bias: [f64; 3] = axes("bias_t", "T", "Constant error of each component", Limit::Finite);
-    scale: [f64; 3] = axes("scale", "1", "Ratio of measured to true component along each of its axes",
-        Limit::Finite).or(&[1.0; 3]);
-    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to its axes, in F_s",
-        Limit::Finite);
+        noise: [f64; 3] = axes("noise_t", "T", "Standard deviation of each component", Limit::NotNegative);
+        bias: [f64; 3] = axes("bias_t", "T", "Constant error of each component", Limit::Finite);
+        scale: [f64; 3] = axes("scale", "1", "Ratio of measured to true component along each of its axes",
+            Limit::Finite).or(&[1.0; 3]);
+        misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to its axes, in F_s",
+            Limit::Finite);
     }
 }
 

@@ -51,16 +51,19 @@ pub(super) mod bench {
     //! Scenes, sensors and statistics for tests of sensors and estimators.
 
     use super::*;
+    use crate::control::estimators;
     use crate::control::truth::Truth;
     use crate::dynamics::actuation::BodyState;
     use crate::math::normal;
     use crate::sampling::SampleId;
-    use crate::scene::{DeclaredTable, LawParameter, MAX_WHEELS, Scene, SceneInput};
+    use crate::scene::{DeclaredTable, MAX_WHEELS, Scene, SceneInput};
     use crate::scene::{EnvironmentInput, Epoch, FieldModel, Name, OrbitInput};
 
-    /// The table of the sensor `name` with these numbers, else defaults.
-    pub fn table(name: &str, declared: &'static [LawParameter], values: &[(&str, &[f64])]) -> DeclaredTable {
-        let mut table = DeclaredTable::of(Name::of(name), declared);
+    /// The table of a sensor or estimator of the kind `kind` with these numbers, else defaults.
+    pub fn table(kind: &str, values: &[(&str, &[f64])]) -> DeclaredTable {
+        let of_estimator = || estimators::kind(kind).map(|kind| kind.parameters);
+        let declared = super::kind(kind).map(|kind| kind.parameters).or_else(of_estimator).expect("a kind");
+        let mut table = DeclaredTable::of(Name::of("unit"), declared);
         for (key, numbers) in values {
             let index = declared.iter().position(|parameter| parameter.facts.key == *key).expect("a declared key");
             table.numbers_mut(index).expect("numbers").copy_from_slice(numbers);
@@ -70,20 +73,9 @@ pub(super) mod bench {
 
     /// A sensor of the kind `kind` in the run `sample`.
     pub fn sensor(kind: &str, values: &[(&str, &[f64])], period: f64, sample: u64) -> Box<dyn Sensor> {
-        sensor_in(&on_orbit(), kind, values, period, sample)
-    }
-
-    /// Likewise in the scene `drawn`.
-    pub fn sensor_in(
-        drawn: &Scene,
-        kind: &str,
-        values: &[(&str, &[f64])],
-        period: f64,
-        sample: u64,
-    ) -> Box<dyn Sensor> {
-        let kind = super::kind(kind).expect("a kind");
-        let parameters = &table("unit", kind.parameters, values);
-        (kind.make)(&SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 })
+        let (drawn, parameters) = (&on_orbit(), &table(kind, values));
+        let context = SensorContext { parameters, drawn, period, sample: SampleId(sample), seed: 5 };
+        (super::kind(kind).expect("a kind").make)(&context)
     }
 
     pub fn on_orbit() -> Scene {
@@ -137,8 +129,7 @@ mod tests {
     use crate::control::estimators::attitude_innovation::AttitudeInnovation;
     use crate::control::measurement::part;
     use crate::control::observes::Observes;
-    use crate::control::rotation::quaternion_of;
-    use crate::control::vector::{hamilton, norm};
+    use crate::control::vector::{hamilton, norm, quaternion_of};
     use crate::dynamics::orbit_path::OrbitPath;
 
     /// Law: kinds of sensors and estimators have unique names, and defaults for each component of each key.
@@ -182,7 +173,7 @@ mod tests {
         let turns =
             [[0.2, -0.3, 0.1], [1.4, 0.3, 0.0], [-1.2, 0.2, 0.5], [0.3, 1.5, 0.2], [0.1, -1.3, 0.4], [2.6, 0.2, 0.1]];
         for kind in &KINDS {
-            let numbers = table("unit", kind.parameters, &[]);
+            let numbers = table(kind.name, &[]);
             let model = match kind.observes {
                 Observes::Attitude(model) => model(&numbers),
                 Observes::Direction(model) | Observes::Field(model) => model(&numbers, &nominal),

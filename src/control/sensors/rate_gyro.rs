@@ -9,9 +9,8 @@ use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, XY
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::{GyroNoise, Observes};
-use crate::control::rotation::{turned, vector_of};
 use crate::control::truth::Truth;
-use crate::control::vector::{conjugate, hamilton, scaled, sum};
+use crate::control::vector::{conjugate, hamilton, scaled, sum, turned, vector_of};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
@@ -51,27 +50,19 @@ pub(super) const KIND: SensorKind = SensorKind {
 
 declared! {
     GyroNumbers = PARAMETERS {
-    angular_random_walk: f64 = optional(
-        "angular_random_walk_rad_sqrt_s",
-        "rad/sqrt(s)",
-        "Standard deviation of the angle after one second, from white noise in the rate",
-    );
-    bias_random_walk: f64 = optional(
-        "bias_random_walk_rad_s_sqrt_s",
-        "rad/s/sqrt(s)",
-        "Standard deviation of the bias after one second, from its random walk",
-    );
-    bias: [f64; 3] = axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite);
-    scale: [f64; 3] = LawParameter::number("scale", "1", "Ratio of measured to true rotation about each axis",
-        Limit::Finite)
-        .with_components(&AXES)
-        .or(&[1.0; 3]);
-    misalignment: [f64; 3] = axes("misalignment_rad", "rad", "Rotation vector from the body to the axes of the gyro",
-        Limit::Finite);
-    count_angle: f64 = optional("quantization_rad", "rad",
-        "Angle of one count; the remainder is carried to the next sample; 0: none");
-    max_rate: f64 = optional("max_rate_rad_s", "rad/s",
-        "Largest mean rate about each axis that it can measure; 0: no limit");
+        angular_random_walk: f64 = optional("angular_random_walk_rad_sqrt_s", "rad/sqrt(s)",
+            "Standard deviation of the angle after one second, from white noise in the rate");
+        bias_random_walk: f64 = optional("bias_random_walk_rad_s_sqrt_s", "rad/s/sqrt(s)",
+            "Standard deviation of the bias after one second, from its random walk");
+        bias: [f64; 3] = axes("bias_rad_s", "rad/s", "Bias at the start of the run", Limit::Finite);
+        scale: [f64; 3] = LawParameter::number("scale", "1", "Ratio of measured to true rotation about each axis",
+            Limit::Finite).with_components(&AXES).or(&[1.0; 3]);
+        misalignment: [f64; 3] = axes("misalignment_rad", "rad",
+            "Rotation vector from the body to the axes of the gyro", Limit::Finite);
+        count_angle: f64 = optional("quantization_rad", "rad",
+            "Angle of one count; the remainder is carried to the next sample; 0: none");
+        max_rate: f64 = optional("max_rate_rad_s", "rad/s",
+            "Largest mean rate about each axis that it can measure; 0: no limit");
     }
 }
 
@@ -132,8 +123,7 @@ mod tests {
     use super::super::bench::{assert_normal, sensor, truth};
     use super::*;
     use crate::control::measurement::part;
-    use crate::control::rotation::quaternion_of;
-    use crate::control::vector::difference;
+    use crate::control::vector::{difference, quaternion_of};
 
     /// Rotations measured in a turn at the constant rate `omega`, with the bias after each.
     fn measured(values: &[(&str, &[f64])], sample: u64, omega: [f64; 3], samples: u64) -> Vec<([f64; 3], [f64; 3])> {

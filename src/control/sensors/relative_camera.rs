@@ -4,9 +4,8 @@ use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, WX
 use crate::control::declared::declared;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::Observes;
-use crate::control::rotation::quaternion_of;
 use crate::control::truth::Truth;
-use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, sum};
+use crate::control::vector::{conjugate, dcm_from_quaternion, difference, hamilton, norm, product, quaternion_of, sum};
 
 pub(super) const KIND: SensorKind = SensorKind {
     name: "relative_camera",
@@ -42,15 +41,12 @@ pub(super) const KIND: SensorKind = SensorKind {
 
 declared! {
     CameraNumbers = PARAMETERS {
-    attitude_noise: f64 = optional(
-        "attitude_noise_rad",
-        "rad",
-        "Standard deviation of the relative attitude about each axis of the spacecraft",
-    );
-    rate_noise: f64 = optional("rate_noise_rad_s", "rad/s",
-        "Standard deviation of each component of the relative rate");
-    max_range: f64 = optional("max_range_m", "m", "Distance between the centres of mass beyond which it delivers \
-        nothing; 0: no limit");
+        attitude_noise: f64 = optional("attitude_noise_rad", "rad",
+            "Standard deviation of the relative attitude about each axis of the spacecraft");
+        rate_noise: f64 = optional("rate_noise_rad_s", "rad/s",
+            "Standard deviation of each component of the relative rate");
+        max_range: f64 = optional("max_range_m", "m",
+            "Distance between the centres of mass beyond which it delivers nothing; 0: no limit");
     }
 }
 

@@ -11,10 +11,8 @@ use crate::control::declared::declared;
 use crate::control::estimators::attitude_innovation::WholeAttitude;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::Observes;
-use crate::control::rotation::{from_s3_to, quaternion_of};
-use crate::control::small_matrix::{diagonal, multiplied, transposed};
 use crate::control::truth::Truth;
-use crate::control::vector::{hamilton, norm, product};
+use crate::control::vector::{diagonal, from_s3_to, hamilton, multiplied, norm, product, quaternion_of, transposed};
 use crate::scene::DeclaredTable;
 use crate::scene::schema::Limit;
 
@@ -43,18 +41,15 @@ pub(super) const KIND: SensorKind = SensorKind {
 
 declared! {
     TrackerNumbers = PARAMETERS {
-    noise: [f64; 3] = axes(
-        "noise_rad",
-        "rad",
-        "Standard deviation about each axis of the tracker: two across the boresight, the third about it",
-        Limit::NotNegative,
-    );
-    boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
-        0.0, 1.0]);
-    bias: [f64; 3] = axes("bias_rad", "rad", "Constant rotation vector from the true body axes to the measured ones",
-        Limit::Finite);
-    max_rate: f64 = optional("max_rate_rad_s", "rad/s",
-        "Rate of the body above which it delivers nothing; 0: no limit");
+        noise: [f64; 3] = axes("noise_rad", "rad",
+            "Standard deviation about each axis of the tracker: two across the boresight, the third about it",
+            Limit::NotNegative);
+        boresight: [f64; 3] = axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0,
+            0.0, 1.0]);
+        bias: [f64; 3] = axes("bias_rad", "rad",
+            "Constant rotation vector from the true body axes to the measured ones", Limit::Finite);
+        max_rate: f64 = optional("max_rate_rad_s", "rad/s",
+            "Rate of the body above which it delivers nothing; 0: no limit");
     }
 }
 

@@ -4,49 +4,96 @@
 //! u in F_t has the angles atan(u1/u3) and atan(u2/u3), as by two crossed slits (J. R. Wertz, *Spacecraft Attitude
 //! Determination and Control*, 1978, section 7.1). The rotation about it is not observed.
 
-use super::sensor::{NormalErrors, Sensor, SensorContext};
+use super::sensor::{NormalErrors, Sensor, SensorContext, axes, optional};
 use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
-use crate::control::rotation::from_s3_to;
-use crate::control::small_matrix::{multiplied, transposed};
 use crate::control::truth::Truth;
-use crate::control::vector::{cross, dcm_from_quaternion, dot, norm, product, transposed_product};
+use crate::control::vector::{
+    cross, dcm_from_quaternion, dot, from_s3_to, multiplied, norm, product, scaled, transposed, transposed_product,
+};
+use crate::dynamics::environment::shadow::lit;
+use crate::dynamics::environment::sun::sun_after;
+use crate::dynamics::orbit_path::OrbitPath;
+use crate::scene::schema::Limit;
+use crate::scene::{Epoch, LawParameter, Shadow};
+
+/// Keys of noise, boresight and bias.
+pub const NOISE: LawParameter = optional("noise_rad", "rad", "Standard deviation of each angle");
+pub const BORESIGHT: LawParameter =
+    axes("boresight", "1", "Direction of the boresight in F_s", Limit::Direction).or(&[0.0, 0.0, 1.0]);
+pub const BIAS: LawParameter =
+    LawParameter::number("bias_rad", "rad", "Constant error of both angles", Limit::Finite).or(&[0.0]);
+
+/// Visible share of the Sun's disc that a sensor needs: its centre is then in sight.
+const LEAST_LIT: f64 = 0.5;
 
 /// The direction of an object.
-pub trait Direction: std::fmt::Debug + Send + Sync {
-    /// Unit vector in F_e at `time` as filters expect it; zero if unknown, which gives no information.
-    fn expected(&self, time: f64) -> [f64; 3];
-
-    /// Unit vector in F_e at `truth`; `None` if hidden.
-    fn actual(&self, truth: &Truth) -> Option<[f64; 3]>;
+#[derive(Debug)]
+pub enum Direction {
+    /// Along this unit vector in F_e.
+    Fixed([f64; 3]),
+    /// The Sun of a date; radius of the Earth and shape of its shadow.
+    Sun(Epoch, f64, Shadow),
+    /// Nadir; filters expect that of the nominal orbit.
+    Nadir(Option<OrbitPath>),
 }
 
-/// A boresight, and the angles' noise.
-#[derive(Clone, Copy, Debug)]
+/// Unit vector of nadir at the position `r_e`, F_e.
+fn nadir(r_e: [f64; 3]) -> [f64; 3] {
+    scaled(-1.0 / norm(r_e), r_e)
+}
+
+impl Direction {
+    /// Unit vector in F_e at `time` as filters expect it; zero if unknown, which gives no information.
+    fn expected(&self, time: f64) -> [f64; 3] {
+        match self {
+            Direction::Fixed(direction) => *direction,
+            Direction::Sun(epoch, ..) => sun_after(*epoch, time).direction,
+            Direction::Nadir(orbit) => orbit.as_ref().map_or([0.0; 3], |orbit| nadir(orbit.state(time).position)),
+        }
+    }
+
+    /// Unit vector in F_e at `truth`; `None` if hidden.
+    fn actual(&self, truth: &Truth) -> Option<[f64; 3]> {
+        match self {
+            Direction::Fixed(direction) => Some(*direction),
+            Direction::Sun(epoch, radius, shadow) => {
+                let sun = sun_after(*epoch, truth.time);
+                (lit(*shadow, truth.body.r_co_e, &sun, *radius) >= LEAST_LIT).then_some(sun.direction)
+            }
+            Direction::Nadir(_) => Some(nadir(truth.body.r_co_e)),
+        }
+    }
+}
+
+/// A direction measured as two angles, as filters know it.
+#[derive(Debug)]
 pub struct TwoAngles {
     /// F_t -> F_s.
     c_st: [[f64; 3]; 3],
     /// Standard deviation of each angle.
     deviation: f64,
+    direction: Direction,
 }
 
 impl TwoAngles {
-    /// Angles about `boresight` in F_s, of any length.
-    pub fn new(boresight: [f64; 3], deviation: f64) -> Self {
-        TwoAngles { c_st: from_s3_to(boresight), deviation }
+    /// Angles of `direction` from `boresight` in F_s, of any length.
+    pub fn new(boresight: [f64; 3], deviation: f64, direction: Direction) -> Self {
+        TwoAngles { c_st: from_s3_to(boresight), deviation, direction }
     }
 
     /// The direction `u_e` of F_e in F_t at the attitude `q_es`.
-    pub fn in_sensor(&self, u_e: [f64; 3], q_es: [f64; 4]) -> [f64; 3] {
+    fn in_sensor(&self, u_e: [f64; 3], q_es: [f64; 4]) -> [f64; 3] {
         transposed_product(self.c_st, transposed_product(dcm_from_quaternion(q_es), u_e))
     }
+}
 
-    /// The innovation of the angles `values` for the estimated unit vector `u_t` in F_t.
-    ///
-    /// It is across the measured direction m: e_i = -b_i . u for two unit vectors b across m. With u' = u x d for a
-    /// small attitude error d, b . (u x d) = (b x u) . d; noise of the angles moves m by b_i . dm/d(angle). Unlike a
-    /// difference of angles it has no pole for an estimate across the boresight.
-    pub fn innovation(&self, values: &Values, u_t: [f64; 3]) -> AttitudeInnovation {
+impl AttitudeSensor for TwoAngles {
+    /// It is across the measured direction m: e_i = -b_i . u for the expected u and two unit vectors b across m. With
+    /// u' = u x d for a small attitude error d, b . (u x d) = (b x u) . d; noise of the angles moves m by b_i .
+    /// dm/d(angle). Unlike a difference of angles it has no pole for an estimate across the boresight.
+    fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
+        let u_t = self.in_sensor(self.direction.expected(time), q_es);
         let tangents = part::<2>(values, 0).map(libm::tan);
         let seen = [tangents[0], tangents[1], 1.0];
         let length = norm(seen);
@@ -63,39 +110,21 @@ impl TwoAngles {
     }
 }
 
-/// A filter's sensor of the direction `D`.
-#[derive(Debug)]
-pub struct Believed<D>(pub TwoAngles, pub D);
-
-impl<D: Direction> AttitudeSensor for Believed<D> {
-    fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
-        let Believed(angles, direction) = self;
-        angles.innovation(values, angles.in_sensor(direction.expected(time), q_es))
-    }
-}
-
-/// A sensor of the direction `D` in a run.
-#[derive(Debug)]
-pub struct DirectionSensor<D> {
+/// A sensor of a direction in a run.
+pub struct DirectionSensor {
     angles: TwoAngles,
-    direction: D,
     /// Cosine of the largest angle from the boresight.
     least_cosine: f64,
     bias: f64,
     noise: NormalErrors<2>,
 }
 
-impl<D> DirectionSensor<D> {
+impl DirectionSensor {
     /// A sensor with the constant error `bias`, up to `half_field_of_view` from the boresight; zero for the half-space
     /// ahead.
-    pub fn new(
-        context: &SensorContext<'_>,
-        Believed(angles, direction): Believed<D>,
-        [half_field_of_view, bias]: [f64; 2],
-    ) -> Self {
+    pub fn new(context: &SensorContext<'_>, angles: TwoAngles, [half_field_of_view, bias]: [f64; 2]) -> Self {
         DirectionSensor {
             angles,
-            direction,
             least_cosine: if half_field_of_view > 0.0 { libm::cos(half_field_of_view).max(0.0) } else { 0.0 },
             bias,
             noise: context.normal("noise", ["x", "y"]),
@@ -103,9 +132,9 @@ impl<D> DirectionSensor<D> {
     }
 }
 
-impl<D: Direction> Sensor for DirectionSensor<D> {
+impl Sensor for DirectionSensor {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
-        let [x, y, z] = self.angles.in_sensor(self.direction.actual(truth)?, truth.body.q_es);
+        let [x, y, z] = self.angles.in_sensor(self.angles.direction.actual(truth)?, truth.body.q_es);
         // NaN is out of view too
         if z.is_nan() || z <= self.least_cosine {
             return None;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::looked::{Looked, digits, most_of};
 use crate::campaign::{Plan, SceneDraws};
 use crate::control::guidance::target::Target;
-use crate::control::laws::rod_law::RodUse;
+use crate::control::laws::rod_law::RodLaw;
 use crate::control::observes::Observes;
 use crate::control::parameters::LoopNumbers;
 use crate::control::sensor_spec::SensorSpec;
@@ -285,7 +285,7 @@ pub fn coarse_grid(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
 /// half a measurement interval before, so that its mean power is that of a prompt dipole times the cosine of the turn.
 pub fn late_rods(looked: &Looked<'_>, most: f64, note: &mut Note<'_>) {
     let rods = looked.spec().and_then(|spec| {
-        let phase = spec.phases.iter().find(|phase| phase.rods == RodUse::BDot)?;
+        let phase = spec.phases.iter().find(|phase| matches!(phase.rods, RodLaw::BDot { .. }))?;
         let is_field = |sensor: &&SensorSpec| matches!(sensor.observes(), Observes::Field(_));
         Some((spec, phase, spec.sensors.iter().find(is_field)?))
     });

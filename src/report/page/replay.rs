@@ -219,7 +219,7 @@ pub fn approach_goal(plan: &Plan, run: &SingleRun) -> Option<ApproachGoal> {
     }
     let launch = LaunchState::of(&plan.nominal.control.law, None);
     let axis = launch.axis(run.table.at(StateField::DebrisVelocity, 0))?;
-    Some(ApproachGoal { axis, distance: launch.distance })
+    Some(ApproachGoal { axis, distance: launch.numbers.launch_distance })
 }
 
 /// Radius within which a mission fails, m; zero without one.
