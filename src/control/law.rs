@@ -7,7 +7,7 @@ use super::context::LawContext;
 use super::control_loop::ControlLoop;
 use super::outcome::columns::OutcomeColumns;
 use super::spec::LoopSpec;
-use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, LawSource, OpenLoop, WheelState, sum};
+use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, LawSource, WheelState, actuation_at, sum};
 use crate::observables::{LawColumn, LawColumns};
 use crate::run::Telemetry;
 use crate::scene::{Actuated, LawParameter};
@@ -211,7 +211,7 @@ impl BesideSchedule {
         }
         let [scheduled, of_law] = &mut self.answers;
         if time >= scheduled.until {
-            *scheduled = OpenLoop { schedule: &self.schedule }.at(time);
+            *scheduled = actuation_at(&self.schedule, time);
         }
         if time >= of_law.until {
             *of_law = self.law.arc(time, body, wheels);

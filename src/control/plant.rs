@@ -12,7 +12,7 @@ use super::spec::LoopSpec;
 use super::tick_times::SAME_TIME;
 use super::truth::{DebrisMotion, Truth};
 use super::vector::{scaled, sum};
-use crate::dynamics::actuation::{Actuation, BodyState, OpenLoop, WheelState};
+use crate::dynamics::actuation::{Actuation, BodyState, WheelState, actuation_at};
 use crate::scene::{Device, FailureInput, MAX_THRUSTERS, Scene, WheelMode};
 
 /// Response of the actuators over an arc.
@@ -130,7 +130,7 @@ impl Plant {
         actuation: &mut Actuation,
     ) -> Applied {
         let same = SAME_TIME * self.spec.period;
-        let scheduled = OpenLoop { schedule: &self.drawn.schedule }.at(time + same);
+        let scheduled = actuation_at(&self.drawn.schedule, time + same);
         let mut until = commands.until.min(scheduled.until);
         // a failing actuator ends the arc, unless it does so within rounding of its end
         let of_actuators = self.drawn.failures.iter().filter(|failure| !matches!(failure.device, Device::Sensor(_)));

@@ -1,7 +1,7 @@
 //! A control law for tests, and runs under it.
 
 use spindrift::dynamics::actuation::{
-    Actuation, ActuationLaw, Arc, BodyState, LawSource, Laws, OpenLoop, WheelState, ZeroOrderHold,
+    Actuation, ActuationLaw, Arc, BodyState, LawSource, Laws, WheelState, ZeroOrderHold, actuation_at,
 };
 use spindrift::math::Isa;
 use spindrift::propagation::{CompletedRun, PropagationSettings};
@@ -76,7 +76,8 @@ pub fn fly(isa: Isa, settings: &PropagationSettings, scenes: &[Scene]) -> Vec<Fl
 }
 
 pub fn fly_recorded(isa: Isa, settings: &PropagationSettings, scenes: &[Scene], records: &[Vec<Arc>]) -> Vec<Flight> {
-    let mut laws: Vec<_> = records.iter().map(|schedule| OpenLoop { schedule }).collect();
+    let law_of = |schedule| move |time: f64, _: &BodyState, _: &WheelState| actuation_at(schedule, time);
+    let mut laws: Vec<_> = records.iter().map(Vec::as_slice).map(law_of).collect();
     fly_under(&mut laws, isa, settings, scenes)
 }
 

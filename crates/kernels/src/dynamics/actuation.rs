@@ -7,7 +7,7 @@
 //! Values are *applied* values: a law models the scales, delays and limits of its actuators itself.
 
 use crate::run::Telemetry;
-use crate::scene::schedule::actuation_at;
+pub use crate::scene::schedule::actuation_at;
 pub use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
 /// Motion of the spacecraft's body at one time.
@@ -69,27 +69,6 @@ impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
     }
 }
 
-/// A schedule fixed before the run; nothing acts outside its arcs.
-#[derive(Clone, Copy, Debug)]
-pub struct OpenLoop<'a> {
-    /// The arcs, in order, not overlapping.
-    pub schedule: &'a [Arc],
-}
-
-impl OpenLoop<'_> {
-    /// Actuation at `time`.
-    #[inline]
-    pub fn at(&self, time: f64) -> Actuation {
-        actuation_at(self.schedule, time)
-    }
-}
-
-impl ActuationLaw for OpenLoop<'_> {
-    fn arc(&mut self, time: f64, _body: &BodyState, _wheels: &WheelState) -> Actuation {
-        self.at(time)
-    }
-}
-
 /// Samples a law at times 0, T, 2T, ... and holds each actuation for a whole period, whatever its `until`.
 #[derive(Clone, Debug)]
 pub struct ZeroOrderHold<L> {
@@ -131,39 +110,6 @@ impl<L: ActuationLaw> ActuationLaw for ZeroOrderHold<L> {
 
     fn report(&self, values: &mut [f64]) {
         self.law.report(values);
-    }
-}
-
-/// Two sources together: thrusts and torques add, and the earlier `until` ends the arc. A source is sampled when its
-/// own actuation ends.
-#[derive(Clone, Debug)]
-pub struct Sum<A, B> {
-    first: (A, Actuation),
-    second: (B, Actuation),
-}
-
-impl<A: ActuationLaw, B: ActuationLaw> Sum<A, B> {
-    /// `first` and `second`.
-    pub fn new(first: A, second: B) -> Self {
-        let never = Actuation::none(f64::NEG_INFINITY);
-        Sum { first: (first, never), second: (second, never) }
-    }
-}
-
-impl<A: ActuationLaw, B: ActuationLaw> ActuationLaw for Sum<A, B> {
-    fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
-        if time >= self.first.1.until {
-            self.first.1 = self.first.0.arc(time, body, wheels);
-        }
-        if time >= self.second.1.until {
-            self.second.1 = self.second.0.arc(time, body, wheels);
-        }
-        sum(&self.first.1, &self.second.1)
-    }
-
-    fn end(&mut self, time: f64, body: &BodyState, wheels: &WheelState) {
-        self.first.0.end(time, body, wheels);
-        self.second.0.end(time, body, wheels);
     }
 }
 
@@ -214,42 +160,5 @@ impl Laws<'_> {
             Laws::OpenLoop => Laws::OpenLoop,
             Laws::Feedback(source) => Laws::Feedback(&mut **source),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const BODY: BodyState =
-        BodyState { omega_se_s: [0.0; 3], q_es: [1.0, 0.0, 0.0, 0.0], r_co_e: [0.0; 3], v_co_e: [0.0; 3] };
-
-    fn thrust(until: f64, thrust: f64) -> Actuation {
-        Actuation::none(until).with_thrust(&[thrust])
-    }
-
-    fn arcs(law: &mut dyn ActuationLaw, duration: f64) -> Vec<(f64, f64, f64)> {
-        let (mut time, mut list) = (0.0, Vec::new());
-        while time < duration {
-            assert!(list.len() < 100, "100 arcs, the last at {time} s");
-            let mut arc = Arc { start: time, applied: law.arc(time, &BODY, &WheelState::AT_REST) };
-            arc.applied.until = arc.applied.until.min(duration);
-            time = arc.end();
-            list.push((arc.start, arc.end(), arc.applied.thrust[0]));
-        }
-        list
-    }
-
-    #[test]
-    fn sources_add_and_the_earlier_end_wins() {
-        let schedule = [Arc { start: 0.25, applied: thrust(0.6, 2.0) }];
-        let mut calls = 0;
-        let sampled = ZeroOrderHold::new(0.5, |_: f64, _: &BodyState, _: &WheelState| {
-            calls += 1;
-            thrust(f64::INFINITY, 10.0 * f64::from(calls))
-        });
-        let mut law = Sum::new(OpenLoop { schedule: &schedule }, sampled);
-        let flown = [(0.0, 0.25, 10.0), (0.25, 0.5, 12.0), (0.5, 0.6, 22.0), (0.6, 1.0, 20.0)];
-        assert_eq!(arcs(&mut law, 1.0), flown);
     }
 }

@@ -1,13 +1,13 @@
 //! The next arc of a run, by schedule or by law, with the effects that are constant over an arc.
 
-use super::actuation::{ActuationLaw, BodyState, OpenLoop, WheelState};
+use super::actuation::{ActuationLaw, BodyState, WheelState, actuation_at};
 use super::effects::add_constant_effects;
 use crate::scene::{Arc, Scene, WheelMode};
 
 /// The arc of the schedule of `scene` at `time`.
 #[inline]
 pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
-    let mut arc = Arc { start: time, applied: OpenLoop { schedule: &scene.schedule }.at(time) };
+    let mut arc = Arc { start: time, applied: actuation_at(&scene.schedule, time) };
     arc.applied.until = arc.applied.until.min(duration);
     add_constant_effects(scene, &mut arc.applied);
     arc

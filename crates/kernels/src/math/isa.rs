@@ -29,22 +29,12 @@ pub trait Work {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Work compiled for lanes of AVX2 and for one number at a time only, to save compile time, for [`Isa::run_narrow`].
-pub trait NarrowWork {
-    /// Result of the work.
-    type Output;
-    /// Does the work in lanes.
-    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output;
-    /// Does the work one number at a time.
-    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output;
-}
-
-/// Work in as many lanes as suit the registers, for [`Isa::run_wide`].
+/// Work in lanes, for [`Isa::run_wide`] in as many as suit the registers.
 ///
 /// AVX-512 (32 registers of eight lanes) takes sixteen lanes, AVX2 (16 of four) eight. The plain path of x86-64 takes
 /// one number at a time: its time is spent in library calls for the fused operation, and lanes would cost several times
-/// the machine code.
-pub trait WideWork {
+/// the machine code. [`Isa::run_narrow`] saves compile time.
+pub trait LaneWork {
     /// Result of the work.
     type Output;
     /// Does the work; `zero` determines the number of lanes.
@@ -109,24 +99,24 @@ impl Isa {
     }
 
     /// Runs `work` in lanes of AVX2 if this instruction set has them, else one number at a time.
-    pub fn run_narrow<W: NarrowWork>(self, work: W) -> W::Output {
+    pub fn run_narrow<W: LaneWork>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         {
             if self.name != "plain"
                 && let Some(simd) = self.level.as_avx2()
             {
-                return work.in_lanes(simd);
+                return work.run(simd, Lanes::broadcast(simd, 0.0));
             }
-            work.in_scalars(self.level.as_sse2().expect("every x86-64 processor has SSE2"))
+            work.run(self.level.as_sse2().expect("every x86-64 processor has SSE2"), 0.0)
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
-            fearless_simd::dispatch!(self.level, simd => work.in_scalars(simd))
+            fearless_simd::dispatch!(self.level, simd => work.run(simd, 0.0))
         }
     }
 
     /// Runs `work` in the number of lanes that suits this instruction set.
-    pub fn run_wide<W: WideWork>(self, work: W) -> W::Output {
+    pub fn run_wide<W: LaneWork>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         {
             match self.name {

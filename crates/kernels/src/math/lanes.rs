@@ -194,10 +194,6 @@ impl<S: Simd> Real for Lanes<S> {
         self.0[lane & (WIDTH - 1)] = value;
     }
     #[inline(always)]
-    fn read(self, values: &[f64]) -> Self {
-        Self::from_slice(self.simd(), values)
-    }
-    #[inline(always)]
     fn write(self, values: &mut [f64]) {
         self.store(values);
     }

@@ -65,6 +65,16 @@ impl<M: Mask> Mask for PairMask<M> {
     }
 }
 
+/// Methods that act on each half.
+macro_rules! halves {
+    ($($method:ident($($argument:ident),*))*) => {
+        $(#[inline(always)]
+        fn $method(self, $($argument: Self),*) -> Self {
+            Pair(self.0.$method($($argument.0),*), self.1.$method($($argument.1),*))
+        })*
+    };
+}
+
 impl<R: Real> Real for Pair<R> {
     type Mask = PairMask<R::Mask>;
     const LANES: usize = 2 * R::LANES;
@@ -74,26 +84,8 @@ impl<R: Real> Real for Pair<R> {
         let half = self.0.splat(value);
         Pair(half, half)
     }
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        Pair(self.0.mul_add(a.0, b.0), self.1.mul_add(a.1, b.1))
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Pair(self.0.sqrt(), self.1.sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Pair(self.0.abs(), self.1.abs())
-    }
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        Pair(self.0.larger(other.0), self.1.larger(other.1))
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        Pair(self.0.smaller(other.0), self.1.smaller(other.1))
-    }
+    halves! { mul_add(a, b) sqrt() abs() larger(other) smaller(other) exponent() power_of_two() }
+
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {
         PairMask(self.0.lt(other.0), self.1.lt(other.1))
@@ -101,14 +93,6 @@ impl<R: Real> Real for Pair<R> {
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Pair(R::select(mask.0, yes.0, no.0), R::select(mask.1, yes.1, no.1))
-    }
-    #[inline(always)]
-    fn exponent(self) -> Self {
-        Pair(self.0.exponent(), self.1.exponent())
-    }
-    #[inline(always)]
-    fn power_of_two(self) -> Self {
-        Pair(self.0.power_of_two(), self.1.power_of_two())
     }
     #[inline(always)]
     fn lane(&self, lane: usize) -> f64 {
@@ -121,10 +105,6 @@ impl<R: Real> Real for Pair<R> {
         } else {
             self.1.set_lane(lane - R::LANES, value);
         }
-    }
-    #[inline(always)]
-    fn read(self, values: &[f64]) -> Self {
-        Pair(self.0.read(values), self.1.read(&values[R::LANES..]))
     }
     #[inline(always)]
     fn write(self, values: &mut [f64]) {
@@ -154,7 +134,5 @@ mod tests {
         let mut written = [0.0; 2];
         pair.write(&mut written);
         assert_eq!(written, [8.0, -1.0]);
-        let read = pair.read(&[3.0, 7.0]);
-        assert_eq!((read.0, read.1), (3.0, 7.0));
     }
 }

@@ -140,9 +140,6 @@ pub trait Real:
     /// Puts `value` into lane `lane`.
     fn set_lane(&mut self, lane: usize, value: f64);
 
-    /// `LANES` numbers from the start of a slice; `self` only determines the type.
-    fn read(self, values: &[f64]) -> Self;
-
     /// Writes the numbers to the start of a slice, as [`Real::lane`].
     fn write(self, values: &mut [f64]);
 
@@ -216,10 +213,6 @@ impl Real for f64 {
     #[inline(always)]
     fn set_lane(&mut self, _lane: usize, value: f64) {
         *self = value;
-    }
-    #[inline(always)]
-    fn read(self, values: &[f64]) -> Self {
-        values[0]
     }
     #[inline(always)]
     fn write(self, values: &mut [f64]) {

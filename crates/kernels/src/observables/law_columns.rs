@@ -1,13 +1,14 @@
 //! [`LawColumns`]: columns that a control law reports at the end of a run; [`LawSeries`]: its records over time. The
 //! values come from [`crate::dynamics::actuation::ActuationLaw::report`].
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use super::group::Group;
 use super::rows::{ColumnKind, Scenes};
 use super::table::{Column, ColumnId, Series, Value};
 use crate::run::Quantity;
 use crate::scene::MAX_WHEELS;
+use crate::scene::schema::numbers::interned;
 
 /// A column of a control law.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,14 +79,7 @@ impl LawColumns {
     /// Columns known at run time only. A list is kept forever, once for each kind of campaign that a program opens.
     pub fn kept(list: Vec<LawColumn>) -> Self {
         static KEPT: Mutex<Vec<&'static [LawColumn]>> = Mutex::new(Vec::new());
-        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = kept.iter().find(|known| ***known == list[..]).copied();
-        let list = known.unwrap_or_else(|| {
-            let list: &'static [LawColumn] = Vec::leak(list);
-            kept.push(list);
-            list
-        });
-        LawColumns { list, ..LawColumns::NONE }
+        LawColumns { list: interned(&KEPT, list, |a, b| a == b), ..LawColumns::NONE }
     }
 
     /// Appends columns of times of events and failures.

@@ -12,8 +12,8 @@ use super::settings::PropagationSettings;
 use super::taylor::engine::TaylorEngine;
 use crate::dynamics::effects::within_arcs::{Acting, NoEffects, WithinArcs};
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
-use crate::math::isa::{NarrowWork, WideWork};
-use crate::math::{Isa, Lanes, Real};
+use crate::math::isa::LaneWork;
+use crate::math::{Isa, Real};
 use crate::ode::integrators::Visitor;
 use crate::ode::{self, Adaptive, DormandPrince, Integrator};
 use crate::scene::MAX_WHEELS;
@@ -36,7 +36,7 @@ impl PropagationSettings {
 
 struct BuildTaylor<'a>(&'a PropagationSettings);
 
-impl WideWork for BuildTaylor<'_> {
+impl LaneWork for BuildTaylor<'_> {
     type Output = Box<dyn Engine>;
 
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
@@ -46,28 +46,20 @@ impl WideWork for BuildTaylor<'_> {
 
 struct BuildGyrostat<'a>(&'a PropagationSettings, Integrator);
 
-impl NarrowWork for BuildGyrostat<'_> {
+impl LaneWork for BuildGyrostat<'_> {
     type Output = Box<dyn Engine>;
 
-    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
-        gyrostat(simd, Lanes::broadcast(simd, 0.0), self)
-    }
-
-    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
-        gyrostat(simd, 0.0, self)
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
+        gyrostat(simd, zero, self)
     }
 }
 
 struct BuildNullSpace<'a>(&'a PropagationSettings);
 
-impl NarrowWork for BuildNullSpace<'_> {
+impl LaneWork for BuildNullSpace<'_> {
     type Output = Box<dyn Engine>;
 
-    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
-        self.in_scalars(simd)
-    }
-
-    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, _: R) -> Self::Output {
         // a kernel for Berdoz's two wheels, and one for any number
         if self.0.wheels <= 2 {
             Box::new(NullSpaceEngine::<S, 2, TWO_WHEELS>::new(simd, self.0))

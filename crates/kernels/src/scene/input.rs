@@ -124,13 +124,6 @@ impl SceneInput {
         self
     }
 
-    /// Adds a thruster.
-    #[must_use]
-    pub fn with_thruster(mut self, thruster: ThrusterInput) -> Self {
-        self.thrusters.push(thruster);
-        self
-    }
-
     /// Adds debris.
     #[must_use]
     pub fn with_debris(mut self, debris: DebrisInput) -> Self {

@@ -74,10 +74,10 @@ const fn count_of<T>(parts: &[&[Row<T>]]) -> usize {
     count
 }
 
-/// For each table, in order of the dispersable parameters: variant, header, dispersable or not, rows in parts, and the
+/// For each table, in order of the dispersable parameters: variant, header, rows in parts, and the
 /// table in `scene`, shared and mutable.
 macro_rules! tables {
-    (|$scene:ident, $instance:ident| $($Table:ident, $header:literal, $dispersable:literal, $parts:expr,
+    (|$scene:ident, $instance:ident| $($Table:ident, $header:literal, $parts:expr,
         $get:expr, $get_mut:expr;)+) => {
         /// A table of a campaign file.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -107,10 +107,7 @@ macro_rules! tables {
 
             /// True if its keys can be dispersed.
             pub const fn is_dispersable(self) -> bool {
-                match self {
-                    $(Table::$Table => $dispersable,)+
-                    Table::Control | Table::Sensors | Table::Guidance => true,
-                }
+                !matches!(self, Table::Actuation)
             }
 
             /// Number of its keys common to all scenes.
@@ -163,26 +160,26 @@ macro_rules! tables {
 
 tables! {
     |scene, instance|
-    Body, "body", true, BodyInput::PARTS, Some(&scene.body), Some(&mut scene.body);
-    BodyErrors, "body", true, &[MassErrors::ROWS], Some(&scene.body.errors), Some(&mut scene.body.errors);
-    Part, "body.parts", true, &[PartInput::ROWS], scene.parts.get(instance), scene.parts.get_mut(instance);
-    PartErrors, "body.parts", true, &[MassErrors::ROWS],
+    Body, "body", BodyInput::PARTS, Some(&scene.body), Some(&mut scene.body);
+    BodyErrors, "body", &[MassErrors::ROWS], Some(&scene.body.errors), Some(&mut scene.body.errors);
+    Part, "body.parts", &[PartInput::ROWS], scene.parts.get(instance), scene.parts.get_mut(instance);
+    PartErrors, "body.parts", &[MassErrors::ROWS],
         scene.parts.get(instance).map(|part| &part.errors), scene.parts.get_mut(instance).map(|part| &mut part.errors);
-    Wheel, "wheels", true, &[WheelInput::ROWS], scene.wheels.get(instance), scene.wheels.get_mut(instance);
-    Thruster, "thrusters", true, &[ThrusterInput::ROWS], scene.thrusters.get(instance),
+    Wheel, "wheels", &[WheelInput::ROWS], scene.wheels.get(instance), scene.wheels.get_mut(instance);
+    Thruster, "thrusters", &[ThrusterInput::ROWS], scene.thrusters.get(instance),
     scene.thrusters.get_mut(instance);
-    TorqueRod, "torque_rods", true, &[TorqueRodInput::ROWS],
+    TorqueRod, "torque_rods", &[TorqueRodInput::ROWS],
         scene.torque_rods.get(instance), scene.torque_rods.get_mut(instance);
-    Debris, "debris", true, &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
-    Actuators, "actuators", true, &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
-    Initial, "initial", true, &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
-    Orbit, "orbit", true, &[OrbitInput::ROWS], scene.orbit.as_ref(), scene.orbit.as_mut();
-    Plate, "plates", true, &[PlateInput::ROWS], scene.plates.get(instance), scene.plates.get_mut(instance);
-    Environment, "environment", true, &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
-    Actuation, "actuation", false, &[ActuationInput::ROWS],
+    Debris, "debris", &[DebrisInput::ROWS], scene.debris.as_ref(), scene.debris.as_mut();
+    Actuators, "actuators", &[ActuatorsInput::ROWS], Some(&scene.actuators), Some(&mut scene.actuators);
+    Initial, "initial", &[InitialInput::ROWS], Some(&scene.initial), Some(&mut scene.initial);
+    Orbit, "orbit", &[OrbitInput::ROWS], scene.orbit.as_ref(), scene.orbit.as_mut();
+    Plate, "plates", &[PlateInput::ROWS], scene.plates.get(instance), scene.plates.get_mut(instance);
+    Environment, "environment", &[EnvironmentInput::ROWS], Some(&scene.environment), Some(&mut scene.environment);
+    Actuation, "actuation", &[ActuationInput::ROWS],
         scene.actuation.get(instance), scene.actuation.get_mut(instance);
-    ArcErrors, "actuation", true, &[ArcErrors::ROWS], scene.actuation.get(instance), scene.actuation.get_mut(instance);
-    Failure, "failure", true, &[FailureInput::ROWS], scene.failures.get(instance), scene.failures.get_mut(instance);
+    ArcErrors, "actuation", &[ArcErrors::ROWS], scene.actuation.get(instance), scene.actuation.get_mut(instance);
+    Failure, "failure", &[FailureInput::ROWS], scene.failures.get(instance), scene.failures.get_mut(instance);
 }
 
 impl Table {
@@ -292,15 +289,18 @@ impl Key {
     }
 }
 
+/// A scene with an instance of every table.
 fn with_every_table() -> SceneInput {
-    let part = PartInput { name: Name::of("part"), ..PartInput::DEFAULT };
-    let plate = PlateInput { name: Name::of("plate"), ..PlateInput::DEFAULT };
-    let rod = TorqueRodInput { name: Name::of("rod"), ..TorqueRodInput::DEFAULT };
-    let orbit = Some(OrbitInput::DEFAULT);
-    let (parts, plates, torque_rods) = (vec![part], vec![plate], vec![rod]);
-    let scene = SceneInput { parts, plates, torque_rods, orbit, ..SceneInput::blank() };
-    let scene = scene.with_wheel(WheelInput { name: Name::of("wheel"), ..WheelInput::DEFAULT });
-    let scene = scene.with_thruster(ThrusterInput { name: Name::of("thruster"), ..ThrusterInput::DEFAULT });
-    let failures = vec![FailureInput { name: Name::of("failure"), ..FailureInput::DEFAULT }];
-    SceneInput { failures, ..scene.with_debris(DebrisInput::BLANK).with_actuation(ActuationInput::DEFAULT) }
+    SceneInput {
+        parts: vec![PartInput::DEFAULT],
+        plates: vec![PlateInput::DEFAULT],
+        wheels: vec![WheelInput::DEFAULT],
+        thrusters: vec![ThrusterInput::DEFAULT],
+        torque_rods: vec![TorqueRodInput::DEFAULT],
+        debris: Some(DebrisInput::BLANK),
+        orbit: Some(OrbitInput::DEFAULT),
+        actuation: vec![ActuationInput::DEFAULT],
+        failures: vec![FailureInput::DEFAULT],
+        ..SceneInput::blank()
+    }
 }

@@ -79,9 +79,8 @@ fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
 
 /// `p` in percent, with the digits of `p`: "99.9" for 0.999.
 pub fn percent(p: f64) -> String {
-    let text = format!("{p:.20}");
     // the fewest digits that read back as p, with the point shifted by two places
-    let digits = (1..=20).map(|digits| format!("{p:.digits$}")).find(|text| text.parse() == Ok(p)).unwrap_or(text);
+    let digits = p.to_string();
     let (whole, fraction) = digits.split_once('.').unwrap_or((&digits, ""));
     let fraction = format!("{fraction:0<2}");
     let whole = format!("{whole}{}", &fraction[..2]);

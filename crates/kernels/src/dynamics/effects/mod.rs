@@ -6,12 +6,11 @@
 //! compiled without them, and an orbit is evaluated only if an acting effect needs it.
 
 mod changing_effects;
-mod constant_torque;
 pub mod plates;
 pub mod within_arcs;
 
 use super::actuation::sum;
-use crate::math::vector::dot;
+use crate::math::vector::norm;
 use crate::scene::{Actuation, EnvironmentInput, Offsets, Scene, SceneInput};
 
 /// The role of an effect in an engine.
@@ -127,8 +126,8 @@ impl ForceModel {
 /// Adds the effects on `scene` that are constant over an arc to `applied`.
 #[inline]
 pub fn add_constant_effects(scene: &Scene, applied: &mut Actuation) {
-    if scene.environment.body_torque_n_m.is_some() {
-        *applied = sum(applied, &constant_torque::actuation(scene));
+    if let Some(body_torque) = scene.environment.body_torque_n_m {
+        *applied = sum(applied, &Actuation { body_torque, ..Actuation::none(f64::INFINITY) });
     }
 }
 
@@ -139,7 +138,5 @@ pub fn beside_arcs(environment: EnvironmentInput) -> EnvironmentInput {
 
 /// Upper bound of the torque of the effects on `scene` that are constant over an arc, N m.
 pub fn largest_constant_torque(scene: &Scene) -> f64 {
-    let mut applied = Actuation::none(f64::INFINITY);
-    add_constant_effects(scene, &mut applied);
-    dot(applied.body_torque, applied.body_torque).sqrt()
+    scene.environment.body_torque_n_m.map_or(0.0, norm)
 }

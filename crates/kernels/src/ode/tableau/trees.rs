@@ -53,22 +53,13 @@ fn trees(order: usize) -> Vec<Vec<Tree>> {
     all
 }
 
-fn defects<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], s: f64, trees: &[Tree]) -> Vec<f64> {
+/// The largest defect of the conditions up to `order` for the weights `b`.
+pub fn largest_defect<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], order: usize) -> f64 {
     let defect = |tree: &Tree| {
         let weight: f64 = tree.stages(a).iter().zip(b).map(|(phi, b)| phi * b).sum();
-        (weight - s.powi(tree.order() as i32) / tree.density()).abs()
+        (weight - 1.0 / tree.density()).abs()
     };
-    trees.iter().map(defect).collect()
-}
-
-/// The largest defect of the conditions up to `order` for the weights `b` at the fraction `s` of the step.
-pub fn largest_defect<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], s: f64, order: usize) -> f64 {
-    trees(order).iter().flat_map(|trees| defects(a, b, s, trees)).fold(0.0, f64::max)
-}
-
-/// The largest defect among the conditions of exactly `order` at the end of the step.
-pub fn largest_defect_at<const S: usize>(a: &[[f64; S]; S], b: &[f64; S], order: usize) -> f64 {
-    defects(a, b, 1.0, &trees(order)[order]).into_iter().fold(0.0, f64::max)
+    trees(order).iter().flatten().map(defect).fold(0.0, f64::max)
 }
 
 #[test]

@@ -29,7 +29,7 @@ use crate::dynamics::gyrostat::{
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::double_double::DoubleDouble;
-use crate::math::isa::NarrowWork;
+use crate::math::isa::LaneWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
 use crate::propagation::integrated_effects;
@@ -237,18 +237,14 @@ fn rotation(
     }
 }
 
-impl NarrowWork for Integration<'_, '_> {
+impl LaneWork for Integration<'_, '_> {
     type Output = Result<Vec<[DoubleDouble; N]>, Status>;
 
-    fn in_lanes<S: Simd>(self, simd: S) -> Self::Output {
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, _: R) -> Self::Output {
         simd.vectorize(
             #[inline(always)]
             || if self.run.effects.has_switches() { self.switched_states(simd) } else { self.states() },
         )
-    }
-
-    fn in_scalars<S: Simd>(self, simd: S) -> Self::Output {
-        self.in_lanes(simd)
     }
 }
 

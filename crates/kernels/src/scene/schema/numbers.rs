@@ -28,7 +28,7 @@ pub fn kept(numbers: &[f64]) -> &'static [f64] {
 }
 
 /// The list in `pool` that equals `list` by `is_same`, or `list` itself, leaked into `pool`; a program has few lists.
-pub(super) fn interned<T>(
+pub(crate) fn interned<T>(
     pool: &Mutex<Vec<&'static [T]>>,
     list: Vec<T>,
     is_same: impl Fn(&[T], &[T]) -> bool,
