@@ -154,17 +154,4 @@ mod tests {
             assert!((found.upper / upper - 1.0).abs() < RELATIVE_ERROR, "{x} {a} {b}: {found:?} {upper}");
         }
     }
-
-    #[test]
-    fn the_inverse_inverts() {
-        for (a, b) in [(2.5, 1.5), (0.05, 40.0), (1e4, 1e4), (95_000.0, 5001.0), (1.0, 300.0), (3.0, 1e7), (0.5, 0.5)] {
-            for p in [1e-12, 1e-3, 0.025, 0.3, 0.5, 0.9, 0.975, 0.999_999] {
-                let [x, y] = inverse_incomplete_beta(p, 1.0 - p, a, b);
-                let found = incomplete_beta(x, y, a, b);
-                let error = ((found.lower - p) / p.min(1.0 - p)).abs();
-                // the last digit of x in p at the largest shapes; measured: 4.8e-13
-                assert!(error < 4e-12, "{a} {b} {p}: x {x} gives {found:?}");
-            }
-        }
-    }
 }

@@ -108,10 +108,6 @@ pub const ROUGH_ERROR: f64 = 1e-4;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::isa::Isa;
-    use crate::math::isa::Work;
-    use crate::math::lanes::{Lanes, WIDTH};
-    use fearless_simd::Simd;
 
     fn samples() -> impl Iterator<Item = f64> {
         (-3000..3000).map(|k| libm::exp(k as f64 * 0.2360679 / 1.01) * (1.0 + 1e-3 * (k % 7) as f64))
@@ -152,28 +148,5 @@ mod tests {
         assert_eq!((-1022.0_f64).power_of_two(), f64::MIN_POSITIVE);
         assert_eq!(f64::MIN_POSITIVE.exponent(), -1022.0);
         assert_eq!(7.9.exponent(), 2.0);
-    }
-
-    struct EightPowers([f64; WIDTH]);
-    impl Work for EightPowers {
-        type Output = [f64; WIDTH];
-        #[inline(always)]
-        fn run<S: Simd>(self, simd: S) -> [f64; WIDTH] {
-            power(Lanes::load(simd, &self.0), 0.2).to_array()
-        }
-    }
-
-    #[test]
-    fn a_lane_has_the_bits_of_the_scalar() {
-        let values: Vec<f64> = samples().chain([0.0, f64::NAN, f64::INFINITY, -1.0]).collect();
-        for isa in Isa::available() {
-            for eight in values.chunks_exact(WIDTH) {
-                let eight: [f64; WIDTH] = eight.try_into().expect("chunks of eight");
-                let lanes = isa.run(EightPowers(eight));
-                for (lane, x) in lanes.iter().zip(eight) {
-                    assert_eq!(lane.to_bits(), power(x, 0.2).to_bits(), "{x:e} on {}", isa.name());
-                }
-            }
-        }
     }
 }

@@ -241,11 +241,7 @@ impl Request {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::observables::reduction::OrderStatistic;
-    use crate::observables::table::series_id;
     use crate::observables::window::NO_WINDOWS;
-
-    const MAX: Reduction = Reduction::Order(OrderStatistic::Max);
 
     /// Without actuation, effects, columns of a law and windows.
     pub(in crate::observables) fn request(
@@ -266,76 +262,41 @@ pub(super) mod tests {
             windows: NO_WINDOWS,
         }
     }
-
-    /// Law: a linear momentum has an error only if a velocity is integrated: for the spacecraft under thrust or with
-    /// constraints, for the debris with constraints.
+    /// Law: a row has the columns of the bodies, constraints and actuators of its scene: a linear momentum has an error
+    /// only if a velocity is integrated, under thrust or with constraints; constraints between bodies have residuals if
+    /// there are several bodies; work and impulse are those of what acts.
     #[test]
-    fn linear_momentum_has_an_error_where_a_velocity_is_integrated() {
+    fn columns_are_those_of_the_scene() {
         let none = Actuated::NONE;
         let thrusters = Actuated { thrusters: true, ..none };
         let others = Actuated { motors: true, body_torque: true, ..none };
-        let (own, debris) = ("linear_momentum_error", "debris_linear_momentum_error");
-        let cases: [(Actuated, bool, &[&str]); 5] = [
-            (none, false, &[]),
-            (others, false, &[]),
-            (thrusters, false, &[own]),
-            (none, true, &[own, debris]),
-            (thrusters, true, &[own, debris]),
+        let motors = Actuated { motors: true, ..none };
+        let (own, of_debris) = ("linear_momentum_error_max", "debris_linear_momentum_error_max");
+        let [kinematic, collocation] = ["residual_kinematic_max_m_s", "residual_collocation_max_m"];
+        let residual = "residual_attitude_max";
+        let [by_thrust, by_motors] = ["work_thrusters_final_j", "work_motors_final_j"];
+        let wheels = &["w1", "w2"][..];
+        let cases: [(Actuated, bool, bool, &[&str], &[&str]); 8] = [
+            (none, true, false, wheels, &[]),
+            (others, true, false, wheels, &[by_thrust, by_motors]),
+            (motors, false, false, wheels, &[by_motors]),
+            (thrusters, true, false, wheels, &[by_thrust, own]),
+            (none, false, true, &[], &[own, residual]),
+            (none, false, true, &["w1"], &[own, kinematic, collocation, residual]),
+            (none, true, true, &[], &[own, of_debris, kinematic, collocation, residual]),
+            (thrusters, true, true, wheels, &[by_thrust, own, of_debris, kinematic, collocation, residual]),
         ];
-        for (actuated, constrained, expected) in cases {
-            let request = Request { actuated, ..request(&Group::DEFAULT, true, constrained, &["w1", "w2"]) };
-            for name in [own, debris] {
-                let is_expected = expected.contains(&name);
-                let columns = request.columns();
-                let of_error = |column: &&Column| {
-                    column.quantity.name().strip_prefix(name).is_some_and(|rest| rest.starts_with('_'))
-                };
-                assert_eq!(columns.iter().filter(of_error).count(), if is_expected { 4 } else { 0 }, "{request:?}");
-                let shown = request.series().into_iter().filter_map(|series| series.quantity(&request.wheels));
-                assert_eq!(shown.filter(|quantity| quantity.name() == name).count(), usize::from(is_expected));
+        for (actuated, debris, constrained, wheels, expected) in cases {
+            let request = Request { actuated, ..request(&Group::DEFAULT, debris, constrained, wheels) };
+            let columns = request.columns();
+            let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
+            for name in [by_thrust, by_motors, own, of_debris, kinematic, collocation, residual] {
+                assert_eq!(names.contains(&name), expected.contains(&name), "{name} of {request:?}");
             }
-            assert!(
-                request.position(series_id(Group::MomentumConservation, Series::LinearMomentumSquare, MAX)).is_some()
-            );
-        }
-    }
-
-    /// Law: constraints between bodies have residuals if there are several bodies; the attitude always does.
-    #[test]
-    fn residuals_are_of_bodies_that_are_joined() {
-        let names = |debris: bool, wheels: &[&str]| -> Vec<String> {
-            let columns = request(&[Group::Constraints], debris, true, wheels).columns();
-            let maxima = columns.iter().map(|column| column.quantity.name()).filter(|name| name.contains("_max"));
-            maxima.map(str::to_owned).collect()
-        };
-        assert_eq!(names(false, &[]), ["residual_attitude_max"]);
-        for (debris, wheels) in [(true, &[][..]), (false, &["w1"]), (true, &["w1"])] {
-            let all = ["residual_kinematic_max_m_s", "residual_collocation_max_m", "residual_attitude_max"];
-            assert_eq!(names(debris, wheels), all);
-        }
-    }
-
-    /// Law: columns and fields of actuation exist only for actuators of the scene.
-    #[test]
-    fn work_is_that_of_what_acts() {
-        let none = Actuated::NONE;
-        let momentum = [StateField::Impulse, StateField::AngularImpulse];
-        let cases: [(Actuated, &[&str], &[StateField]); 4] = [
-            (none, &[], &[]),
-            (Actuated { thrusters: true, ..none }, &["work_thrusters_final_j"], &momentum),
-            (Actuated { motors: true, ..none }, &["work_motors_final_j"], &[]),
-            (Actuated { body_torque: true, ..none }, &["work_thrusters_final_j"], &momentum[1..]),
-        ];
-        for (actuated, columns, fields) in cases {
-            let request = Request { actuated, ..request(&Group::DEFAULT, false, false, &["w1", "w2"]) };
-            let all = request.columns();
-            let work: Vec<&str> =
-                all.iter().map(|column| column.quantity.name()).filter(|name| name.starts_with("work_")).collect();
-            assert_eq!(work, columns, "{actuated:?}");
-            let known: Vec<StateField> =
-                momentum.into_iter().filter(|field| request.fields().contains(*field)).collect();
-            assert_eq!(known, fields, "{actuated:?}");
-            assert_eq!(request.fields().contains(StateField::Work), actuated.any());
+            let has = |field| request.fields().contains(field);
+            assert_eq!(has(StateField::Work), actuated.any());
+            assert_eq!(has(StateField::Impulse), actuated.thrusters);
+            assert_eq!(has(StateField::AngularImpulse), actuated.external());
         }
     }
 }

@@ -105,27 +105,3 @@ impl<const W: usize, const N: usize> Runs<f64, N> for NullSpaceRuns<'_, W> {
         Some(arc.end())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dynamics::null_space::components;
-    use crate::scene::samples;
-
-    #[test]
-    fn the_error_norm_is_that_of_ode45() {
-        let scenes = [Scene::resolve(&samples::table_two()).expect("Berdoz's scene")];
-        const COMPONENTS: usize = components(2);
-        let runs = NullSpaceRuns::<2>::new(&scenes, 1.0);
-        let tolerance = Tolerance { relative: 1e-3, absolute: 1e-6 };
-        let (mut error, mut old, mut new) = ([0.0; COMPONENTS], [0.0; COMPONENTS], [0.0; COMPONENTS]);
-        (error[3], old[3], new[3]) = (1e-3, 1.0, -2.0); // relative to the larger end
-        (error[61], old[61], new[61]) = (4e-7, 1e-4, 0.0); // below the threshold 1e-3
-        error[62] = 1e9; // an integral
-        assert!((runs.error_ratio(&error, &old, &new, tolerance) - 0.5).abs() < 4e-16);
-        error[3] = 0.0;
-        assert!((runs.error_ratio(&error, &old, &new, tolerance) - 0.4).abs() < 4e-16);
-        new[10] = f64::INFINITY;
-        assert!(runs.error_ratio(&error, &old, &new, tolerance).is_nan());
-    }
-}

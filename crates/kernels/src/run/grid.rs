@@ -68,34 +68,6 @@ impl Grid {
 mod tests {
     use super::*;
 
-    /// Law: on every grid a point at the decimal time of a tick is the last up to that tick and the first from it on.
-    #[test]
-    fn a_point_at_a_tick_is_at_the_tick() {
-        let mut rounded = [0; 2];
-        for (period, per_unit) in [(0.1, 10), (0.7, 10), (0.25, 4), (0.05, 20), (1.0 / 3.0, 3)] {
-            for points in [2, 11, 36, 101, 601] {
-                for duration in [7_u64, 70, 350] {
-                    let grid = Grid::uniform(duration as f64, points);
-                    for (k, time) in grid.times().iter().enumerate() {
-                        // duration k/(points - 1) = tick/per_unit, or seven times that, in whole numbers
-                        let step = if period == 0.7 { 7 } else { 1 };
-                        let (whole, over) = (duration * per_unit * k as u64, step * (points as u64 - 1));
-                        if whole % over != 0 {
-                            continue;
-                        }
-                        let tick = (whole / over) as f64 * period;
-                        assert_eq!(points_to(grid.times(), tick), k + 1, "{period} {points} {duration} {k}");
-                        assert_eq!(points_before(grid.times(), tick), k);
-                        rounded[0] += usize::from(tick < *time);
-                        rounded[1] += usize::from(tick > *time);
-                    }
-                }
-            }
-        }
-        // plain comparisons lose points at both ends
-        assert!(rounded.iter().all(|count| *count > 20), "{rounded:?}");
-    }
-
     #[test]
     fn points_are_evenly_distributed() {
         let evenly = |points: usize, count: usize| Grid::uniform(1.0, points).evenly(count);

@@ -53,32 +53,3 @@ impl Actuated {
         self.thrusters || self.body_torque
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::ActuationInput;
-
-    const NONE: Actuated = Actuated::NONE;
-
-    /// Law: each kind follows from the commands of the scene; an arc without commands has none.
-    #[test]
-    fn what_acts_is_what_is_commanded() {
-        let arc = || ActuationInput::idle(0.0, 1.0);
-        let mut held = SceneInput::report();
-        held.wheels[1].mode = WheelMode::SpeedHeld;
-        let mut torque = SceneInput::report();
-        torque.environment.body_torque_n_m = Some([0.0, 1.0, 0.0]);
-        for (input, expected) in [
-            (SceneInput::report().with_actuation(arc()), Actuated::NONE),
-            (SceneInput::report().with_actuation(arc().with_torque(&[0.0, 1.0])), Actuated { motors: true, ..NONE }),
-            (SceneInput::report().with_actuation(arc().with_thrust(&[0.0, 1.0])), Actuated { thrusters: true, ..NONE }),
-            (held, Actuated { motors: true, ..NONE }),
-            (torque, Actuated { body_torque: true, ..NONE }),
-        ] {
-            assert_eq!(Actuated::of(&input), expected);
-            assert_eq!(expected.any(), expected != NONE);
-            assert_eq!(expected.external(), expected.thrusters || expected.body_torque);
-        }
-    }
-}

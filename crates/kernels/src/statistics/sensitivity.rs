@@ -242,44 +242,12 @@ impl Rest {
 
 #[cfg(test)]
 mod tests {
-    use core::f64::consts::PI;
-
     use super::*;
     use crate::statistics::correlation::ascending_order;
     use crate::statistics::rank_tests::tests::Uniform;
 
     fn index(x: &[f64], y: &[f64], confidence: f64) -> Option<Estimate> {
         first_order_index(&ascending_order(x), x, y, Samples::Independent, confidence)
-    }
-
-    /// Ishigami's function (T. Ishigami & T. Homma 1990) with a = 7, b = 0.1, of three numbers uniform in (-pi, pi).
-    fn ishigami(x: [f64; 3]) -> f64 {
-        let sine = libm::sin(x[1]);
-        libm::sin(x[0]) * (1.0 + 0.1 * libm::pow(x[2], 4.0)) + 7.0 * sine * sine
-    }
-
-    /// Exact first-order and total indices.
-    fn exact() -> [[f64; 2]; 3] {
-        let (a, b) = (7.0, 0.1);
-        let first = 0.5 * libm::pow(1.0 + b * libm::pow(PI, 4.0) / 5.0, 2.0);
-        let second = a * a / 8.0;
-        let shared = b * b * libm::pow(PI, 8.0) * (1.0 / 18.0 - 1.0 / 50.0);
-        let variance = first + second + shared;
-        [[first, first + shared], [second, second], [0.0, shared]].map(|of| of.map(|part| part / variance))
-    }
-
-    /// Plain samples, to four standard errors of about 0.01.
-    #[test]
-    fn first_order_indices_of_ishigami_from_samples() {
-        let mut random = Uniform(2);
-        let points: Vec<[f64; 3]> = (0..4096).map(|_| [(); 3].map(|()| PI * (2.0 * random.next() - 1.0))).collect();
-        let y: Vec<f64> = points.iter().map(|x| ishigami(*x)).collect();
-        for (input, [expected, _]) in exact().into_iter().enumerate() {
-            let x: Vec<f64> = points.iter().map(|point| point[input]).collect();
-            let found = index(&x, &y, 0.99).expect("it varies");
-            assert!((found.value - expected).abs() < 0.04 && found.upper - found.lower < 0.3, "{input}: {found:?}");
-            assert!(found.lower <= expected && expected <= found.upper, "{input}: {found:?} {expected}");
-        }
     }
 
     /// Law: an input of few values has the index of an analysis of variance, 1 if nothing else acts, in any order of

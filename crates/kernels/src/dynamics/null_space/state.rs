@@ -209,33 +209,3 @@ pub(super) fn rotated(c: Columns, v: [f64; 3]) -> [f64; 3] {
 pub(super) fn rotated_back(c: Columns, v: [f64; 3]) -> [f64; 3] {
     product(c, v)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::samples;
-
-    #[test]
-    fn sigma_turns_wheels_as_the_report_has_it() {
-        let mut input = samples::table_two();
-        input.wheels[0].angle_rad = 0.3;
-        input.wheels[1].angle_rad = -0.7;
-        let scene = Scene::resolve(&input).expect("a legal scene");
-        let state = sigma::<2>(&scene);
-        let (sa, ca) = libm::sincos(0.3);
-        let (sb, cb) = libm::sincos(-0.7);
-        // C_as = C_2(alpha) by rows is C_sa by columns
-        let c2 = [[ca, 0.0, -sa], [0.0, 1.0, 0.0], [sa, 0.0, ca]];
-        let c3 = [[cb, sb, 0.0], [-sb, cb, 0.0], [0.0, 0.0, 1.0]];
-        for (columns, expected) in [(state.wheels[0].dcm, c2), (state.wheels[1].dcm, c3)] {
-            for i in 0..3 {
-                for j in 0..3 {
-                    // sums of products of sines and cosines, equal to a few roundings
-                    assert!((columns[i][j] - expected[i][j]).abs() < 1e-15);
-                }
-            }
-        }
-        assert_eq!(state.wheels[0].position, [0.0, 0.0, 1.0]);
-        assert_eq!(state.wheels[1].position, [0.0, 0.0, 2.0]);
-    }
-}

@@ -190,39 +190,3 @@ impl ControlInput {
         self.tables().for_each(|(header, table)| table.check(header, problems));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{Parameter, Scene, SceneInput};
-
-    static DECLARED: [LawParameter; 3] = [
-        LawParameter::number("gain_n_m", "N m", "Gain", Limit::NotNegative),
-        LawParameter::number("bias_rad_s", "rad/s", "Bias", Limit::Finite)
-            .with_components(&["x", "y", "z"])
-            .or(&[0.0; 3]),
-        LawParameter::number("ratio", "1", "Ratio", Limit::Positive).or(&[0.7]),
-    ];
-
-    /// Law: parameters of a law are keys like all others: found by name and component, read and set, checked by their
-    /// limits.
-    #[test]
-    fn parameters_of_a_law_are_keys_of_the_scene() {
-        let mut scene = SceneInput { control: ControlInput::of(&DECLARED), ..SceneInput::default() };
-        let names: Vec<String> =
-            Parameter::all(&scene).map(Parameter::name).filter(|name| name.starts_with("control.")).collect();
-        assert_eq!(names, ["control.gain_n_m", "control.bias_rad_s", "control.ratio"]);
-        let missing = Scene::resolve(&scene).expect_err("the gain has no default");
-        assert!(missing.iter().any(|error| error.key == "control.gain_n_m"), "{missing:?}");
-        scene = scene.with("control.gain_n_m", &[2.0]).with("control.bias_rad_s.y", &[0.5]);
-        assert_eq!(scene.control.law.values, [2.0, 0.0, 0.5, 0.0, 0.7]);
-        assert_eq!(scene.control.named("bias_rad_s"), Some(&[0.0, 0.5, 0.0][..]));
-        let (ratio, _) = Parameter::find(&scene, "control.ratio").expect("declared");
-        assert_eq!((ratio.value(&scene, 0), ratio.column_name(0)), (Some(0.7), "control_ratio".to_owned()));
-        let (bias, component) = Parameter::find(&scene, "control.bias_rad_s.z").expect("declared");
-        assert_eq!((component, bias.column_name(2)), (Some(2), "control_bias_z_rad_s".to_owned()));
-        Scene::resolve(&scene).expect("all within their limits");
-        let wrong = Scene::resolve(&scene.with("control.gain_n_m", &[-1.0])).expect_err("below zero");
-        assert_eq!(wrong[0].key, "control.gain_n_m");
-    }
-}
