@@ -148,17 +148,6 @@ mod tests {
         StateTable::new(StateFields::NONE.with(StateField::WheelRates).with(StateField::Rate), 2, 3)
     }
 
-    #[test]
-    fn fields_do_not_share_columns() {
-        let mut table = rates_and_wheels();
-        table.set(StateField::Rate, 2, [1.0, 2.0, 3.0]);
-        table.set(StateField::WheelRates, 2, [4.0, 5.0]);
-        table.pad();
-        assert_eq!(table.at(StateField::Rate, 2), [1.0, 2.0, 3.0]);
-        assert_eq!(table.at(StateField::WheelRates, 2), [4.0, 5.0]);
-        assert_eq!(table.column(StateField::WheelRates, 1), [0.0, 0.0, 5.0, 5.0, 5.0, 5.0, 5.0, 5.0]);
-    }
-
     // added to the marker of an absent field, this component would wrap around to the first column
     #[test]
     #[should_panic = "does not have the field Attitude"]

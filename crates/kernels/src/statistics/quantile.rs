@@ -184,14 +184,6 @@ mod tests {
         assert_eq!(quantile(&[f64::NEG_INFINITY, f64::NEG_INFINITY, 1.0], 0.25), Some(f64::NEG_INFINITY));
     }
 
-    #[test]
-    fn percents_have_the_digits_of_the_fraction() {
-        let cases = [(0.999, "99.9"), (0.5, "50"), (0.07, "7"), (0.001, "0.1"), (0.9987, "99.87"), (1e-6, "0.0001")];
-        for (p, text) in cases.into_iter().chain([(0.1, "10"), (0.123_456_7, "12.34567")]) {
-            assert_eq!(percent(p), text);
-        }
-    }
-
     /// Published ranks and numbers of runs.
     #[test]
     fn published_numbers() {

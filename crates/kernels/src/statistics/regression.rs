@@ -155,7 +155,7 @@ fn inverse(correlation: &[Vec<f64>]) -> Option<DMatrix<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::correlation::{pearson, standardised};
+    use crate::statistics::correlation::standardised;
 
     fn of(inputs: &[Vec<f64>]) -> Option<Regressors> {
         Regressors::new(inputs.to_vec())
@@ -191,23 +191,6 @@ mod tests {
         // no residual, but the spread of the inputs is estimated; an input without influence has no width
         assert!(coefficients[0].upper - coefficients[0].lower > 1e-3, "{coefficients:?}");
         assert!(coefficients[2].upper - coefficients[2].lower < 1e-13, "{coefficients:?}");
-    }
-
-    /// Law: the partial correlation is that of the residuals of both columns.
-    #[test]
-    fn partial_correlations_are_those_of_residuals() {
-        let [a, b, c] = inputs();
-        let x: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + 0.8 * b).collect();
-        let y: Vec<f64> = (0..500).map(|k| x[k] + b[k] + c[k]).collect();
-        let of = of(&[standardised(&x), standardised(&b)]).expect("independent");
-        let (sx, sb, sy) = (standardised(&x), standardised(&b), standardised(&y));
-        let residual = |v: &[f64]| -> Vec<f64> {
-            let slope = product(v, &sb);
-            v.iter().zip(&sb).map(|(v, b)| v - slope * b).collect()
-        };
-        let expected = pearson(&residual(&sx), &residual(&sy));
-        let found = of.regression(&sy).expect("enough rows").partial(0, 0.95);
-        assert!((found.value - expected).abs() < 2e-15, "{} {expected}", found.value);
     }
 
     /// Law: constant inputs and combinations of earlier ones are dependent; the rest have a regression.

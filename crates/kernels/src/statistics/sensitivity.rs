@@ -244,40 +244,9 @@ impl Rest {
 mod tests {
     use super::*;
     use crate::statistics::correlation::ascending_order;
-    use crate::statistics::rank_tests::tests::Uniform;
 
     fn index(x: &[f64], y: &[f64], confidence: f64) -> Option<Estimate> {
         first_order_index(&ascending_order(x), x, y, Samples::Independent, confidence)
-    }
-
-    /// Law: an input of few values has the index of an analysis of variance, 1 if nothing else acts, in any order of
-    /// rows.
-    #[test]
-    fn levels_are_cells() {
-        let mut random = Uniform(4);
-        for levels in [2.0, 3.0, 7.0] {
-            let x: Vec<f64> = (0..700).map(|_| (random.next() * levels).floor()).collect();
-            let y: Vec<f64> = x.iter().map(|x| x * (x - 0.7)).collect();
-            let found = index(&x, &y, 0.95).expect("it varies");
-            assert!(found.value > 1.0 - 1e-12 && found.upper >= 1.0 - 1e-12, "{levels}: {found:?}");
-            let noisy: Vec<f64> = y.iter().map(|y| y + random.next()).collect();
-            let index = |x: &[f64], y: &[f64]| index(x, y, 0.95).expect("it varies");
-            let turned = |values: &[f64]| values.iter().rev().copied().collect::<Vec<_>>();
-            let (found, other) = (index(&x, &noisy), index(&turned(&x), &turned(&noisy)));
-            assert!((found.value - other.value).abs() < 1e-12 && found.value < 1.0, "{levels}: {found:?} {other:?}");
-            // mean square within levels over the total one
-            let mean = |of: &dyn Fn(usize) -> bool| {
-                let kept: Vec<f64> = (0..700).filter(|row| of(*row)).map(|row| noisy[row]).collect();
-                kept.iter().sum::<f64>() / kept.len() as f64
-            };
-            let means: Vec<f64> = (0..levels as usize).map(|level| mean(&|row| x[row] == level as f64)).collect();
-            let within: f64 = (0..700).map(|row| libm::pow(noisy[row] - means[x[row] as usize], 2.0)).sum();
-            let all = mean(&|_| true);
-            let whole: f64 = noisy.iter().map(|y| libm::pow(y - all, 2.0)).sum();
-            // levels differ in their numbers of rows, and so in their corrections
-            let expected = 1.0 - within / (700.0 - levels) / (whole / 699.0);
-            assert!((found.value - expected).abs() < 1e-3, "{levels}: {found:?} {expected}");
-        }
     }
 
     #[test]

@@ -378,7 +378,6 @@ pub fn middle([low, high]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::statistics::quantile::quantile;
-    use proptest::prelude::*;
 
     fn sketch(values: &[f64]) -> Sketch {
         let mut sketch = Sketch::default();
@@ -496,22 +495,5 @@ mod tests {
         }
         // 99.9 intervals of 7, to the rounding of the interpolation
         assert!((ranks.quantile(0.1).unwrap() - 699.3).abs() <= 699.3 * f64::EPSILON);
-    }
-
-    proptest! {
-        /// Law: the sketch does not depend on the parts or their order.
-        #[test]
-        fn merging_does_not_know_order(
-            values in prop::collection::vec(prop::num::f64::ANY, 1..200),
-            cut in 0usize..200,
-        ) {
-            let (left, right) = values.split_at(cut.min(values.len()));
-            let (left, right) = (sketch(left), sketch(right));
-            let (mut forward, mut backward) = (left.clone(), right.clone());
-            forward.merge(&right);
-            backward.merge(&left);
-            prop_assert_eq!(&forward, &backward);
-            prop_assert_eq!(&forward, &sketch(&values));
-        }
     }
 }
