@@ -2,6 +2,7 @@
 
 pub mod chebyshev;
 pub mod double_double;
+pub(crate) mod enumeration;
 pub mod incomplete_beta;
 pub mod incomplete_gamma;
 pub mod isa;

@@ -179,7 +179,7 @@ impl<'a, const W: usize> Redundant<'a, W> {
 /// Energies of a run and their balance, with loops unrolled for common numbers of wheels.
 #[inline(always)]
 pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
-    match run.mass.wheels.len() {
+    match run.scene.mass.wheels.len() {
         0 => of_bodies::<S, 0>(simd, run, out),
         1 => of_bodies::<S, 1>(simd, run, out),
         2 => of_bodies::<S, 2>(simd, run, out),
@@ -192,7 +192,8 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
 /// [`energies`] with arrays for `W` wheels.
 #[inline(always)]
 fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
-    let MeasuredRun { observed, mass, debris, table, .. } = *run;
+    let MeasuredRun { observed, debris, table, .. } = *run;
+    let mass = &run.scene.mass;
     let vectors = run.vectors();
     let attitude = Attitude::of(table, vectors);
     let constants = Constants::<S, W>::of(simd, mass);

@@ -1,5 +1,7 @@
 //! [`Group`]: columns that a campaign requests by name (`[observe] groups`).
 
+use crate::math::enumeration::bit_set;
+
 /// The groups, each `Group: "name";`: defaults of a campaign, those requested by name, and those of other tables.
 macro_rules! groups {
     (
@@ -81,27 +83,14 @@ impl Group {
     }
 }
 
-/// A set of groups.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Groups(u16);
+bit_set! {
+    /// A set of groups.
+    Groups of Group
+}
 
 impl Groups {
-    /// No group.
-    pub const NONE: Groups = Groups(0);
-
     /// Every group.
     pub const ALL: Groups = Groups((1 << Group::ALL.len()) - 1);
-
-    /// This set and `group`.
-    #[must_use]
-    pub const fn with(self, group: Group) -> Self {
-        Groups(self.0 | 1 << group as u16)
-    }
-
-    /// True if the set contains `group`.
-    pub const fn contains(self, group: Group) -> bool {
-        self.0 & (1 << group as u16) != 0
-    }
 }
 
 impl FromIterator<Group> for Groups {

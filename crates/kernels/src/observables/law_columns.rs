@@ -54,7 +54,7 @@ impl LawSeries {
 }
 
 /// Reports of a control law: columns of rows, and records over time. NaN means no value.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LawColumns {
     /// The columns.
     pub list: &'static [LawColumn],
@@ -62,14 +62,6 @@ pub struct LawColumns {
     pub of_events: usize,
     /// Recorded series.
     pub over_time: LawSeries,
-}
-
-impl PartialEq for LawColumns {
-    fn eq(&self, other: &Self) -> bool {
-        (core::ptr::eq(self.list, other.list) || self.list == other.list)
-            && self.of_events == other.of_events
-            && self.over_time == other.over_time
-    }
 }
 
 impl LawColumns {

@@ -64,7 +64,7 @@ fn balanced<S: Simd>(
 
 #[inline(always)]
 pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
-    let (mass, table, vectors) = (run.mass, run.table, run.vectors());
+    let (mass, table, vectors) = (&run.scene.mass, run.table, run.vectors());
     let velocity: [_; 3] = needed(table, StateField::ComVelocity, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::Impulse, vectors);
     let total = Lanes::broadcast(simd, mass.total);
@@ -90,7 +90,7 @@ pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
 /// Angular momentum of the spacecraft about c.
 #[inline(always)]
 pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
-    match run.mass.wheels.len() {
+    match run.scene.mass.wheels.len() {
         0 => with_wheels::<S, 0>(simd, run, out),
         1 => with_wheels::<S, 1>(simd, run, out),
         2 => with_wheels::<S, 2>(simd, run, out),
@@ -103,7 +103,7 @@ pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mu
 /// [`angular_momentum`] with arrays for `W` wheels.
 #[inline(always)]
 fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
-    let (mass, table, vectors) = (run.mass, run.table, run.vectors());
+    let (mass, table, vectors) = (&run.scene.mass, run.table, run.vectors());
     let attitude = Attitude::of(table, vectors);
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
     let rates: [_; W] = of_wheels(table, StateField::WheelRates, 0, vectors);

@@ -52,7 +52,7 @@ fn rate<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
 /// omega).
 #[inline(always)]
 fn momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
-    let (mass, table, vectors) = (run.mass, run.table, run.vectors());
+    let (mass, table, vectors) = (&run.scene.mass, run.table, run.vectors());
     let omega: [_; 3] = needed(table, StateField::Rate, vectors);
     let rates: [_; MAX_WHEELS] = of_wheels(table, StateField::WheelRates, 0, vectors);
     let inertia = constant_matrix(simd, mass.inertia);

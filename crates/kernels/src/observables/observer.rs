@@ -272,25 +272,19 @@ impl Work for Observation<'_> {
         let scene = acting.scene();
         let debris = scene.mass.debris.as_ref().filter(|_| observer.request.debris);
         let (observed, points) = (observer.observed, observer.filled);
-        let nominal = observer.nominal.as_ref();
         let nutation_axis =
             if observed.has(Series::Nutation) { observer.request.nutation_axis.of(scene.mass.inertia) } else { None };
-        let (sources, mass) = (&observer.sources, &scene.mass);
-        let mu = scene.orbit.as_ref().map_or(f64::NAN, |orbit| orbit.mu);
-        let times = &observer.times;
         let magnetism = magnetic_torque::residual_dipole(scene)
             .and_then(|dipole| Some(Magnetism { field: MagneticField::of(scene)?, dipole, acting }));
         let run = MeasuredRun {
             observed,
-            sources,
-            mass,
+            sources: &observer.sources,
             debris,
-            nominal,
+            nominal: observer.nominal.as_ref(),
             nutation_axis,
-            mu,
             magnetism,
             scene,
-            times,
+            times: &observer.times,
             of_law,
             table,
             points,

@@ -18,9 +18,10 @@ pub(super) fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
     let (table, vectors) = (run.table, run.vectors());
     let position: [_; 3] = needed(table, StateField::ComPosition, vectors);
     let attitude = Attitude::of(table, vectors);
+    let mu = run.scene.orbit.as_ref().map_or(f64::NAN, |orbit| orbit.mu);
     let gradient = GravityGradient {
-        strength: Lanes::broadcast(simd, 3.0 * run.mu),
-        inertia: constant_matrix(simd, run.mass.inertia),
+        strength: Lanes::broadcast(simd, 3.0 * mu),
+        inertia: constant_matrix(simd, run.scene.mass.inertia),
     };
     let [distances, nadirs, torques] =
         out.write([Series::OrbitDistance, Series::NadirAngle, Series::GradientTorqueSquare], vectors);

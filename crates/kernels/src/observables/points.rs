@@ -13,7 +13,7 @@ use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
-use crate::scene::mass::{Body, MassProperties};
+use crate::scene::mass::Body;
 use crate::scene::{MAX_WHEELS, Scene};
 
 /// A component of a field, as vectors of eight neighbouring points; columns of one length need no bounds checks in
@@ -25,14 +25,11 @@ pub(super) struct MeasuredRun<'a> {
     /// Series to compute.
     pub(super) observed: SeriesSet,
     pub(super) sources: &'a [SeriesSource],
-    pub(super) mass: &'a MassProperties,
     /// Debris, if observed.
     pub(super) debris: Option<&'a Body>,
     pub(super) nominal: Option<&'a NominalAttitude>,
     /// Axis of nutation in F_s, if not s3.
     pub(super) nutation_axis: Option<[f64; 3]>,
-    /// Gravitational parameter of the central body, m^3/s^2; NaN off an orbit.
-    pub(super) mu: f64,
     /// Magnetic field and dipoles.
     pub(super) magnetism: Option<Magnetism<'a>>,
     pub(super) scene: &'a Scene,

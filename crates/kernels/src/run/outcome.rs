@@ -1,48 +1,31 @@
 //! Outcome and effort of a run.
 
+use crate::math::enumeration::named;
 use crate::math::real::Real;
 
-macro_rules! statuses {
-    ($($(#[$doc:meta])* $name:ident: $text:literal;)*) => {
-        /// Status of a run.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum Status {
-            $($(#[$doc])* $name,)*
-        }
-
-        impl Status {
-            /// All values, in the order of their codes.
-            pub const ALL: [Status; [$($text),*].len()] = [$(Status::$name),*];
-
-            /// Name in rows and summaries.
-            pub const fn name(self) -> &'static str {
-                match self {
-                    $(Status::$name => $text,)*
-                }
-            }
-        }
-    };
-}
-
-statuses! {
-    /// Reached the end of its horizon.
-    Done: "ok";
-    /// Reached the maximum number of steps, or would before the end of the horizon.
-    StepLimit: "step_limit";
-    /// The step required by the tolerance is below the resolution of the time.
-    StepFloor: "step_floor";
-    /// A state component became infinite or NaN.
-    NonFinite: "non_finite";
-    /// The sampled scene is physically impossible; nothing was integrated.
-    InvalidSample: "invalid_sample";
-    /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
-    Inaccurate: "inaccurate";
-    /// A defect of spindrift showed in this run; other runs are not affected.
-    InternalError: "internal_error";
-    /// Reached the surface of the central body of its orbit.
-    Surface: "surface";
-    /// Ended by its control loop, which is unstable.
-    Diverged: "diverged";
+named! {
+    /// Status of a run.
+    #[derive(Hash)]
+    pub enum Status {
+        /// Reached the end of its horizon.
+        Done = "ok",
+        /// Reached the maximum number of steps, or would before the end of the horizon.
+        StepLimit = "step_limit",
+        /// The step required by the tolerance is below the resolution of the time.
+        StepFloor = "step_floor",
+        /// A state component became infinite or NaN.
+        NonFinite = "non_finite",
+        /// The sampled scene is physically impossible; nothing was integrated.
+        InvalidSample = "invalid_sample",
+        /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
+        Inaccurate = "inaccurate",
+        /// A defect of spindrift showed in this run; other runs are not affected.
+        InternalError = "internal_error",
+        /// Reached the surface of the central body of its orbit.
+        Surface = "surface",
+        /// Ended by its control loop, which is unstable.
+        Diverged = "diverged",
+    }
 }
 
 impl Status {

@@ -1,5 +1,7 @@
 //! [`StateField`]: physical quantities of a state, and sets of them.
 
+use crate::math::enumeration::bit_set;
+
 /// The fields, `Field: number of components;`, of a spacecraft with `wheels` wheels.
 macro_rules! state_fields {
     (of $wheels:ident: $($(#[$doc:meta])* $Field:ident: $width:expr;)*) => {
@@ -57,28 +59,15 @@ state_fields! {
     KineticEnergies: 2 + wheels;
 }
 
-/// A set of fields.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct StateFields(u32);
+bit_set! {
+    /// A set of fields.
+    StateFields of StateField
+}
 
 impl StateFields {
-    /// The empty set.
-    pub const NONE: StateFields = StateFields(0);
-
-    /// This set and `field`.
-    #[must_use]
-    pub const fn with(self, field: StateField) -> Self {
-        StateFields(self.0 | 1 << field as usize)
-    }
-
     /// The union of two sets.
     #[must_use]
     pub const fn union(self, other: Self) -> Self {
         StateFields(self.0 | other.0)
-    }
-
-    /// True if the set contains `field`.
-    pub const fn contains(self, field: StateField) -> bool {
-        self.0 & (1 << field as usize) != 0
     }
 }

@@ -10,7 +10,7 @@ use super::table::{Key, Table};
 use super::unit_quaternion::{is_unit, unit_quaternion};
 
 /// A numeric key of scene or initial state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Parameter {
     /// Its row in the schema.
     key: Key,

@@ -2,7 +2,6 @@
 //! field ([`SceneInput`]) and a line in `tables!`.
 
 use std::cmp::Ordering;
-use std::hash::{Hash, Hasher};
 
 use super::input::SceneInput;
 use super::name::Name;
@@ -24,12 +23,6 @@ pub struct Key {
     facts: &'static Facts,
 }
 
-impl Key {
-    const fn place(&self) -> (Table, u8) {
-        (self.table, self.row)
-    }
-}
-
 impl PartialEq for Key {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
@@ -37,12 +30,6 @@ impl PartialEq for Key {
 }
 
 impl Eq for Key {}
-
-impl Hash for Key {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.place().hash(state);
-    }
-}
 
 impl PartialOrd for Key {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
@@ -52,7 +39,7 @@ impl PartialOrd for Key {
 
 impl Ord for Key {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.place().cmp(&other.place())
+        (self.table, self.row).cmp(&(other.table, other.row))
     }
 }
 

@@ -16,14 +16,6 @@ pub fn two_sided_tail(t: f64, degrees: f64) -> f64 {
     incomplete_beta(x, y, 0.5 * degrees, 0.5).lower
 }
 
-/// Half-width t s/sqrt(n) of the interval of a mean of `count` values; infinite for fewer than two.
-pub fn half_width(standard_deviation: f64, count: u64, confidence: f64) -> f64 {
-    if count < 2 {
-        return f64::INFINITY;
-    }
-    two_sided_quantile(confidence, count as f64 - 1.0) * standard_deviation / libm::sqrt(count as f64)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,7 +31,6 @@ mod tests {
         for (confidence, degrees, t) in KNOWN {
             assert!((two_sided_quantile(confidence, degrees) / t - 1.0).abs() < 1e-14, "{degrees}");
         }
-        assert_eq!(half_width(1.0, 1, 0.95), f64::INFINITY);
     }
 
     /// Law: the tail inverts the quantile, whose known values have 16 digits.

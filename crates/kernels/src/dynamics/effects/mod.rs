@@ -10,6 +10,7 @@ pub mod plates;
 pub mod within_arcs;
 
 use super::actuation::sum;
+use crate::math::enumeration::bit_set;
 use crate::math::vector::norm;
 use crate::scene::{Actuation, EnvironmentInput, Offsets, Scene, SceneInput};
 
@@ -64,14 +65,12 @@ changing_effects::effects! {
     }
 }
 
-/// The effects that act in a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct ForceModel(u32);
+bit_set! {
+    /// The effects that act in a run.
+    ForceModel of Effect
+}
 
 impl ForceModel {
-    /// No effects.
-    pub const NONE: ForceModel = ForceModel(0);
-
     /// The effects on `scene`.
     pub fn of(scene: &Scene) -> Self {
         Self::acting(&Facts {
@@ -94,17 +93,6 @@ impl ForceModel {
 
     fn acting(facts: &Facts<'_>) -> Self {
         Effect::ALL.into_iter().filter(|effect| effect.acts(facts)).fold(Self::NONE, Self::with)
-    }
-
-    /// The model with `effect`.
-    #[must_use]
-    pub const fn with(self, effect: Effect) -> Self {
-        ForceModel(self.0 | 1 << effect as u32)
-    }
-
-    /// True if the model has `effect`.
-    pub const fn contains(self, effect: Effect) -> bool {
-        self.0 & (1 << effect as u32) != 0
     }
 
     /// The effects, in the order of the list.

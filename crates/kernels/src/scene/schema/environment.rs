@@ -1,8 +1,8 @@
 //! `[environment]`: effects of the environment on the spacecraft.
 
-use super::named::named;
 use super::numbers::Numbers;
 use super::rows::rows;
+use crate::math::enumeration::named;
 
 rows! {
     /// Effects of the environment on the spacecraft. An effect left out does not act.

@@ -18,7 +18,6 @@ pub mod failure;
 pub mod initial;
 pub mod limit;
 pub mod mass_errors;
-mod named;
 pub mod numbers;
 pub mod orbit;
 pub mod part;

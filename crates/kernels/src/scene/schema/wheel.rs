@@ -1,8 +1,8 @@
 //! `[[wheels]]`: a wheel.
 
-use super::named::named;
 use super::numbers::Numbers;
 use super::rows::rows;
+use crate::math::enumeration::named;
 use crate::scene::name::Name;
 
 rows! {
