@@ -5,25 +5,18 @@
 use crate::analysis::observed::Observed;
 use crate::campaign::Plan;
 use crate::run::{Quantity, Status};
-use crate::storage::columnar::{EncodingError, Layout, Packing};
+use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS};
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::store::Failure;
 use crate::table::{Column, Content, Values};
-
-#[derive(Debug, thiserror::Error)]
-pub enum DerivedTableError {
-    #[error(transparent)]
-    Rows(#[from] RowsError),
-    #[error(transparent)]
-    Encoding(#[from] EncodingError),
-}
 
 /// The file of the campaign `plan`, from its rows, part by part; `None` without derived observables.
 ///
 /// # Errors
-/// [`DerivedTableError`].
-pub fn encoded(plan: &Plan, reader: &RowsReader) -> Result<Option<Vec<u8>>, DerivedTableError> {
+/// If the rows cannot be read, or the table not be encoded.
+pub fn encoded(plan: &Plan, reader: &RowsReader) -> Result<Option<Vec<u8>>, Failure> {
     let names = plan.analysis.derived.iter().map(|derived| derived.name.as_str());
     let derived = Observed::named(plan, names);
     if derived.is_empty() {

@@ -5,41 +5,25 @@
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
-
-use thiserror::Error;
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::worst_runs::WorstRuns;
 use crate::campaign::{Plan, Retention};
-use crate::ensemble::RunError;
 use crate::ensemble::single::run_each;
 use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::design::latin::Permutation;
 use crate::sampling::{SampleId, Stream};
-use crate::storage::columnar::{EncodingError, Packing, encoded};
+use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
 use crate::storage::names::TRAJECTORIES;
 use crate::storage::rows_reader::RowsError;
-use crate::storage::store::StoreError;
+use crate::storage::store::{Failure, StoreError};
 use crate::storage::timeseries::time_series;
 
 const STREAM: &str = "retain";
-
-#[derive(Debug, Error)]
-pub enum TrajectoryError {
-    #[error(transparent)]
-    Rows(#[from] RowsError),
-    #[error("cannot start the threads: {0}")]
-    Threads(String),
-    #[error("{}: {source}", path.display())]
-    Encoding { path: PathBuf, source: EncodingError },
-    #[error(transparent)]
-    File(#[from] StoreError),
-}
 
 pub fn file_name(sample: SampleId) -> String {
     format!("sample-{:06}.parquet", sample.0)
@@ -133,18 +117,14 @@ pub fn save(
     samples: &[SampleId],
     machine: (Isa, Option<NonZeroUsize>),
     take: &TakeFile<'_>,
-) -> Result<(), TrajectoryError> {
+) -> Result<(), Failure> {
     run_each(plan, samples, machine, &|runs, sample| {
         // unphysical samples have no file
         let Ok(run) = runs.run(sample) else { return Ok(()) };
         let name = format!("{TRAJECTORIES}/{}", file_name(sample));
         let encoded = encoded(&time_series(sample, &run, |_| true), provenance(plan), Packing::Lz4);
-        let bytes = encoded.map_err(|source| TrajectoryError::Encoding { path: PathBuf::from(&name), source })?;
-        Ok(take(&name, &bytes)?)
-    })
-    .map(|_| ())
-    .map_err(|error| match error {
-        RunError::Threads(error) => TrajectoryError::Threads(error.to_string()),
-        RunError::Sink(error) => error,
-    })
+        let bytes = encoded.map_err(|error| format!("{name}: {error}"))?;
+        Ok::<(), Failure>(take(&name, &bytes)?)
+    })?;
+    Ok(())
 }

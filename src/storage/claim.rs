@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::campaign::Plan;
-use crate::ensemble::{PartId, Parts};
+use crate::campaign::difference::{KeyDifference, text_differences};
+use crate::ensemble::{Ensemble, PartId};
 use crate::storage::atomic::explained;
 use crate::storage::dataset::{Dataset, Head, PartRecord, unfinish};
-use crate::storage::folder_error::{FolderError, all_differences, occupied, other_questions};
-use crate::storage::found::{Contents, Found, MISSING, contents};
+use crate::storage::folder_error::{self, FolderError, all_differences, other_questions, reasons};
+use crate::storage::found::{Found, MISSING, contents};
 use crate::storage::identity::{Identity, sealed};
 use crate::storage::lock::{Lock, lock};
-use crate::storage::names::{HEAD, SUMMARY};
+use crate::storage::names::{HEAD, PLAN, SUMMARY};
 use crate::storage::replacement::{self, remove_replaced, replace};
+use crate::storage::rows_file::identity;
 use crate::storage::store::{OpenFolder, Store, StoreError, at};
 
 /// One of several processes that make the parts of a campaign.
@@ -84,33 +86,16 @@ pub struct ClaimOptions<'a> {
     pub threads: usize,
 }
 
-/// The rows that a campaign wants.
-#[derive(Clone, Copy)]
-pub struct Wanted<'a> {
-    pub plan: &'a Plan,
-    pub identity: &'a Identity,
-    /// The parts, by counted work, where no dataset has sizes yet.
-    pub parts: &'a dyn Fn() -> Parts,
+/// Most samples that `plan` comes to have.
+fn most(plan: &Plan) -> u64 {
+    plan.looks().last().copied().unwrap_or(plan.samples)
 }
 
-impl Wanted<'_> {
-    /// Most samples that the plan comes to have.
-    fn most(&self) -> u64 {
-        self.plan.looks().last().copied().unwrap_or(self.plan.samples)
-    }
-
-    /// The head of the dataset, whose size of parts may be known.
-    pub(super) fn head(&self, largest_part: Option<u64>) -> Head {
-        let largest_part = largest_part.unwrap_or_else(|| (self.parts)().largest());
-        Head { identity: self.identity.clone(), largest_part }
-    }
-}
-
-/// Prepares `store` for the rows of a campaign.
+/// Prepares `store` for the rows of `ensemble`.
 ///
 /// # Errors
 /// Where something is there that must not be replaced, or a file operation fails.
-pub fn claim(store: &Arc<dyn Store>, wanted: Wanted<'_>, options: ClaimOptions<'_>) -> Result<Claim, FolderError> {
+pub fn claim(store: &Arc<dyn Store>, ensemble: &Ensemble<'_>, options: ClaimOptions<'_>) -> Result<Claim, FolderError> {
     let root = store.root();
     if root.ancestors().any(Path::is_file) {
         // what the system says of it has no remedy
@@ -124,21 +109,23 @@ pub fn claim(store: &Arc<dyn Store>, wanted: Wanted<'_>, options: ClaimOptions<'
         remove_replaced(options.folders, root, &found)?;
     }
     if !options.overwrite || found.identity.is_none() {
-        return fill(store, wanted, options, (found, vec![own]));
+        return fill(store, ensemble, options, (found, vec![own]));
     }
     if let Some(entry) = found.not_its_own() {
         return Err(FolderError::Foreign { folder: shown(&**store), entry: entry.to_owned() });
     }
-    let new = replacement::begin(options.folders, root, &wanted.head(found_size(&found, wanted)))?;
+    let is_same = found.identity == Some(identity(ensemble));
+    let head = Head::of(ensemble, found.largest_part.filter(|_| is_same));
+    let new = replacement::begin(options.folders, root, &head)?;
     let (mut lock, mut found) = locked(&*new, options)?;
     // what an interrupted replacement by more samples has left is no result of anybody
-    let head = wanted.head(found.largest_part);
-    if found.examine(&*new, (wanted.plan, &head), &|_| true, options.threads)?.extent() > wanted.most() {
+    let (plan, head) = (ensemble.plan(), Head::of(ensemble, found.largest_part));
+    if found.examine(&*new, (plan, &head), &|_| true, options.threads)?.extent() > most(plan) {
         drop(lock);
         replacement::remove(&*new)?;
         (lock, found) = locked(&*new, options)?;
     }
-    match fill(&new, wanted, options, (found, vec![own, lock]))? {
+    match fill(&new, ensemble, options, (found, vec![own, lock]))? {
         Claim::Ready(ready) => Ok(Claim::Ready(Box::new(Ready { replaces: Some(root.to_owned()), ..*ready }))),
         // it was complete and only not yet in its place
         Claim::Finished(finished) => {
@@ -148,55 +135,43 @@ pub fn claim(store: &Arc<dyn Store>, wanted: Wanted<'_>, options: ClaimOptions<'
     }
 }
 
-/// The size of parts that was found, where they are of the same rows.
-fn found_size(found: &Found, wanted: Wanted<'_>) -> Option<u64> {
-    found.largest_part.filter(|_| found.identity.as_ref() == Some(wanted.identity))
-}
-
 /// Creates the folder, if there is none, and locks it; what is in it.
 fn locked(store: &dyn Store, options: ClaimOptions<'_>) -> Result<(Lock, Found), FolderError> {
     if store.replaces() {
         crate::storage::disk::new_folder(store.root()).map_err(store.at(""))?;
     }
     let lock = lock(store, options.shard.is_some())?;
-    let mut there = contents(store)?;
-    if matches!(there, Contents::Foreign(_)) {
+    let found = match contents(store) {
         // a shard that begins at the same time has put files since the folder was listed
-        there = contents(store)?;
-    }
-    let folder = shown(store);
-    match there {
-        Contents::Old => Err(FolderError::Old { folder }),
-        Contents::Foreign(entry) => Err(FolderError::Foreign { folder, entry }),
-        Contents::Dataset(found) => match &found.foreign {
-            Some(entry) => Err(FolderError::Foreign { folder, entry: entry.clone() }),
-            None => Ok((lock, *found)),
-        },
+        Err(FolderError::Foreign { .. }) => contents(store)?,
+        found => found?,
+    };
+    match &found.foreign {
+        Some(entry) => Err(FolderError::Foreign { folder: shown(store), entry: entry.clone() }),
+        None => Ok((lock, found)),
     }
 }
 
 /// Prepares `store`, where `found` is.
 fn fill(
     store: &Arc<dyn Store>,
-    wanted: Wanted<'_>,
+    ensemble: &Ensemble<'_>,
     options: ClaimOptions<'_>,
     (found, mut locks): (Found, Vec<Lock>),
 ) -> Result<Claim, FolderError> {
-    let (plan, folder) = (wanted.plan, shown(&**store));
-    if let Some(there) = found.identity.as_ref().filter(|there| *there != wanted.identity) {
-        return Err(occupied(&**store, &found, there, (plan, wanted.identity)));
+    let (plan, folder, identity) = (ensemble.plan(), shown(&**store), identity(ensemble));
+    if let Some(there) = found.identity.as_ref().filter(|there| **there != identity) {
+        return Err(occupied(&**store, &found, there, (plan, &identity)));
     }
     // a shard reads its own parts only: each of many that start would read everything; `finish` reads all
     let is_mine = |part: PartId| options.shard.is_none_or(|shard| shard.has(part));
-    let head = wanted.head(found.largest_part);
+    let head = Head::of(ensemble, found.largest_part);
     let examined = found.examine(&**store, (plan, &head), &is_mine, options.threads)?;
-    let (most, extent) = (wanted.most(), examined.extent().max(found.manifest.as_ref().map_or(0, |whole| whole.rows)));
+    let (most, extent) = (most(plan), examined.extent().max(found.manifest.as_ref().map_or(0, |whole| whole.rows)));
     if extent > most {
         return Err(FolderError::Larger { folder, found: extent, asked: most });
     }
-    let mut damaged = found.damage.clone();
-    damaged.extend(examined.damaged.iter().map(|(_, what)| what.clone()));
-    damaged.extend(found.derived_damage(&**store)?);
+    let mut damaged = found.problems(&**store, &examined)?;
     // of a plan with [stop] the finished number of rows is that of one of its looks
     let is_whole = found.is_finished && damaged.is_empty() && plan.looks().contains(&found.rows(head.parts(most)));
     let is_same = found.plan.is_empty() || found.plan == plan.text();
@@ -221,7 +196,7 @@ fn fill(
     }
     if !store.replaces() {
         if !is_same {
-            let differences = all_differences((&found.plan, wanted.identity), (plan, wanted.identity));
+            let differences = all_differences((&found.plan, &identity), (plan, &identity));
             return Err(FolderError::Kept { folder, differences });
         }
         if damaged.iter().any(|what| !what.ends_with(MISSING)) {
@@ -236,7 +211,7 @@ fn fill(
     if is_begun {
         unfinish(&**store)?;
     }
-    let head = begin(&**store, &found, (plan, wanted.identity), head)?;
+    let head = begin(&**store, &found, plan, head)?;
     if options.shard.is_none() {
         found.leftovers().try_for_each(|name| store.remove(name).map_err(store.at(name)))?;
     }
@@ -250,12 +225,7 @@ fn fill(
 
 /// Puts the head of a dataset, unless it is there; which one is there. Of several processes that begin at the same time
 /// one makes it, with locks and without.
-fn begin(
-    store: &dyn Store,
-    found: &Found,
-    (plan, identity): (&Plan, &Identity),
-    head: Head,
-) -> Result<Head, FolderError> {
+fn begin(store: &dyn Store, found: &Found, plan: &Plan, head: Head) -> Result<Head, FolderError> {
     let bytes = head.bytes();
     if found.damage.iter().any(|what| what.starts_with(HEAD)) {
         store.put(HEAD, &bytes).map_err(store.at(HEAD))?;
@@ -265,10 +235,27 @@ fn begin(
     let there = store.read(HEAD)?.map_err(store.at(HEAD))?;
     let other: Option<Head> = sealed(&there).and_then(|_| serde_json::from_slice(&there).ok());
     match other {
-        Some(other) if other.identity == *identity => Ok(other),
-        Some(other) => Err(occupied(store, &Found::default(), &other.identity, (plan, identity))),
+        Some(other) if other.identity == head.identity => Ok(other),
+        Some(other) => Err(occupied(store, &Found::default(), &other.identity, (plan, &head.identity))),
         None => Err(store.at(HEAD)(std::io::Error::other("its content has changed; run the command again")).into()),
     }
+}
+
+/// The error that `store`, where `found` was found, has the rows `there`, and not those of `plan`, which are
+/// `identity`.
+fn occupied(store: &dyn Store, found: &Found, there: &Identity, (plan, identity): (&Plan, &Identity)) -> FolderError {
+    let text = store.read(PLAN).ok().and_then(|read| String::from_utf8(read.ok()?).ok());
+    let text = if found.plan.is_empty() { text.unwrap_or_default() } else { found.plan.clone() };
+    let folder = shown(store);
+    if !store.replaces() {
+        return FolderError::Kept { folder, differences: all_differences((&text, there), (plan, identity)) };
+    }
+    // keys that do not change rows are no reason
+    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
+    let keys = text_differences(&text, &plan.text()).into_iter().filter(|one| !text.is_empty() && is_reason(one));
+    let differences = reasons(keys.map(folder_error::shown).collect(), there, identity);
+    let what = if found.is_finished { "the result" } else { "an unfinished result" };
+    FolderError::Occupied { folder, what, differences }
 }
 
 /// The text of the summary; `None` where it cannot be one.
@@ -297,9 +284,9 @@ pub fn open(store: &dyn Store, is_shared: bool) -> Result<(Found, Lock), FolderE
         return Err(nothing("there is no such folder, or it is empty"));
     }
     let lock = lock(store, is_shared)?;
-    match contents(store)? {
-        Contents::Dataset(found) if found.identity.is_some() => Ok((*found, lock)),
-        Contents::Old => Err(FolderError::Old { folder }),
-        Contents::Dataset(_) | Contents::Foreign(_) => Err(nothing("it has no dataset.json")),
+    match contents(store) {
+        Ok(found) if found.identity.is_some() => Ok((found, lock)),
+        Ok(_) | Err(FolderError::Foreign { .. }) => Err(nothing("it has no dataset.json")),
+        Err(error) => Err(error),
     }
 }

@@ -18,9 +18,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::{Part, PartId, Parts};
+use crate::ensemble::run_cost::parts;
+use crate::ensemble::{Ensemble, Part, PartId, Parts};
 use crate::storage::identity::{Identity, SEAL_KEY, UNSEALED, seal, sealed, sha256};
 use crate::storage::names::{DATA, MANIFEST, PLAN, SUCCESS, SUMMARY, bands_of, is_of_part, is_ours, rows_of};
+use crate::storage::rows_file::identity;
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::store::{Store, StoreError};
 
@@ -66,6 +68,12 @@ pub struct Head {
 }
 
 impl Head {
+    /// Of the rows of `ensemble`, in parts of a size that may be known; else by counted work.
+    pub fn of(ensemble: &Ensemble<'_>, largest_part: Option<u64>) -> Self {
+        let largest_part = largest_part.unwrap_or_else(|| parts(ensemble.plan(), ensemble.isa()).largest());
+        Head { identity: identity(ensemble), largest_part }
+    }
+
     /// The file.
     pub fn bytes(&self) -> Vec<u8> {
         sealed_json(&serde_json::to_string_pretty(self).unwrap_or_default())

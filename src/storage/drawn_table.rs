@@ -10,7 +10,8 @@ use crate::storage::atomic;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS, parameter_columns};
-use crate::storage::table_file::{TableError, TableFormat};
+use crate::storage::store::Failure;
+use crate::storage::table_file::TableFormat;
 use crate::table::{Column, Content, Values, csv};
 
 /// Status of a sample that is physical; one that is not has the status of its row.
@@ -41,28 +42,26 @@ pub fn values(drawn: &DrawnScenes) -> Vec<Values<'_>> {
 /// Samples are drawn as they are written; `seen` is shown each part of them.
 ///
 /// # Errors
-/// [`TableError`].
-pub fn save(plan: &Plan, path: &Path, mut seen: impl FnMut(&DrawnScenes)) -> Result<(), TableError> {
+/// Where the extension has no format, or writing fails.
+pub fn save(plan: &Plan, path: &Path, mut seen: impl FnMut(&DrawnScenes)) -> Result<(), Failure> {
     match TableFormat::of(path)? {
         TableFormat::Csv => atomic::write(path, |file| {
             csv::header(file, &columns(plan))?;
             DrawnScenes::visit(plan, true, |drawn| {
                 seen(drawn);
-                csv::rows(file, &values(drawn))
+                Ok(csv::rows(file, &values(drawn))?)
             })
-        })
-        .map_err(TableError::Io),
+        }),
         TableFormat::Parquet => {
             let layout = Layout::new(&columns(plan), provenance(plan), Packing::Zstd)?;
-            let written = |file: &mut _| {
+            atomic::write(path, |file| {
                 let mut writer = layout.begin(file, &[])?;
                 DrawnScenes::visit(plan, true, |drawn| {
                     seen(drawn);
                     writer.group(values(drawn).into_iter())
                 })?;
-                writer.finish()
-            };
-            atomic::write(path, written).map_err(TableError::Parquet)
+                Ok(writer.finish()?)
+            })
         }
     }
 }

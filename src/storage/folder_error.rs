@@ -4,10 +4,8 @@ use thiserror::Error;
 
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
-use crate::storage::found::Found;
 use crate::storage::identity::Identity;
-use crate::storage::names::PLAN;
-use crate::storage::store::{Store, StoreError};
+use crate::storage::store::StoreError;
 
 /// Most keys that a refusal lists.
 const LISTED: usize = 12;
@@ -88,7 +86,7 @@ pub enum FolderError {
     Store(#[from] StoreError),
 }
 
-fn shown(one: KeyDifference) -> String {
+pub(super) fn shown(one: KeyDifference) -> String {
     let value = |value: Option<String>| value.unwrap_or_else(|| "absent".to_owned());
     format!("{}: {} there, {} here", one.key, value(one.first), value(one.second))
 }
@@ -100,28 +98,6 @@ pub(super) fn other_questions(there: &str, plan: &Plan) -> Option<String> {
     (!keys.is_empty()).then(|| keys.into_iter().map(shown).collect::<Vec<_>>().join("\n  "))
 }
 
-/// The error that `store`, where `found` was found, has the rows `there`, and not those of `plan`, which are
-/// `identity`.
-pub(super) fn occupied(
-    store: &dyn Store,
-    found: &Found,
-    there: &Identity,
-    (plan, identity): (&Plan, &Identity),
-) -> FolderError {
-    let text = store.read(PLAN).ok().and_then(|read| String::from_utf8(read.ok()?).ok());
-    let text = if found.plan.is_empty() { text.unwrap_or_default() } else { found.plan.clone() };
-    let folder = store.root().display().to_string();
-    if !store.replaces() {
-        return FolderError::Kept { folder, differences: all_differences((&text, there), (plan, identity)) };
-    }
-    // keys that do not change rows are no reason
-    let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
-    let keys = text_differences(&text, &plan.text()).into_iter().filter(|one| !text.is_empty() && is_reason(one));
-    let differences = reasons(keys.map(shown).collect(), there, identity);
-    let what = if found.is_finished { "the result" } else { "an unfinished result" };
-    FolderError::Occupied { folder, what, differences }
-}
-
 /// All keys in which the plan of the text `there`, whose rows are `rows`, differs from `plan`, whose rows are
 /// `identity`, one a line.
 pub(super) fn all_differences((there, rows): (&str, &Identity), (plan, identity): (&Plan, &Identity)) -> String {
@@ -131,7 +107,7 @@ pub(super) fn all_differences((there, rows): (&str, &Identity), (plan, identity)
 
 /// The text of a `list` of keys that differ, where the rows are `there` and not `identity`: what else differs is added,
 /// and what is too long is cut.
-fn reasons(mut list: Vec<String>, there: &Identity, identity: &Identity) -> String {
+pub(super) fn reasons(mut list: Vec<String>, there: &Identity, identity: &Identity) -> String {
     if there.arithmetic != identity.arithmetic || there.format != identity.format {
         list.push(format!(
             "version of the row arithmetic: {}.{} there, {}.{} here",

@@ -6,6 +6,7 @@ use std::num::NonZeroUsize;
 use crate::campaign::Plan;
 use crate::ensemble::{Part, PartId, Parts};
 use crate::storage::dataset::{FileRecord, Head, Manifest, PartRecord};
+use crate::storage::folder_error::FolderError;
 use crate::storage::identity::{Identity, RowsMetadata, sealed, sha256};
 use crate::storage::names::{
     DATA, FOLDERS, HEAD, MANIFEST, PART_BANDS, PLAN, REPORT, RUNS, SUCCESS, UNFINISHED, bands_of, is_of_part, is_ours,
@@ -17,22 +18,12 @@ use crate::storage::store::{Store, StoreError};
 /// The manifest of a dataset of an earlier format.
 const OLD_MANIFEST: &str = "manifest.jsonl";
 
-#[derive(Debug)]
-pub enum Contents {
-    /// Without an identity: only what a process left that was stopped before it began one, or nothing.
-    Dataset(Box<Found>),
-    /// A dataset of format 5 or earlier.
-    Old,
-    /// Something that is no dataset: the first entry.
-    Foreign(String),
-}
-
 /// A dataset as it was found.
 #[derive(Debug, Default)]
 pub struct Found {
     /// The text of its plan; empty where there is none.
     pub plan: String,
-    /// What its rows are.
+    /// What its rows are; `None` where there is nothing, or only what a process left that was stopped before it began.
     pub identity: Option<Identity>,
     /// Most samples of a part, where a file that is whole says so.
     pub largest_part: Option<u64>,
@@ -107,6 +98,16 @@ impl Found {
             }
         }
         Ok(found)
+    }
+
+    /// What is wrong with head, manifest, plan, the parts that were `examined`, and the files that follow from them.
+    ///
+    /// # Errors
+    /// Where one cannot be read now.
+    pub fn problems(&self, store: &dyn Store, examined: &Examined) -> Result<Vec<String>, StoreError> {
+        let damaged = examined.damaged.iter().map(|(_, what)| what);
+        let known = self.damage.iter().chain(damaged).cloned();
+        Ok(known.chain(self.derived_damage(store)?).collect())
     }
 
     /// Reads the parts that `is_mine` chooses on `threads` threads: those of the rows of `plan`, which have `identity`
@@ -232,8 +233,8 @@ fn part_there(
 /// What is in `store`.
 ///
 /// # Errors
-/// Where a file operation fails.
-pub fn contents(store: &dyn Store) -> Result<Contents, StoreError> {
+/// Where it is a dataset of format 5 or earlier, something else than a dataset, or a file operation fails.
+pub fn contents(store: &dyn Store) -> Result<Found, FolderError> {
     let top = store.entries("")?;
     let mut found = Found::default();
     for entry in &top {
@@ -262,15 +263,16 @@ pub fn contents(store: &dyn Store) -> Result<Contents, StoreError> {
         None => found.identity_of_rows(store)?,
     };
     if found.identity.is_none() {
+        let folder = store.root().display().to_string();
         if top.iter().any(|entry| entry.name == OLD_MANIFEST && entry.is_file) {
-            return Ok(Contents::Old);
+            return Err(FolderError::Old { folder });
         }
         let whole = found.files.iter().find(|name| !name.ends_with(UNFINISHED)).map(String::as_str);
         let foreign = found.foreign.as_deref().or(found.strays.first().map(String::as_str)).or(whole);
-        return Ok(match foreign {
-            Some(entry) => Contents::Foreign(entry.to_owned()),
-            None => Contents::Dataset(Box::new(found)),
-        });
+        return match foreign.map(str::to_owned) {
+            Some(entry) => Err(FolderError::Foreign { folder, entry }),
+            None => Ok(found),
+        };
     }
     let damage =
         |name: &str, is_there: bool| format!("{name}: {}", if is_there { "its content has changed" } else { MISSING });
@@ -292,7 +294,7 @@ pub fn contents(store: &dyn Store) -> Result<Contents, StoreError> {
         found.damage.push(damage(PLAN, found.files.contains(PLAN)));
         found.plan = manifest.plan.clone();
     }
-    Ok(Contents::Dataset(Box::new(found)))
+    Ok(found)
 }
 
 impl Found {

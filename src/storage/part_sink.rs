@@ -7,7 +7,6 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use parquet::errors::ParquetError;
-use thiserror::Error;
 
 use crate::ensemble::{Ensemble, Part, Rows, Sink};
 use crate::storage::bands_file::BandsFile;
@@ -15,26 +14,10 @@ use crate::storage::dataset::{Dataset, FileRecord, PartFile};
 use crate::storage::identity::seal;
 use crate::storage::names::{bands_of, rows_of};
 use crate::storage::rows_file::RowsFile;
-use crate::storage::store::StoreError;
+use crate::storage::store::{Failure, StoreError};
 
 /// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
 const WAITING: usize = 1;
-
-/// Why rows could not be written.
-#[derive(Debug, Error)]
-pub enum PartError {
-    /// They could not be encoded.
-    #[error("a part could not be encoded: {0}")]
-    Encoding(#[from] ParquetError),
-    #[error(transparent)]
-    Store(#[from] StoreError),
-    /// The thread that writes could not be started.
-    #[error("cannot start a thread: {0}")]
-    Thread(std::io::Error),
-    /// The thread that writes has ended, after an error of its own.
-    #[error("parts are no longer written")]
-    Ended,
-}
 
 /// Counts rows while they are in memory.
 pub trait CountRows: std::fmt::Debug + Sync {
@@ -133,13 +116,14 @@ impl PartSink<'_> {
 }
 
 impl Sink for PartSink<'_> {
-    type Error = PartError;
+    type Error = Failure;
 
-    fn take(&self, rows: &Rows) -> Result<(), PartError> {
-        let part = rows.part();
-        let files = self.files.encoded(rows, self.buffers.take())?;
+    fn take(&self, rows: &Rows) -> Result<(), Failure> {
+        let files = self.files.encoded(rows, self.buffers.take());
+        let files = files.map_err(|error| format!("a part could not be encoded: {error}"))?;
         self.counts.into_iter().for_each(|counts| counts.add(rows));
-        self.encoded.send((part, files)).map_err(|_| PartError::Ended)?;
+        // the thread that writes ends early after an error of its own
+        self.encoded.send((rows.part(), files)).map_err(|_| "parts are no longer written")?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
         Ok(())
@@ -157,10 +141,10 @@ pub fn write_parts<R>(
     ensemble: &Ensemble<'_>,
     counts: Option<&dyn CountRows>,
     body: impl FnOnce(&PartSink<'_>) -> R,
-) -> Result<R, PartError> {
+) -> Result<R, Failure> {
     let (encoded, waiting) = sync_channel::<Encoded>(WAITING);
     let buffers = Buffers::default();
-    let files = PartFiles::new(ensemble)?;
+    let files = PartFiles::new(ensemble).map_err(|error| format!("a part could not be encoded: {error}"))?;
     let sink = PartSink { files, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
         let (buffers, waiting) = (&buffers, waiting);
@@ -171,7 +155,8 @@ pub fn write_parts<R>(
                 Ok(())
             })
         };
-        let writer = std::thread::Builder::new().spawn_scoped(scope, write).map_err(PartError::Thread)?;
+        let writer = std::thread::Builder::new().spawn_scoped(scope, write);
+        let writer = writer.map_err(|error| format!("cannot start a thread: {error}"))?;
         let result = body(&sink);
         drop(sink);
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;

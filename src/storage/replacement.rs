@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::storage::dataset::{Head, unfinish};
 use crate::storage::disk::{above, sync_folder};
 use crate::storage::folder_error::FolderError;
-use crate::storage::found::{Contents, Found, contents};
+use crate::storage::found::{Found, contents};
 use crate::storage::identity::sha256;
 use crate::storage::lock::lock;
 use crate::storage::names::{FOLDERS, HEAD, is_digits};
@@ -95,11 +95,8 @@ fn check_movable(root: &Path) -> io::Result<()> {
 
 /// Removes the files of a dataset, and its folders where nothing else is in them: first the marks, so that a partly
 /// removed dataset is never taken for a whole one; its head last.
-pub(super) fn remove(store: &dyn Store) -> Result<(), StoreError> {
-    let found = match contents(store)? {
-        Contents::Dataset(found) => *found,
-        Contents::Old | Contents::Foreign(_) => return Ok(()),
-    };
+pub(super) fn remove(store: &dyn Store) -> Result<(), FolderError> {
+    let Some(found) = dataset(store)? else { return Ok(()) };
     unfinish(store)?;
     let unlisted: Vec<&str> = found.unlisted().collect();
     let others = found.files.iter().map(String::as_str).filter(|name| *name != HEAD && !unlisted.contains(name));
@@ -109,11 +106,19 @@ pub(super) fn remove(store: &dyn Store) -> Result<(), StoreError> {
     for folder in FOLDERS.into_iter().chain([""]) {
         match store.list(folder) {
             Ok(entries) if entries.is_empty() => store.remove(folder).map_err(store.at(folder))?,
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(store.at(folder)(error)),
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(store.at(folder)(error).into()),
             _ => {}
         }
     }
     Ok(())
+}
+
+/// The dataset in `store`; `None` where something else is there.
+fn dataset(store: &dyn Store) -> Result<Option<Found>, FolderError> {
+    match contents(store) {
+        Err(FolderError::Old { .. } | FolderError::Foreign { .. }) => Ok(None),
+        found => found.map(Some),
+    }
 }
 
 fn rename(from: &dyn Store, to: &Path) -> Result<(), StoreError> {
@@ -129,17 +134,17 @@ fn sync_above(root: &Path) -> Result<(), StoreError> {
 /// # Errors
 /// Where a file operation fails, or something was put into `root` that is not part of its dataset; the old result is
 /// then still whole, in its place or beside it.
-pub fn replace(folders: &OpenFolder<'_>, new: &Arc<dyn Store>, root: &Path) -> Result<(), StoreError> {
+pub fn replace(folders: &OpenFolder<'_>, new: &Arc<dyn Store>, root: &Path) -> Result<(), FolderError> {
     let old = folders(root);
-    let not_ours = match contents(&*old)? {
-        Contents::Dataset(found) => found.not_its_own().map(str::to_owned),
-        Contents::Foreign(entry) => Some(entry),
-        Contents::Old => None,
+    let not_ours = match contents(&*old) {
+        Err(FolderError::Foreign { entry, .. }) => Some(entry),
+        Err(FolderError::Old { .. }) => None,
+        found => found?.not_its_own().map(str::to_owned),
     };
     if let Some(entry) = not_ours {
         let why =
             format!("contains `{entry}`, which is not part of the result; move it away, and run the command again");
-        return Err(old.at("")(io::Error::other(why)));
+        return Err(old.at("")(io::Error::other(why)).into());
     }
     let own = digits_of(&**new)?.ok_or_else(|| new.at(HEAD)(ErrorKind::NotFound.into()))?;
     rename(&*old, &beside(root, &own, "old"))?;
@@ -153,7 +158,7 @@ pub fn replace(folders: &OpenFolder<'_>, new: &Arc<dyn Store>, root: &Path) -> R
 ///
 /// # Errors
 /// Where a file operation fails.
-pub(super) fn remove_replaced(folders: &OpenFolder<'_>, root: &Path, found: &Found) -> Result<(), StoreError> {
+pub(super) fn remove_replaced(folders: &OpenFolder<'_>, root: &Path, found: &Found) -> Result<(), FolderError> {
     let own = digits_of(&*folders(root))?.filter(|_| found.identity.is_some());
     let old = own.map(|own| beside(root, &own, "old")).filter(|old| old.exists());
     old.map_or(Ok(()), |old| remove(&*folders(&old)))
@@ -179,7 +184,7 @@ pub(super) fn complete(folders: &OpenFolder<'_>, root: &Path) -> Result<(), Fold
             continue;
         }
         let _lock = lock(&*new, false)?;
-        let is_new_whole = matches!(contents(&*new)?, Contents::Dataset(found) if found.is_finished);
+        let is_new_whole = dataset(&*new)?.is_some_and(|found| found.is_finished);
         rename(if is_new_whole { &*new } else { &*old }, root)?;
         return Ok(sync_above(root)?);
     }

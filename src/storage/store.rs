@@ -161,6 +161,9 @@ pub struct StoreError {
     pub source: io::Error,
 }
 
+/// Why something could not be made or written, where only its text is of use.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
+
 /// Adds the path to an error.
 pub fn at(path: &Path) -> impl FnOnce(io::Error) -> StoreError + use<> {
     let path = path.to_owned();

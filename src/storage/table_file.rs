@@ -1,15 +1,12 @@
-//! Tables in a single file: [`save`], in the [`TableFormat`] of its extension; [`TableError`].
+//! Tables in a single file: [`save`], in the [`TableFormat`] of its extension.
 
-use std::io;
 use std::path::Path;
-
-use parquet::errors::ParquetError;
-use thiserror::Error;
 
 use crate::campaign::Plan;
 use crate::storage::atomic;
 use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
+use crate::storage::store::Failure;
 use crate::table::{Table, csv};
 
 /// The formats of a table in a single file.
@@ -19,29 +16,16 @@ pub enum TableFormat {
     Csv,
 }
 
-/// Why a table could not be written.
-#[derive(Debug, Error)]
-pub enum TableError {
-    /// The extension is neither Parquet nor CSV.
-    #[error("a table is written as .parquet or .csv, and `{0}` is neither")]
-    Format(String),
-    /// An operation on the file failed.
-    #[error(transparent)]
-    Io(#[from] io::Error),
-    #[error(transparent)]
-    Parquet(#[from] ParquetError),
-}
-
 impl TableFormat {
     /// The format that the extension of `path` names.
     ///
     /// # Errors
-    /// [`TableError::Format`].
-    pub fn of(path: &Path) -> Result<Self, TableError> {
+    /// Where it names neither.
+    pub fn of(path: &Path) -> Result<Self, String> {
         match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
             Some("parquet") => Ok(TableFormat::Parquet),
             Some("csv") => Ok(TableFormat::Csv),
-            _ => Err(TableError::Format(path.display().to_string())),
+            _ => Err(format!("a table is written as .parquet or .csv, and `{}` is neither", path.display())),
         }
     }
 }
@@ -49,8 +33,8 @@ impl TableFormat {
 /// Writes `table` of `plan` to `path`, in the format of its extension; the file is whole or absent.
 ///
 /// # Errors
-/// [`TableError`].
-pub fn save(plan: &Plan, table: &Table<'_>, path: &Path) -> Result<(), TableError> {
+/// Where the extension has no format, or writing fails.
+pub fn save(plan: &Plan, table: &Table<'_>, path: &Path) -> Result<(), Failure> {
     match TableFormat::of(path)? {
         TableFormat::Csv => atomic::write(path, |file| csv::write(file, table))?,
         TableFormat::Parquet => atomic::write_bytes(path, &encoded(table, provenance(plan), Packing::Lz4)?)?,

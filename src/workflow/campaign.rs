@@ -8,13 +8,12 @@ use crate::control::laws::callback;
 use crate::ensemble::Ensemble;
 use crate::storage::claim::{Claim, Shard};
 use crate::storage::store::Store;
-use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::plan_of_failed;
-use crate::workflow::finishing::{Outputs, keep, say_notes};
+use crate::workflow::finishing::{Job, Outputs, already, keep};
 use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::results::Results;
-use crate::workflow::running::{Running, run_missing};
+use crate::workflow::running::run_missing;
 use crate::workflow::session::Session;
 use crate::workflow::source::{claimed, plan_and_files};
 use crate::workflow::workload::Workload;
@@ -250,26 +249,14 @@ impl PreparedCampaign<'_> {
         let (ensemble, root) = (self.ensemble(), &*self.root);
         let ready = match claimed(session, &self.store, &ensemble, (*overwrite, *shard))? {
             Claim::Finished(finished) => {
-                say_notes(session, root, &finished.notes);
-                let end = end_of_finished(session, &self.plan, &finished)?;
-                drop(finished);
-                if let Some(file) = outputs.junit.as_deref().filter(|_| shard.is_none()) {
-                    Results::open(root, *session)?.write_junit(file)?;
-                }
-                return Ok(CampaignOutcome::AlreadyFinished(end));
+                let junit = outputs.junit.as_deref().filter(|_| shard.is_none());
+                return already(session, root, &self.plan, finished, junit).map(CampaignOutcome::AlreadyFinished);
             }
             Claim::Ready(ready) => *ready,
         };
         keep(&ready, &self.files)?;
-        run_missing(&Running {
-            session: *session,
-            ensemble: &ensemble,
-            ready: &ready,
-            root,
-            outputs,
-            shard: *shard,
-            fail_fast: *fail_fast,
-        })
+        let (session, ensemble, ready) = (*session, &ensemble, &ready);
+        run_missing(&Job { session, ensemble, ready, root, outputs, shard: *shard, fail_fast: *fail_fast })
     }
 }
 

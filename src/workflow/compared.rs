@@ -20,7 +20,7 @@ use crate::workflow::results::Results;
 pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result<Compared<'r>, WorkflowError> {
     let [first, second] = results;
     let rows = results.map(|one| ResultRows { plan: one.plan(), reader: one.rows() });
-    let comparison = compare(rows[0], rows[1], first.threads()).map_err(WorkflowError::files)?;
+    let comparison = compare(rows[0], rows[1], first.threads())?;
     let ends = [first.end()?.verdicts, second.end()?.verdicts];
     Ok(Compared::new(names, [first.plan(), second.plan()], comparison, ends))
 }

@@ -12,8 +12,8 @@ use crate::ensemble::Ensemble;
 use crate::sampling::SampleId;
 use crate::storage::dataset::{FileRecord, Manifest, PartRecord, rows};
 use crate::storage::names::{DATA, HEAD, PLAN, REPORT, SUMMARY, TRAJECTORIES};
-use crate::storage::store::{Store, StoreError};
-use crate::workflow::derived::{Derivation, Destination, PageKind, derive};
+use crate::storage::store::Store;
+use crate::workflow::derived::{Derivation, derive};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::page::noise_scenes;
 use crate::workflow::session::Session;
@@ -37,38 +37,30 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    fn is_listed(&self, name: &str) -> bool {
-        self.listed.contains_key(name)
-    }
-
     fn add(&self, name: &str, what: &str) {
         self.problems.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{name}: {what}"));
     }
 
-    fn compare(&self, name: &str, bytes: &[u8]) {
+    /// Compares the file `name` with its record; without bytes there is to be none.
+    fn compare(&self, name: &str, bytes: Option<&[u8]>) {
+        let listed = self.listed.get(name);
+        if listed.is_none() && bytes.is_none() {
+            return;
+        }
         self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
-        match self.listed.get(name) {
-            Some(listed) if **listed == FileRecord::of(name, bytes) => {}
-            Some(_) => self.add(name, "is not what this program makes of plan and rows, though its checksum is right"),
-            None => self.add(name, "is missing, and the manifest does not list it"),
+        match (listed, bytes) {
+            (Some(listed), Some(bytes)) if **listed == FileRecord::of(name, bytes) => {}
+            (_, None) => self.add(name, NO_SUCH_FILE),
+            (Some(_), _) => {
+                self.add(name, "is not what this program makes of plan and rows, though its checksum is right");
+            }
+            (None, _) => self.add(name, NOT_LISTED),
         }
     }
 }
 
-impl Destination for Comparison<'_> {
-    fn take(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        self.compare(name, bytes);
-        Ok(())
-    }
-
-    fn leave_out(&self, name: &str) -> Result<(), StoreError> {
-        if self.is_listed(name) {
-            self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
-            self.add(name, "is listed, and plan and rows have no such file");
-        }
-        Ok(())
-    }
-}
+const NO_SUCH_FILE: &str = "is listed, and plan and rows have no such file";
+const NOT_LISTED: &str = "is missing, and the manifest does not list it";
 
 /// Makes the files that follow from plan and rows of the result in `store` again, and compares them with those that its
 /// manifest lists; of the time series those that `chosen` chooses. The parts are `records`, whose checksums are right.
@@ -86,34 +78,29 @@ pub(super) fn derived_problems(
     let listed = manifest.derived().map(|file| (file.name.as_str(), file)).collect();
     let files = Comparison { listed, made: Mutex::default(), problems: Mutex::default() };
     let reader = rows(store, records);
-    let gathered = Gathered::of_files(ensemble, &reader, session.threads).map_err(WorkflowError::files)?;
+    let gathered = Gathered::of_files(ensemble, &reader, session.threads)?;
     let retained = gathered.retained.clone();
     let made_again = chosen(&retained);
-    let page = match files.listed.get(REPORT) {
-        None => PageKind::Without,
-        Some(_) => {
-            let html = store.read(REPORT).map_err(WorkflowError::files)?.unwrap_or_default();
-            noise_scenes(&html).map_or(PageKind::OfRows, PageKind::WithNoise)
-        }
-    };
+    let html = files.listed.get(REPORT).map(|_| store.read(REPORT)).transpose()?;
+    let page = html.map(|html| noise_scenes(&html.unwrap_or_default()));
     let job = Derivation { session: *session, ensemble, reader: &reader, records, page, retained: &made_again };
-    derive(&job, gathered, &files)?;
-    files.compare(PLAN, plan.text().as_bytes());
-    files.compare(HEAD, &manifest.head.bytes());
+    derive(&job, gathered, &|name, bytes| {
+        files.compare(name, bytes);
+        Ok(())
+    })?;
+    files.compare(PLAN, Some(plan.text().as_bytes()));
+    files.compare(HEAD, Some(&manifest.head.bytes()));
     let series: BTreeSet<String> =
         retained.iter().map(|sample| format!("{TRAJECTORIES}/{}", file_name(*sample))).collect();
     let copies: BTreeSet<String> =
         read.data.iter().map(|(path, sha256)| format!("{DATA}/{}", data::copy_name(path, sha256))).collect();
-    for name in series.iter().chain(&copies).filter(|name| !files.is_listed(name)) {
-        files.add(name, "is missing, and the manifest does not list it");
+    for name in series.iter().chain(&copies).filter(|name| !files.listed.contains_key(name.as_str())) {
+        files.add(name, NOT_LISTED);
     }
     let made = files.made.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut problems = files.problems.into_inner().unwrap_or_else(PoisonError::into_inner);
     let is_known = |name: &str| made.contains(name) || series.contains(name) || copies.contains(name);
-    problems.extend(
-        (files.listed.keys().filter(|name| !is_known(name)))
-            .map(|name| format!("{name}: is listed, and plan and rows have no such file")),
-    );
+    problems.extend((files.listed.keys().filter(|name| !is_known(name))).map(|name| format!("{name}: {NO_SUCH_FILE}")));
     if problems.iter().any(|what| what.starts_with(SUMMARY))
         && let Some(version) = other_version(&**store)?
     {
@@ -129,7 +116,7 @@ const THIS: &str = env!("CARGO_PKG_VERSION");
 
 /// The version that the summary names, where it is not this one.
 fn other_version(store: &dyn Store) -> Result<Option<String>, WorkflowError> {
-    let bytes = store.read(SUMMARY).map_err(WorkflowError::files)?.unwrap_or_default();
+    let bytes = store.read(SUMMARY)?.unwrap_or_default();
     let summary: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
     let version = summary.get("version").and_then(serde_json::Value::as_str);
     Ok(version.filter(|version| *version != THIS).map(str::to_owned))

@@ -26,7 +26,7 @@ pub(super) fn end_of(
     session: &Session<'_>,
 ) -> Result<SummaryEnd, WorkflowError> {
     let ensemble = Ensemble::new(plan, session.isa);
-    let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads).map_err(WorkflowError::files)?, None);
+    let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads)?, None);
     if let Some(said) = summary::read(summary)
         && said.without_words() == end.without_words()
     {

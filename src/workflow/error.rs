@@ -3,7 +3,10 @@
 use thiserror::Error;
 
 use crate::campaign::CampaignError;
+use crate::report::figure_files::FigureError;
 use crate::storage::folder_error::FolderError;
+use crate::storage::rows_reader::RowsError;
+use crate::storage::store::{Failure, StoreError};
 
 /// Why a campaign could not run, or a result could not be used. The text says where, what is wrong, and what to do.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -45,8 +48,15 @@ impl From<FolderError> for WorkflowError {
     }
 }
 
-impl From<std::io::Error> for WorkflowError {
-    fn from(error: std::io::Error) -> Self {
-        WorkflowError::Files(error.to_string())
-    }
+/// Errors of input and output, each as its text.
+macro_rules! from_files {
+    ($($Error:ty),*) => {
+        $(impl From<$Error> for WorkflowError {
+            fn from(error: $Error) -> Self {
+                WorkflowError::files(error)
+            }
+        })*
+    };
 }
+
+from_files!(std::io::Error, StoreError, RowsError, Failure, FigureError);

@@ -13,8 +13,9 @@ use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
 use crate::storage::dataset::rows;
-use crate::storage::part_sink::{PartError, PartSink};
+use crate::storage::part_sink::PartSink;
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::store::Failure;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::{plan_and_files, sound};
@@ -51,7 +52,7 @@ pub fn plan_of_failed(
         samples.extend(some.into_iter().map(|sample| sample.0));
         Ok::<(), RowsError>(())
     };
-    rows(&store, &parts).visit(None, failed, add).map_err(WorkflowError::files)?;
+    rows(&store, &parts).visit(None, failed, add)?;
     let same = Overrides { samples: Some(drawn.samples), seed: Some(drawn.seed), ..overrides };
     let (plan, files) = plan_and_files(file, same)?;
     if samples.is_empty() {
@@ -103,9 +104,9 @@ pub struct FailFast<'a, 's> {
 }
 
 impl Sink for FailFast<'_, '_> {
-    type Error = PartError;
+    type Error = Failure;
 
-    fn take(&self, rows: &Rows) -> Result<(), PartError> {
+    fn take(&self, rows: &Rows) -> Result<(), Failure> {
         self.sink.take(rows)?;
         let row = rows.statuses().iter().position(|status| *status != Status::Done).filter(|_| self.is_on);
         if let Some(row) = row {

@@ -14,11 +14,11 @@ use crate::findings::Findings;
 use crate::findings::end::SummaryEnd;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
-use crate::storage::claim::{Claim, Ready, open};
+use crate::storage::claim::{self, Claim, Ready, Shard, open};
 use crate::storage::names::{PLAN, TRAJECTORIES, rows_of};
 use crate::storage::replacement::replace;
 use crate::workflow::analysed::{end_of_analysed, write_junit};
-use crate::workflow::derived::{Derivation, Derived, PageKind, derive};
+use crate::workflow::derived::{Derivation, Derived, derive};
 use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::page;
@@ -62,19 +62,18 @@ pub struct Completed {
     pub bytes: u64,
 }
 
-/// A dataset whose parts are all there.
+/// A campaign whose place is claimed.
 #[derive(Clone, Copy)]
-pub struct Finishing<'a> {
-    /// With what it is finished.
+pub(super) struct Job<'a> {
     pub session: Session<'a>,
     pub ensemble: &'a Ensemble<'a>,
     pub ready: &'a Ready,
-    /// Where it is for its user.
+    /// Where the result is for its user.
     pub root: &'a Path,
     /// What is made beside the tables.
     pub outputs: &'a Outputs,
-    /// What this process has run.
-    pub made: Option<Made>,
+    pub shard: Option<Shard>,
+    pub fail_fast: bool,
 }
 
 /// Makes everything that follows from the rows, and marks the dataset as finished. Where the rows were counted while
@@ -82,37 +81,43 @@ pub struct Finishing<'a> {
 ///
 /// # Errors
 /// Where parts are missing, rows cannot be read or a file operation fails.
-pub fn complete(job: &Finishing<'_>, gathered: Option<Gathered>) -> Result<Completed, WorkflowError> {
+pub(super) fn complete(
+    job: &Job<'_>,
+    made: Option<Made>,
+    gathered: Option<Gathered>,
+) -> Result<Completed, WorkflowError> {
     let (plan, dataset, threads) = (job.ensemble.plan(), &job.ready.dataset, job.session.threads);
     refuse_missing(&dataset.missing(dataset.head().parts(plan.rows())), job.root)?;
     let (records, reader) = (dataset.parts(), dataset.rows());
     let gathered = match gathered {
         Some(gathered) => gathered,
-        None => Gathered::of_files(job.ensemble, &reader, threads).map_err(WorkflowError::files)?,
+        None => Gathered::of_files(job.ensemble, &reader, threads)?,
     };
     let retained = gathered.retained.clone();
     // an earlier end of the campaign may have left others
-    dataset.clear(TRAJECTORIES).map_err(WorkflowError::files)?;
-    let page = if job.outputs.without_page { PageKind::Without } else { PageKind::OfRows };
-    let session = job.session;
+    dataset.clear(TRAJECTORIES)?;
+    let (session, page) = (job.session, (!job.outputs.without_page).then_some(None));
     let derivation =
         Derivation { session, ensemble: job.ensemble, reader: &reader, records: &records, page, retained: &retained };
-    let Derived { analysed, page, findings } = derive(&derivation, gathered, dataset)?;
+    let Derived { analysed, page, findings } = derive(&derivation, gathered, &|name, bytes| match bytes {
+        Some(bytes) => dataset.put(name, bytes),
+        None => dataset.remove(name),
+    })?;
     if let Some(page) = page {
         page::save_figures(&session, plan, &page, job.outputs.figures.as_deref())?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
     let end = end_of_analysed(&analysed, &findings);
-    dataset.finish().map_err(WorkflowError::files)?;
+    dataset.finish()?;
     if let Some(old) = &job.ready.replaces {
-        replace(session.folders, dataset.store(), old).map_err(WorkflowError::files)?;
+        replace(session.folders, dataset.store(), old)?;
     }
     Ok(Completed {
         plan: plan.clone(),
         root: job.root.to_owned(),
         findings,
         end,
-        made: job.made,
+        made,
         is_audited: analysed.tally.audits.is_some(),
         files: records.len(),
         bytes: dataset.size(),
@@ -158,6 +163,23 @@ pub(super) fn say_notes(session: &Session<'_>, root: &Path, notes: &[String]) {
     notes.iter().for_each(|note| session.watch.note(&format!("{}: {note}", root.display())));
 }
 
+/// How the campaign of a result that is there ended; its verdicts are written to the file `junit`, if one was named.
+pub(super) fn already(
+    session: &Session<'_>,
+    root: &Path,
+    plan: &Plan,
+    finished: claim::Finished,
+    junit: Option<&Path>,
+) -> Result<SummaryEnd, WorkflowError> {
+    say_notes(session, root, &finished.notes);
+    let end = end_of_finished(session, plan, &finished)?;
+    drop(finished);
+    if let Some(file) = junit {
+        Results::open(root, *session)?.write_junit(file)?;
+    }
+    Ok(end)
+}
+
 /// What [`finish`] found.
 #[derive(Clone, Debug)]
 pub enum Finished {
@@ -190,13 +212,7 @@ pub fn finish(
     let ensemble = Ensemble::new(&plan, session.isa);
     let ready = match claimed(session, &store, &ensemble, (false, None))? {
         Claim::Finished(finished) => {
-            say_notes(session, root, &finished.notes);
-            let end = end_of_finished(session, &plan, &finished)?;
-            drop(finished);
-            if let Some(file) = &outputs.junit {
-                Results::open(root, *session)?.write_junit(file)?;
-            }
-            return Ok(Finished::Already(end));
+            return already(session, root, &plan, finished, outputs.junit.as_deref()).map(Finished::Already);
         }
         Claim::Ready(ready) => *ready,
     };
@@ -204,6 +220,7 @@ pub fn finish(
     ready.damaged.iter().for_each(|what| session.watch.note(&format!("{}: damaged: {what}", root.display())));
     refuse_missing(&ready.dataset.missing(ready.dataset.head().parts(plan.rows())), root)?;
     keep(&ready, &files)?;
-    let job = Finishing { session: *session, ensemble: &ensemble, ready: &ready, root, outputs, made: None };
-    complete(&job, None).map(|completed| Finished::Now(Box::new(completed)))
+    let (session, ensemble, ready) = (*session, &ensemble, &ready);
+    let job = Job { session, ensemble, ready, root, outputs, shard: None, fail_fast: false };
+    complete(&job, None, None).map(|completed| Finished::Now(Box::new(completed)))
 }

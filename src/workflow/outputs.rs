@@ -13,7 +13,7 @@ use crate::workflow::error::WorkflowError;
 /// The first such file.
 pub fn check_formats(table: Option<&Path>, plot: Option<&Path>) -> Result<(), WorkflowError> {
     if let Some(path) = table {
-        TableFormat::of(path).map_err(|error| WorkflowError::Input(error.to_string()))?;
+        TableFormat::of(path).map_err(WorkflowError::Input)?;
     }
     plot.map_or(Ok(()), |path| check_format(path).map_err(|error| WorkflowError::Input(error.to_string())))
 }

@@ -70,11 +70,11 @@ pub fn remade(
     }
     let ensemble = Ensemble::new(&plan, session.isa);
     let reader = rows(&store, &records);
-    let gathered = Gathered::of_files(&ensemble, &reader, threads).map_err(WorkflowError::files)?;
-    let analysed = computed(&plan, &reader, gathered, threads).map_err(WorkflowError::files)?;
+    let gathered = Gathered::of_files(&ensemble, &reader, threads)?;
+    let analysed = computed(&plan, &reader, gathered, threads)?;
     let (page, found) = made_page(session, &ensemble, &analysed, (&reader, &records), noise)?;
     let path = root.join(REPORT);
-    replace_file(&*store, manifest, (REPORT, page.html.as_bytes())).map_err(WorkflowError::files)?;
+    replace_file(&*store, manifest, (REPORT, page.html.as_bytes()))?;
     save_figures(session, &plan, &page, figures)?;
     let end = end_of_analysed(&analysed, &found);
     let noise = found.of(Kind::Driver).filter(|one| one.id.starts_with("noise_")).cloned().collect();
@@ -105,7 +105,7 @@ pub(super) fn made_page(
     let found = findings(plan, analysed, &noise);
     let listed = listed(plan, &analysed.survey, &required(plan, found.of(Kind::Requirement)));
     let samples: Vec<SampleId> = listed.iter().map(|(sample, _)| *sample).collect();
-    let rows = rows_of(ensemble, reader, records, &samples).map_err(WorkflowError::files)?;
+    let rows = rows_of(ensemble, reader, records, &samples)?;
     let files = records.iter().flat_map(|part| &part.files).map(|file| (file.name.clone(), file.sha256.clone()));
     let contents = Contents { analysed, found: &found, listed, rows, files: files.collect() };
     let mut page = Page::new(ensemble, &contents);
@@ -184,7 +184,7 @@ pub fn save_figures(
     let Some(folder) = folder else { return Ok(()) };
     let of = format!("{}: {}.", plan.name, counted(plan.rows(), "run"));
     let sheet = FigureSheet { title: of, figures: page.figures.clone() };
-    let (count, note) = sheet.save_all(folder).map_err(WorkflowError::files)?;
+    let (count, note) = sheet.save_all(folder)?;
     session.watch.note(&note.unwrap_or_else(|| format!("{}: {} of figures", folder.display(), counted(count, "file"))));
     Ok(())
 }

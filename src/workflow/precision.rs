@@ -102,8 +102,8 @@ pub fn measured(
     tell(Told::Omitted(&findings::omissions(&omitted, wanted.limits.limit)))?;
 
     let [table, figure, _] = outputs(folder);
-    table_file::save(plan, &precision_table(&measured, isa.name()), &table).map_err(WorkflowError::files)?;
+    table_file::save(plan, &precision_table(&measured, isa.name()), &table)?;
     let title = format!("{}: {}, {:?} s", plan.name, counted(precision.samples(), "sample"), plan.grid.duration());
-    let figure = precision_figure(title, &measured).save(&figure).map_err(WorkflowError::files)?;
+    let figure = precision_figure(title, &measured).save(&figure)?;
     Ok([table, figure])
 }

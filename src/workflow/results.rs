@@ -78,7 +78,7 @@ impl<'a> Results<'a> {
             numbers.extend(part);
             Ok(())
         };
-        self.reader.visit(self.session.threads, |part| part.numbers(name), gather).map_err(WorkflowError::files)?;
+        self.reader.visit(self.session.threads, |part| part.numbers(name), gather)?;
         Ok(numbers)
     }
 
@@ -88,7 +88,7 @@ impl<'a> Results<'a> {
     /// Where a file cannot be read.
     pub fn analysed(&self) -> Result<Analysed, WorkflowError> {
         let (ensemble, threads) = (Ensemble::new(&self.plan, self.session.isa), self.session.threads);
-        let gathered = Gathered::of_files(&ensemble, &self.reader, threads).map_err(WorkflowError::files)?;
+        let gathered = Gathered::of_files(&ensemble, &self.reader, threads)?;
         computed(&self.plan, &self.reader, gathered, threads).map_err(WorkflowError::files)
     }
 
@@ -129,7 +129,7 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where their folder cannot be read.
     pub fn retained(&self) -> Result<Vec<PathBuf>, WorkflowError> {
-        let entries = self.reader.store().entries(TRAJECTORIES).map_err(WorkflowError::files)?;
+        let entries = self.reader.store().entries(TRAJECTORIES)?;
         Ok(entries.into_iter().map(|entry| self.root.join(TRAJECTORIES).join(entry.name)).collect())
     }
 
@@ -138,7 +138,7 @@ impl<'a> Results<'a> {
     /// # Errors
     /// Where it cannot be read.
     pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>, WorkflowError> {
-        Ok(self.reader.store().read(name).map_err(WorkflowError::files)?.ok())
+        Ok(self.reader.store().read(name)?.ok())
     }
 
     /// The run of a sample again, with its states over time: bit for bit that of its row.

@@ -1,7 +1,6 @@
 //! [`run_missing`]: runs the samples of a campaign that are not there yet, look by look where the plan has `[stop]`,
 //! and finishes the result.
 
-use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -12,27 +11,14 @@ use crate::ensemble::runner::threads;
 use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
 use crate::findings::loss::stop_text;
 use crate::findings::number::counted;
-use crate::storage::claim::{Ready, Shard};
 use crate::storage::part_sink::{CountRows, PartSink, write_parts};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::{FailFast, FailedRun, first_failed};
-use crate::workflow::finishing::{Finishing, Made, Outputs, complete, say_notes};
+use crate::workflow::finishing::{Job, Made, complete, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
-use crate::workflow::session::Session;
-
-/// A campaign whose folder is claimed.
-pub(super) struct Running<'a> {
-    pub session: Session<'a>,
-    pub ensemble: &'a Ensemble<'a>,
-    pub ready: &'a Ready,
-    pub root: &'a Path,
-    pub outputs: &'a Outputs,
-    pub shard: Option<Shard>,
-    pub fail_fast: bool,
-}
 
 /// Runs what is missing, and finishes the result.
-pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, WorkflowError> {
+pub(super) fn run_missing(job: &Job<'_>) -> Result<CampaignOutcome, WorkflowError> {
     let (plan, ready) = (job.ensemble.plan(), job.ready);
     let parts = ready.dataset.head().parts(plan.rows());
     let mut made = Made::default();
@@ -48,7 +34,7 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
         if let Some(outcome) = job.run_to(parts.with_samples(target), counts.as_ref(), &mut made)? {
             return Ok(outcome);
         }
-        match look(plan, &ready.dataset.rows(), target, job.session.threads).map_err(WorkflowError::files)? {
+        match look(plan, &ready.dataset.rows(), target, job.session.threads)? {
             Some(found) if !found.ends() => {
                 job.session.watch.note(&format!("{}: {}", plan.name, stop_text(plan, &found)));
             }
@@ -57,19 +43,12 @@ pub(super) fn run_missing(job: &Running<'_>) -> Result<CampaignOutcome, Workflow
     }
     let plan = plan.clone().at_look(samples);
     let stopped = Ensemble::new(&plan, job.ensemble.isa());
-    let finishing = Finishing {
-        session: job.session,
-        ensemble: &stopped,
-        ready,
-        root: job.root,
-        outputs: job.outputs,
-        made: Some(made),
-    };
-    let completed = complete(&finishing, counts.and_then(|counts| counts.whole(parts.with_samples(samples))))?;
+    let gathered = counts.and_then(|counts| counts.whole(parts.with_samples(samples)));
+    let completed = complete(&Job { ensemble: &stopped, ..*job }, Some(made), gathered)?;
     Ok(CampaignOutcome::Finished(Box::new(completed)))
 }
 
-impl Running<'_> {
+impl Job<'_> {
     fn is_mine(&self, part: &Part) -> bool {
         self.shard.is_none_or(|shard| shard.has(part.id))
     }
@@ -85,7 +64,7 @@ impl Running<'_> {
         // a last part of fewer samples is made again with its further rows
         let there = dataset.parts().into_iter().map(|record| record.part);
         let outgrown = there.filter(|part| self.is_mine(part) && parts.part(part.id) != Some(*part));
-        dataset.drop_parts(outgrown.map(|part| part.id)).map_err(WorkflowError::files)?;
+        dataset.drop_parts(outgrown.map(|part| part.id))?;
         let mut missing = dataset.missing(parts);
         missing.retain(|part| self.is_mine(part));
         if made.samples == 0 {
@@ -94,7 +73,7 @@ impl Running<'_> {
             self.say_idle_threads(missing.len());
         }
         if self.fail_fast
-            && let Some(failed) = first_failed(&dataset.rows()).map_err(WorkflowError::files)?
+            && let Some(failed) = first_failed(&dataset.rows())?
         {
             return Ok(Some(CampaignOutcome::FailedFast(failed)));
         }
@@ -111,7 +90,7 @@ impl Running<'_> {
     }
 
     /// Runs `missing`; the first run that failed, where that ends the campaign.
-    fn run_them(
+    pub(super) fn run_them(
         &self,
         missing: &[Part],
         counts: Option<&RunningFold>,
@@ -130,7 +109,7 @@ impl Running<'_> {
             run_parts(self.ensemble, missing, self.session.threads, &watched, supervision).map(|()| sink.seconds())
         });
         watch.end();
-        let seconds = ended.map_err(WorkflowError::files)?.map_err(WorkflowError::files)?;
+        let seconds = ended?.map_err(WorkflowError::files)?;
         made.samples += samples;
         made.elapsed += begun.elapsed();
         made.seconds.iter_mut().zip(seconds).for_each(|(sum, seconds)| *sum += seconds);

@@ -111,7 +111,7 @@ impl<'a> Session<'a> {
     /// Where it is no address, or the store cannot be reached.
     pub fn store(&self, root: &Path) -> Result<Arc<dyn Store>, WorkflowError> {
         let Some(address) = Address::of(root, connect().is_some()).map_err(WorkflowError::Input)? else {
-            let root = meant(root).map_err(at(root)).map_err(WorkflowError::files)?;
+            let root = meant(root).map_err(at(root))?;
             return Ok((self.folders)(&root));
         };
         let none = || std::io::Error::other("this build of spindrift has no object stores");

@@ -4,18 +4,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::campaign::{FilesRead, Overrides, Plan, data, find, nearest_file};
-use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, Parts};
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::storage::atomic::{make_folder, write_bytes};
-use crate::storage::claim::{Claim, ClaimOptions, Shard, Wanted, claim};
+use crate::storage::claim::{Claim, ClaimOptions, Shard, claim};
 use crate::storage::dataset::{Head, PartRecord};
 use crate::storage::disk::above;
 use crate::storage::found::Found;
 use crate::storage::identity::{Identity, sha256};
 use crate::storage::names::{DATA, PLAN};
-use crate::storage::rows_file::identity;
 use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
@@ -84,7 +82,7 @@ fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf, WorkflowE
     for name in found.files.iter().filter(|name| name.starts_with(DATA)) {
         let path = folder.join(name);
         if !path.exists() {
-            let bytes = store.read(name).map_err(WorkflowError::files)?.unwrap_or_default();
+            let bytes = store.read(name)?.unwrap_or_default();
             make_folder(above(&path))?;
             write_bytes(&path, &bytes)?;
         }
@@ -98,12 +96,6 @@ pub fn at_rows_of(plan: Plan, found: &Found) -> Plan {
     plan.at_look(found.rows(parts))
 }
 
-/// The rows of `ensemble`, and how a dataset divides them that may be there.
-pub fn head_of(ensemble: &Ensemble<'_>, found: &Found) -> Head {
-    let largest_part = found.largest_part.unwrap_or_else(|| parts(ensemble.plan(), ensemble.isa()).largest());
-    Head { identity: identity(ensemble), largest_part }
-}
-
 /// Claims `store` for the rows of `ensemble`: in place of another result or not, for a shard or all.
 ///
 /// # Errors
@@ -115,9 +107,7 @@ pub fn claimed(
     (overwrite, shard): (bool, Option<Shard>),
 ) -> Result<Claim, WorkflowError> {
     let options = ClaimOptions { folders: session.folders, overwrite, shard, threads: session.readers() };
-    let (plan, isa) = (ensemble.plan(), ensemble.isa());
-    let wanted = Wanted { plan, identity: &identity(ensemble), parts: &|| parts(plan, isa) };
-    claim(store, wanted, options).map_err(WorkflowError::files)
+    claim(store, ensemble, options).map_err(WorkflowError::files)
 }
 
 /// The plan of the result in `store` and its parts, after every checksum was compared: for commands that read it. The
@@ -131,12 +121,10 @@ pub fn sound(
     remade: Option<&str>,
 ) -> Result<(Plan, Vec<PartRecord>), WorkflowError> {
     let plan = at_rows_of(plan_in(session, store, found)?.0, found);
-    let head = head_of(&Ensemble::new(&plan, session.isa), found);
+    let head = Head::of(&Ensemble::new(&plan, session.isa), found.largest_part);
     refuse_other_rows(store, found, &head.identity)?;
-    let examined = found.examine(store, (&plan, &head), &|_| true, session.readers()).map_err(WorkflowError::files)?;
-    let mut problems = found.damage.clone();
-    problems.extend(examined.damaged.into_iter().map(|(_, what)| what));
-    problems.extend(found.derived_damage(store).map_err(WorkflowError::files)?);
+    let examined = found.examine(store, (&plan, &head), &|_| true, session.readers())?;
+    let mut problems = found.problems(store, &examined)?;
     problems.retain(|what| remade.is_none_or(|remade| !what.starts_with(remade)));
     match problems.first() {
         None => Ok((plan, examined.parts)),

@@ -12,13 +12,13 @@ use crate::storage::claim::{Claim, open};
 use crate::storage::dataset::{FileRecord, Head, PartRecord, unfinish};
 use crate::storage::found::Found;
 use crate::storage::names::rows_of;
-use crate::storage::part_sink::{PartFiles, write_parts};
+use crate::storage::part_sink::PartFiles;
 use crate::storage::store::Store;
 use crate::workflow::derived_check::derived_problems;
 use crate::workflow::error::WorkflowError;
-use crate::workflow::finishing::{Completed, Finishing, Outputs, complete, keep, stop_is_continued};
+use crate::workflow::finishing::{Completed, Job, Made, Outputs, complete, keep, stop_is_continued};
 use crate::workflow::session::Session;
-use crate::workflow::source::{at_rows_of, claimed, head_of, plan_in, refuse_other_rows};
+use crate::workflow::source::{at_rows_of, claimed, plan_in, refuse_other_rows};
 
 /// How a result was verified.
 #[derive(Clone, Debug)]
@@ -59,14 +59,12 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     // also without rows to compute again: the page has runs over time
     callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     let ensemble = Ensemble::new(&plan, session.isa);
-    let head = head_of(&ensemble, &found);
+    let head = Head::of(&ensemble, found.largest_part);
     refuse_other_rows(store, &found, &head.identity)?;
     found.notes().iter().for_each(|entry| note(entry));
-    let examined = found.examine(store, (&plan, &head), &|_| true, session.readers()).map_err(WorkflowError::files)?;
-    let mut problems = found.damage.clone();
+    let examined = found.examine(store, (&plan, &head), &|_| true, session.readers())?;
+    let mut problems = found.problems(store, &examined)?;
     problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not what the result has under this name")));
-    problems.extend(examined.damaged.iter().map(|(_, what)| what.clone()));
-    problems.extend(found.derived_damage(store).map_err(WorkflowError::files)?);
     let records = examined.parts;
     // a last part of fewer samples than the plan has is made again with its further rows
     let planned = head.parts(plan.rows());
@@ -109,7 +107,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
     if found.is_finished {
         // without the mark, everything that follows from the rows is made again
-        unfinish(store).map_err(WorkflowError::files)?;
+        unfinish(store)?;
     }
     drop(lock);
     match repair(session, (&shared, root), &ensemble, (&found, &head, &differing))? {
@@ -199,23 +197,15 @@ fn repair(
     };
     keep(&ready, &plan_in(session, &**store, found)?.1)?;
     let dataset = &ready.dataset;
-    dataset.drop_parts(differing.iter().map(|part| part.id)).map_err(WorkflowError::files)?;
-    let missing = dataset.missing(head.parts(plan.rows()));
-    let samples = |parts: &[Part]| parts.iter().map(|part| part.count as u64).sum();
-    session.watch.begin(samples(&missing));
-    let progress = |samples| session.watch.advance(samples);
-    let made = write_parts(dataset, ensemble, None, |sink| {
-        run_parts(ensemble, missing, session.threads, sink, session.supervision(&progress))
-    });
-    session.watch.end();
-    made.map_err(WorkflowError::files)?.map_err(WorkflowError::files)?;
+    dataset.drop_parts(differing.iter().map(|part| part.id))?;
+    let outputs = &Outputs { without_page: !found.has_page(), ..Outputs::default() };
+    let job = Job { session: *session, ensemble, ready: &ready, root, outputs, shard: None, fail_fast: false };
+    job.run_them(&dataset.missing(head.parts(plan.rows())), None, &mut Made::default())?;
     let left = dataset.missing(head.parts(plan.rows()));
     if !left.is_empty() {
-        return Ok(Repair::Stopped(samples(&left)));
+        return Ok(Repair::Stopped(left.iter().map(|part| part.count as u64).sum()));
     }
-    let outputs = Outputs { without_page: !found.has_page(), ..Outputs::default() };
-    let job = Finishing { session: *session, ensemble, ready: &ready, root, outputs: &outputs, made: None };
-    complete(&job, None).map(|completed| Repair::Done(Box::new(completed)))
+    complete(&job, None, None).map(|completed| Repair::Done(Box::new(completed)))
 }
 
 #[cfg(test)]

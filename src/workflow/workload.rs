@@ -16,7 +16,7 @@ use crate::observables::band_series::band_series;
 use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::sampling::SampleId;
 use crate::storage::claim::Shard;
-use crate::storage::found::{Contents, contents};
+use crate::storage::found::contents;
 use crate::storage::rows_file;
 use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
@@ -86,7 +86,7 @@ impl Workload {
         let run_seconds = run_seconds(plan, ensemble.isa());
         let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
         let there = match store.map(contents) {
-            Some(Ok(Contents::Dataset(found))) => found.rows(whole).min(samples),
+            Some(Ok(found)) => found.rows(whole).min(samples),
             _ => 0,
         };
         let share = shard.map_or(1.0, |shard| 1.0 / shard.of as f64);

@@ -133,7 +133,7 @@ impl Results {
 
 /// The file `name` of a result as a table.
 fn derived(results: &workflow::Results<'_>, name: &str) -> Result<ArrowTable, WorkflowError> {
-    let part = PartReader::open(results.rows().store(), name).map_err(WorkflowError::files)?;
+    let part = PartReader::open(results.rows().store(), name)?;
     ArrowTable::of_part(&part)
 }
 

@@ -97,7 +97,7 @@ impl ArrowTable {
             parts.push(part);
             Ok(())
         };
-        results.rows().visit(None, read, merge).map_err(WorkflowError::files)?;
+        results.rows().visit(None, read, merge)?;
         ArrowTable::of_batches(&columns, parts)
     }
 
@@ -108,7 +108,7 @@ impl ArrowTable {
     pub fn of_part(part: &PartReader) -> Result<Self, WorkflowError> {
         let mut table = Table::default();
         for name in part.names() {
-            let values = part.values(&name).map_err(WorkflowError::files)?;
+            let values = part.values(&name)?;
             let quantity = Quantity::named(name, String::new(), String::new());
             table.push(Column::new(quantity, values.content()), values);
         }
