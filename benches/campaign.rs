@@ -19,7 +19,7 @@ use std::path::Path;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use spindrift::campaign::{Compression, Overrides, Plan};
 use spindrift::ensemble::settings::propagator;
-use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Sink, Supervision, run};
+use spindrift::ensemble::{Ensemble, Part, PartId, Parts, Rows, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::observables::{Group, Groups, Observer, Request};
 use spindrift::propagation::CompletedRun;
@@ -104,38 +104,20 @@ fn writing(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Drops the rows.
-struct Drain;
-
-impl Sink for Drain {
-    type Error = Infallible;
-
-    fn take(&self, rows: &Rows) -> Result<(), Infallible> {
-        black_box(rows.statuses());
-        Ok(())
-    }
-}
-
-/// Writes the rows to a sink that discards them.
-struct Written(RowsFile);
-
-impl Sink for Written {
-    type Error = parquet::errors::ParquetError;
-
-    fn take(&self, rows: &Rows) -> Result<(), Self::Error> {
-        self.0.write(rows, None, std::io::sink())
-    }
-}
-
 fn campaign(criterion: &mut Criterion) {
     let plan = plan();
     let campaign = Ensemble::new(&plan, Isa::best());
-    let written = Written(RowsFile::new(&campaign).expect("names are unique"));
+    let dropped = |rows: &Rows| {
+        black_box(rows.statuses());
+        Ok::<(), Infallible>(())
+    };
+    let file = RowsFile::new(&campaign).expect("names are unique");
+    let written = |rows: &Rows| file.write(rows, None, std::io::sink());
     let (parts, one) = (Parts::of(SAMPLES), NonZeroUsize::new(1));
     let mut group = criterion.benchmark_group("campaign");
     group.throughput(Throughput::Elements(SAMPLES));
     group.bench_function("rows dropped", |bencher| {
-        bencher.iter(|| run(&campaign, parts, one, &Drain, Supervision::progress(&|_| {})).expect("nothing fails"));
+        bencher.iter(|| run(&campaign, parts, one, &dropped, Supervision::progress(&|_| {})).expect("nothing fails"));
     });
     group.bench_function("rows written", |bencher| {
         bencher.iter(|| run(&campaign, parts, one, &written, Supervision::progress(&|_| {})).expect("nothing fails"));

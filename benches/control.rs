@@ -19,7 +19,7 @@ use spindrift::campaign::{Overrides, Plan};
 use spindrift::control::ControlLaw;
 use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
 use spindrift::ensemble::settings::propagator;
-use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
+use spindrift::ensemble::{Ensemble, Parts, Rows, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::{StateField, StateFields, Status};
 use spindrift::sampling::SampleId;
@@ -107,15 +107,9 @@ fn plan() -> Plan {
 }
 
 /// Drops the rows.
-struct Drain;
-
-impl Sink for Drain {
-    type Error = Infallible;
-
-    fn take(&self, rows: &Rows) -> Result<(), Infallible> {
-        assert!(rows.statuses().iter().all(|status| *status == Status::Done));
-        Ok(())
-    }
+fn drain(rows: &Rows) -> Result<(), Infallible> {
+    assert!(rows.statuses().iter().all(|status| *status == Status::Done));
+    Ok(())
 }
 
 fn control(criterion: &mut Criterion) {
@@ -147,7 +141,7 @@ fn control(criterion: &mut Criterion) {
     let campaign = Ensemble::new(&plan, isa);
     let (parts, one) = (Parts::of(plan.samples), NonZeroUsize::new(1));
     group.bench_function("rows", |bencher| {
-        bencher.iter(|| run(&campaign, parts, one, &Drain, Supervision::progress(&|_| {})).expect("nothing fails"));
+        bencher.iter(|| run(&campaign, parts, one, &drain, Supervision::progress(&|_| {})).expect("nothing fails"));
     });
     group.finish();
 }

@@ -8,7 +8,7 @@ use std::convert::Infallible;
 use std::sync::Mutex;
 
 use spindrift::campaign::{Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
+use spindrift::ensemble::{Ensemble, Parts, Rows, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 
@@ -41,25 +41,6 @@ std = 0.05
 /// The column of the energy transfer between body and wheel w1.
 const COLUMN: &str = "exchange_w1_peak_to_peak_j";
 
-/// Keeps one column of every row with the value of the first dispersed parameter.
-struct Collected {
-    column: usize,
-    pairs: Mutex<Vec<[f64; 2]>>,
-}
-
-impl Sink for Collected {
-    type Error = Infallible;
-
-    /// Called from several threads, with parts in any order.
-    fn take(&self, rows: &Rows) -> Result<(), Infallible> {
-        let values = rows.parameter(0).iter().zip(rows.observable(self.column));
-        let done = rows.statuses().iter().zip(values).filter(|(status, _)| **status == Status::Done);
-        let pairs = done.map(|(_, (parameter, observable))| [*parameter, *observable]);
-        self.pairs.lock().expect("no thread panicked").extend(pairs);
-        Ok(())
-    }
-}
-
 /// Runs 500 samples on all cores and prints the correlation of a rate and the energy transfer.
 pub fn main() {
     let plan = Plan::from_text("campaign_in_memory.toml", CAMPAIGN, Overrides::default())
@@ -68,11 +49,19 @@ pub fn main() {
     let columns = ensemble.request().columns();
     let column = columns.iter().position(|column| column.quantity.name() == COLUMN);
     let column = column.expect("the group `exchange` is observed");
-    let sink = Collected { column, pairs: Mutex::new(Vec::new()) };
+    let collected = Mutex::new(Vec::new());
+    // keeps the column with the value of the first dispersed parameter; called from several threads, in any order
+    let sink = |rows: &Rows| {
+        let values = rows.parameter(0).iter().zip(rows.observable(column));
+        let done = rows.statuses().iter().zip(values).filter(|(status, _)| **status == Status::Done);
+        let pairs = done.map(|(_, (parameter, observable))| [*parameter, *observable]);
+        collected.lock().expect("no thread panicked").extend(pairs);
+        Ok::<(), Infallible>(())
+    };
     run(&ensemble, Parts::of(plan.samples), None, &sink, Supervision::progress(&|_| ()))
         .unwrap_or_else(|error| panic!("{error}"));
 
-    let pairs = sink.pairs.into_inner().expect("no thread panicked");
+    let pairs = collected.into_inner().expect("no thread panicked");
     assert_eq!(pairs.len(), 500, "every run is ok");
     let correlation = correlation(&pairs);
     println!("{} runs; correlation of the rate about s2 and {COLUMN}: {correlation:.3}", pairs.len());

@@ -184,8 +184,6 @@ pub use ensemble::Rows;
 /// ```
 #[doc(inline)]
 pub use ensemble::SingleRun;
-#[doc(inline)]
-pub use ensemble::Sink;
 /// ```
 /// use spindrift::Supervision;
 /// let supervision = Supervision::progress(&|samples| println!("{samples} more"));
@@ -194,21 +192,19 @@ pub use ensemble::Sink;
 #[doc(inline)]
 pub use ensemble::Supervision;
 /// ```
-/// use spindrift::{Ensemble, Isa, Overrides, Parts, Plan, Rows, run_ensemble, Sink, Supervision};
+/// use spindrift::{Ensemble, Isa, Overrides, Parts, Plan, Rows, run_ensemble, Supervision};
+/// use std::convert::Infallible;
+/// use std::sync::atomic::{AtomicUsize, Ordering};
 ///
 /// let plan = Plan::load("campaigns/no_debris.toml".as_ref(), Overrides::default())?;
-/// struct Count(std::sync::atomic::AtomicUsize);
-/// impl Sink for Count {
-///     type Error = std::convert::Infallible;
-///     fn take(&self, rows: &Rows) -> Result<(), Self::Error> {
-///         self.0.fetch_add(rows.samples().len(), std::sync::atomic::Ordering::Relaxed);
-///         Ok(())
-///     }
-/// }
-/// let count = Count(Default::default());
+/// let count = AtomicUsize::new(0);
+/// let sink = |rows: &Rows| {
+///     count.fetch_add(rows.samples().len(), Ordering::Relaxed);
+///     Ok::<(), Infallible>(())
+/// };
 /// let quiet = Supervision::progress(&|_| ());
-/// run_ensemble(&Ensemble::new(&plan, Isa::best()), Parts::of(20), None, &count, quiet).unwrap();
-/// assert_eq!(count.0.into_inner(), 20);
+/// run_ensemble(&Ensemble::new(&plan, Isa::best()), Parts::of(20), None, &sink, quiet).unwrap();
+/// assert_eq!(count.into_inner(), 20);
 /// # Ok::<(), spindrift::CampaignError>(())
 /// ```
 #[doc(inline)]

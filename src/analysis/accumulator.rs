@@ -13,8 +13,6 @@ pub trait Accumulator: Sync {
     fn nothing(&self) -> Self::Whole;
 
     /// Counts a part, on any thread, once.
-    ///
-    /// # Errors If a column cannot be read.
     fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError>;
 
     /// Adds the next part, in the order of the parts.
@@ -41,8 +39,6 @@ impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
 }
 
 /// Runs `accumulator` over the files of `reader`, on `threads` threads (`None`: one per core).
-///
-/// # Errors If a file cannot be read.
 pub fn of_files<A: Accumulator>(
     accumulator: &A,
     reader: &RowsReader,

@@ -39,8 +39,6 @@ impl Analysed {
 }
 
 /// Analyses the data `gathered` from the rows of `plan`.
-///
-/// # Errors If a file cannot be read.
 pub fn computed(
     plan: &Plan,
     reader: &RowsReader,

@@ -67,8 +67,6 @@ pub(super) const CLOSE: f64 = 0.25;
 /// The value about which each of `observed` is sketched: the median over the first rows, in `parts`, or zero if there
 /// are none or they differ by a quarter of it. The nominal value would be a poor reference, since it may be far from
 /// the others.
-///
-/// # Errors If a column cannot be read.
 pub fn references<P: PartColumns>(
     observed: &[Observed],
     population: Population,

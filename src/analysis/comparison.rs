@@ -188,8 +188,6 @@ impl Comparison {
 const MOST_LEVEL: f64 = 0.1;
 
 /// Compares `first` with `second`.
-///
-/// # Errors If a file cannot be read.
 pub fn compare(
     first: ResultRows<'_>,
     second: ResultRows<'_>,
@@ -208,7 +206,7 @@ pub fn compare(
         let ended = &ended[which];
         move |row: usize| Some(ended[row] != Status::Done).filter(|_| ended[row] != Status::InvalidSample)
     };
-    let failures = Absence::of([&fails(0), &fails(1)], rows.clone(), &pairs);
+    let mut failures = Absence::of([&fails(0), &fails(1)], rows.clone(), &pairs);
     pairs.retain(|[row, other]| ended[0][*row] == Status::Done && ended[1][*other] == Status::Done);
     let confidence = first.plan.analysis.confidence;
     let (all, others) = (Observed::all(first.plan), Observed::all(second.plan));
@@ -236,16 +234,12 @@ pub fn compare(
         .flat_map(|plan| plan.analysis.requirements.iter().filter_map(Requirement::observable))
         .collect();
     columns.iter_mut().for_each(|column| column.is_required = required.contains(&column.quantity.name()));
-    let mut failures = failures;
     adjust(&mut columns, &mut failures);
-    let names = |list: &[Observed]| -> Vec<String> {
-        list.iter().map(|observed| observed.quantity.name().to_owned()).collect()
+    let without = |list: &[Observed], other: &[Observed]| -> Vec<String> {
+        let names = list.iter().map(|one| one.quantity.name());
+        names.filter(|name| other.iter().all(|one| one.quantity.name() != *name)).map(str::to_owned).collect()
     };
-    let (names_of_first, names_of_second) = (names(&all), names(&others));
-    let without = |names: &[String], other: &[String]| -> Vec<String> {
-        names.iter().filter(|name| !other.contains(name)).cloned().collect()
-    };
-    let alone = [without(&names_of_first, &names_of_second), without(&names_of_second, &names_of_first)];
+    let alone = [without(&all, &others), without(&others, &all)];
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })
 }
 
@@ -293,41 +287,21 @@ pub(super) fn compared(
             shift(format!("p{}", percent(quantile.p)), [quantile.value, other.value]);
         }
     }
-    let tests = tested(moments, values, pairs, starts, confidence);
-    ColumnComparison {
+    let mut found = ColumnComparison {
         quantity: statistics[0].quantity.clone(),
         scale,
         shifts,
-        mean: tests.mean,
-        distribution_p_value: tests.distribution,
-        moved_p_value: tests.moved,
-        spread_p_value: tests.spread,
+        mean: None,
+        distribution_p_value: None,
+        moved_p_value: None,
+        spread_p_value: None,
         adjusted_moved_p_value: None,
         absence,
-        differing_pairs: tests.differing,
+        differing_pairs: 0,
         is_required: false,
-        p_value: tests.p_value,
+        p_value: None,
         adjusted_p_value: None,
-    }
-}
-
-pub(super) struct Tests {
-    pub(super) mean: Option<Difference>,
-    distribution: Option<f64>,
-    pub(super) moved: Option<f64>,
-    spread: Option<f64>,
-    /// Decides whether the observable is shifted.
-    pub(super) p_value: Option<f64>,
-    differing: u64,
-}
-
-pub(super) fn tested(
-    moments: [Moments; 2],
-    values: [&[f64]; 2],
-    pairs: &[[usize; 2]],
-    starts: [usize; 2],
-    confidence: f64,
-) -> Tests {
+    };
     if pairs.is_empty() {
         let ascending = |which: usize| {
             let dispersed = values[which].iter().skip(starts[which]).copied();
@@ -335,10 +309,10 @@ pub(super) fn tested(
             values.sort_unstable_by(f64::total_cmp);
             values
         };
-        let distribution = kolmogorov_smirnov(&ascending(0), &ascending(1)).map(|(_, p)| p);
-        let mean = welch(&moments[0], &moments[1], confidence);
-        let p_value = of_both(mean, distribution);
-        return Tests { mean, distribution, moved: None, spread: None, p_value, differing: 0 };
+        found.distribution_p_value = kolmogorov_smirnov(&ascending(0), &ascending(1)).map(|(_, p)| p);
+        found.mean = welch(&moments[0], &moments[1], confidence);
+        found.p_value = of_both(found.mean, found.distribution_p_value);
+        return found;
     }
     let both = pairs.iter().map(|[row, other]| [values[0][*row], values[1][*other]]);
     let both: Vec<[f64; 2]> = both.filter(|pair| !pair.iter().any(|value| value.is_nan())).collect();
@@ -346,13 +320,14 @@ pub(super) fn tested(
     let difference = |[first, second]: &[f64; 2]| if first == second { 0.0 } else { second - first };
     let differences: Vec<f64> = both.iter().map(difference).collect();
     let distribution = marginals(&both);
-    Tests {
+    ColumnComparison {
         mean: paired(&Moments::of_block(&differences), confidence),
-        distribution,
-        moved: signed_ranks(&differences),
-        spread: spread_of_pairs(&both),
+        distribution_p_value: distribution,
+        moved_p_value: signed_ranks(&differences),
+        spread_p_value: spread_of_pairs(&both),
         p_value: distribution,
-        differing: differences.iter().filter(|difference| **difference != 0.0).count() as u64,
+        differing_pairs: differences.iter().filter(|difference| **difference != 0.0).count() as u64,
+        ..found
     }
 }
 

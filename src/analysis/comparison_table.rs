@@ -1,6 +1,7 @@
 //! A comparison of two results as a table of observables.
 
 use crate::analysis::comparison::{ColumnComparison, Comparison};
+use crate::analysis::outcomes::unique;
 use crate::table::Table;
 
 /// The table, in the order of the comparison.
@@ -67,13 +68,7 @@ pub fn table(comparison: &Comparison) -> Table<'_> {
             "Standard deviation in the first result; where that is 0 the magnitude of its mean, or 1.",
             |row| Some(row.scale),
         );
-    let mut statistics: Vec<&str> = Vec::new();
-    for shift in rows.iter().flat_map(|row| &row.shifts) {
-        if !statistics.contains(&shift.statistic.as_str()) {
-            statistics.push(&shift.statistic);
-        }
-    }
-    for statistic in statistics {
+    for statistic in unique(rows.iter().flat_map(|row| &row.shifts).map(|shift| shift.statistic.as_str())) {
         let name = statistic.replace([' ', '.'], "_");
         let of = |row: &ColumnComparison| row.shifts.iter().find(|shift| shift.statistic == statistic).cloned();
         table

@@ -4,6 +4,7 @@
 use crate::analysis::effects::{Dependence, OnEvent};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
+use crate::analysis::outcomes::unique;
 use crate::statistics::correlation::Estimate;
 
 /// Minimum share of the variance, or squared rank correlation, of a driver: removing it reduces the standard deviation
@@ -118,12 +119,7 @@ pub fn rankings<'a>(all: &'a [InputSensitivity], outcome: &str, alpha: f64) -> V
         inputs.sort_by(|a, b| b.is_driver.cmp(&a.is_driver).then_with(|| strength(b).total_cmp(&strength(a))));
         inputs
     };
-    let mut events: Vec<Event> = Vec::new();
-    for effect in of().flat_map(|one| &one.on_events) {
-        if !events.contains(&effect.event) {
-            events.push(effect.event);
-        }
-    }
+    let events = unique(of().flat_map(|one| &one.on_events).map(|effect| effect.event));
     let has_spread = events.iter().all(|event| !event.has_few_values);
     let spread = sorted(if has_spread { of().map(on_spread).collect() } else { Vec::new() });
     let mut found = Vec::new();

@@ -32,8 +32,6 @@ impl Ending {
 }
 
 /// The ending of the campaign `ensemble` from its rows and bands.
-///
-/// # Errors If a file cannot be read.
 pub fn ending(
     ensemble: &Ensemble<'_>,
     reader: &RowsReader,

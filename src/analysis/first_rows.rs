@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::observed::Observed;
-use crate::analysis::outcomes::{named, outcomes};
+use crate::analysis::outcomes::{named, outcomes, unique};
 use crate::analysis::part_columns::PartColumns;
 use crate::campaign::Plan;
 use crate::observables::headlines::headlines;
@@ -25,13 +25,7 @@ fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     }
     let columns = plan.request().columns();
     let main = headlines(&plan.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
-    let of_motion = outcomes(plan).into_iter().chain(main).fold(Vec::new(), |mut names: Vec<String>, name| {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-        names
-    });
-    (of_motion, FEWER_ROWS)
+    (unique(outcomes(plan).into_iter().chain(main)), FEWER_ROWS)
 }
 
 /// The first rows of dispersed, physical samples.

@@ -85,8 +85,6 @@ fn first_batch(plan: &Plan) -> Vec<Observed> {
 
 impl Gathered {
     /// Reads the rows and bands of `ensemble`, on `threads` threads (`None`: one per core).
-    ///
-    /// # Errors If a file cannot be read.
     pub fn of_files(
         ensemble: &Ensemble<'_>,
         reader: &RowsReader,
@@ -156,9 +154,7 @@ impl CountRows for RunningFold {
         let Ok(of_part) = self.fold.0.count(&self.names.of(rows)) else { return };
         if let Some(part) = rows.bands() {
             let mut bands = self.bands.lock().unwrap_or_else(PoisonError::into_inner);
-            if bands.get_or_insert_with(|| Bands::new(part.layout().clone())).add(part).is_err() {
-                return;
-            }
+            bands.get_or_insert_with(|| Bands::new(part.layout().clone())).add(part);
         }
         let mut merging = self.merging.lock().unwrap_or_else(PoisonError::into_inner);
         merging.waiting.insert(rows.part().id.0, of_part);

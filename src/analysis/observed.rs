@@ -123,8 +123,6 @@ impl Observed {
     }
 
     /// Values in a part; NaN for none.
-    ///
-    /// # Errors If they cannot be read.
     pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>, RowsError> {
         let Some(expression) = &self.derived else { return part.numbers(self.quantity.name()) };
         let columns = self.columns(part)?;
@@ -138,8 +136,6 @@ impl Observed {
 
     /// Rows of `part`, all `ok`, with an undefined value, such as the root of a negative number; in other rows without
     /// a value the subject never happened.
-    ///
-    /// # Errors If its columns cannot be read.
     pub fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
         let columns = self.columns(part)?;
         let own = |row: usize| match &self.derived {

@@ -22,14 +22,18 @@ pub fn named(plan: &Plan) -> Vec<String> {
     let required = plan.analysis.requirements.iter().filter_map(Requirement::observable).map(str::to_owned);
     let listed = plan.analysis.summary_columns.iter().cloned();
     let derived = plan.analysis.derived.iter().map(|derived| derived.name.clone());
-    let mut names: Vec<String> = Vec::new();
     let events = plan.events.iter().map(|event| event.quantities()[0].name().to_owned());
-    for name in required.chain(listed).chain(derived).chain(events) {
-        if !names.contains(&name) {
-            names.push(name);
+    unique(required.chain(listed).chain(derived).chain(events))
+}
+
+/// The first of equal items, in their order.
+pub fn unique<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+    all.fold(Vec::new(), |mut list, one| {
+        if !list.contains(&one) {
+            list.push(one);
         }
-    }
-    names
+        list
+    })
 }
 
 /// Named outcomes, else the first default ones in the rows.

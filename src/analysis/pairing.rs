@@ -17,8 +17,6 @@ pub struct ResultRows<'r> {
 
 /// Rows, among the first, of samples that both results drew alike; none if neither the random numbers nor the drawn
 /// values agree.
-///
-/// # Errors If a file cannot be read.
 pub fn pairs(
     first: ResultRows<'_>,
     second: ResultRows<'_>,
@@ -64,8 +62,6 @@ impl ResultRows<'_> {
     }
 
     /// The statuses of the first rows.
-    ///
-    /// # Errors If a file cannot be read.
     pub fn statuses(self) -> Result<Vec<Status>, RowsError> {
         self.first(PartReader::statuses)
     }

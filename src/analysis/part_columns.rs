@@ -15,19 +15,12 @@ pub trait PartColumns {
     fn rows(&self) -> usize;
 
     /// Sample numbers by row.
-    ///
-    /// # Errors The column cannot be read.
     fn samples(&self) -> Result<Vec<SampleId>, RowsError>;
 
     /// The statuses of the runs.
-    ///
-    /// # Errors
-    /// The column cannot be read.
     fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError>;
 
     /// Rows that are not `ok`, with reasons.
-    ///
-    /// # Errors The column cannot be read.
     fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError>;
 
     /// The column `name`: counts as doubles, NaN for none.

@@ -13,7 +13,7 @@ use crate::statistics::mean::MOST_SHARE;
 use crate::statistics::moments::Moments;
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct GroupRuns {
+pub struct GroupRuns {
     pub(super) runs: u64,
     pub(super) within: u64,
     /// Runs whose value is not a number, on an unknown side of the limit.
@@ -22,7 +22,7 @@ pub(super) struct GroupRuns {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct RequirementRuns {
+pub struct RequirementRuns {
     pub(super) groups: Vec<GroupRuns>,
     /// Violations without a value: runs not `ok`, or without the event.
     pub(super) missing: u64,

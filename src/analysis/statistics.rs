@@ -121,8 +121,6 @@ impl Statistics {
 
 /// The statistics of `plan` with the statuses `ended`, from `counted`, the first of the [`batches`], and the files of
 /// its rows, on `threads` threads (`None`: one per core). Those in `shown` get sketches.
-///
-/// # Errors If a file cannot be read.
 pub fn compute(
     plan: &Plan,
     reader: &RowsReader,

@@ -52,7 +52,7 @@ impl Statuses {
             }
         }
         if !reason.is_empty() {
-            self.reasons.add_run(sample, status, reason);
+            self.reasons.add(sample, status, reason);
         }
     }
 

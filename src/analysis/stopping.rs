@@ -98,8 +98,6 @@ impl Accumulator for ObservedValues {
 }
 
 /// Looks at the rows and bands of the samples below one of [`Plan::looks`]. `None` without `[stop]`.
-///
-/// # Errors If a file cannot be read.
 pub fn look(
     plan: &Plan,
     rows: &RowsReader,

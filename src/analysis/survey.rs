@@ -8,7 +8,7 @@ use crate::analysis::accumulator::Accumulator;
 use crate::analysis::first_rows::{RowTable, explained};
 use crate::analysis::observed::Observed;
 use crate::analysis::order_statistics::AskedQuantile;
-use crate::analysis::outcomes::{is_worst_when_low, outcomes};
+use crate::analysis::outcomes::{is_worst_when_low, outcomes, unique};
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::analysis::statistics::Statistics;
@@ -126,20 +126,11 @@ fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
     let main = headlines(ensemble.request()).into_iter().map(|index| columns[index].quantity.name().to_owned());
     let motion = columns.iter().filter(|column| column.group == Group::Motion).map(|column| column.quantity.name());
     let motion = motion.filter(|name| name.contains("_max_")).map(str::to_owned);
-    let mut names: Vec<String> = Vec::new();
-    let mut add = |some: &mut dyn Iterator<Item = String>| {
-        for name in some {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names.len()
-    };
     // marks failed missions on the page
     let failure = columns.iter().map(|column| column.quantity.name()).find(|name| *name == FAILURE).map(str::to_owned);
-    let asked = add(&mut outcomes(plan).into_iter().chain(explained(plan)).chain(failure));
-    add(&mut main.chain(motion));
-    (names, asked)
+    let asked = unique(outcomes(plan).into_iter().chain(explained(plan)).chain(failure));
+    let count = asked.len();
+    (unique(asked.into_iter().chain(main).chain(motion)), count)
 }
 
 /// Gathers the data of the page.
@@ -149,7 +140,8 @@ pub struct Surveyor {
     /// Columns of all dispersed values.
     inputs: Vec<String>,
     nothing: Survey,
-    thinning: Thinning,
+    /// Largest hash of a sample in the thinned table.
+    most_hash: u64,
     /// Columns of the estimated and the true state error, if audited.
     audited: Option<[&'static str; 2]>,
     has_dispersed: bool,
@@ -204,7 +196,7 @@ impl Surveyor {
                 .then(|| [estimate, AuditValue::State.quantity().name()]),
             observed,
             inputs,
-            thinning: Thinning::of(plan.rows()),
+            most_hash: most_hash(plan.rows()),
             has_dispersed: plan.samples > 1,
         }
     }
@@ -223,7 +215,7 @@ impl Accumulator for Surveyor {
         let done = |row: &usize| statuses[*row] == Status::Done;
         let is_counted = |row: &usize| samples[*row].0 > 0 || !self.has_dispersed;
         let counted: Vec<usize> = (0..samples.len()).filter(done).filter(is_counted).collect();
-        let kept: Vec<usize> = (0..samples.len()).filter(|row| self.thinning.keeps(samples[*row])).collect();
+        let kept: Vec<usize> = (0..samples.len()).filter(|row| is_kept(samples[*row], self.most_hash)).collect();
         let taken = |column: &[f64], rows: &[usize]| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
         let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, RowsError>>()?;
         let nominal = (0..samples.len()).filter(done).find(|row| samples[*row].0 == 0);
@@ -347,28 +339,18 @@ impl SurveyedOutcome {
     }
 }
 
-/// Selects the samples of the thinned table.
-#[derive(Clone, Copy, Debug)]
-struct Thinning {
-    /// Largest hash kept.
-    most: u64,
+/// The largest hash of a sample in the thinned table of so many samples.
+fn most_hash(samples: u64) -> u64 {
+    if samples <= THINNED {
+        return u64::MAX;
+    }
+    // four standard deviations below the maximum, since the number is random
+    let aim = THINNED as f64 - 4.0 * libm::sqrt(THINNED as f64);
+    (aim / samples as f64 * 2f64.powi(64)) as u64
 }
 
-impl Thinning {
-    fn of(samples: u64) -> Self {
-        let most = if samples <= THINNED {
-            u64::MAX
-        } else {
-            // four standard deviations below the maximum, since the number is random
-            let aim = THINNED as f64 - 4.0 * libm::sqrt(THINNED as f64);
-            (aim / samples as f64 * 2f64.powi(64)) as u64
-        };
-        Thinning { most }
-    }
-
-    fn keeps(&self, sample: SampleId) -> bool {
-        sample == SampleId(0) || hash(sample.0) <= self.most
-    }
+fn is_kept(sample: SampleId, most_hash: u64) -> bool {
+    sample == SampleId(0) || hash(sample.0) <= most_hash
 }
 
 #[cfg(test)]
@@ -378,11 +360,11 @@ mod tests {
     /// Law: nearly the maximum number of samples is kept, never more; all of a small campaign; always the nominal one.
     #[test]
     fn thinning_keeps_what_fits() {
-        let kept = |samples: u64| (0..samples).filter(|id| Thinning::of(samples).keeps(SampleId(*id))).count() as u64;
+        let kept = |samples: u64| (0..samples).filter(|id| is_kept(SampleId(*id), most_hash(samples))).count() as u64;
         assert_eq!(kept(1000), 1000);
         let many = kept(1_000_000);
         assert!((THINNED - 1200..=THINNED).contains(&many), "{many} of {THINNED}");
-        assert!(Thinning::of(1 << 40).keeps(SampleId(0)));
+        assert!(is_kept(SampleId(0), most_hash(1 << 40)));
     }
 
     /// Law: a chosen subset is not periodic in a low-discrepancy design: chosen numbers share no low bits.

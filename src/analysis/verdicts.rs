@@ -60,10 +60,7 @@ impl Verdicts {
     }
 }
 
-#[derive(Clone, Debug)]
-pub struct RequirementCounts {
-    list: Vec<RequirementRuns>,
-}
+pub type RequirementCounts = Vec<RequirementRuns>;
 
 #[derive(Clone, Debug)]
 pub struct RequirementCounter {
@@ -89,8 +86,7 @@ impl Accumulator for RequirementCounter {
     type OfPart = RequirementCounts;
 
     fn nothing(&self) -> RequirementCounts {
-        let list = vec![RequirementRuns::new(self.population.groups()); self.requirements.len()];
-        RequirementCounts { list }
+        vec![RequirementRuns::new(self.population.groups()); self.requirements.len()]
     }
 
     fn count(&self, part: &impl PartColumns) -> Result<RequirementCounts, RowsError> {
@@ -108,7 +104,7 @@ impl Accumulator for RequirementCounter {
             let is_complete = dispersed.iter().all(|row| has_value(index, *row));
             undefined.push(if is_complete { Vec::new() } else { observed.undefined(part)? });
         }
-        for ((requirement, index), counts) in self.requirements.iter().zip(&self.of).zip(&mut found.list) {
+        for ((requirement, index), counts) in self.requirements.iter().zip(&self.of).zip(&mut found) {
             let mut kept = vec![Vec::new(); self.population.groups()];
             let has_mean = matches!(requirement.statement, Statement::Mean);
             for row in dispersed.iter().filter(is_physical) {
@@ -137,12 +133,12 @@ impl Accumulator for RequirementCounter {
     }
 
     fn merge(&self, whole: &mut RequirementCounts, part: RequirementCounts) {
-        whole.list.iter_mut().zip(&part.list).for_each(|(mine, theirs)| mine.merge(theirs));
+        whole.iter_mut().zip(&part).for_each(|(mine, theirs)| mine.merge(theirs));
     }
 }
 
 /// Verdicts from the counts, the statuses `ended` and the `bands`.
-pub fn assess(plan: &Plan, ended: &Statuses, counted: &RequirementCounts, bands: Option<&Bands>) -> Verdicts {
+pub fn assess(plan: &Plan, ended: &Statuses, counted: &[RequirementRuns], bands: Option<&Bands>) -> Verdicts {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {
         return Verdicts::default();
@@ -164,7 +160,7 @@ pub fn assess(plan: &Plan, ended: &Statuses, counted: &RequirementCounts, bands:
         }
     };
     let all = || {
-        let list = requirements.iter().zip(&of).zip(&counted.list);
+        let list = requirements.iter().zip(&of).zip(counted);
         list.map(|((requirement, index), counts)| (requirement, index, counts))
     };
     let at = |open: usize| all().map(|one| assessed(one, open)).collect();

@@ -16,7 +16,7 @@ use crate::campaign::Plan;
 use crate::dynamics::debris;
 use crate::dynamics::effects::ForceModel;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::ensemble::flights::nominal_attitude;
+use crate::ensemble::flights::{nominal_attitude, replayed};
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
@@ -29,7 +29,7 @@ use crate::propagation::{
 };
 use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics};
 use crate::sampling::{SampleId, Stream};
-use crate::scene::Scene;
+use crate::scene::{Arc, Scene};
 
 /// Runs of more units of time ([`Gyrostat::time_unit`]) are audited in plain doubles: double-double takes five steps of
 /// 40 us per unit, so an audit takes at most a second.
@@ -206,6 +206,19 @@ impl Auditor {
         self.compare(scene, scene)
     }
 
+    /// Audits a run that ended with `status`. The decisions of a law are part of the run: its `arcs` are flown.
+    ///
+    /// # Errors
+    /// As [`Auditor::audit`].
+    pub fn audit_flown(&mut self, scene: &Scene, arcs: Option<&[Arc]>, status: Status) -> Result<Audit, NoAudit> {
+        match arcs {
+            // the engine alone, which an audit flies, does not find these ends
+            _ if matches!(status, Status::Surface | Status::Diverged) => Err(NoAudit::Run(status)),
+            Some(arcs) => self.audit(&replayed(scene, arcs)),
+            None => self.audit(scene),
+        }
+    }
+
     /// Audits `run` against the reference solution of `scene`, which differs only in tests of a wrong kernel.
     ///
     /// # Errors
@@ -249,10 +262,6 @@ impl Auditor {
         };
         let values = AuditValue::ALL.iter().map(value).collect();
         Ok(Audit { values, observables: self.indices.iter().map(error).collect() })
-    }
-
-    pub fn request(&self) -> &Request {
-        &self.request
     }
 
     fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Result<(ReferenceSolution, f64), NoAudit> {

@@ -228,30 +228,18 @@ impl PartialEq for Bands {
     }
 }
 
-/// Bands of different campaigns cannot be merged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("these are bands of another campaign: series, times or nominal run differ")]
-pub struct OtherCampaign;
-
 impl Bands {
     pub fn new(layout: Arc<BandLayout>) -> Self {
         Bands { runs: [0; 2], columns: vec![BandColumn::default(); layout.columns()], layout }
     }
 
-    /// Adds the runs of a part, after [`PartBands::count`].
-    ///
-    /// # Errors
-    /// Bands of another campaign; nothing is added.
-    pub fn add(&mut self, part: &PartBands) -> Result<(), OtherCampaign> {
-        if !Arc::ptr_eq(&self.layout, part.layout()) && !self.layout.is(part.layout()) {
-            return Err(OtherCampaign);
-        }
+    /// Adds the runs of a part of the campaign, after [`PartBands::count`].
+    pub fn add(&mut self, part: &PartBands) {
         self.add_runs(part.runs());
         for index in 0..self.columns.len() {
             let (all, buckets) = part.column(index);
             self.add_column(index, all, buckets);
         }
-        Ok(())
     }
 
     /// Adds to the numbers of runs ([`PartBands::runs`]).

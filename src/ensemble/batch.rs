@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::ensemble::audit::{Auditor, NoAudit};
+use crate::ensemble::audit::Auditor;
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
-use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, replayed};
+use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Report;
 use crate::propagation::CompletedRun;
@@ -73,13 +73,7 @@ impl<'p> Batch<'p> {
             let mut of_end = self.ends[index].map(|end| Auditor::new(plan, engines.isa, &end.grid(&self.grid).0));
             let auditor = of_end.as_mut().unwrap_or(auditor);
             let status = rows.statuses()[*row];
-            let audit = match self.flown.get(index) {
-                // the engine alone, which an audit flies, does not find these ends
-                _ if matches!(status, Status::Surface | Status::Diverged) => Err(NoAudit::Run(status)),
-                // the law's decisions are part of the run: fly its arcs
-                Some(arcs) => auditor.audit(&replayed(scene, arcs)),
-                None => auditor.audit(scene),
-            };
+            let audit = auditor.audit_flown(scene, self.flown.get(index).map(Vec::as_slice), status);
             if let Err(why) = &audit {
                 rows.set_audit_reason(*row, why.to_string());
             }

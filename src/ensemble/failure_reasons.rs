@@ -3,7 +3,6 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use crate::ensemble::rows::Rows;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
@@ -21,13 +20,9 @@ pub struct FailureReason {
 pub struct FailureReasons(BTreeMap<(&'static str, String), FailureReason>);
 
 impl FailureReasons {
-    pub fn add(&mut self, rows: &Rows) {
-        rows.reasons().iter().for_each(|(row, text)| self.add_run(rows.samples()[*row], rows.statuses()[*row], text));
-    }
-
-    pub fn add_run(&mut self, sample: SampleId, status: Status, text: &str) {
+    pub fn add(&mut self, sample: SampleId, status: Status, text: &str) {
         let new = || FailureReason { status, count: 0, first: sample, text: text.to_owned() };
-        let group = self.0.entry((status.name(), without_numbers(text))).or_insert_with(new);
+        let group = self.0.entry((status.name(), with_numbers(text, |_| "#".to_owned()))).or_insert_with(new);
         group.count += 1;
         if sample < group.first {
             (group.first, group.text) = (sample, text.to_owned());
@@ -40,10 +35,6 @@ impl FailureReasons {
         groups.sort_by_key(|group| (Reverse(group.count), group.first));
         groups
     }
-}
-
-fn without_numbers(text: &str) -> String {
-    with_numbers(text, |_| "#".to_owned())
 }
 
 /// `text` with its numbers as `shown`; digits in a name (`w1`) are no number.

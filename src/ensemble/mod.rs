@@ -1,6 +1,6 @@
 //! Layer 6: many runs on all cores. A row is a pure function of (plan, sample).
 //!
-//! A [`Worker`] flies the samples of a part into [`Rows`] for a [`Sink`]; [`run`] gives parts to threads. [`SingleRun`]
+//! A [`Worker`] flies the samples of a part into [`Rows`]; [`run`] gives parts to threads. [`SingleRun`]
 //! is one run with its states.
 
 pub mod audit;
@@ -41,7 +41,7 @@ pub use failure_reasons::{FailureReason, FailureReasons};
 pub use parts::{Part, PartId, Parts};
 pub use percentiles::Percentiles;
 pub use rows::{Rows, Shape};
-pub use runner::{RunError, Sink, run};
+pub use runner::{RunError, run};
 pub use settings::EngineMaker;
 pub use single::SingleRun;
 pub use supervision::Supervision;

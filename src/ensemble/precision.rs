@@ -18,7 +18,7 @@ use crate::observables::{ErrorStatistic, Group, Observer, Request, Series};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
 use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, rotation_errors};
-use crate::run::{Grid, StateField, StateFields, StateTable, Status};
+use crate::run::{StateField, StateFields, Status};
 use crate::sampling::SampleId;
 use crate::scene::Scene;
 
@@ -73,14 +73,6 @@ pub struct Skipped {
     pub predicted: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum States {
-    /// All states of the scene, as in `simulate`.
-    All,
-    /// States of the campaign's groups, and omega.
-    Observed,
-}
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     pub repeats: usize,
@@ -98,11 +90,12 @@ pub struct Precision<'p> {
 }
 
 impl<'p> Precision<'p> {
-    /// The first `samples` physical samples with reference solutions, on all cores.
+    /// The first `samples` physical samples with reference solutions, on all cores. Integrated are all states of the
+    /// scene, as in `simulate`, or `is_observed` those of the campaign's groups, and omega.
     ///
     /// # Errors
     /// A sample whose reference solution fails.
-    pub fn new(plan: &'p Plan, isa: Isa, samples: usize, integrated: States) -> Result<Self, (SampleId, Status)> {
+    pub fn new(plan: &'p Plan, isa: Isa, samples: usize, is_observed: bool) -> Result<Self, (SampleId, Status)> {
         let mut draws = SceneDraws::new(plan);
         let drawn: Vec<(SampleId, Scene)> = (0..plan.samples)
             .filter_map(|id| Some((SampleId(id), draws.scene(SampleId(id)).ok()?)))
@@ -110,12 +103,10 @@ impl<'p> Precision<'p> {
             .collect();
         let balances = [Group::EnergyConservation, Group::MomentumConservation];
         let plain = Request { constrained: false, ..plan.request() };
-        let (request, fields) = match integrated {
-            States::All => {
-                let request = Request { groups: balances.into_iter().collect(), ..plain };
-                (request, states(&plain).union(request.fields()))
-            }
-            States::Observed => (plain, plain.fields().with(StateField::Rate)),
+        let of_balances = Request { groups: balances.into_iter().collect(), ..plain };
+        let (request, fields) = match is_observed {
+            false => (of_balances, states(&plain).union(of_balances.fields())),
+            true => (plain, plain.fields().with(StateField::Rate)),
         };
         let compared = [StateField::Rate, StateField::Attitude].into_iter().filter(|field| fields.contains(*field));
         let compared = compared.fold(StateFields::NONE, StateFields::with);
@@ -228,7 +219,13 @@ impl<'p> Precision<'p> {
                         sum.add_many(row[max], row[rms], points);
                     }
                 }
-                pass.compare(&self.references[first + index], &self.plan.grid, table);
+                let reference = &self.references[first + index];
+                for error in rotation_errors(reference, &self.plan.grid, table) {
+                    pass.rate.add(error.omega);
+                    if reference.high.has(StateField::Attitude) {
+                        pass.attitude.add(error.attitude);
+                    }
+                }
             });
             if thread_seconds() - start > EXCESS * limits.limit {
                 return None;
@@ -283,17 +280,6 @@ struct Pass {
     attitude: Sum,
     energy: Sum,
     momentum: Sum,
-}
-
-impl Pass {
-    fn compare(&mut self, reference: &ReferenceSolution, grid: &Grid, table: &StateTable) {
-        for error in rotation_errors(reference, grid, table) {
-            self.rate.add(error.omega);
-            if reference.high.has(StateField::Attitude) {
-                self.attitude.add(error.attitude);
-            }
-        }
-    }
 }
 
 /// A maximum and a mean square, both NaN after a NaN.

@@ -110,8 +110,8 @@ impl RunProbe {
     }
 
     pub fn reasons(&self) -> FailureReasons {
-        let mut reasons = FailureReasons::default();
-        reasons.add(&self.rows);
+        let (mut reasons, rows) = (FailureReasons::default(), &self.rows);
+        rows.reasons().iter().for_each(|(row, text)| reasons.add(rows.samples()[*row], rows.statuses()[*row], text));
         reasons
     }
 }

@@ -40,7 +40,7 @@ pub fn replayed(
         return Vec::new();
     }
     let grid = ends.fold(grid(plan, isa), |grid, end| with_time(&grid, end).unwrap_or(grid));
-    let mut runs = SingleRuns::replays(plan, grid, isa, &GROUPS);
+    let mut runs = SingleRuns::new(plan, grid, isa, &GROUPS, true);
     let flown = samples.chunks(BESIDE).flat_map(|some| some.iter().copied().zip(runs.run_all(some)));
     flown.filter_map(|(sample, run)| Some((sample, run.ok()?))).collect()
 }
@@ -53,7 +53,7 @@ fn grid(plan: &Plan, isa: Isa) -> Grid {
         return Grid::uniform(plan.grid.duration(), given.min(MOST) * (MOST / given).max(1) + 1);
     }
     let looked_at = Grid::uniform(plan.grid.duration(), given.min(MOST) + 1);
-    let nominal = || SingleRuns::replays(plan, looked_at, isa, &[]).run(SampleId(0));
+    let nominal = || SingleRuns::new(plan, looked_at, isa, &[], true).run(SampleId(0));
     let fastest = nominal().map_or(0.0, |run| {
         let points = run.outcome.points.min(run.grid.points());
         let rate = |point: usize| norm(run.table.at(StateField::Rate, point));

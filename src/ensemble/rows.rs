@@ -55,19 +55,11 @@ impl Rows {
         Rows { bands, ..self }
     }
 
-    /// Clears the block for `part`: unwritten rows are invalid samples.
-    ///
-    /// # Panics
-    /// If the part is larger than the block.
-    pub fn start(&mut self, part: Part) {
-        self.start_with(part, part.samples());
-    }
-
-    /// [`Rows::start`] with the samples of a part.
+    /// Clears the block for `part` with these samples: unwritten rows are invalid samples.
     ///
     /// # Panics
     /// If the part is larger than the block, or has a different number of samples.
-    pub fn start_with(&mut self, part: Part, samples: impl IntoIterator<Item = SampleId>) {
+    pub fn start(&mut self, part: Part, samples: impl IntoIterator<Item = SampleId>) {
         assert!(part.count <= self.capacity, "a part of {} samples in a block for {}", part.count, self.capacity);
         self.part = part;
         self.samples.clear();
@@ -200,7 +192,7 @@ mod tests {
     #[test]
     fn infinite_values_are_absent() {
         let mut rows = Rows::new(Shape { parameters: 1, observables: 2 }, 1);
-        rows.start(part(1));
+        rows.start(part(1), part(1).samples());
         rows.set_parameters(0, &[f64::NEG_INFINITY]);
         rows.set_result(0, Status::Done, &[f64::INFINITY, -0.0]);
         assert!(rows.parameter(0)[0].is_nan() && rows.observable(0)[0].is_nan());

@@ -36,22 +36,23 @@ pub fn start_threads() -> Result<(), ThreadPoolBuildError> {
     ThreadPoolBuilder::new().build_global()
 }
 
-/// Passes the rows of each of `parts` to `sink`, on the `wanted` [`threads`].
+/// Passes the rows of each of `parts` to `sink`, on the `wanted` [`threads`]: once each and in any order, on which the
+/// result must not depend.
 ///
 /// # Errors
 /// A failure to start threads, or the first error of the sink, after which no part starts.
-pub fn run<S: Sink>(
+pub fn run<E: Send>(
     ensemble: &Ensemble<'_>,
     parts: impl IntoIterator<Item = Part>,
     wanted: Option<NonZeroUsize>,
-    sink: &S,
+    sink: &(impl Fn(&Rows) -> Result<(), E> + Sync),
     supervision: Supervision<'_>,
-) -> Result<(), RunError<S::Error>> {
+) -> Result<(), RunError<E>> {
     let parts: Vec<Part> = parts.into_iter().collect();
     let largest = parts.iter().map(|part| part.count).max().unwrap_or(0);
     let pool = ThreadPoolBuilder::new().num_threads(threads(wanted, parts.len())).build()?;
     let (next, is_failed) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let failure: Mutex<Option<S::Error>> = Mutex::new(None);
+    let failure: Mutex<Option<E>> = Mutex::new(None);
     let is_on = || !supervision.stop.load(Ordering::Relaxed) && !is_failed.load(Ordering::Relaxed);
     let share = || {
         // allocated by its thread, once it has a part
@@ -63,7 +64,7 @@ pub fn run<S: Sink>(
             if !worker.run(*part, rows, supervision) {
                 break;
             }
-            if let Err(error) = sink.take(rows) {
+            if let Err(error) = sink(rows) {
                 is_failed.store(true, Ordering::Relaxed);
                 failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
             }
@@ -80,13 +81,4 @@ pub fn run<S: Sink>(
         Some(error) => Err(RunError::Sink(error)),
         None => Ok(()),
     }
-}
-
-/// Takes finished parts, from several threads, once each and in any order; the result must not depend on it.
-pub trait Sink: Sync {
-    type Error: Send;
-
-    /// # Errors
-    /// A failure to store rows; no further part starts.
-    fn take(&self, rows: &Rows) -> Result<(), Self::Error>;
 }

@@ -10,7 +10,7 @@ use rayon::ThreadPoolBuilder;
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EndFinder, EventFinder};
-use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe, replayed};
+use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe};
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
 use crate::math::Isa;
@@ -51,21 +51,7 @@ impl SingleRun {
     /// # Errors
     /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
-        SingleRuns::new(plan, grid, isa, &GROUPS).run(sample)
-    }
-
-    /// [`SingleRun::new`] with the series of `groups`.
-    ///
-    /// # Errors
-    /// The drawn scene is not physical.
-    pub fn with_series(
-        plan: &Plan,
-        sample: SampleId,
-        grid: Grid,
-        isa: Isa,
-        groups: &[Group],
-    ) -> Result<Self, Vec<SceneError>> {
-        SingleRuns::new(plan, grid, isa, groups).run(sample)
+        SingleRuns::new(plan, grid, isa, &GROUPS, false).run(sample)
     }
 
     /// Compares the run with the reference solution, which flies the arcs of a control law.
@@ -73,14 +59,8 @@ impl SingleRun {
     /// # Errors
     /// A failure of the run or its reference solution, or the limit of work.
     pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
-        let mut auditor = Auditor::new(plan, isa, &self.grid);
-        match plan.law {
-            _ if matches!(self.outcome.status, Status::Surface | Status::Diverged) => {
-                Err(NoAudit::Run(self.outcome.status))
-            }
-            None => auditor.audit(&self.scene),
-            Some(_) => auditor.audit(&replayed(&self.scene, &self.arcs)),
-        }
+        let arcs = plan.law.as_ref().map(|_| &self.arcs[..]);
+        Auditor::new(plan, isa, &self.grid).audit_flown(&self.scene, arcs, self.outcome.status)
     }
 }
 
@@ -101,17 +81,9 @@ pub struct SingleRuns<'p> {
 }
 
 impl<'p> SingleRuns<'p> {
-    /// Runs with the series of `groups` at the times of `grid`.
-    pub fn new(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
-        Self::of_kind(plan, grid, isa, groups, false)
-    }
-
-    /// Without differences from the nominal run and times of events, which only rows have.
-    pub fn replays(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group]) -> Self {
-        Self::of_kind(plan, grid, isa, groups, true)
-    }
-
-    fn of_kind(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group], is_replay: bool) -> Self {
+    /// Runs with the series of `groups` at the times of `grid`; replays are without differences from the nominal run
+    /// and times of events, which only rows have.
+    pub fn new(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group], is_replay: bool) -> Self {
         let request = plan.request_over(grid.duration());
         let shown = Request { groups: groups.iter().copied().collect(), ..request };
         let ends = EndFinder::new(plan, Engines::of(isa));
@@ -271,7 +243,7 @@ pub fn run_each<T: Send, E: Send>(
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
             let Some(sample) = samples.get(place) else { break };
-            let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa, &GROUPS));
+            let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa, &GROUPS, false));
             let result = job(runs, *sample);
             let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
             match (&mut *made, result) {

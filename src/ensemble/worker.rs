@@ -121,7 +121,7 @@ impl Worker<'_> {
     /// Runs the samples of `part` into `rows`; false if abandoned.
     pub fn run(&mut self, part: Part, rows: &mut Rows, supervision: Supervision<'_>) -> bool {
         let plan = self.campaign.plan();
-        rows.start_with(part, part.samples().map(|row| plan.sample(row.0)));
+        rows.start(part, part.samples().map(|row| plan.sample(row.0)));
         for start in (0..part.count).step_by(BATCH) {
             if supervision.abandon.load(Ordering::Relaxed) {
                 return false;

@@ -33,6 +33,7 @@ mod tests {
     use super::*;
     use crate::campaign::Overrides;
     use crate::ensemble::replays::GROUPS;
+    use crate::ensemble::single::SingleRuns;
     use crate::math::Isa;
     use crate::report::figure::Mark;
     use crate::run::Grid;
@@ -48,7 +49,8 @@ mod tests {
             let of = |name: &str| (format!("thrusters.{name}.thrust_scale"), "0.0".to_owned());
             let overrides = Overrides { settings: vec![of(dead)], ..Overrides::default() };
             let plan = Plan::from_text("n", &text, overrides).unwrap_or_else(|error| panic!("{error}"));
-            let run = SingleRun::with_series(&plan, SampleId(0), Grid::uniform(60.0, 61), Isa::best(), &GROUPS)
+            let run = SingleRuns::new(&plan, Grid::uniform(60.0, 61), Isa::best(), &GROUPS, false)
+                .run(SampleId(0))
                 .expect("a run");
             let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
             for title in ["Thrust", "Impulse of the thrusters"] {
@@ -71,8 +73,9 @@ mod tests {
         let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9.0\n[body]\nmass_kg = \
             10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n";
         let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-        let run =
-            SingleRun::with_series(&plan, SampleId(0), Grid::uniform(9.0, 10), Isa::best(), &GROUPS).expect("a run");
+        let run = SingleRuns::new(&plan, Grid::uniform(9.0, 10), Isa::best(), &GROUPS, false)
+            .run(SampleId(0))
+            .expect("a run");
         let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
         let rate = panels.iter().find(|panel| panel.title.starts_with("Angular velocity of the body")).expect("a rate");
         assert_eq!(rate.marks.iter().map(Mark::legend).collect::<Vec<_>>(), ["z"]);
@@ -84,7 +87,8 @@ mod tests {
     fn curves_are_their_columns() {
         let text = include_str!("../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let run = SingleRun::with_series(&plan, SampleId(0), plan.grid.clone(), Isa::best(), &GROUPS).expect("a run");
+        let run =
+            SingleRuns::new(&plan, plan.grid.clone(), Isa::best(), &GROUPS, false).run(SampleId(0)).expect("a run");
         let series = time_series(SampleId(0), &run, |_| true);
         let column = |name: String| -> Vec<f64> {
             let found = series.numbers(&name);

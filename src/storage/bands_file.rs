@@ -110,9 +110,6 @@ impl BandsFile {
     }
 
     /// Appends to `out` the file of the `bands` of `part`: a function of the part alone.
-    ///
-    /// # Errors
-    /// Where encoding fails.
     pub fn write(&self, part: Part, bands: &PartBands, out: &mut Vec<u8>) -> Result<(), EncodingError> {
         let (mut buckets, mut counts) = (Vec::new(), Vec::new());
         let (mut lengths, mut without, mut ends) = (Vec::new(), Vec::new(), [const { Vec::new() }; 2]);

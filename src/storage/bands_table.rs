@@ -15,9 +15,6 @@ pub const QUANTILES: [(&str, f64); 7] =
 type Place = (usize, usize, [Option<f64>; QUANTILES.len()]);
 
 /// `bands` of `plan` as a Parquet file.
-///
-/// # Errors
-/// Where encoding fails.
 pub fn file(plan: &Plan, bands: &Bands) -> Result<Vec<u8>, EncodingError> {
     let (series, points) = (bands.layout().series.len(), bands.times().len());
     let quantiles = |series, point| bands.quantiles(series, point, QUANTILES.map(|(_, p)| p));

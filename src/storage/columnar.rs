@@ -101,9 +101,6 @@ impl Layout {
     }
 
     /// Begins a file of any number of row groups.
-    ///
-    /// # Errors
-    /// Where writing fails.
     pub fn begin<W: Write + Send>(&self, out: W, own: &[(&str, String)]) -> Result<GroupWriter<'_, W>> {
         let writer = SerializedFileWriter::new(out, self.root.clone(), Arc::new(self.properties(own)))?;
         Ok(GroupWriter { layout: self, writer, scratch: ColumnBuffers::default() })
@@ -147,9 +144,6 @@ impl<W: Write + Send> GroupWriter<'_, W> {
     }
 
     /// Ends the file.
-    ///
-    /// # Errors
-    /// Where writing fails.
     pub fn finish(self) -> Result<()> {
         self.writer.close()?;
         Ok(())

@@ -216,9 +216,6 @@ impl Dataset {
     }
 
     /// Puts a file that follows from plan and rows.
-    ///
-    /// # Errors
-    /// Where a file operation fails.
     pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         self.store.put(name, bytes).map_err(self.store.at(name))?;
         self.list(FileRecord::of(name, bytes));
@@ -250,9 +247,6 @@ impl Dataset {
     }
 
     /// Takes parts out of the dataset, so that they are made again.
-    ///
-    /// # Errors
-    /// Where a file operation fails.
     pub fn drop_parts(&self, parts: impl IntoIterator<Item = PartId>) -> Result<(), StoreError> {
         for part in parts {
             self.remove(&rows_of(part))?;
@@ -262,9 +256,6 @@ impl Dataset {
     }
 
     /// Puts the `copies` of files of numbers, and then the plan, which names them, unless they are there.
-    ///
-    /// # Errors
-    /// Where a file operation fails.
     pub fn keep(&self, copies: &[(String, Vec<u8>)]) -> Result<(), StoreError> {
         let copies = copies.iter().map(|(name, bytes)| (format!("{DATA}/{name}"), &**bytes));
         for (name, bytes) in copies.chain([(PLAN.to_owned(), self.plan.as_bytes())]) {
@@ -277,18 +268,12 @@ impl Dataset {
     }
 
     /// Removes a file, if there is one.
-    ///
-    /// # Errors
-    /// Where a file operation fails.
     pub fn remove(&self, name: &str) -> Result<(), StoreError> {
         self.files().derived.remove(name);
         self.store.remove(name).map_err(self.store.at(name))
     }
 
     /// Removes the files of a dataset in the folder `folder`, and the folder where nothing else is in it.
-    ///
-    /// # Errors
-    /// Where a file operation fails.
     pub fn clear(&self, folder: &str) -> Result<(), StoreError> {
         let entries = self.store.entries(folder)?;
         for entry in &entries {
@@ -301,9 +286,6 @@ impl Dataset {
     }
 
     /// Puts the manifest of the dataset, and the mark.
-    ///
-    /// # Errors
-    /// Where a file operation fails.
     pub fn finish(&self) -> Result<(), StoreError> {
         let (manifest, for_now) = {
             let all = self.files();
@@ -333,9 +315,6 @@ pub fn rows(store: &Arc<dyn Store>, parts: &[PartRecord]) -> RowsReader {
 }
 
 /// Removes the mark of a finished dataset, its manifest and its summary, before anything that it lists changes.
-///
-/// # Errors
-/// Where a file operation fails.
 pub fn unfinish(store: &dyn Store) -> Result<(), StoreError> {
     [SUCCESS, MANIFEST, SUMMARY].into_iter().try_for_each(|name| store.remove(name).map_err(store.at(name)))
 }
@@ -346,9 +325,6 @@ fn put_end(store: &dyn Store, manifest: &Manifest) -> Result<(), StoreError> {
 }
 
 /// Replaces one file of a finished dataset, and lists it. A file with the bytes that are listed leaves it finished.
-///
-/// # Errors
-/// Where a file operation fails.
 pub fn replace_file(store: &dyn Store, manifest: &Manifest, (name, bytes): (&str, &[u8])) -> Result<(), StoreError> {
     let mut files: BTreeMap<&str, FileRecord> = manifest.files.iter().map(|file| (&*file.name, file.clone())).collect();
     let put = || store.put(name, bytes).map_err(store.at(name));

@@ -229,9 +229,6 @@ pub fn above(path: &Path) -> &Path {
 }
 
 /// Makes renames and new files in a folder durable.
-///
-/// # Errors
-/// Where it fails.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     // only Unix can open and flush a folder
     if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) }

@@ -8,7 +8,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use parquet::errors::ParquetError;
 
-use crate::ensemble::{Ensemble, Part, Rows, Sink};
+use crate::ensemble::{Ensemble, Part, Rows};
 use crate::storage::bands_file::BandsFile;
 use crate::storage::dataset::{Dataset, FileRecord, PartFile};
 use crate::storage::identity::seal;
@@ -66,9 +66,6 @@ impl PartFiles {
 
     /// The files of the part of `rows`: a function of the part alone. They are written to `buffers`, as long as there
     /// are some.
-    ///
-    /// # Errors
-    /// Where encoding fails.
     pub fn encoded(
         &self,
         rows: &Rows,
@@ -109,16 +106,11 @@ pub struct PartSink<'c> {
 }
 
 impl PartSink<'_> {
-    /// CPU time of runs and of audits so far, s; measured where there are audits.
-    pub fn seconds(&self) -> [f64; 2] {
-        *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Sink for PartSink<'_> {
-    type Error = Failure;
-
-    fn take(&self, rows: &Rows) -> Result<(), Failure> {
+    /// Encodes the rows of a part, on any thread.
+    ///
+    /// # Errors
+    /// Where they cannot be encoded, or parts are no longer written.
+    pub fn take(&self, rows: &Rows) -> Result<(), Failure> {
         let files = self.files.encoded(rows, self.buffers.take());
         let files = files.map_err(|error| format!("a part could not be encoded: {error}"))?;
         self.counts.into_iter().for_each(|counts| counts.add(rows));
@@ -127,6 +119,11 @@ impl Sink for PartSink<'_> {
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
         Ok(())
+    }
+
+    /// CPU time of runs and of audits so far, s; measured where there are audits.
+    pub fn seconds(&self) -> [f64; 2] {
+        *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -138,9 +138,6 @@ impl RowsFile {
     /// Writes `rows` to `out`, which is then to be sealed ([`identity::seal`]); `bands` is the SHA-256 of the bands.
     ///
     /// A value that a run does not have is null: NaN and infinite in memory, whether the run is `ok` or not.
-    ///
-    /// # Errors
-    /// Where writing fails.
     pub fn write<W: Write + Send>(&self, rows: &Rows, bands: Option<&str>, out: W) -> Result<(), ParquetError> {
         let first = rows.samples().first().copied().unwrap_or(rows.part().first);
         let bands = bands.map(|sha256| (BANDS_KEY, sha256.to_owned()));

@@ -159,9 +159,6 @@ impl PartReader {
     }
 
     /// The numbers of the samples, row by row.
-    ///
-    /// # Errors
-    /// Where the column is missing or damaged.
     pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
         match self.values(SAMPLE_ID)? {
             Values::Count(values) => Ok(values.into_iter().map(SampleId).collect()),
@@ -185,9 +182,6 @@ impl PartReader {
     }
 
     /// Why each run is not `ok`; `None` for one that is.
-    ///
-    /// # Errors
-    /// Where the column is missing or damaged.
     pub fn reasons(&self) -> Result<Vec<Option<String>>, RowsError> {
         match self.values(REASON)? {
             Values::Text(texts) => Ok(texts.into_iter().map(|text| text.map(Cow::into_owned)).collect()),
@@ -208,9 +202,6 @@ impl PartReader {
     }
 
     /// The values of the column `name`, row by row.
-    ///
-    /// # Errors
-    /// Where the column is missing or damaged.
     pub fn values(&self, name: &str) -> Result<Values<'static>, RowsError> {
         Ok(match self.decoded(name)? {
             (Decoded::Real(values), None) => Values::Real(values.into()),
@@ -232,9 +223,6 @@ impl PartReader {
     }
 
     /// The values of the column `name` without gaps, and which rows have one (1); `None` where all have.
-    ///
-    /// # Errors
-    /// Where the column is missing or damaged.
     fn decoded(&self, name: &str) -> Result<(Decoded, Option<Vec<i16>>), RowsError> {
         caught(&self.path, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();

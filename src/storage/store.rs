@@ -46,9 +46,6 @@ pub trait Store: Debug + Send + Sync {
     fn list(&self, folder: &str) -> io::Result<Vec<Entry>>;
 
     /// Removes a file or an empty folder, durably; no error where there is none. An object store removes nothing.
-    ///
-    /// # Errors
-    /// Where it fails.
     fn remove(&self, name: &str) -> io::Result<()>;
 
     /// Keeps other processes away until the result is dropped, those with shared locks too unless `is_shared`; `None`
@@ -59,9 +56,6 @@ pub trait Store: Debug + Send + Sync {
     fn lock(&self, is_shared: bool) -> Result<Option<File>, TryLockError>;
 
     /// Gives the folder the name `to`.
-    ///
-    /// # Errors
-    /// Where it fails.
     fn rename(&self, to: &Path) -> io::Result<()>;
 
     /// Whether files can be replaced and removed.

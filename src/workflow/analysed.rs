@@ -17,9 +17,6 @@ pub fn end_of_analysed(analysed: &Analysed, found: &Findings) -> SummaryEnd {
 }
 
 /// Writes the verdicts as JUnit XML, where a file for it was named.
-///
-/// # Errors
-/// Where the file cannot be written.
 pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let text = junit::text(plan, analysed, &findings(plan, analysed, &[]));

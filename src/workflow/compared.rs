@@ -14,9 +14,6 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::results::Results;
 
 /// Compares what the rows of both say, sample by sample where both drew the same ones; `names` is what they are called.
-///
-/// # Errors
-/// Where a file cannot be read.
 pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result<Compared<'r>, WorkflowError> {
     let [first, second] = results;
     let rows = results.map(|one| ResultRows { plan: one.plan(), reader: one.rows() });
@@ -49,9 +46,6 @@ impl ComparisonFormat {
     }
 
     /// Writes `compared` to `path`.
-    ///
-    /// # Errors
-    /// Where the file cannot be written.
     pub fn write(self, compared: &Compared<'_>, path: &Path) -> Result<(), WorkflowError> {
         let failed = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
         let bytes = match self {

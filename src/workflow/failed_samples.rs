@@ -1,21 +1,19 @@
 //! Samples that failed: those of a result run again under another plan ([`plan_of_failed`]), or the first ends the
-//! campaign ([`FailFast`]).
+//! campaign ([`fail_fast`]).
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::campaign::{FilesRead, Overrides, Plan};
-use crate::ensemble::{Rows, Sink};
+use crate::ensemble::Rows;
 use crate::findings::loss::readable;
 use crate::findings::number::counted;
 use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
 use crate::storage::dataset::rows;
-use crate::storage::part_sink::PartSink;
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
-use crate::storage::store::Failure;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::{plan_and_files, sound};
@@ -70,9 +68,6 @@ pub struct FailedRun {
 }
 
 /// The first run that failed among the rows that are in files.
-///
-/// # Errors
-/// Where a file cannot be read.
 pub fn first_failed(reader: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
     let mut first = None;
     let read = |part: &mut PartReader| -> Result<Option<FailedRun>, RowsError> {
@@ -92,32 +87,14 @@ fn said(status: Status, reason: Option<&str>) -> String {
     reason.map_or_else(|| status.name().to_owned(), |reason| format!("{}: {}", status.name(), readable(reason)))
 }
 
-/// Passes rows on, and lets no further part start after one with a run that failed.
-#[derive(Debug)]
-pub struct FailFast<'a, 's> {
-    pub sink: &'a PartSink<'s>,
-    /// Whether a failed run stops the campaign.
-    pub is_on: bool,
-    pub stop: &'a AtomicBool,
-    /// The first that failed, in the order of the samples, of the parts that were made.
-    pub first: &'a Mutex<Option<FailedRun>>,
-}
-
-impl Sink for FailFast<'_, '_> {
-    type Error = Failure;
-
-    fn take(&self, rows: &Rows) -> Result<(), Failure> {
-        self.sink.take(rows)?;
-        let row = rows.statuses().iter().position(|status| *status != Status::Done).filter(|_| self.is_on);
-        if let Some(row) = row {
-            let reason = rows.reasons().iter().find(|(at, _)| *at == row).map(|(_, reason)| reason.as_str());
-            let found = FailedRun { sample: rows.samples()[row], what: said(rows.statuses()[row], reason) };
-            let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-            if first.as_ref().is_none_or(|first| found.sample < first.sample) {
-                *first = Some(found);
-            }
-            self.stop.store(true, Ordering::SeqCst);
-        }
-        Ok(())
+/// Lets no further part start where a run of `rows` failed, and keeps the `first` such run, in the order of the samples.
+pub(super) fn fail_fast(rows: &Rows, first: &Mutex<Option<FailedRun>>, stop: &AtomicBool) {
+    let Some(row) = rows.statuses().iter().position(|status| *status != Status::Done) else { return };
+    let reason = rows.reasons().iter().find(|(at, _)| *at == row).map(|(_, reason)| reason.as_str());
+    let found = FailedRun { sample: rows.samples()[row], what: said(rows.statuses()[row], reason) };
+    let mut first = first.lock().unwrap_or_else(PoisonError::into_inner);
+    if first.as_ref().is_none_or(|first| found.sample < first.sample) {
+        *first = Some(found);
     }
+    stop.store(true, Ordering::SeqCst);
 }

@@ -42,9 +42,6 @@ pub fn place(root: &Path) -> PathBuf {
 }
 
 /// What a result was when it was finished, and the text of its summary.
-///
-/// # Errors
-/// Where a file cannot be read.
 pub fn again(results: &Results<'_>) -> Result<(Completed, String), WorkflowError> {
     let (plan, analysed) = (results.plan(), results.analysed()?);
     let findings = findings(plan, &analysed, &[]);

@@ -120,9 +120,6 @@ pub(super) fn made_page(
 }
 
 /// The rows of `samples`, from the parts that have them.
-///
-/// # Errors
-/// Where a part cannot be read.
 fn rows_of(
     ensemble: &Ensemble<'_>,
     reader: &RowsReader,
@@ -172,9 +169,6 @@ pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
 }
 
 /// Writes the figures of `page`, of the campaign `plan`, as files into `folder`, if one was named.
-///
-/// # Errors
-/// Where a file cannot be written.
 pub fn save_figures(
     session: &Session<'_>,
     plan: &Plan,

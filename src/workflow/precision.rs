@@ -6,7 +6,7 @@ use crate::campaign::Plan;
 use crate::campaign::forces::allowed_methods;
 use crate::dynamics::effects::ForceModel;
 use crate::ensemble::Ensemble;
-use crate::ensemble::precision::{Limits, Measurement, Precision, States};
+use crate::ensemble::precision::{Limits, Measurement, Precision};
 use crate::ensemble::runner::start_threads;
 use crate::ensemble::settings::nominal;
 use crate::findings::number::counted;
@@ -77,9 +77,8 @@ pub fn measured(
     Workload::of_precision(&Ensemble::new(plan, isa), wanted.samples).check(folder, wanted.is_allowed, false)?;
     atomic::make_folder(folder)?;
 
-    let states = if wanted.is_observed { States::Observed } else { States::All };
     let samples = usize::try_from(wanted.samples).unwrap_or(usize::MAX);
-    let precision = Precision::new(plan, isa, samples, states).map_err(|(sample, status)| {
+    let precision = Precision::new(plan, isa, samples, wanted.is_observed).map_err(|(sample, status)| {
         WorkflowError::Input(format!("no reference solution of sample {sample}: it ended with {}", status.name()))
     })?;
     if precision.samples() == 0 {

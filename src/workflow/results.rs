@@ -3,17 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use crate::analysis::fold::Gathered;
-use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::Plan;
-use crate::ensemble::{Bands, Ensemble, SingleRun};
+use crate::ensemble::{Ensemble, SingleRun};
 use crate::findings::end::SummaryEnd;
 use crate::sampling::SampleId;
 use crate::storage::claim::open;
 use crate::storage::dataset::{PartRecord, rows};
 use crate::storage::lock::Lock;
-use crate::storage::names::{SUMMARY, TRAJECTORIES};
+use crate::storage::names::SUMMARY;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{Analysed, computed, write_junit};
 use crate::workflow::ending::end_of;
@@ -100,14 +99,6 @@ impl<'a> Results<'a> {
         self.analysed().map(|found| found.statistics)
     }
 
-    /// What drives the main observables.
-    ///
-    /// # Errors
-    /// Where a file cannot be read.
-    pub fn sensitivities(&self) -> Result<Vec<InputSensitivity>, WorkflowError> {
-        self.analysed().map(|found| found.sensitivities)
-    }
-
     /// The verdicts on the requirements.
     ///
     /// # Errors
@@ -116,27 +107,7 @@ impl<'a> Results<'a> {
         self.analysed().map(|found| found.verdicts)
     }
 
-    /// Quantiles over time, where the campaign has bands.
-    ///
-    /// # Errors
-    /// Where a file cannot be read.
-    pub fn bands(&self) -> Result<Option<Bands>, WorkflowError> {
-        self.analysed().map(|found| found.bands)
-    }
-
-    /// The files of the time series that were retained, in the order of their samples.
-    ///
-    /// # Errors
-    /// Where their folder cannot be read.
-    pub fn retained(&self) -> Result<Vec<PathBuf>, WorkflowError> {
-        let entries = self.reader.store().entries(TRAJECTORIES)?;
-        Ok(entries.into_iter().map(|entry| self.root.join(TRAJECTORIES).join(entry.name)).collect())
-    }
-
     /// The content of the file `name`, such as `summary.json`; `None` where there is none.
-    ///
-    /// # Errors
-    /// Where it cannot be read.
     pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>, WorkflowError> {
         Ok(self.reader.store().read(name)?.ok())
     }

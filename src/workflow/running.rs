@@ -8,12 +8,13 @@ use crate::analysis::fold::RunningFold;
 use crate::analysis::stopping::look;
 use crate::campaign::Plan;
 use crate::ensemble::runner::threads;
-use crate::ensemble::{Ensemble, Part, Parts, run as run_parts};
+use crate::ensemble::{Ensemble, Part, Parts, Rows, run as run_parts};
 use crate::findings::loss::stop_text;
 use crate::findings::number::counted;
 use crate::storage::part_sink::{CountRows, PartSink, write_parts};
+use crate::storage::store::Failure;
 use crate::workflow::error::WorkflowError;
-use crate::workflow::failed_samples::{FailFast, FailedRun, first_failed};
+use crate::workflow::failed_samples::{FailedRun, fail_fast, first_failed};
 use crate::workflow::finishing::{Job, Made, complete, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 
@@ -104,9 +105,15 @@ impl Job<'_> {
         let supervision = self.session.supervision(&progress);
         let counts = counts.map(|counts| counts as &dyn CountRows);
         let ended = write_parts(&self.ready.dataset, self.ensemble, counts, |sink: &PartSink<'_>| {
-            let watched = FailFast { sink, is_on: self.fail_fast, stop: watch.stop(), first: &first };
+            let take = |rows: &Rows| {
+                sink.take(rows)?;
+                if self.fail_fast {
+                    fail_fast(rows, &first, watch.stop());
+                }
+                Ok::<(), Failure>(())
+            };
             let missing = missing.iter().copied();
-            run_parts(self.ensemble, missing, self.session.threads, &watched, supervision).map(|()| sink.seconds())
+            run_parts(self.ensemble, missing, self.session.threads, &take, supervision).map(|()| sink.seconds())
         });
         watch.end();
         let seconds = ended?.map_err(WorkflowError::files)?;

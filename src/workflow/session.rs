@@ -131,18 +131,6 @@ impl<'a> Session<'a> {
         Session { law: Some(law), ..self }
     }
 
-    /// The same for campaigns with a control loop whose phases may name `law`, and their results.
-    #[must_use]
-    pub fn with_attitude_law(self, law: &'static LawKind) -> Self {
-        Session { attitude_law: Some(law), ..self }
-    }
-
-    /// The same where each thread does its share of a campaign as `crew` says.
-    #[must_use]
-    pub fn with_crew(self, crew: &'a dyn Crew) -> Self {
-        Session { crew, ..self }
-    }
-
     /// What plans are read with: the laws that the program brings.
     pub(super) fn overrides(&self) -> Overrides {
         Overrides { law: self.law.cloned(), attitude_law: self.attitude_law, ..Overrides::default() }

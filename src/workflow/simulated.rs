@@ -6,6 +6,7 @@ use crate::campaign::Plan;
 use crate::control::laws::callback;
 use crate::ensemble::SingleRun;
 use crate::ensemble::replays::GROUPS;
+use crate::ensemble::single::SingleRuns;
 use crate::findings::number::counted;
 use crate::math::Isa;
 use crate::report::figure_files::instead;
@@ -66,7 +67,8 @@ pub fn plotted(
 ) -> Result<Vec<String>, WorkflowError> {
     let intervals = plan.grid.points().saturating_sub(1).max(1);
     let refined = || Grid::uniform(plan.grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1);
-    let run = SingleRun::with_series(plan, SampleId(sample), grid.unwrap_or_else(refined), isa, &GROUPS)
+    let run = SingleRuns::new(plan, grid.unwrap_or_else(refined), isa, &GROUPS, false)
+        .run(SampleId(sample))
         .map_err(|errors| not_physical(sample, &errors))?;
     let which = if sample == 0 { "nominal".to_owned() } else { format!("sample {sample}") };
     let figure = simulation_figure(format!("{}, {which}", plan.name), plan, &run).in_units(&plan.analysis.display);

@@ -1,15 +1,16 @@
 //! [`verify`]: whether a result is what was written, and whether its rows are what the plan says.
 
 use std::path::Path;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::control::laws::callback;
-use crate::ensemble::{Ensemble, Part, Rows, Sink, Supervision, run as run_parts};
+use crate::ensemble::{Ensemble, Part, Rows, Supervision, run as run_parts};
 use crate::findings::number::counted;
 use crate::findings::verified::Checked;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, open};
-use crate::storage::dataset::{FileRecord, Head, PartRecord, unfinish};
+use crate::storage::columnar::EncodingError;
+use crate::storage::dataset::{Head, PartRecord, unfinish};
 use crate::storage::found::Found;
 use crate::storage::names::rows_of;
 use crate::storage::part_sink::PartFiles;
@@ -111,12 +112,12 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
     drop(lock);
     match repair(session, (&shared, root), &ensemble, (&found, &head, &differing))? {
-        Repair::Done(completed) => {
+        Ok(completed) => {
             let (problems, unchecked) = (problems.len(), Vec::new());
             let checked = Checked { what: checked, problems, is_finished: true, missing: 0, unchecked };
-            Ok(Some(Verified { checked, completed: Some(completed) }))
+            Ok(Some(Verified { checked, completed: Some(Box::new(completed)) }))
         }
-        Repair::Stopped(left) => {
+        Err(left) => {
             note(&format!(
                 "{}: stopped; {left} samples are not made again yet. The same command continues.",
                 root.display()
@@ -135,59 +136,39 @@ fn choice<T: Copy>(list: &[T], fraction: f64) -> Vec<T> {
     (0..count).map(|index| list[index * list.len() / count]).collect()
 }
 
-enum Repair {
-    Done(Box<Completed>),
-    /// A signal stopped it, with so many samples left.
-    Stopped(u64),
-}
-
-/// Encodes rows and remembers the parts whose bytes are not those of the manifest.
-struct Comparison<'a> {
-    files: PartFiles,
-    records: &'a [PartRecord],
-    differing: Mutex<Vec<Part>>,
-}
-
-impl Sink for Comparison<'_> {
-    type Error = String;
-
-    fn take(&self, rows: &Rows) -> Result<(), String> {
-        let part = rows.part();
-        let files = self.files.encoded(rows, std::iter::empty()).map_err(|error| error.to_string())?;
-        let files: Vec<FileRecord> = files.into_iter().map(|file| file.record).collect();
-        if !self.records.contains(&PartRecord { part, files }) {
-            self.differing.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(part);
-        }
-        Ok(())
-    }
-}
-
+/// Those of the `chosen` parts whose rows, computed again, have not the bytes of their `records`.
 fn differing(
     session: &Session<'_>,
     ensemble: &Ensemble<'_>,
     records: &[PartRecord],
     chosen: &[Part],
 ) -> Result<Vec<Part>, WorkflowError> {
-    let comparison = Comparison {
-        files: PartFiles::new(ensemble).map_err(WorkflowError::files)?,
-        records,
-        differing: Mutex::new(Vec::new()),
+    let files = PartFiles::new(ensemble).map_err(WorkflowError::files)?;
+    let differing = Mutex::new(Vec::new());
+    let compare = |rows: &Rows| {
+        let part = rows.part();
+        let again = files.encoded(rows, std::iter::empty())?.into_iter().map(|file| file.record).collect();
+        if !records.contains(&PartRecord { part, files: again }) {
+            differing.lock().unwrap_or_else(PoisonError::into_inner).push(part);
+        }
+        Ok::<(), EncodingError>(())
     };
     let supervision = Supervision::progress(&|_| {});
-    run_parts(ensemble, chosen.iter().copied(), session.threads, &comparison, supervision)
+    run_parts(ensemble, chosen.iter().copied(), session.threads, &compare, supervision)
         .map_err(WorkflowError::files)?;
-    let mut found = comparison.differing.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut found = differing.into_inner().unwrap_or_else(PoisonError::into_inner);
     found.sort_by_key(|part| part.id);
     Ok(found)
 }
 
-/// Makes damaged, missing and differing parts again, and finishes the result.
+/// Makes damaged, missing and differing parts again, and finishes the result; the number of samples that are left where a
+/// signal stopped it.
 fn repair(
     session: &Session<'_>,
     (store, root): (&Arc<dyn Store>, &Path),
     ensemble: &Ensemble<'_>,
     (found, head, differing): (&Found, &Head, &[Part]),
-) -> Result<Repair, WorkflowError> {
+) -> Result<Result<Completed, u64>, WorkflowError> {
     let plan = ensemble.plan();
     if plan.analysis.stop.is_some() && !found.is_finished {
         return Err(WorkflowError::Files(stop_is_continued(root)));
@@ -203,9 +184,9 @@ fn repair(
     job.run_them(&dataset.missing(head.parts(plan.rows())), None, &mut Made::default())?;
     let left = dataset.missing(head.parts(plan.rows()));
     if !left.is_empty() {
-        return Ok(Repair::Stopped(left.iter().map(|part| part.count as u64).sum()));
+        return Ok(Err(left.iter().map(|part| part.count as u64).sum()));
     }
-    complete(&job, None, None).map(|completed| Repair::Done(Box::new(completed)))
+    complete(&job, None, None).map(Ok)
 }
 
 #[cfg(test)]

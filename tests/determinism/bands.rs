@@ -23,29 +23,25 @@ fn plan(points: usize) -> Plan {
     plan
 }
 
-#[derive(Default)]
-struct Memory(Mutex<BTreeMap<u64, Vec<u8>>>);
+fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
+    files_of(plan, Parts::of(plan.samples), threads)
+}
 
-impl Sink for Memory {
-    type Error = String;
-
-    fn take(&self, rows: &Rows) -> Result<(), String> {
+fn files_of(plan: &Plan, parts: Parts, threads: usize) -> Vec<Vec<u8>> {
+    let (files, ensemble) = (Mutex::new(BTreeMap::new()), Ensemble::new(plan, Isa::best()));
+    let sink = |rows: &Rows| {
         let bands = rows.bands().ok_or("rows without bands")?;
         let mut bytes = Vec::new();
         let file = BandsFile::new(bands.layout()).map_err(|error| error.to_string())?;
         file.write(rows.part(), bands, &mut bytes).map_err(|error| error.to_string())?;
         let mut whole = Bands::new(bands.layout().clone());
-        whole.add(bands).map_err(|error| error.to_string())?;
+        whole.add(bands);
         assert!(merged([&bytes]) == whole, "what is written is read back");
-        self.0.lock().unwrap().insert(rows.part().id.0, bytes);
-        Ok(())
-    }
-}
-
-fn files(plan: &Plan, threads: usize) -> Vec<Vec<u8>> {
-    let (sink, ensemble) = (Memory::default(), Ensemble::new(plan, Isa::best()));
-    run(&ensemble, Parts::of(plan.samples), NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {})).unwrap();
-    sink.0.into_inner().unwrap().into_values().collect()
+        files.lock().unwrap().insert(rows.part().id.0, bytes);
+        Ok::<(), String>(())
+    };
+    run(&ensemble, parts, NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {})).unwrap();
+    files.into_inner().unwrap().into_values().collect()
 }
 
 fn merged<'a>(files: impl IntoIterator<Item = &'a Vec<u8>>) -> Bands {
@@ -189,11 +185,7 @@ fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
     let (thinned, first, all) = (plan(ALL, RUNS), plan(RUNS + 1, RUNS), plan(ALL, ALL));
     let found = merged(&files(&thinned, 1));
     assert!(found == merged(&files(&thinned, 2)), "threads");
-    let of_small_parts = Memory::default();
-    let parts = Parts::up_to(ALL, 77);
-    let ensemble = Ensemble::new(&thinned, Isa::best());
-    run(&ensemble, parts, NonZeroUsize::new(1), &of_small_parts, Supervision::progress(&|_| {})).unwrap();
-    assert!(found == merged(of_small_parts.0.into_inner().unwrap().values()), "parts");
+    assert!(found == merged(&files_of(&thinned, Parts::up_to(ALL, 77), 1)), "parts");
     let [first, all] = [first, all].map(|plan| merged(&files(&plan, 1)));
     assert_eq!((found.runs(), found.counted_runs()), (all.runs(), first.runs()));
     assert_eq!(all.counted_runs(), all.runs());

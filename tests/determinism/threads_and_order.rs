@@ -10,22 +10,6 @@ fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {
     shipped_with(name, Some(samples), if with_failures { SOMETIMES_IMPOSSIBLE } else { "" })
 }
 
-/// Refuses and counts all parts from a given one on.
-struct Full {
-    from: u64,
-    offered: AtomicU64,
-}
-
-impl Sink for Full {
-    type Error = String;
-
-    fn take(&self, rows: &Rows) -> Result<(), String> {
-        self.offered.fetch_add(1, Ordering::Relaxed);
-        let part = rows.part().id.0;
-        if part >= self.from { Err(format!("no space for part {part}")) } else { Ok(()) }
-    }
-}
-
 fn whole(campaign: &Ensemble<'_>, threads: usize) -> Vec<(u64, RowBits)> {
     seen(campaign, Some(threads), row_bits)
 }
@@ -77,10 +61,15 @@ fn a_full_sink_stops_the_campaign() {
     let parts = Parts::of(4096);
     assert!(parts.count() > 8);
     let offered = |threads: usize, first_refused: u64| {
-        let sink = Full { from: first_refused, offered: AtomicU64::new(0) };
+        let offered = AtomicU64::new(0);
+        let sink = |rows: &Rows| {
+            offered.fetch_add(1, Ordering::Relaxed);
+            let part = rows.part().id.0;
+            if part >= first_refused { Err(format!("no space for part {part}")) } else { Ok(()) }
+        };
         let ended = run(&ensemble, parts, NonZeroUsize::new(threads), &sink, Supervision::progress(&|_| {}));
         assert!(matches!(ended, Err(RunError::Sink(error)) if error.starts_with("no space for part ")));
-        sink.offered.into_inner()
+        offered.into_inner()
     };
     assert_eq!(offered(1, 1), 2);
     for threads in [2, 7] {
@@ -97,7 +86,6 @@ fn progress_counts_every_sample() {
     let count = |samples| {
         heard.fetch_add(samples, Ordering::Relaxed);
     };
-    let sink = Full { from: u64::MAX, offered: AtomicU64::new(0) };
-    run(&campaign, Parts::of(777), None, &sink, Supervision::progress(&count)).unwrap();
+    run(&campaign, Parts::of(777), None, &|_| Ok::<(), String>(()), Supervision::progress(&count)).unwrap();
     assert_eq!(heard.into_inner(), 777);
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Parts, Rows, Sink, Supervision, run};
+use spindrift::ensemble::{Ensemble, Parts, Rows, Supervision, run};
 use spindrift::math::Isa;
 use spindrift::run::Status;
 use spindrift::sampling::SampleId;
@@ -68,27 +68,20 @@ impl Table {
     }
 }
 
-struct Seen<S, T>(S, Mutex<Vec<(u64, T)>>);
-
-impl<T: Send, S: Fn(&Rows, usize) -> T + Sync> Sink for Seen<S, T> {
-    type Error = Infallible;
-
-    fn take(&self, rows: &Rows) -> Result<(), Infallible> {
-        let of_row = |(row, sample): (usize, SampleId)| (sample.0, (self.0)(rows, row));
-        self.1.lock().unwrap().extend(rows.part().samples().enumerate().map(of_row));
-        Ok(())
-    }
-}
-
 pub fn seen<T: Send>(
     campaign: &Ensemble<'_>,
     threads: Option<usize>,
     see: impl Fn(&Rows, usize) -> T + Sync,
 ) -> Vec<(u64, T)> {
-    let sink = Seen(see, Mutex::default());
+    let seen = Mutex::new(Vec::new());
+    let sink = |rows: &Rows| {
+        let of_row = |(row, sample): (usize, SampleId)| (sample.0, see(rows, row));
+        seen.lock().unwrap().extend(rows.part().samples().enumerate().map(of_row));
+        Ok::<(), Infallible>(())
+    };
     let threads = threads.and_then(NonZeroUsize::new);
     run(campaign, Parts::of(campaign.plan().samples), threads, &sink, Supervision::progress(&|_| {})).unwrap();
-    let mut seen = sink.1.into_inner().unwrap();
+    let mut seen = seen.into_inner().unwrap();
     seen.sort_by_key(|(sample, _)| *sample);
     seen
 }

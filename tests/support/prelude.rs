@@ -29,7 +29,7 @@ pub use serde_json::Value;
 pub use spindrift::{
     campaign::{CampaignError, Overrides, Plan, SceneDraws},
     dynamics::{actuation::Laws, effects::ForceModel},
-    ensemble::{Ensemble, Part, PartId, Parts, Rows, SingleRun, Sink, Supervision, run},
+    ensemble::{Ensemble, Part, PartId, Parts, Rows, SingleRun, Supervision, run},
     math::{
         Isa,
         vector::{conjugate, cross, dcm_from_quaternion, difference, dot, hamilton, norm, product, scaled, sum},

@@ -119,7 +119,7 @@ impl Job {
 fn ran(run: &Run, watch: &Shared) -> Ended {
     let mut session = Session::new(watch)?.on_threads(run.threads);
     if let Some(law) = &run.law {
-        session = session.with_crew(&**law);
+        session = Session { crew: &**law, ..session };
     }
     let outputs = Outputs { without_page: !run.page, ..Outputs::default() };
     let campaign = run.source.campaign(session, run.samples).store(&run.out).outputs(outputs);

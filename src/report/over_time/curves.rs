@@ -442,7 +442,7 @@ mod tests {
         let text = include_str!("../../../campaigns/spin_sweep.toml");
         let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
         let grid = Grid::uniform(plan.grid.duration(), 601);
-        let mut runs = SingleRuns::replays(&plan, grid, Isa::best(), &GROUPS);
+        let mut runs = SingleRuns::new(&plan, grid, Isa::best(), &GROUPS, true);
         let flown: Vec<SingleRun> =
             runs.run_all(&[0, 1, 2].map(SampleId)).into_iter().map(|run| run.expect("physical")).collect();
         let (series, nominal) = &flown[0].series[flown[0]

@@ -78,7 +78,7 @@ static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: &|_| Att
 #[test]
 fn a_law_of_a_program_can_diverge() {
     let (scratch, quiet) = (ScratchFolder::new("diverging"), Quiet::default());
-    let session = Session::new(&quiet).unwrap().with_attitude_law(&BRAKE);
+    let session = Session { attitude_law: Some(&BRAKE), ..Session::new(&quiet).unwrap() };
     let text = with_law("law = \"brake\"", SLOW);
     let results = Campaign::from_text("loop.toml", &text, session).store(scratch.path("r")).results().unwrap();
     let replayed = results.replay(SampleId(1)).unwrap();

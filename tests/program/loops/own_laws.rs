@@ -70,7 +70,7 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     let scratch = ScratchFolder::new("own-laws");
     let quiet = Quiet::default();
     let session = Session::new(&quiet).unwrap();
-    let own = session.with_attitude_law(&OWN);
+    let own = Session { attitude_law: Some(&OWN), ..session };
     let run = |text: &str, session: Session<'_>, name: &str| {
         let campaign = Campaign::from_text("slew_closed.toml", text, session).samples(60).store(scratch.path(name));
         let results = campaign.results().unwrap();

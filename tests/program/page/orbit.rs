@@ -1,6 +1,7 @@
 //! The orbit on the page: arrows of the replay, ground track and quantities over time, against states and closed forms.
 
 use crate::prelude::*;
+use spindrift::ensemble::single::SingleRuns;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
@@ -113,7 +114,7 @@ fn arrows_point_where_the_run_has_them() {
 fn observed(sample: u64, times: &[f64]) -> SingleRun {
     let plan = planned(&text());
     let grid = Grid::at(times.to_vec());
-    SingleRun::with_series(&plan, SampleId(sample), grid, Isa::best(), &[Group::Orbit, Group::Attitude]).unwrap()
+    SingleRuns::new(&plan, grid, Isa::best(), &[Group::Orbit, Group::Attitude], false).run(SampleId(sample)).unwrap()
 }
 
 fn series(run: &SingleRun, wanted: Series) -> &[f64] {
