@@ -13,10 +13,6 @@ fn is_too_fast(scene: &Scene) -> bool {
 }
 
 impl Engine for Fragile {
-    fn integrates(&self, _model: spindrift::dynamics::effects::ForceModel) -> bool {
-        true
-    }
-
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let sound = scenes.iter().position(is_too_fast).unwrap_or(scenes.len());
         self.0.propagate_under(laws, &scenes[..sound], finish);

@@ -2,7 +2,6 @@
 
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::arc_record::ArcRecord;
-use crate::dynamics::effects::ForceModel;
 use crate::run::{Outcome, StateTable};
 use crate::scene::Scene;
 
@@ -25,9 +24,6 @@ pub type CompletionCallback<'a> = dyn FnMut(CompletedRun<'_>) + 'a;
 
 /// Memory and code of a method for one worker and one instruction set.
 pub trait Engine: Send {
-    /// True if the engine integrates every effect of `model`.
-    fn integrates(&self, model: ForceModel) -> bool;
-
     /// Runs every scene by its own schedule and passes it to `finish` in order of completion; results depend on the
     /// scene alone.
     fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {

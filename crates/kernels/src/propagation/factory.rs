@@ -24,23 +24,41 @@ impl PropagationSettings {
     /// # Panics
     /// If the method does not integrate an effect of the scenes ([`Method::integrates`]).
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
-        let engine = match self.method {
+        let Self { method, forces, .. } = self;
+        assert!(method.integrates(*forces), "{} leaves out an effect of {forces:?}", method.name());
+        match self.method {
             Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
             Method::Gyrostat(integrator) => isa.run_narrow(BuildGyrostat(self, integrator)),
             Method::NullSpace => isa.run_narrow(BuildNullSpace(self)),
-        };
-        assert!(engine.integrates(self.forces), "{} leaves out an effect of {:?}", self.method.name(), self.forces);
-        engine
+        }
     }
 }
 
+/// The Taylor engine with the needed components. Forced runs always have the motors': fewer kernels to compile, and
+/// hardly slower.
 struct BuildTaylor<'a>(&'a PropagationSettings);
 
 impl LaneWork for BuildTaylor<'_> {
     type Output = Box<dyn Engine>;
 
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
-        taylor(simd, zero, self.0)
+        let settings = self.0;
+        macro_rules! engine {
+            ($Effects:ty, $components:ident, $series:ident, $forced:literal) => {
+                Box::new(TaylorEngine::<S, R, $Effects, $components, $series, $forced>::new(simd, zero, settings))
+            };
+        }
+        if settings.changes_within_arcs() {
+            // all integrals by series
+            return engine!(Acting<R>, WITH_THRUST, WITH_THRUST, true);
+        }
+        match (settings.components(), settings.thrust || settings.motors) {
+            (RATES_ONLY, false) => engine!(NoEffects, RATES_ONLY, RATES_ONLY, false),
+            (WITH_ATTITUDE, false) => engine!(NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false),
+            (WITH_ANGLES, false) => engine!(NoEffects, WITH_ANGLES, WITH_ANGLES, false),
+            (WITH_THRUST, _) => engine!(NoEffects, WITH_THRUST, WITH_ANGLES, true),
+            _ => engine!(NoEffects, WITH_MOTORS, WITH_ANGLES, true),
+        }
     }
 }
 
@@ -50,7 +68,22 @@ impl LaneWork for BuildGyrostat<'_> {
     type Output = Box<dyn Engine>;
 
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
-        gyrostat(simd, zero, self)
+        let BuildGyrostat(settings, integrator) = self;
+        match integrator {
+            _ if settings.changes_within_arcs() => {
+                integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> })
+            }
+            // only Dormand-Prince has a kernel without actuation: the other integrators are for comparison
+            Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
+                Box::new(RungeKuttaEngine::<S, R, _, NoEffects, WITH_ANGLES>::new(
+                    simd,
+                    zero,
+                    Adaptive(DormandPrince),
+                    settings,
+                ))
+            }
+            _ => integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<NoEffects> }),
+        }
     }
 }
 
@@ -66,49 +99,6 @@ impl LaneWork for BuildNullSpace<'_> {
         } else {
             Box::new(NullSpaceEngine::<S, MAX_WHEELS, ALL_WHEELS>::new(simd, self.0))
         }
-    }
-}
-
-/// The Taylor engine with the needed components. Forced runs always have the motors': fewer kernels to compile, and
-/// hardly slower.
-fn taylor<S: Simd, R: Real + Send + 'static>(simd: S, zero: R, settings: &PropagationSettings) -> Box<dyn Engine> {
-    macro_rules! engine {
-        ($Effects:ty, $components:ident, $series:ident, $forced:literal) => {
-            Box::new(TaylorEngine::<S, R, $Effects, $components, $series, $forced>::new(simd, zero, settings))
-        };
-    }
-    if settings.changes_within_arcs() {
-        // all integrals by series
-        return engine!(Acting<R>, WITH_THRUST, WITH_THRUST, true);
-    }
-    match (settings.components(), settings.thrust || settings.motors) {
-        (RATES_ONLY, false) => engine!(NoEffects, RATES_ONLY, RATES_ONLY, false),
-        (WITH_ATTITUDE, false) => engine!(NoEffects, WITH_ATTITUDE, WITH_ATTITUDE, false),
-        (WITH_ANGLES, false) => engine!(NoEffects, WITH_ANGLES, WITH_ANGLES, false),
-        (WITH_THRUST, _) => engine!(NoEffects, WITH_THRUST, WITH_ANGLES, true),
-        _ => engine!(NoEffects, WITH_MOTORS, WITH_ANGLES, true),
-    }
-}
-
-fn gyrostat<S: Simd, R: Real + Send + 'static>(
-    simd: S,
-    zero: R,
-    BuildGyrostat(settings, integrator): BuildGyrostat<'_>,
-) -> Box<dyn Engine> {
-    match integrator {
-        _ if settings.changes_within_arcs() => {
-            integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> })
-        }
-        // only Dormand-Prince has a kernel without actuation: the other integrators are for comparison
-        Integrator::DormandPrince if !(settings.thrust || settings.motors) => {
-            Box::new(RungeKuttaEngine::<S, R, _, NoEffects, WITH_ANGLES>::new(
-                simd,
-                zero,
-                Adaptive(DormandPrince),
-                settings,
-            ))
-        }
-        _ => integrator.visit(OnGyrostats { simd, zero, settings, effects: PhantomData::<NoEffects> }),
     }
 }
 

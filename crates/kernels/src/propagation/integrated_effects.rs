@@ -3,31 +3,21 @@
 
 use crate::dynamics::effects::Form;
 
-/// Taylor methods: forms with a series.
-pub const fn by_taylor(form: Form) -> bool {
+/// Taylor methods, and Runge-Kutta methods without an error estimate, whose errors follow from the Taylor series of the
+/// motion: forms with a series.
+pub const fn by_series(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Translation | Form::Force => true,
         Form::Evaluated => false,
     }
 }
 
-/// Runge-Kutta methods on the gyrostat with an error estimate.
-pub const fn by_runge_kutta(form: Form) -> bool {
+/// Runge-Kutta methods on the gyrostat with an error estimate, and reference solutions: Taylor series, or extrapolation
+/// for effects without one.
+pub const fn by_evaluation(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,
     }
-}
-
-/// Reference solutions: Taylor series, or extrapolation for effects without one.
-pub const fn by_reference(form: Form) -> bool {
-    match form {
-        Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,
-    }
-}
-
-/// Runge-Kutta methods without an error estimate: their errors follow from the Taylor series of the motion.
-pub const fn by_fixed_steps(form: Form) -> bool {
-    by_taylor(form)
 }
 
 /// The null-space formulation: constant over an arc.

@@ -1,6 +1,6 @@
 //! [`Method`]: the integration methods and their names in campaign files.
 
-use super::integrated_effects::{by_fixed_steps, by_null_space, by_runge_kutta, by_taylor};
+use super::integrated_effects::{by_evaluation, by_null_space, by_series};
 use crate::dynamics::effects::ForceModel;
 use crate::ode::Integrator;
 
@@ -49,10 +49,9 @@ impl Method {
     /// True if the engine of the method integrates every effect of `model`.
     pub fn integrates(self, model: ForceModel) -> bool {
         match self {
-            Method::Auto => self.chosen(model) != self || model.is_integrated(by_taylor),
-            Method::Taylor => model.is_integrated(by_taylor),
-            Method::Gyrostat(integrator) if integrator.has_fixed_step() => model.is_integrated(by_fixed_steps),
-            Method::Gyrostat(_) => model.is_integrated(by_runge_kutta),
+            Method::Auto => self.chosen(model) != self || model.is_integrated(by_series),
+            Method::Gyrostat(integrator) if !integrator.has_fixed_step() => model.is_integrated(by_evaluation),
+            Method::Taylor | Method::Gyrostat(_) => model.is_integrated(by_series),
             Method::NullSpace => model.is_integrated(by_null_space),
         }
     }
@@ -61,7 +60,7 @@ impl Method {
     /// effect out.
     #[must_use]
     pub fn chosen(self, model: ForceModel) -> Method {
-        if self != Method::Auto || model.is_integrated(by_taylor) {
+        if self != Method::Auto || model.is_integrated(by_series) {
             return self;
         }
         let others = [Integrator::Dop853, Integrator::DormandPrince].map(Method::Gyrostat);

@@ -3,14 +3,12 @@
 use fearless_simd::Simd;
 
 use super::engine::{CompletedRun, CompletionCallback, Engine};
-use super::integrated_effects;
 use super::local_error::{fastest, in_units};
 use super::null_space_runs::NullSpaceRuns;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
 use crate::dynamics::arc_record::ArcRecord;
-use crate::dynamics::effects::ForceModel;
 use crate::dynamics::null_space::{complete, components};
 use crate::ode::{Adaptive, DormandPrinceRestepped, LaneMethod, integrate};
 use crate::run::{LocalErrors, Outcome, StateField, StateTable, Trajectory};
@@ -54,7 +52,7 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
         let Self { settings, lanes, table, arcs, .. } = self;
         settings.check_laws(&laws);
         let (grid, control) = (&settings.grid, &settings.control);
-        let mut runs = NullSpaceRuns::<W>::new(scenes, grid.duration()).under(laws.reborrow(), std::mem::take(arcs));
+        let mut runs = NullSpaceRuns::<W>::new(scenes, laws.reborrow(), grid.duration(), std::mem::take(arcs));
         let mut recorder = TrajectoryRecorder::new(
             grid,
             lanes,
@@ -102,10 +100,6 @@ fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErro
 }
 
 impl<S: Simd, const W: usize, const N: usize> Engine for NullSpaceEngine<S, W, N> {
-    fn integrates(&self, model: ForceModel) -> bool {
-        model.is_integrated(integrated_effects::by_null_space)
-    }
-
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -20,27 +20,13 @@ pub struct NullSpaceRuns<'a, const W: usize> {
 }
 
 impl<'a, const W: usize> NullSpaceRuns<'a, W> {
-    /// Runs of `scenes` from zero to `duration`, s.
+    /// Runs of `scenes` under `laws` from zero to `duration`, s; arcs are recorded in the memory of `arcs`.
     ///
     /// # Panics
     /// If there is no scene.
-    pub fn new(scenes: &'a [Scene], duration: f64) -> Self {
+    pub fn new(scenes: &'a [Scene], laws: Laws<'a>, duration: f64, arcs: ArcRecord) -> Self {
         let kernel = Kernel::new(scenes.first().expect("a batch has at least one scene"));
-        NullSpaceRuns {
-            scenes,
-            laws: Laws::OpenLoop,
-            duration,
-            run: 0,
-            kernel,
-            q_es: [1.0, 0.0, 0.0, 0.0],
-            arcs: ArcRecord::default(),
-        }
-    }
-
-    /// Puts the runs under `laws` and records arcs in the memory of `arcs`.
-    #[must_use]
-    pub fn under(self, laws: Laws<'a>, arcs: ArcRecord) -> Self {
-        NullSpaceRuns { laws, arcs, ..self }
+        NullSpaceRuns { scenes, laws, duration, run: 0, kernel, q_es: [1.0, 0.0, 0.0, 0.0], arcs }
     }
 
     /// Arcs of the run in the lane so far.

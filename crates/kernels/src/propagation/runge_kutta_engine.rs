@@ -8,13 +8,11 @@ use super::arc_source::ArcSource;
 use super::engine::{CompletionCallback, Engine};
 use super::gyrostat_batch::{DebrisRuns, GyrostatBatch};
 use super::gyrostat_runs::GyrostatRuns;
-use super::integrated_effects;
 use super::local_error::in_units;
 use super::series_remainder::Remainders;
 use super::settings::PropagationSettings;
 use super::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::effects::ForceModel;
 use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::math::Real;
@@ -127,13 +125,6 @@ fn integrate_on<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usiz
 impl<S: Simd, R: Real + Send, M: LaneMethod + Send, E: WithinArcs<R> + Send, const N: usize> Engine
     for RungeKuttaEngine<S, R, M, E, N>
 {
-    fn integrates(&self, model: ForceModel) -> bool {
-        match M::ERRORS {
-            ErrorModel::Estimated(_) => model.is_integrated(integrated_effects::by_runge_kutta),
-            ErrorModel::Remainder(_) => model.is_integrated(integrated_effects::by_fixed_steps),
-        }
-    }
-
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -1,7 +1,8 @@
 //! [`StateTable`]: physical states of a run at its observation points, the interface between integrators and
 //! observables.
 
-use crate::run::state_field::{StateField, StateFields};
+use super::state_field::{StateField, StateFields};
+use super::trajectory::Trajectory;
 
 /// States at the observation points, for requested fields only; access to others panics. Columns are padded to a
 /// multiple of eight with the last point.
@@ -9,11 +10,9 @@ use crate::run::state_field::{StateField, StateFields};
 pub struct StateTable {
     fields: StateFields,
     wheels: usize,
-    points: usize,
-    stride: usize,
     /// Column of the first component of each field, or [`ABSENT`].
     columns: [usize; StateField::ALL.len()],
-    values: Vec<f64>,
+    states: Trajectory,
 }
 
 const ABSENT: usize = usize::MAX;
@@ -29,7 +28,6 @@ fn refuse(field: StateField, component: usize, width: usize) -> ! {
 impl StateTable {
     /// A table of zeros with `points` >= 1 observation points and these fields of a spacecraft with `wheels` wheels.
     pub fn new(fields: StateFields, wheels: usize, points: usize) -> Self {
-        let stride = points.next_multiple_of(8);
         let mut columns = [ABSENT; StateField::ALL.len()];
         let mut count = 0;
         for field in StateField::ALL {
@@ -38,7 +36,7 @@ impl StateTable {
                 count += field.width(wheels);
             }
         }
-        StateTable { fields, wheels, points, stride, columns, values: vec![0.0; count * stride] }
+        StateTable { fields, wheels, columns, states: Trajectory::new(count, points) }
     }
 
     /// The fields of the table.
@@ -59,12 +57,12 @@ impl StateTable {
 
     /// Number of observation points.
     pub fn points(&self) -> usize {
-        self.points
+        self.states.points()
     }
 
     /// Number of points with padding, a multiple of eight.
     pub fn stride(&self) -> usize {
-        self.stride
+        self.states.stride()
     }
 
     /// True if the table has `field`.
@@ -73,12 +71,12 @@ impl StateTable {
     }
 
     #[inline]
-    fn start(&self, field: StateField, component: usize) -> usize {
+    fn place(&self, field: StateField, component: usize) -> usize {
         let column = self.columns[field as usize];
         if column == ABSENT || component >= self.width(field) {
             refuse(field, component, self.width(field));
         }
-        (column + component) * self.stride
+        column + component
     }
 
     /// Component `component` of `field` at all points (with padding).
@@ -87,8 +85,7 @@ impl StateTable {
     /// If the table lacks the component.
     #[inline]
     pub fn column(&self, field: StateField, component: usize) -> &[f64] {
-        let start = self.start(field, component);
-        &self.values[start..start + self.stride]
+        self.states.column(self.place(field, component))
     }
 
     /// [`StateTable::column`], writable.
@@ -97,8 +94,8 @@ impl StateTable {
     /// If the table lacks the component.
     #[inline]
     pub fn column_mut(&mut self, field: StateField, component: usize) -> &mut [f64] {
-        let start = self.start(field, component);
-        &mut self.values[start..start + self.stride]
+        let place = self.place(field, component);
+        self.states.column_mut(place)
     }
 
     /// The first `N` components of `field` at point `point`.
@@ -132,11 +129,7 @@ impl StateTable {
 
     /// Fills the padding of every component with its last point.
     pub fn pad(&mut self) {
-        let (points, stride) = (self.points, self.stride);
-        for component in self.values.chunks_exact_mut(stride) {
-            let last = component[points - 1];
-            component[points..].fill(last);
-        }
+        self.states.pad();
     }
 }
 

@@ -8,14 +8,13 @@ use super::driver::integrate;
 use super::lanes::RunCallback;
 use super::workspace::{Settings, Workspace};
 use crate::dynamics::actuation::Laws;
+use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::effects::within_arcs::{NoEffects, WithinArcs};
-use crate::dynamics::effects::{ChangingSeries, ForceModel};
 use crate::dynamics::gyrostat::{Gyrostat, WITH_ATTITUDE};
 use crate::math::Real;
 use crate::propagation::arc_source::ArcSource;
 use crate::propagation::engine::{CompletionCallback, Engine};
 use crate::propagation::gyrostat_batch::{DebrisRuns, GyrostatBatch};
-use crate::propagation::integrated_effects;
 use crate::propagation::method::Method;
 use crate::propagation::settings::PropagationSettings;
 use crate::run::Grid;
@@ -121,10 +120,6 @@ fn settings(plan: &PropagationSettings) -> Settings {
 impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R> + Send, const N: usize, const J: usize, const FORCED: bool>
     Engine for TaylorEngine<S, R, E, N, J, FORCED>
 {
-    fn integrates(&self, model: ForceModel) -> bool {
-        model.is_integrated(integrated_effects::by_taylor)
-    }
-
     fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         let simd = self.simd;
         simd.vectorize(

@@ -32,7 +32,7 @@ use crate::math::double_double::DoubleDouble;
 use crate::math::isa::LaneWork;
 use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
 use crate::math::{Isa, Real};
-use crate::propagation::integrated_effects;
+use crate::propagation::integrated_effects::{by_evaluation, by_series};
 use crate::propagation::settings::observes_debris_rotation;
 use crate::run::Status;
 use crate::run::{Grid, StateField, StateFields, StateTable};
@@ -80,14 +80,9 @@ impl ReferenceSolution {
         Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
-    /// True if reference solutions include every effect of `model`.
-    pub fn integrates(model: ForceModel) -> bool {
-        model.is_integrated(integrated_effects::by_reference)
-    }
-
     /// Tolerance under `model`: [`TOLERANCE`], or the limit set by torques without a Taylor series.
     pub fn tolerance(model: ForceModel) -> f64 {
-        if model.is_integrated(integrated_effects::by_taylor) { TOLERANCE } else { switched_reference::TOLERANCE }
+        if model.is_integrated(by_series) { TOLERANCE } else { switched_reference::TOLERANCE }
     }
 
     fn solve(
@@ -98,7 +93,7 @@ impl ReferenceSolution {
         fields: StateFields,
         tolerance: f64,
     ) -> Result<Self, Status> {
-        assert!(Self::integrates(ForceModel::of(scene)), "the reference solution leaves out an effect");
+        assert!(ForceModel::of(scene).is_integrated(by_evaluation), "the reference solution leaves out an effect");
         let rule = StepRule::new(tolerance);
         let (mut run, mut coarse) = (Gyrostat::blank(DoubleDouble::exact(0.0)), Gyrostat::blank(0.0));
         run.reset(DoubleDouble::exact(0.0), scene);
