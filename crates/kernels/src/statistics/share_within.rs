@@ -77,6 +77,17 @@ mod tests {
     use crate::math::normal;
     use crate::statistics::rank_tests::tests::Uniform;
 
+    /// Sums of scene and noise from numbers `draw(u)`, with the share `share` of noise.
+    fn pairs(seed: u64, scenes: usize, share: f64, draw: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let mut u = Uniform(seed);
+        let mut next = || draw(u.next());
+        let pair = |_| {
+            let of_scene = libm::sqrt(1.0 - share) * next();
+            [0; 2].map(|_| of_scene + libm::sqrt(share) * next())
+        };
+        (0..scenes).map(pair).collect()
+    }
+
     /// Law: for normal and skewed values of known share the mean estimate is right to 6%, and 95% intervals cover it in
     /// at least 92% of 1,000 repetitions with 200 pairs.
     #[test]
@@ -86,16 +97,7 @@ mod tests {
             for draw in [&normal::quantile as &dyn Fn(f64) -> f64, &skewed] {
                 let (mut covered, mut total) = (0, 0.0);
                 for seed in 1..=1_000 {
-                    let mut u = Uniform(seed);
-                    let mut next = || draw(u.next());
-                    let (noise, scene) = (libm::sqrt(share), libm::sqrt(1.0 - share));
-                    let pairs: Vec<[f64; 2]> = (0..200)
-                        .map(|_| {
-                            let of_scene = scene * next();
-                            [0; 2].map(|_| of_scene + noise * next())
-                        })
-                        .collect();
-                    let found = share_within(&pairs, 0.95).expect("values differ");
+                    let found = share_within(&pairs(seed, 200, share, draw), 0.95).expect("values differ");
                     assert!(found.lower <= found.value && found.value <= found.upper, "{found:?}");
                     covered += u32::from(found.lower <= share && share <= found.upper);
                     total += found.value;
@@ -134,13 +136,9 @@ mod tests {
             let truth = truth(limit, share);
             let (mut estimated, mut covered, mut of_jackknife) = (0_u64, 0_u64, 0_u64);
             for seed in 1..=300 {
-                let mut u = Uniform(seed);
-                let mut next = || normal::quantile(u.next());
-                let pairs: Vec<[f64; 2]> = (0..scenes)
-                    .map(|_| {
-                        let of_scene = libm::sqrt(1.0 - share) * next();
-                        [0; 2].map(|_| if of_scene + libm::sqrt(share) * next() > limit { 1.0 } else { 0.0 })
-                    })
+                let pairs: Vec<[f64; 2]> = pairs(seed, scenes, share, &normal::quantile)
+                    .into_iter()
+                    .map(|pair| pair.map(|value| if value > limit { 1.0 } else { 0.0 }))
                     .collect();
                 let Some(found) = share_within(&pairs, 0.95).filter(|found| found.value > 0.0) else { continue };
                 assert!(found.lower <= found.value && found.value <= found.upper, "{found:?}");
