@@ -137,7 +137,10 @@ export function axisOption(figure, which, palette, width) {
   if (axis.names) {
     const longest = Math.max(14, Math.min(34, Math.floor((NAMES * width - 16) / LETTER)));
     const half = (longest - 1) / 2;
-    const short = (name) => (name.length > longest ? `${name.slice(0, Math.floor(half))}…${name.slice(-Math.ceil(half))}` : name);
+    // the count goes before a number loses digits
+    const fits = (name) => (name.length > longest ? name.replace(/: \d+ of \d+$/, "") : name);
+    const cut = (name) => (name.length > longest ? `${name.slice(0, Math.floor(half))}…${name.slice(-Math.ceil(half))}` : name);
+    const short = (name) => cut(fits(name));
     const names = which === "x" ? axis.names.map((_, index) => String(index + 1)) : axis.names.map((name, index) => (figure.x.names ? `${short(name)}  ${index + 1}` : short(name)));
     return { ...style, type: "category", data: names, inverse: which === "y", splitLine: { show: false }, axisLabel: { ...label, interval: which === "x" ? Math.max(0, Math.ceil((DIGIT * 2 + 4) / Math.max(1, (0.5 * width) / axis.names.length)) - 1) : 0 }, axisTick: { show: false } };
   }

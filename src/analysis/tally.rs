@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::analysis::accumulator::Accumulator;
 use crate::analysis::audit_tally::AuditTally;
-use crate::analysis::outcomes::is_worst_when_low;
+use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::part_columns::PartColumns;
 use crate::analysis::statuses::{StatusCounter, StatusPart, Statuses};
 use crate::analysis::worst_runs::WorstRuns;
@@ -89,13 +89,14 @@ impl TallyColumns {
             },
         );
         let plan = ensemble.plan();
-        let required = columns.iter().enumerate().filter_map(|(index, column)| {
+        let outcomes = outcomes(plan);
+        let of_outcomes = columns.iter().enumerate().filter_map(|(index, column)| {
             let name = column.quantity.name();
-            let is_required = plan.analysis.requirements.iter().any(|one| one.observable() == Some(name));
+            let is_outcome = outcomes.iter().any(|one| one == name);
             let list = WorstRuns::new(LISTED, is_worst_when_low(plan, name));
-            is_required.then(|| Worst { name: name.to_owned(), is_error: false, indices: vec![index], list })
+            is_outcome.then(|| Worst { name: name.to_owned(), is_error: false, indices: vec![index], list })
         });
-        let worst = errors.into_iter().chain(required);
+        let worst = errors.into_iter().chain(of_outcomes);
         let statuses = StatusCounter::new(ensemble.plan());
         let air = ends_of_air(ensemble.plan()).map(|[low, high]| [(DISTANCES[0], low), (DISTANCES[1], high)]);
         let air = air.filter(|ends| ends.iter().all(|(name, _)| names.iter().any(|known| known == name)));

@@ -61,7 +61,9 @@ pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
             of("fails", "fail").to_owned()
         }
         Occurs::Missed { is_only: true, .. } => format!("{} the limit", of("misses", "miss")),
-        Occurs::Missed { requirement, .. } => format!("{} {}", of("misses", "miss"), limit(plan, requirement)),
+        Occurs::Missed { requirement, .. } => {
+            format!("{} the limit of {}", of("misses", "miss"), limit(plan, requirement))
+        }
         Occurs::Value(value) if outcome == COMPUTED => {
             format!("{} {}computed", of("was", "were"), if value == 1.0 { "" } else { "not " })
         }
@@ -114,7 +116,11 @@ fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
         pairs.push([one, other]);
         let r = with.filter(|(name, _)| name == other).map_or_else(String::new, |(_, r)| format!(" ({r:.2})"));
         let [one, other] = [one, other].map(|column| names::of_input_column(plan, column));
-        let apart = if driver.instead().is_some() { ", and these runs do not tell which of them acts" } else { "" };
+        let apart = match (driver.instead(), &ranking.question) {
+            (Some(_), _) => ", and these runs do not tell which of them acts",
+            (None, Question::Spread) => ", so their shares overlap",
+            (None, Question::Event(_)) => "",
+        };
         said += &format!("; {one} and {other} are correlated{r}{apart}");
     }
     said
@@ -312,20 +318,30 @@ pub(super) fn found(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec
 const DRIVEN: usize = 3;
 
 /// A finding for each ranking, with its drivers as children: rankings with drivers first, then unmet outcomes, then
-/// events of unmet requirements, spread last, strongest first.
-pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Vec<Finding> {
+/// events of unmet requirements, spread last; outcomes in the order of `required`, then the others, then errors, each
+/// strongest first.
+pub(super) fn findings(
+    plan: &Plan,
+    analysed: &Analysed,
+    (noise, required): (&[NoiseShare], &[String]),
+) -> Vec<Finding> {
     let (all, verdicts) = (&analysed.sensitivities, &analysed.verdicts);
     let share = |one: &Finding| one.children.first().and_then(|driver| driver.numbers.first()).map(|share| share.value);
     let strength = |one: &Finding| share(one).filter(|share| share.is_finite()).unwrap_or(0.0);
-    let mut found: Vec<(Finding, [bool; 3])> = Vec::new();
-    let mut few: Vec<u64> = Vec::new();
+    let is_error = |name: &str| analysed.survey.outcome(name).is_some_and(|(_, outcome)| outcome.is_error);
+    let place = |name: &str| {
+        let place = required.iter().position(|one| one == name);
+        place.unwrap_or(required.len() + usize::from(is_error(name)))
+    };
+    let mut found: Vec<(Finding, ([bool; 3], usize))> = Vec::new();
+    let mut few: Vec<(String, u64)> = Vec::new();
     for outcome in outcomes(plan, all) {
         let has_runs = |ranking: &&Ranking<'_>| ranking.inputs.first().is_some_and(|first| first.input.rows > 0);
         for ranking in ranked(plan, all, outcome).iter().filter(has_runs) {
-            few.extend(too_few(ranking));
             let one = finding(plan, analysed, outcome, ranking);
+            few.extend(too_few(ranking).map(|runs| (one.title.clone(), runs)));
             let order = [one.children.is_empty(), is_met(verdicts, outcome), is_settled(verdicts, ranking)];
-            found.push((one, order));
+            found.push((one, (order, place(outcome))));
         }
     }
     found.sort_by(|(one, order), (other, after)| order.cmp(after).then(strength(other).total_cmp(&strength(one))));
@@ -361,9 +377,12 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -
     } else if let Some(first) = found.first_mut().filter(|_| seen.is_empty() && !analysed.statistics.loss().is_big()) {
         first.rank = 0;
     }
-    if let Some(runs) = few.iter().max() {
-        let said = format!("{} are too few to say how much of the variance an input explains", counted(*runs, "run"));
-        found.push(about("few", "", 0, said));
+    if let Some(runs) = few.iter().map(|(_, runs)| *runs).max() {
+        let said = format!("{} are too few to say how much of its variance an input explains", counted(runs, "run"));
+        let is_shown = |one: &Finding| one.rank == 0 && few.iter().any(|(title, _)| *title == one.title);
+        let rank = u8::from(!found.iter().any(is_shown));
+        let more = if few.len() > 1 { format!(" and {} more", few.len() - 1) } else { String::new() };
+        found.push(about("few", &format!("{}{more}", few[0].0), rank, said));
     }
     let has_rest = found.iter().any(|one| one.sentence.contains("; the rest is "));
     if has_rest && !matches!(plan.design, Design::Saltelli(_)) {

@@ -172,7 +172,7 @@ fn overconfident(meaning: &str, median: f64, lower: Option<f64>) -> Option<Strin
     let estimate = of.split_once(" (or").map_or(of, |(of, _)| of);
     (median.is_finite() && lower.unwrap_or(median) > MOST_NEES).then(|| {
         let sigmas = brief(libm::sqrt(median));
-        format!("{estimate} end {sigmas} sigma off, not below 1")
+        format!("median error of {estimate} {sigmas} sigma, not 1")
     })
 }
 
@@ -319,7 +319,7 @@ mod tests {
         let meaning = "Normalised square of the estimation error of position and velocity at the last tick, over its \
                        degrees of freedom.";
         let said = |median, lower| overconfident(meaning, median, lower);
-        let text = "position and velocity end 3 sigma off, not below 1";
+        let text = "median error of position and velocity 3 sigma, not 1";
         let text = Some(text.to_owned());
         assert_eq!([said(9.0, Some(2.1)), said(9.0, None)], [text.clone(), text]);
         assert_eq!([said(9.0, Some(1.9)), said(1.9, None), said(f64::NAN, None)], [None, None, None]);

@@ -41,11 +41,12 @@ pub fn findings(plan: &Plan, analysed: &Analysed, noise: &[NoiseShare]) -> Findi
     list.extend(loss::losses(plan, analysed));
     list.extend(loss::missions(plan, analysed));
     list.extend(loss::notes(analysed));
+    list.extend(numerics::beyond_tolerance(plan, analysed));
     // the terminal shows them before the campaign
     let of_plan = |said: String| Finding { rank: 2, ..Finding::new(Kind::Note, "plan", "note", said) };
     list.extend(plan.notes().into_iter().map(of_plan));
     list.extend(outcome::findings(plan, analysed));
-    list.extend(drivers::findings(plan, analysed, noise));
+    list.extend(drivers::findings(plan, analysed, (noise, &required)));
     list.extend(numerics::findings(plan, analysed, &required));
     fn has_interval(one: &Finding) -> bool {
         one.numbers.iter().any(Number::has_interval) || one.children.iter().any(has_interval)

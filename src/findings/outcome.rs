@@ -150,7 +150,10 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
         .min(MOST_DIGITS);
     numbers.iter_mut().for_each(|one| one.digits = one.digits.max(digits));
     let of_mean = column.note.as_ref().map(|note| format!("mean of {what}: {note}"));
-    let notes = column.quantiles.iter().filter_map(|one| one.note.clone()).chain(of_mean).collect();
+    // far fewer runs than the others have
+    let whose = if column.without_value > column.moments.count() { format!("{what}: ") } else { String::new() };
+    let of_quantiles = column.quantiles.iter().filter_map(|one| Some(format!("{whose}{}", one.note.as_ref()?)));
+    let notes = of_quantiles.chain(of_mean).collect();
     let sentence = sentence(&what, &numbers, count);
     Finding { numbers, notes, sentence, ..found }
 }

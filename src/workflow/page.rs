@@ -53,14 +53,19 @@ pub fn remade(
 ) -> Result<Remade, WorkflowError> {
     let (store, threads) = (session.store(root)?, session.threads);
     let (there, _lock) = open(&*store, false)?;
-    let Some(manifest) = there.manifest.as_ref().filter(|_| there.is_finished) else {
-        return Err(WorkflowError::Input(format!(
+    let unfinished = || {
+        WorkflowError::Input(format!(
             "the result in `{}` is not finished; the campaign's command continues it, or: spindrift finish {}",
             root.display(),
             quoted_path(root)
-        )));
+        ))
     };
+    // a damaged manifest is damage
+    if !there.is_finished && there.damage.is_empty() {
+        return Err(unfinished());
+    }
     let (plan, records) = sound(session, (&*store, &there), Some(REPORT))?;
+    let manifest = there.manifest.as_ref().ok_or_else(unfinished)?;
     callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(

@@ -41,7 +41,7 @@ impl<'a> Results<'a> {
         let root = root.into();
         let store = session.store(&root)?;
         let (found, lock) = open(&*store, true)?;
-        if !found.is_finished {
+        if !found.is_finished && found.damage.is_empty() {
             return Err(WorkflowError::Input(format!("the result in `{}` is not finished", root.display())));
         }
         let (plan, parts) = sound(&session, (&*store, &found), None)?;

@@ -9,6 +9,7 @@ use crate::findings::{Finding, Findings, Kind, Verdict};
 use crate::report::escaped::escaped;
 use crate::report::figure::Figure;
 use crate::report::page::pictures::{self, HATCH};
+use crate::statistics::gate::GateLimit;
 
 /// Example for files without requirements.
 const EXAMPLE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9";
@@ -141,6 +142,8 @@ struct Row<'f> {
     outcome: Option<&'f Finding>,
     /// The large figure: of the outcome, or over time for a band.
     figure: Option<&'f Figure>,
+    /// The limit of single runs.
+    limit: Option<GateLimit>,
     /// Whether no single run can violate the requirement.
     is_of_mean: bool,
     drivers: Vec<&'f Finding>,
@@ -161,6 +164,7 @@ impl<'f> Row<'f> {
             finding,
             outcome: found.of(Kind::Outcome).find(|one| one.id == name),
             figure: called.iter().find_map(|called| figures.iter().find(|figure| figure.name == *called)),
+            limit: requirement.filter(|one| one.statement != Statement::Mean).map(|one| one.limit),
             is_of_mean: requirement.is_some_and(|one| one.statement == Statement::Mean),
             drivers: found.of(Kind::Driver).filter(is_of_it).filter(|one| !one.title.is_empty()).collect(),
         }
@@ -192,8 +196,7 @@ impl<'f> Row<'f> {
         let yes = self.outcome.and_then(|one| one.number("yes"));
         let picture = match (yes, self.figure) {
             (Some(yes), _) => pictures::shares(yes),
-            (None, Some(figure)) if self.is_of_mean => pictures::histogram(figure, None),
-            (None, Some(figure)) => pictures::histogram(figure, Some("at ")),
+            (None, Some(figure)) => pictures::histogram(figure, self.limit, None),
             (None, None) => String::new(),
         };
         let below = self.outcome.map_or_else(String::new, pictures::said_of);
@@ -242,7 +245,7 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     let body: String = rows.iter().zip(&scales).map(|(row, scale)| row.html(scale)).collect();
     let (title, heads, example) = match has_verdicts {
         true => (
-            "Requirements, nearest to their limit first",
+            "Requirements, by verdict, then nearest to their limit first",
             ["required", "found", "dashed: limit; shaded: required side", "runs; hatched: they miss the limit"],
             String::new(),
         ),
@@ -284,17 +287,13 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     )
 }
 
-/// Ends of runs and missions, and accuracy, one line each. `is_off`: errors exceed the promise of the tolerance.
-pub fn ended(found: &Findings, nominal_end: Option<&str>, is_off: bool) -> String {
-    let above = match is_off {
-        true => ": <b>above what the tolerance promises</b>, see <a href=\"#numerics\">Numerics</a>",
-        false => "",
-    };
+/// Ends of runs and missions, and accuracy, one line each.
+pub fn ended(found: &Findings, nominal_end: Option<&str>) -> String {
     let all: String =
         found.of(Kind::Loss).filter(|one| one.children.is_empty()).map(|one| full(&one.sentence)).collect();
     let errors = found.of(Kind::Numerics).find(|one| one.id == "errors");
-    let errors = errors
-        .map_or_else(String::new, |one| format!(" {}: {}{above}.", text(&sentence(&one.title)), text(&one.sentence)));
+    let errors =
+        errors.map_or_else(String::new, |one| format!(" {}: {}.", text(&sentence(&one.title)), text(&one.sentence)));
     let mission = |one: &Finding| {
         let share = one.numbers.first().filter(|number| number.value.is_finite());
         let bar = share.map_or_else(String::new, |share| {

@@ -3,7 +3,6 @@
 use crate::analysis::bins::{bins, counts};
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
-use crate::campaign::Plan;
 use crate::findings::names;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::run::Status;
@@ -218,19 +217,4 @@ fn audits(survey: &Survey) -> Option<Figure> {
     let diagonal = Mark::line("estimate = truth", Hue::Reference, Dash::Dashed, vec![low, high], vec![low, high]);
     let marks = vec![diagonal, Mark::Points { label, hue, shape, x, y, samples }];
     Some(Figure::of(FigureSection::Numerics, said, axes, marks))
-}
-
-/// Whether any run's balance error exceeds the tolerance of its method, or its estimated state error is visible.
-pub fn is_above_tolerance(plan: &Plan, survey: &Survey) -> bool {
-    /// A thousandth of a degree.
-    const SEEN: f64 = 2e-5;
-    /// The tolerance bounds one step, a balance accumulates all. The worst of 1,000 runs of `assets/start.toml`, of
-    /// five steps each, reaches 1.2 to 2.7 times the tolerance, for tolerances of 1e-15 to 1e-12. Rounding of N steps
-    /// leaves about 3e-16 sqrt(N) (`tests/accuracy/round_off.rs`): ten times 1e-14 after 1e5 steps.
-    const STEPS: f64 = 10.0;
-    let tolerance = if plan.method.has_fixed_step() { SEEN } else { STEPS * plan.tolerance.relative };
-    survey.outcomes.iter().filter(|outcome| outcome.is_error).any(|outcome| {
-        let limit = if outcome.quantity.name().ends_with("estimate") { SEEN } else { tolerance };
-        outcome.sketch.max().is_some_and(|max| max > limit)
-    })
 }

@@ -24,6 +24,8 @@ const FEWEST_INPUTS: usize = 6;
 const PLOTTED: usize = 2;
 /// Classes of equally many runs for an input with more values.
 const CLASSES: usize = 6;
+/// Maximum number of digits of the ends of a class.
+const MOST_DIGITS: usize = 8;
 
 /// For each ranking with drivers: the outcome against the strongest ones, and the shares of all inputs. Identical
 /// rankings of several requirements appear once.
@@ -154,7 +156,6 @@ fn conditional(
     let mut all = missed.into_iter().chain(Event::of_values(plan, name, &values));
     let (_, occurs) = all.find(|(other, _)| other.occurs == event.occurs)?;
     let shown = unit_of_input(plan, input);
-    let amount = |value: f64| significant(shown.value(value), 3);
     let mut classes: Vec<(String, [u64; 2])> = Vec::new();
     let order = ascending_order(&inputs);
     let levels = distinct(&inputs, &order);
@@ -162,6 +163,13 @@ fn conditional(
         true => levels.iter().map(|(_, count)| *count).collect(),
         false => (0..CLASSES).map(|k| (k + 1) * order.len() / CLASSES - k * order.len() / CLASSES).collect(),
     };
+    let firsts = sizes.iter().scan(0, |from, size| Some(core::mem::replace(from, *from + size)));
+    let ends: Vec<f64> = firsts.filter_map(|first| Some(inputs[*order.get(first)?])).collect();
+    // neighbouring classes differ in their digits
+    let texts = |digits: usize| ends.iter().map(|end| significant(shown.value(*end), digits)).collect::<Vec<_>>();
+    let is_apart = |digits: &usize| texts(*digits).windows(2).all(|pair| pair[0] != pair[1]);
+    let digits = (3..MOST_DIGITS).find(is_apart).unwrap_or(3);
+    let amount = |value: f64| significant(shown.value(value), digits);
     let mut from = 0;
     for size in sizes.into_iter().filter(|size| *size > 0) {
         let places = &order[from..from + size];

@@ -21,7 +21,7 @@ pub fn rows(plan: &Plan, figures: &[Figure]) -> String {
             data-figure=\"{}\"></div></details>\n",
             escaped(&column.parameter.component_name(column.component)),
             escaped(&sentence(&names::of_input(plan, index))),
-            histogram(figure, Some("nominal")),
+            histogram(figure, None, Some("nominal")),
             escaped(&with_unit(shown.value(column.nominal), &shown.unit)),
             escaped(&origin(plan, index)),
             escaped(&figure.name),

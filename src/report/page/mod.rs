@@ -35,6 +35,7 @@ use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
 use crate::ensemble::run_cost::replays;
 use crate::ensemble::{Ensemble, SingleRun};
+use crate::findings::numerics::BEYOND_TOLERANCE;
 use crate::findings::outcome::event_time;
 use crate::findings::requirement::required;
 use crate::findings::{Finding, Findings, Kind, loss, names};
@@ -111,7 +112,7 @@ impl Page {
             answer::header(plan, found, survey),
             answer::first(found),
             answer::table(plan, found, &figures),
-            answer::ended(found, end.as_deref(), errors::is_above_tolerance(plan, survey)),
+            answer::ended(found, end.as_deref()),
         ];
         let word = answer::word(found, survey);
         let title = word.map_or_else(|| plan.name.clone(), |word| format!("{word}: {}", plan.name));
@@ -199,7 +200,7 @@ fn sections(
     let errors: String = errors
         .map(|one| format!("{}: {}. ", answer::text(&names::sentence(&one.title)), answer::text(&one.sentence)))
         .collect();
-    let is_off = errors::is_above_tolerance(plan, survey);
+    let is_off = found.of(Kind::Note).any(|one| one.id == BEYOND_TOLERANCE);
     let table = tables::statistics(&statistics.columns, statistics.population.has_intervals(), &plan.analysis.display);
     let inputs = input_rows::rows(plan, drawn) + "<div class=\"figures\"></div>";
     let curves = outcomes::folded_curves(drawn);

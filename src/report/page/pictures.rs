@@ -3,7 +3,7 @@
 use crate::findings::number::{trimmed, typeset};
 use crate::findings::{Finding, Number};
 use crate::report::escaped::escaped;
-use crate::report::figure::{Axis, Figure, Hue, Mark, Scale};
+use crate::report::figure::{Axis, Figure, Mark, Scale};
 use crate::statistics::gate::GateLimit;
 
 /// Width, pixels.
@@ -35,6 +35,11 @@ impl Span {
         let [low, high] = known.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
         let is_log = low > 0.0 && high > 100.0 * low;
         (low < high).then_some(Span { ends: [low, high], is_log })
+    }
+
+    /// The name of a logarithmic axis.
+    fn mark(&self) -> &'static str {
+        if self.is_log { "<text class=\"log\" x=\"0\" y=\"8\">log</text>" } else { "" }
     }
 
     /// Relative position of `value`.
@@ -69,8 +74,11 @@ fn picture(class: &str, height: f64, name: &str, inside: &str) -> String {
     format!("<svg class=\"{class}\" viewBox=\"0 0 {WIDTH} {height}\" {said}>{inside}</svg>")
 }
 
+/// Estimate and interval of a number with its limit take at least this part of a shared scale; else it has its own.
+const LEAST_PART: f64 = 0.02;
+
 /// The first number of each finding on a scale shared by its unit: estimate, interval, limit and required side. Without
-/// a limit the scale spans all numbers of the outcomes. Empty if there is nothing to compare.
+/// a limit the scale spans all numbers of the outcome. Empty if there is nothing to compare.
 pub fn scales(found: &[&Finding]) -> Vec<String> {
     let known = |number: &Number| {
         let (value, [low, high], limit) = number.in_shown();
@@ -79,14 +87,23 @@ pub fn scales(found: &[&Finding]) -> Vec<String> {
     let unit = |number: &Number| (number.unit.clone(), number.shown.unit.clone());
     let scale = |number: &Number| {
         let of_unit = found.iter().filter(|one| one.numbers.first().is_some_and(|other| unit(other) == unit(number)));
-        let is_limited = number.limit.is_some();
-        let of_unit = of_unit.flat_map(|one| one.numbers.iter().take(if is_limited { 1 } else { usize::MAX }));
+        let of_unit = of_unit.filter_map(|one| one.numbers.first());
         // a share ends at 100%, and limits are mostly near it
         let all = (number.unit == "%").then_some(100.0);
         let span = Span::of(of_unit.flat_map(known).chain(all))?;
+        let own = Span::of(known(number)).filter(|own| span.part(own.ends[1]) - span.part(own.ends[0]) < LEAST_PART);
+        number.value.is_finite().then(|| of_number(number, own.unwrap_or(span)))
+    };
+    // without limits, each outcome lies on the range of its own values
+    let outcome = |one: &&Finding| {
+        let number = one.numbers.first()?;
+        if number.limit.is_some() {
+            return scale(number);
+        }
+        let span = Span::of(one.numbers.iter().flat_map(known))?;
         number.value.is_finite().then(|| of_number(number, span))
     };
-    found.iter().map(|one| one.numbers.first().and_then(scale).unwrap_or_default()).collect()
+    found.iter().map(|one| outcome(one).unwrap_or_default()).collect()
 }
 
 fn of_number(number: &Number, span: Span) -> String {
@@ -118,23 +135,26 @@ fn of_number(number: &Number, span: Span) -> String {
             inside += &label(WIDTH, words, ends[1].trim_end());
         }
     }
+    inside += span.mark();
     picture("scale", HEIGHT + WORDS, &typeset(&format!("{} {}", number.name, number.text())), &inside)
 }
 
-/// A small histogram with the vertical lines whose labels begin with `lines`, violating runs highlighted, and the
+/// A small histogram with `limit`, the runs beyond it highlighted, or with the vertical lines named `lines`, and the
 /// expected curve; without `lines` only bars. Empty without bars.
-pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
+pub fn histogram(figure: &Figure, limit: Option<GateLimit>, lines: Option<&str>) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
-        Mark::Limit { label, at, vertical: true } if lines.is_some_and(|start| label.starts_with(start)) => Some(*at),
+        Mark::Limit { label, at, vertical: true } => {
+            let is_shown = lines == Some(label) || limit.is_some_and(|limit| limit.value() == *at);
+            is_shown.then_some(*at)
+        }
         _ => None,
     });
     let limits: Vec<f64> = limits.collect();
-    let bars = figure.marks.iter().filter_map(|mark| match mark {
-        Mark::Bars { hue, edges, heights, .. } => Some((*hue, edges, heights)),
-        _ => None,
-    });
-    let bars: Vec<(Hue, &Vec<f64>, &Vec<f64>)> = bars.collect();
-    let Some((_, edges, heights)) = bars.first() else { return String::new() };
+    let bars = figure
+        .marks
+        .iter()
+        .find_map(|mark| if let Mark::Bars { edges, heights, .. } = mark { Some((edges, heights)) } else { None });
+    let Some((edges, heights)) = bars else { return String::new() };
     let highest = heights.iter().copied().fold(1.0, f64::max);
     let [Some(first), Some(last)] = [edges.first(), edges.last()] else { return String::new() };
     let reach = FAR * (last - first);
@@ -145,19 +165,19 @@ pub fn histogram(figure: &Figure, lines: Option<&str>) -> String {
     let span = Span { is_log, ..span };
     let at = |value: f64| WIDTH * span.part(value).clamp(0.0, 1.0);
     let mut inside = String::new();
-    for (hue, edges, heights) in &bars {
-        let class = if *hue == Hue::Failed && lines.is_some() { " class=\"missed\"" } else { "" };
-        for (ends, count) in edges.windows(2).zip(*heights).filter(|(_, count)| **count > 0.0) {
-            let (from, to) = (at(ends[0]), at(ends[1]));
-            // keep single runs visible
-            let height = ((HEIGHT - 2.0) * count / highest).max(1.2);
-            inside += &format!(
-                "<rect{class} x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{height:.1}\"/>",
-                HEIGHT - height,
-                (to - from - 0.4).max(0.6),
-            );
-        }
+    for (ends, count) in edges.windows(2).zip(heights).filter(|(_, count)| **count > 0.0) {
+        let middle = if is_log { libm::sqrt(ends[0] * ends[1]) } else { 0.5 * (ends[0] + ends[1]) };
+        let class = if limit.is_none_or(|limit| limit.is_met(middle)) { "" } else { " class=\"missed\"" };
+        let (from, to) = (at(ends[0]), at(ends[1]));
+        // keep single runs visible
+        let height = ((HEIGHT - 2.0) * count / highest).max(1.2);
+        inside += &format!(
+            "<rect{class} x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{height:.1}\"/>",
+            HEIGHT - height,
+            (to - from - 0.4).max(0.6),
+        );
     }
+    inside += span.mark();
     for mark in &figure.marks {
         let Mark::Line { x, y, .. } = mark else { continue };
         let up = |count: f64| HEIGHT - (HEIGHT - 2.0) * (count / highest).min(1.0);
@@ -216,7 +236,7 @@ pub fn shares(yes: &Number) -> String {
 pub fn said_of(outcome: &Finding) -> String {
     let numbers = ["median", "p95", "max"].iter().filter_map(|name| outcome.number(name));
     let known = numbers.filter(|number| number.value.is_finite());
-    let said = known.map(|number| (number, format!("{} {}", number.name, number.alone())));
+    let said = known.map(|number| (number, format!("{} {}", number.name, number.value_text())));
     let (numbers, said): (Vec<&Number>, Vec<String>) = said.unzip();
     let unit = numbers.last().map_or("", |number| &number.shown.unit);
     // the title ends with the number of runs that have it

@@ -61,8 +61,12 @@ impl ShownRun {
 pub fn listed(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut list = vec![(SampleId(0), "nominal".to_owned())];
     for (sample, why) in worst(plan, survey, asked) {
-        if !list.iter().any(|(other, _)| *other == sample) && list.len() <= WORST {
-            list.push((sample, why));
+        let has_room = list.len() <= WORST;
+        match list.iter_mut().find(|(other, _)| *other == sample) {
+            Some((SampleId(0), _)) => {}
+            Some((_, known)) => *known += &format!("; {why}"),
+            None if has_room => list.push((sample, why)),
+            None => {}
         }
     }
     list

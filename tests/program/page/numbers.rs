@@ -123,7 +123,7 @@ impl Found {
     }
 
     pub fn visible(&self) -> String {
-        self.scratch.text("r/report.html").split_once("<script").unwrap().0.to_owned()
+        self.scratch.text("r/report.html").split_once("<script").unwrap().0.replace('\u{a0}', " ")
     }
 
     pub fn rows(&self, names: &[&str]) -> Vec<(u64, Vec<f64>)> {
