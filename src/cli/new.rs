@@ -2,6 +2,7 @@
 
 use std::fs::OpenOptions;
 use std::io::Write;
+use std::path::Path;
 
 use crate::campaign::schema::schema;
 use crate::cli::arguments::NewOptions;
@@ -32,9 +33,10 @@ pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
     let file = OpenOptions::new().write(true).create_new(true).open(path);
     let text = START.replace("name = \"start\"", &format!("name = \"{name}\""));
     let text = format!("#:schema {SCHEMA}\n{text}");
-    file.and_then(|mut file| file.write_all(text.as_bytes()))
-        .and_then(|()| std::fs::write(path.with_file_name(SCHEMA), schema_text()))
-        .map_err(|error| Failure::Files(format!("{}: {}", path.display(), atomic::explained(path, error))))?;
+    let failed = |path: &Path, error| Failure::Files(format!("{}: {}", path.display(), atomic::explained(path, error)));
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| failed(path, error))?;
+    let schema = path.with_file_name(SCHEMA);
+    std::fs::write(&schema, schema_text()).map_err(|error| failed(&schema, error))?;
     let file = quoted_path(path);
     screen::print(&format!(
         "{file}: a campaign to start from; its comments say what can be changed\n  spindrift check {file}\n  spindrift \
