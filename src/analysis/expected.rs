@@ -4,7 +4,6 @@
 use crate::campaign::Plan;
 use crate::sampling::design::replicates::Sequence;
 use crate::sampling::design::sobol::Sobol;
-use crate::sampling::distribution::{Map, Quantile};
 use crate::sampling::{Joint, Transform};
 
 /// Draws of a scalar, or of a joint distribution by a Sobol design: finer than a picture resolves.

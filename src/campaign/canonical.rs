@@ -10,7 +10,7 @@ use super::lines::Lines;
 use super::plan::Plan;
 use super::{bands, control, scene, settings};
 use crate::observables::request::NutationAxis;
-use crate::sampling::keys::{Counts, Row, Value, Values, Written};
+use crate::sampling::keys::{Row, Value, Values, Written};
 use crate::scene::table::Table;
 use sha2::{Digest, Sha256};
 
@@ -100,25 +100,25 @@ impl Plan {
             "campaign.name" => self.name.as_str().into(),
             "campaign.description" => self.description.as_deref()?.into(),
             "campaign.samples" => self.first_samples().into(),
-            "campaign.only" => Value::Counts(Counts::Each(self.chosen.as_ref()?.samples().to_vec())),
+            "campaign.only" => Value::Counts(Values::Each(self.chosen.as_deref()?.to_vec())),
             "campaign.seed" => self.seed.into(),
             "campaign.duration_s" => self.grid.duration().into(),
-            "integrator.method" => Value::Word(self.method.name()),
+            "integrator.method" => self.method.name().into(),
             "integrator.relative_tolerance" => self.tolerance.relative.into(),
             "integrator.absolute_tolerance" => self.tolerance.absolute.into(),
             "integrator.step_s" => self.step_s?.into(),
             "integrator.max_steps" => self.max_steps.into(),
             "observe.points" => (self.grid.points() as u64).into(),
-            "observe.groups" => Value::Words(self.groups.iter().map(|group| group.name()).collect()),
+            "observe.groups" => Value::Texts(self.groups.iter().map(|group| group.name().to_owned()).collect()),
             "observe.nutation_axis" => match self.nutation_axis {
                 NutationAxis::SpinAxis => return None,
-                NutationAxis::Principal => Value::Word("principal"),
-                NutationAxis::Along(axis) => Value::Numbers(Values::Each(axis.to_vec())),
+                NutationAxis::Principal => "principal".into(),
+                NutationAxis::Along(axis) => axis[..].into(),
             },
             "audit.fraction" => self.audit_fraction.into(),
             "bands.points" => (self.band_points as u64).into(),
             "bands.runs" if self.band_runs != bands::RUNS => self.band_runs.into(),
-            "output.compression" => Value::Word(self.compression.name()),
+            "output.compression" => self.compression.name().into(),
             _ => return None,
         })
     }

@@ -92,9 +92,8 @@ impl Display {
     pub(super) fn read(root: &mut Section<'_, '_>, written: Vec<(String, &'static str)>) -> Self {
         let mut display = Display { units: Vec::new(), columns: written.into_iter().collect() };
         root.kept("[display]", &ROWS, |found| {
-            if let Some(Value::Words(units)) = found.get("units") {
-                display.units.clone_from(units);
-            }
+            let units = found.texts("units").iter().filter_map(|name| units::named(name));
+            display.units = units.map(|unit| unit.name).collect();
             if let Some(Value::Units(own)) = found.get("columns") {
                 display.columns.extend(own.clone());
             }
@@ -135,15 +134,15 @@ fn allowed() -> String {
 }
 
 /// The valid units that `key` lists.
-pub(super) fn of_quantities(section: &mut Section<'_, '_>, key: &str) -> Vec<&'static str> {
-    let mut units: Vec<&'static str> = Vec::new();
+pub(super) fn of_quantities(section: &mut Section<'_, '_>, key: &str) -> Vec<String> {
+    let mut units: Vec<String> = Vec::new();
     for text in section.texts(key, EXAMPLE).unwrap_or_default() {
         match units::named(&text) {
             None => section.refuse_value(key, format!("{text:?}"), allowed(), "choose one of these"),
             Some(unit) if units.iter().any(|other| units::named(other).is_some_and(|other| other.of == unit.of)) => {
                 section.refuse_value(key, format!("{text:?}"), "of different quantities", "delete one of both");
             }
-            Some(unit) => units.push(unit.name),
+            Some(unit) => units.push(unit.name.to_owned()),
         }
     }
     units

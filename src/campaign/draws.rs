@@ -7,8 +7,8 @@ use super::parameter::{PARAMETER, name_of};
 use super::section::Section;
 use super::units;
 use crate::sampling::design::replicates::REPLICATES;
-use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule, Value};
-use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure, Table};
+use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure};
 use crate::scene::Parameter;
 
 pub const CORRELATE: [Row; 5] = [
@@ -31,22 +31,32 @@ pub const DERIVE: [Row; 2] = [
 /// Reads a `[[correlate]]` table; `None` after a problem.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
     let written = table.whole(&CORRELATE, &[MEASURE])?;
-    let numbers = |measure: Measure| match written.get(measure.key())? {
-        Value::Correlations(numbers) => Some((measure, numbers.clone())),
-        _ => None,
-    };
+    let numbers = |measure: Measure| Some((measure, written.values(measure.key())?.clone()));
     let (measure, numbers) = Measure::ALL.into_iter().find_map(numbers)?;
     let find = |name: &String| Parameter::find(&table.document.scene, name);
     let parameters = written.texts("parameters").iter().map(find).collect::<Option<_>>()?;
     let nearest_psd = written.flag("nearest_psd");
-    Some(Correlation { parameters, measure, numbers, nearest_psd, written: written.completed(&CORRELATE, &[]) })
+    Some(Correlation {
+        table: table.index,
+        parameters,
+        measure,
+        numbers,
+        nearest_psd,
+        written: written.completed(&CORRELATE, &[]),
+    })
 }
 
 /// Reads a `[[derive]]` table; `None` after a problem.
 pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     let written = table.whole(&DERIVE, &[])?;
     let (parameter, component) = Parameter::find(&table.document.scene, written.text("parameter")?)?;
-    Some(Derivation { parameter, component, expression: written.text("expression")?.to_owned(), written })
+    Some(Derivation {
+        table: table.index,
+        parameter,
+        component,
+        expression: written.text("expression")?.to_owned(),
+        written,
+    })
 }
 
 /// Reads `[design]`; `None` after a problem.
@@ -59,7 +69,8 @@ pub fn design(table: &mut Section<'_, '_>) -> Option<Design> {
     let written = table.rows(rows, rules);
     let key = REPLICATES.key;
     let mut is_right = true;
-    if !rows.iter().any(|row| row.key == key) && table.has(key) && table.counts(key, 1..=MAX_SAMPLES).is_some() {
+    let stray = Row::new(key, Kind::Counts(MAX_SAMPLES), REPLICATES.meaning);
+    if table.has(key) && !rows.iter().any(|row| row.key == key) && table.right_rows(&[stray]).has(key) {
         let allowed = format!(
             "left out with design {name:?}: designs with replicates are {}",
             Design::names_with(key).join(", ")
@@ -68,7 +79,9 @@ pub fn design(table: &mut Section<'_, '_>) -> Option<Design> {
         is_right = false;
     }
     table.finish();
-    Design::of(name, &written?).filter(|_| is_right)
+    // one replicate is the default
+    let written = Some(written?).filter(|written| written.count(key) != Some(1)).unwrap_or_default();
+    Design::of(name, written).filter(|_| is_right)
 }
 
 /// Reads a `[[disperse]]` table; `None` after a problem.
@@ -78,7 +91,7 @@ pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
         table.describes(None, units::UNKNOWN);
         let distribution = table.distribution()?;
         let (parameter, component) = distribution.written.columns().first()?.target?;
-        return Some(Dispersion { parameter, component: Some(component), distribution });
+        return Some(Dispersion { table: table.index, parameter, component: Some(component), distribution });
     }
     let written = table.right_rows(&[PARAMETER]);
     let target = written.text("parameter").and_then(|name| Parameter::find(&table.document.scene, name));
@@ -89,37 +102,7 @@ pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     }
     let distribution = table.distribution();
     let ((parameter, component), distribution) = target.zip(distribution)?;
-    Some(Dispersion { parameter, component, distribution })
-}
-
-/// The valid tables of draws, each with its index in the file: errors of lower layers count valid tables only.
-pub(super) struct DrawTables {
-    pub(super) dispersed: (Vec<usize>, Vec<Dispersion>),
-    pub(super) correlated: (Vec<usize>, Vec<Correlation>),
-    pub(super) derived: (Vec<usize>, Vec<Derivation>),
-}
-
-impl DrawTables {
-    pub(super) fn of(
-        disperse: &[Option<Dispersion>],
-        correlate: &[Option<Correlation>],
-        derive: &[Option<Derivation>],
-    ) -> Self {
-        fn indexed<T: Clone>(list: &[Option<T>]) -> (Vec<usize>, Vec<T>) {
-            list.iter().enumerate().filter_map(|(index, item)| item.clone().map(|item| (index, item))).unzip()
-        }
-        DrawTables { dispersed: indexed(disperse), correlated: indexed(correlate), derived: indexed(derive) }
-    }
-
-    pub(super) fn path(&self, table: Table, key: &str) -> String {
-        let table = match table {
-            Table::Disperse(index) => Table::Disperse(self.dispersed.0[index]),
-            Table::Correlate(index) => Table::Correlate(self.correlated.0[index]),
-            Table::Derive(index) => Table::Derive(self.derived.0[index]),
-            other => other,
-        };
-        format!("{table}.{key}")
-    }
+    Some(Dispersion { table: table.index, parameter, component, distribution })
 }
 
 pub(super) fn dispersion_lines(dispersion: &Dispersion, lines: &mut Lines) {
@@ -135,6 +118,6 @@ pub(super) fn design_lines(design: &Design, lines: &mut Lines) {
     if *design != Design::DEFAULT {
         lines.table("[design]");
         lines.key("kind", design.name());
-        lines.written("design", &design.written());
+        lines.written("design", design.written());
     }
 }

@@ -3,7 +3,7 @@
 use super::control::turning;
 use super::scene_table::{Field, SceneTable};
 use super::section::Section;
-use crate::sampling::keys::{Kind, Row, Value};
+use crate::sampling::keys::{Kind, Row};
 use crate::scene::table::Table;
 use crate::scene::{Device, FailureInput, Name, SceneInput, SensorOutput, WheelMode};
 
@@ -44,7 +44,7 @@ pub static TABLE: SceneTable = SceneTable::list(&[Table::Failure], MOST_FAILURES
     Field {
         row: Row::new("output", Kind::OneOf(|| SensorOutput::ALL.map(SensorOutput::name).to_vec()),
             "What a sensor delivers from then on"),
-        get: |scene, place| scene.failures[place].output.map(|output| Value::Word(output.name())),
+        get: |scene, place| scene.failures[place].output.map(|output| output.name().into()),
         set: |scene, place, value| scene.failures[place].output = value.text().and_then(SensorOutput::from_name),
     },
 ], &[]);

@@ -2,17 +2,17 @@
 
 use super::known_columns::{KnownColumns, unit_of};
 use super::lines::Lines;
-use super::numbers::FINITE;
+use super::numbers::{FINITE, number, numbers_in_words, remedy_for_text, values, whole};
 use super::parameter::{parameter, parameters};
 use super::section::Section;
-use super::{data_keys, display, units};
+use super::{data_keys, display};
 use crate::math::vector::norm;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::{
-    ALL_BUT_ONE, Condition, Counts, Kind, NumberLimit, Numbers, Presence, Row, Rule, TextLimit, Value, Values, Written,
-};
+use crate::sampling::keys::{ALL_BUT_ONE, Condition, Kind, Presence, Row, Rule, Value, Values, Written};
 use crate::sampling::{DistributionKind, WrittenDistribution};
+use crate::scene::schema::Limit;
+use toml::de::DeValue;
 
 impl Section<'_, '_> {
     /// The values of `rows` if all are valid and obey `rules`; problems are noted.
@@ -56,7 +56,7 @@ impl Section<'_, '_> {
             }
             match (self.row(row), row.multiple_of) {
                 (Some(Value::Numbers(values)), Some((key, divisor))) => {
-                    written.set(key, Value::Numbers(values.over(divisor)));
+                    written.set(key, Value::Numbers(values.map(|x| x / divisor)));
                 }
                 (Some(value), _) => written.set(row.key, value),
                 (None, _) => {}
@@ -68,60 +68,42 @@ impl Section<'_, '_> {
     /// The written value of a row; the default word of a missing [`Kind::Word`].
     fn row(&mut self, row: &Row) -> Option<Value> {
         let key = row.key;
-        let (of_target, own) = (self.unit, units::in_name(key));
+        if matches!(row.kind, Kind::Amount | Kind::Amounts | Kind::AmountList) {
+            self.note_unit(key);
+        }
         match row.kind {
-            Kind::Amounts => {
-                self.note_unit(key);
-                self.values(key, of_target).map(Value::Numbers)
+            Kind::Amount
+            | Kind::Amounts
+            | Kind::AmountList
+            | Kind::Numbers(_)
+            | Kind::Number
+            | Kind::Values
+            | Kind::List
+            | Kind::Vector
+            | Kind::Matrix
+            | Kind::Correlations => self.numbers(row).map(Value::Numbers),
+            Kind::Count(_) | Kind::Counts(_) | Kind::Samples(_) => self.counts(row).map(Value::Counts),
+            Kind::Text(limit) => {
+                let text = self.text(key)?;
+                if !(limit.test)(text) {
+                    return self.refused(key, limit.allowed, limit.remedy);
+                }
+                Some(text.into())
             }
-            Kind::Values => self.values(key, own).map(Value::Numbers),
-            Kind::AmountList => {
-                self.note_unit(key);
-                self.list(key, of_target, row.limit)
-            }
-            Kind::List => self.list(key, own, row.limit),
-            Kind::Number => {
-                let limit = row.limit.unwrap_or(FINITE);
-                self.number(key, limit).map(Value::from)
-            }
-            Kind::Vector => {
-                let vector = self.direction(key).filter(|vector| vector.iter().all(|x| x.is_finite()));
-                vector.map(|vector| Value::Numbers(Values::Each(vector.to_vec())))
-            }
-            Kind::Matrix => {
-                let matrix = self.matrix(key).filter(|matrix| matrix.as_flattened().iter().all(|x| x.is_finite()));
-                matrix.map(Value::Matrix)
-            }
-            Kind::Count([least, most]) => self.count(key, least..=most).map(Value::from),
-            Kind::Samples(most) => self.samples(key, most).map(|list| Value::Counts(Counts::Each(list))),
-            Kind::Text(limit) => self.limited_text(key, limit).map(Value::from),
             Kind::Words(words, default) => {
-                let found = |word: &str| words.iter().copied().find(|known| *known == word);
-                self.names(key, words, found, &default()).map(Value::Words)
+                let found = |word: &str| words.contains(&word).then(|| word.to_owned());
+                self.names(key, words, found, &default()).map(Value::Texts)
             }
-            Kind::WordOrDirection(words) if self.has(key) && self.plain_text(key).is_none() => self.axis(key, words),
-            Kind::Counts(most) => self.counts(key, 1..=most).map(Value::Counts),
-            Kind::Word(words) | Kind::WordOrDirection(words) if self.has(key) => self.word(key, words).map(Value::Word),
+            Kind::WordOrDirection(words) if self.has(key) && self.plain_text(key).is_none() => self.axis(row, words),
+            Kind::Word(words) | Kind::WordOrDirection(words) if self.has(key) => self.word(key, words).map(Value::from),
             Kind::Word(words) | Kind::WordOrDirection(words) => {
                 self.know(key);
-                words.first().map(|word| Value::Word(word))
+                words.first().map(|word| (*word).into())
             }
             Kind::Distribution => {
                 let mut table = self.section(key);
                 let found = if table.is_present() { table.distribution() } else { None };
                 found.map(|found| Value::Distribution(found.kind.name(), found.written))
-            }
-            Kind::Amount => {
-                let number = self.number_in(key, of_target, row.limit.unwrap_or(FINITE));
-                self.note_unit(key);
-                number.map(Value::from)
-            }
-            Kind::Numbers(limit) => {
-                let list = self.numbers(key, of_target)?;
-                if !(limit.test)(&list) {
-                    return self.refused(key, limit.allowed, limit.remedy);
-                }
-                Some(list.as_slice().into())
             }
             Kind::Observable => self.quantity(key, KnownColumns::observable, KnownColumns::refusal),
             Kind::Band => self.quantity(key, KnownColumns::band, KnownColumns::band_refusal),
@@ -130,38 +112,124 @@ impl Section<'_, '_> {
                 let text = self.text(key)?;
                 match Expression::parse(text) {
                     Ok(_) => Some(text.into()),
-                    Err(error) => {
-                        self.refuse(key, error, "correct the expression");
-                        None
-                    }
+                    Err(error) => self.refused(key, error, "correct the expression"),
                 }
             }
             Kind::Flag => self.flag(key).map(Value::Flag),
-            Kind::Yes => {
-                let is_yes = self.flag(key)?;
-                if !is_yes {
-                    self.refuse(key, "true where it is written", format!("delete it, or write {key} = true"));
-                }
-                is_yes.then_some(Value::Flag(true))
-            }
-            Kind::Units => Some(Value::Words(display::of_quantities(self, key))),
+            Kind::Yes => match self.flag(key)? {
+                true => Some(Value::Flag(true)),
+                false => self.refused(key, "true where it is written", format!("delete it, or write {key} = true")),
+            },
+            Kind::Units => Some(Value::Texts(display::of_quantities(self, key))),
             Kind::UnitsByName => Some(Value::Units(display::by_name(self, key))),
             Kind::Parameter => parameter(self, key),
             Kind::Parameters => parameters(self, key),
-            Kind::Correlations => self.correlations(key).map(Value::Correlations),
             // read by the table's own code
             Kind::Name | Kind::Names | Kind::ByName => {
                 self.know(key);
                 None
             }
-            Kind::OneOf(words) => {
-                let words = words();
-                let found = self.name(key, &words, |word| words.iter().copied().find(|known| *known == word));
-                found.map(Value::Word)
-            }
+            Kind::OneOf(words) => self.word(key, &words()).map(Value::from),
             Kind::Column => data_keys::column(self).map(Value::Column),
             Kind::Columns => data_keys::columns(self).map(Value::Columns),
         }
+    }
+
+    fn flag(&mut self, key: &str) -> Option<bool> {
+        self.parsed(key, DeValue::as_bool, "true or false", "write it without quotes")
+    }
+
+    /// The finite numbers of a row in its arrangement, one number or a list within its limit.
+    fn numbers(&mut self, row: &Row) -> Option<Values> {
+        let (key, value) = (row.key, self.take(row.key)?.get_ref());
+        let unit = match row.kind {
+            Kind::Amount | Kind::Amounts | Kind::AmountList | Kind::Numbers(_) => self.unit,
+            Kind::Correlations => "1",
+            _ => self.unit_of(key),
+        };
+        let limit = match row.kind {
+            Kind::Amount | Kind::Number => Some(row.limit.unwrap_or(FINITE)),
+            Kind::List | Kind::AmountList => row.limit,
+            _ => None,
+        };
+        let is_arranged = |values: &Values| match (row.kind, values) {
+            (Kind::Amount | Kind::Number, values) => values.are(1),
+            (Kind::Vector, values) => values.are(3),
+            (Kind::Matrix, values) => values.are(9),
+            (Kind::Amounts | Kind::Values, Values::One(_) | Values::Each(_)) => true,
+            (Kind::Correlations, Values::Rows(rows)) => rows.iter().all(|row| row.len() == rows[0].len()),
+            (Kind::Correlations, values) => values.are(1),
+            (_, values) => matches!(values, Values::Each(_)),
+        };
+        let found = values(value, &|value| number(value, unit)).filter(is_arranged);
+        let Some(found) = found.filter(|found| found.flat().iter().all(|x| x.is_finite())) else {
+            let (allowed, remedy) = match (row.kind, limit) {
+                (Kind::Amount | Kind::Number, Some(limit)) if number(value, unit).is_some() => {
+                    (limit.allowed.to_owned(), limit.remedy.to_owned())
+                }
+                (Kind::Amount | Kind::Number, Some(limit)) => {
+                    (limit.allowed.to_owned(), remedy_for_text(value).to_owned())
+                }
+                (Kind::Amounts | Kind::Values, _) => (
+                    "a finite number, or an array of one for each component".to_owned(),
+                    remedy_for_text(value).to_owned(),
+                ),
+                (Kind::Vector, _) => (numbers_in_words(3), format!("write it like {}", Limit::Direction.example(3))),
+                (Kind::Matrix, _) => (numbers_in_words(9), format!("write it like {}", Limit::Finite.example(9))),
+                (Kind::Correlations, _) => {
+                    let allowed = "one number for two parameters, or rows of equally many finite numbers";
+                    return self.refused(key, allowed, "write it like 0.5 or [[1.0, 0.5], [0.5, 1.0]]");
+                }
+                _ => ("an array of finite numbers".to_owned(), "write it like [1.0, 2.0]".to_owned()),
+            };
+            let is_list = matches!(row.kind, Kind::List | Kind::AmountList | Kind::Numbers(_));
+            if is_list && !value.is_array() {
+                return self.refused(key, allowed, remedy);
+            }
+            self.refuse_number(key, unit, value, allowed, remedy);
+            return None;
+        };
+        let list = found.flat();
+        match (row.kind, limit) {
+            (Kind::Numbers(limit), _) if !(limit.test)(&list) => self.refused(key, limit.allowed, limit.remedy),
+            (_, Some(limit)) if list.is_empty() || !list.iter().all(|x| limit.holds(*x)) => {
+                self.refused(key, limit.allowed, limit.remedy)
+            }
+            _ => Some(found),
+        }
+    }
+
+    /// The whole numbers of a row.
+    fn counts(&mut self, row: &Row) -> Option<Values<u64>> {
+        let value = self.take(row.key)?.get_ref();
+        let [least, most] = match row.kind {
+            Kind::Count(ends) => ends,
+            Kind::Counts(most) => [1, most],
+            _ => [0, u64::MAX],
+        };
+        let found = values(value, &|value| whole(value).filter(|count| (least..=most).contains(count)));
+        let found = found.filter(|found| match (row.kind, found) {
+            (Kind::Samples(most), Values::Each(list)) => {
+                list.windows(2).all(|pair| pair[0] < pair[1]) && (1..=most).contains(&list.len())
+            }
+            (Kind::Counts(_), values) => !matches!(values, Values::Rows(_)),
+            (_, values) => values.are(1) && !matches!(row.kind, Kind::Samples(_)),
+        });
+        if found.is_some() {
+            return found;
+        }
+        let range = format!("a whole number from {least} to {most}");
+        let (allowed, remedy) = match (row.kind, value) {
+            (Kind::Samples(most), _) => (
+                format!("1 to {most} numbers of samples, ascending and different"),
+                "write it like [3, 17, 400], or leave it out for all samples",
+            ),
+            (Kind::Counts(_), _) => (format!("{range}, or an array of them"), "write it like 5 or [5, 3]"),
+            (_, DeValue::Float(_)) => (range, "write it without a decimal point or exponent"),
+            (_, DeValue::Integer(_)) => (range, "write a number within this range"),
+            (_, other) => (range, remedy_for_text(other)),
+        };
+        self.refused(row.key, allowed, remedy)
     }
 
     fn quantity(
@@ -208,38 +276,18 @@ impl Section<'_, '_> {
         }
     }
 
-    fn list(&mut self, key: &str, unit: &'static str, limit: Option<NumberLimit>) -> Option<Value> {
-        let list = self.numbers(key, unit)?;
-        if let Some(limit) = limit.filter(|limit| list.is_empty() || !list.iter().all(|x| limit.holds(*x))) {
-            return self.refused(key, limit.allowed, limit.remedy);
-        }
-        Some(Value::Numbers(Values::Each(list)))
-    }
-
-    fn limited_text(&mut self, key: &str, limit: TextLimit) -> Option<&str> {
-        let text = self.text(key)?;
-        if !(limit.test)(text) {
-            return self.refused(key, limit.allowed, limit.remedy);
-        }
-        Some(text)
-    }
-
     /// A unit vector in F_s instead of one of `words`.
-    fn axis(&mut self, key: &str, words: &[&str]) -> Option<Value> {
-        let direction = self.direction(key)?;
-        let length = norm(direction);
+    fn axis(&mut self, row: &Row, words: &[&str]) -> Option<Value> {
+        let direction = self.numbers(&Row { kind: Kind::Vector, ..*row })?.flat();
+        let length = norm([direction[0], direction[1], direction[2]]);
         if !(length > 0.0 && length.is_finite()) {
-            if direction.iter().all(|x| x.is_finite()) {
-                let names: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
-                let allowed = format!("{} or a direction in F_s", names.join(", "));
-                self.refuse(key, allowed, "write it like [0.0, 0.0, 1.0]");
-            }
-            return None;
+            let names: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+            let allowed = format!("{} or a direction in F_s", names.join(", "));
+            return self.refused(row.key, allowed, "write it like [0.0, 0.0, 1.0]");
         }
         // keep the bits of a unit vector
         let is_unit = (length - 1.0).abs() <= 4.0 * f64::EPSILON;
-        let axis = if is_unit { direction } else { direction.map(|x| x / length) };
-        Some(Value::Numbers(Values::Each(axis.to_vec())))
+        Some(Value::Numbers(Values::Each(direction).map(|x| if is_unit { *x } else { x / length })))
     }
 
     /// Whether the table obeys `rule`; a violation is noted. `is_right`: it obeys the rules before.
@@ -305,7 +353,7 @@ impl Section<'_, '_> {
         self.word(key, words)
     }
 
-    fn word(&mut self, key: &str, words: &'static [&'static str]) -> Option<&'static str> {
+    fn word(&mut self, key: &str, words: &[&'static str]) -> Option<&'static str> {
         self.name(key, words, |word| words.iter().copied().find(|known| *known == word))
     }
 }
@@ -320,15 +368,8 @@ impl Lines {
     pub(super) fn written(&mut self, header: &str, written: &Written) {
         for (key, value) in written.entries() {
             match value {
-                Value::Numbers(Values::All(number)) => self.key(key, number),
-                Value::Numbers(Values::Each(list)) => self.key(key, list),
-                Value::Matrix(matrix) => self.key(key, matrix),
-                Value::Correlations(Numbers::One(number)) => self.key(key, number),
-                Value::Correlations(Numbers::Rows(rows)) => self.key(key, rows),
-                Value::Counts(Counts::All(count)) => self.key(key, count),
-                Value::Counts(Counts::Each(counts)) => self.key(key, counts),
-                Value::Word(word) => self.key(key, word),
-                Value::Words(words) => self.key(key, words),
+                Value::Numbers(numbers) => self.key(key, numbers),
+                Value::Counts(counts) => self.key(key, counts),
                 Value::Text(text) => self.text_key(key, text),
                 Value::Distribution(name, written) => {
                     let header = format!("{header}.{key}");

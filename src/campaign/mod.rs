@@ -1,7 +1,7 @@
 //! Layer 5: campaign files: as written ([`Spec`]), resolved ([`Plan`]), or with all problems ([`CampaignError`]).
 //!
 //! - Reading: [`mod@find`], [`input_file`], [`size`], `sources`; [`document`] and [`section`] (with [`numbers`],
-//!   [`lists`], `units`) read key by key and keep lines, since serde's derive stops at the first error and knows no
+//!   `units`) read key by key and keep lines, since serde's derive stops at the first error and knows no
 //!   line of a valid key. [`problem`], [`excerpt`] and [`meaning`] make the messages.
 //! - Keys: `keys` reads and writes declared rows. [`settings`], [`scene`] (with [`scene_table`], [`failure_tables`]),
 //!   `control` (with `sensor_tables`, `phase_tables`), [`draws`], [`analysis`] ([`requirement`],
@@ -40,7 +40,6 @@ pub mod input_file;
 mod keys;
 pub mod known_columns;
 mod lines;
-pub mod lists;
 pub mod meaning;
 mod module_key;
 pub mod notes;

@@ -44,27 +44,6 @@ impl Section<'_, '_> {
         number(self.value(key)?.get_ref(), self.unit_of(key))
     }
 
-    /// A valid number, if written.
-    pub fn number(&mut self, key: &str, limit: NumberLimit) -> Option<f64> {
-        self.number_in(key, self.unit_of(key), limit)
-    }
-
-    pub(super) fn number_in(&mut self, key: &str, unit: &'static str, limit: NumberLimit) -> Option<f64> {
-        let value = self.take(key)?;
-        match number(value.get_ref(), unit) {
-            Some(number) if limit.holds(number) => Some(number),
-            Some(_) => {
-                self.refuse(key, limit.allowed, limit.remedy);
-                None
-            }
-            None => {
-                let remedy = remedy_for_text(value.get_ref());
-                self.refuse_number(key, unit, value.get_ref(), limit.allowed, remedy);
-                None
-            }
-        }
-    }
-
     /// Notes that `value` of `key` is not a number in `unit`: the problem of its unit, else `allowed` and `remedy`.
     pub(super) fn refuse_number(
         &mut self,
@@ -89,14 +68,10 @@ impl Section<'_, '_> {
     pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: Limit) -> bool {
         let Some(value) = self.take(key) else { return false };
         let unit = self.unit_of(key);
-        let found = match numbers.len() {
-            1 => number(value.get_ref(), unit).map(|number| vec![number]),
-            9 => rows_of_three(value.get_ref(), unit),
-            _ => list(value.get_ref(), unit),
-        };
-        match found.filter(|found| found.len() == numbers.len() && found.iter().all(|x| x.is_finite())) {
-            Some(found) => numbers.copy_from_slice(&found),
-            None => {
+        let found = values(value.get_ref(), &|value| number(value, unit));
+        match found.filter(|found| found.are(numbers.len())).map(|found| found.flat()) {
+            Some(found) if found.iter().all(|x| x.is_finite()) => numbers.copy_from_slice(&found),
+            _ => {
                 let remedy = match numbers.len() {
                     1 if number(value.get_ref(), unit).is_some() => FINITE.remedy.to_owned(),
                     1 => remedy_for_text(value.get_ref()).to_owned(),
@@ -107,54 +82,6 @@ impl Section<'_, '_> {
             }
         }
         true
-    }
-
-    /// The components of a direction, if written; NaN if wrong.
-    pub fn direction(&mut self, key: &str) -> Option<[f64; 3]> {
-        let mut vector = [f64::NAN; 3];
-        self.fill(key, &mut vector, Limit::Direction).then_some(vector)
-    }
-
-    /// A 3x3 matrix by rows, if written; NaN if wrong.
-    pub fn matrix(&mut self, key: &str) -> Option<[[f64; 3]; 3]> {
-        let mut matrix = [[f64::NAN; 3]; 3];
-        self.fill(key, matrix.as_flattened_mut(), Limit::Finite).then_some(matrix)
-    }
-
-    /// A finite number in `unit` or an array of them, if written.
-    pub fn values(&mut self, key: &str, unit: &'static str) -> Option<Values> {
-        let value = self.take(key)?;
-        let values = match value.get_ref() {
-            DeValue::Array(_) => list(value.get_ref(), unit).map(Values::Each),
-            single => number(single, unit).map(Values::All),
-        };
-        let finite = |values: &Values| values.numbers().iter().all(|x| x.is_finite());
-        if !values.as_ref().is_some_and(finite) {
-            self.refuse_number(
-                key,
-                unit,
-                value.get_ref(),
-                "a finite number, or an array of one for each component",
-                remedy_for_text(value.get_ref()),
-            );
-            return None;
-        }
-        values
-    }
-
-    /// A whole number within `range`, if written.
-    pub fn count(&mut self, key: &str, range: std::ops::RangeInclusive<u64>) -> Option<u64> {
-        let value = self.take(key)?;
-        if let Some(count) = whole(value.get_ref()).filter(|count| range.contains(count)) {
-            return Some(count);
-        }
-        let remedy = match value.get_ref() {
-            DeValue::Float(_) => "write it without a decimal point or exponent",
-            DeValue::Integer(_) => "write a number within this range",
-            other => remedy_for_text(other),
-        };
-        self.refuse(key, format!("a whole number from {} to {}", range.start(), range.end()), remedy);
-        None
     }
 }
 
@@ -177,16 +104,19 @@ fn unit_problem(value: &DeValue<'_>, unit: &str) -> Option<UnitProblem> {
     }
 }
 
-fn list(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
-    value.as_array()?.iter().map(|item| number(item.get_ref(), unit)).collect()
+/// A value, a list or rows of values that `of` reads.
+pub(super) fn values<T>(value: &DeValue<'_>, of: &impl Fn(&DeValue<'_>) -> Option<T>) -> Option<Values<T>> {
+    let list = |value: &DeValue<'_>| value.as_array()?.iter().map(|item| of(item.get_ref())).collect();
+    match value {
+        DeValue::Array(rows) if rows.iter().any(|row| row.get_ref().is_array()) => {
+            rows.iter().map(|row| list(row.get_ref())).collect::<Option<_>>().map(Values::Rows)
+        }
+        DeValue::Array(_) => list(value).map(Values::Each),
+        one => of(one).map(Values::One),
+    }
 }
 
-fn rows_of_three(value: &DeValue<'_>, unit: &str) -> Option<Vec<f64>> {
-    let rows: Option<Vec<Vec<f64>>> = value.as_array()?.iter().map(|item| list(item.get_ref(), unit)).collect();
-    rows.filter(|rows| rows.len() == 3 && rows.iter().all(|row| row.len() == 3)).map(|rows| rows.concat())
-}
-
-fn numbers_in_words(count: usize) -> String {
+pub(super) fn numbers_in_words(count: usize) -> String {
     match count {
         1 => FINITE.allowed.to_owned(),
         9 => "three rows of three finite numbers".to_owned(),
@@ -194,7 +124,7 @@ fn numbers_in_words(count: usize) -> String {
     }
 }
 
-fn remedy_for_text(value: &DeValue<'_>) -> &'static str {
+pub(super) fn remedy_for_text(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(text) if text.trim().parse::<f64>().is_ok() => "write it without quotes",
         DeValue::Array(_) => "write one number, without brackets",

@@ -11,7 +11,7 @@ use crate::control::laws::rod_law::{ROD_LAWS, RodLaw};
 use crate::control::laws::{self, LawKind, callback};
 use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
-use crate::sampling::keys::{ANY_TEXT, Condition as When, Kind, Row, Rule, Value, Written, words};
+use crate::sampling::keys::{ANY_TEXT, Condition as When, Kind, Row, Rule, Written, words};
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, LawParameter, Name, SceneInput, WheelMode};
@@ -187,8 +187,8 @@ pub(super) fn read_phase(
     ignore_others(section, "law", place, kinds.iter().map(|kind| (kind.name, kind.parameters)));
     section.finish();
     let gyroscopic = written.flag("gyroscopic");
-    written = written.with("phase", own.as_str()).with("target", Value::Word(target_name));
-    law.into_iter().for_each(|law| written.set("law", Value::Word(law.name)));
+    written = written.with("phase", own.as_str()).with("target", target_name);
+    law.into_iter().for_each(|law| written.set("law", law.name));
     let (next, otherwise) = (Next::Stay, None);
     name.map(|_| PhaseSpec { name: own, law, gyroscopic, target, thrust, rods, until, next, otherwise, written })
 }

@@ -2,11 +2,10 @@
 
 use super::analysis::Analysis;
 use super::bands;
-use super::chosen::Chosen;
+use super::chosen;
 use super::columns::request;
 use super::description;
 use super::document::{Document, Overrides};
-use super::draws::DrawTables;
 use super::event::Event;
 use super::extreme::Extreme;
 use super::forces;
@@ -25,10 +24,12 @@ use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
 use crate::propagation::Method;
 use crate::run::Grid;
+use crate::sampling::keys::Value;
 use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Written};
 use crate::scene::schedule::applied;
 use crate::scene::{Scene, SceneInput};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -38,8 +39,8 @@ pub struct Plan {
     pub description: Option<String>,
     /// At least 1; sample 0 is the nominal scene.
     pub samples: u64,
-    /// The samples to run; `None` for all.
-    pub chosen: Option<Chosen>,
+    /// The samples to run, ascending and different; `None` for all.
+    pub chosen: Option<Arc<[u64]>>,
     /// The file's number of samples, which canonical text keeps, if `[stop]` ended the campaign at another one.
     pub written_samples: Option<u64>,
     pub seed: u64,
@@ -281,19 +282,19 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         // parameters and columns depend on the loop
         return None;
     }
-    let drawn = DrawTables::of(&spec.dispersions, &spec.correlations, &spec.derivations);
+    let design = spec.design.clone().unwrap_or_default();
     let draws = Draws {
         seed: seed.unwrap_or(0),
         samples: campaign.count("samples"),
-        design: spec.design.as_ref().unwrap_or(&Design::DEFAULT),
-        disperse: &drawn.dispersed.1,
-        correlate: &drawn.correlated.1,
-        derive: &drawn.derived.1,
+        design: &design,
+        disperse: &spec.dispersions,
+        correlate: &spec.correlations,
+        derive: &spec.derivations,
     };
     let dispersions = match Dispersions::new(draws, &spec.scene) {
         Ok(dispersions) => Some(dispersions),
         Err(errors) => {
-            let found = errors.into_iter().map(|e| (drawn.path(e.table, e.key), e.value, e.allowed, e.remedy));
+            let found = errors.into_iter().map(|e| (format!("{}.{}", e.table, e.key), e.value, e.allowed, e.remedy));
             document.add_from_below(found.collect());
             None
         }
@@ -306,7 +307,6 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
     let acting = acting_scene(duration_s?, &spec.scene, &dispersions);
     let known =
         KnownColumns::new(request(&groups, &acting, method, document.law.as_ref(), (&spec.events, &spec.extremes)));
-    let design = spec.design.as_ref().unwrap_or(&Design::DEFAULT);
     let grid = Grid::uniform(duration_s?, usize::try_from(points).ok()?);
     let band_times: Vec<f64> =
         grid.evenly(usize::try_from(band_points).ok()?).into_iter().map(|point| grid.times()[point]).collect();
@@ -315,18 +315,18 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         &known,
         dispersions.columns(),
         dispersions.samples(),
-        design,
+        &design,
         [grid.times(), &band_times],
     );
-    let chosen = Chosen::of_written(campaign);
+    let chosen = if let Some(Value::Counts(samples)) = campaign.get("only") { Some(samples.flat()) } else { None };
     if let Some(chosen) = &chosen {
-        chosen.check(dispersions.samples(), spec.analysis.stop.is_some(), document);
+        chosen::check(chosen, dispersions.samples(), spec.analysis.stop.is_some(), document);
     }
     Some(Plan {
         name: campaign.text("name")?.to_owned(),
         description: campaign.text("description").map(description::in_one_line),
         samples: dispersions.samples(),
-        chosen,
+        chosen: chosen.map(Arc::from),
         written_samples: None,
         seed: seed?,
         grid,
@@ -338,9 +338,9 @@ fn resolve(spec: &Spec, document: &mut Document<'_>) -> Option<Plan> {
         nutation_axis: spec.nutation_axis(),
         nominal: spec.scene.clone(),
         design: spec.design.clone()?,
-        dispersed: drawn.dispersed.1,
-        correlated: drawn.correlated.1,
-        derived: drawn.derived.1,
+        dispersed: spec.dispersions.clone(),
+        correlated: spec.correlations.clone(),
+        derived: spec.derivations.clone(),
         dispersions,
         audit_fraction: spec.settings("audit").number("fraction").unwrap_or(0.0),
         band_points: usize::try_from(band_points).ok()?,

@@ -1,7 +1,7 @@
 //! The rows of a [`Plan`]: all samples in order, or those of `campaign.only`. Parts count rows; draws depend on sample
 //! numbers.
 
-use super::chosen::{Chosen, MOST_CHOSEN};
+use super::chosen::MOST_CHOSEN;
 use super::plan::Plan;
 use crate::sampling::SampleId;
 use crate::statistics::looks::looks;
@@ -9,12 +9,12 @@ use crate::statistics::looks::looks;
 impl Plan {
     /// Number of rows.
     pub fn rows(&self) -> u64 {
-        self.chosen.as_ref().map_or(self.samples, |chosen| chosen.samples().len() as u64)
+        self.chosen.as_ref().map_or(self.samples, |chosen| chosen.len() as u64)
     }
 
     /// The sample of an existing row.
     pub fn sample(&self, row: u64) -> SampleId {
-        let of_list = |chosen: &Chosen| usize::try_from(row).ok().and_then(|row| chosen.samples().get(row).copied());
+        let of_list = |chosen: &[u64]| usize::try_from(row).ok().and_then(|row| chosen.get(row).copied());
         SampleId(self.chosen.as_ref().map_or(row, |chosen| of_list(chosen).unwrap_or(u64::MAX)))
     }
 
@@ -49,11 +49,10 @@ impl Plan {
         if samples.last().is_some_and(|last| *last >= self.samples) {
             return Err(format!("sample {} is none of the plan's {}", samples[count - 1], self.samples));
         }
-        match Chosen::of(samples) {
-            Some(chosen) => Ok(Plan { chosen: Some(chosen), ..self }),
-            None => Err(format!(
-                "{count} samples; a plan lists at most {MOST_CHOSEN}: run all samples under the changed plan"
-            )),
+        if !(1..=MOST_CHOSEN).contains(&count) || !samples.windows(2).all(|pair| pair[0] < pair[1]) {
+            let remedy = "run all samples under the changed plan";
+            return Err(format!("{count} samples; a plan lists at most {MOST_CHOSEN}: {remedy}"));
         }
+        Ok(Plan { chosen: Some(samples.into()), ..self })
     }
 }

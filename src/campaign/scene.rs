@@ -88,7 +88,7 @@ pub static TABLES: [SceneTable; 12] = [
             Field {
                 row: Row::new("magnetic_field", Kind::OneOf(|| FieldModel::ALL.map(FieldModel::name).to_vec()),
                     "The model of the Earth's magnetic field; default: none"),
-                get: |scene, _| scene.environment.magnetic_field.map(|model| Value::Word(model.name())),
+                get: |scene, _| scene.environment.magnetic_field.map(|model| model.name().into()),
                 set: |scene, _, value| {
                     scene.environment.magnetic_field = value.text().and_then(FieldModel::from_name);
                 },

@@ -134,7 +134,7 @@ macro_rules! word {
     ($row:expr, $Type:ty, $scene:ident, $place:ident => $field:expr) => {
         Field {
             row: $row,
-            get: |$scene, $place| Some(Value::Word($field.name())),
+            get: |$scene, $place| Some($field.name().into()),
             set: |$scene, $place, value| {
                 if let Some(named) = value.text().and_then(<$Type>::from_name) {
                     $field = named;
@@ -163,7 +163,7 @@ macro_rules! list {
             get: |scene, _| scene.environment.$key.map(Value::from),
             set: |scene, _, value| {
                 if let Value::Numbers(values) = value {
-                    scene.environment.$key = Some(kept(values.numbers()));
+                    scene.environment.$key = Some(kept(&values.flat()));
                 }
             },
         }

@@ -13,6 +13,8 @@ pub struct Section<'d, 'a> {
     /// Name in messages of a named table of a list.
     title: Option<String>,
     table: Option<&'d DeTable<'a>>,
+    /// Place of a table in its list.
+    pub(super) index: usize,
     known: Vec<String>,
     /// Keys to accept without effect.
     ignored: Vec<&'static str>,
@@ -31,7 +33,7 @@ impl<'d, 'a> Section<'d, 'a> {
 
     fn of(document: &'d mut Document<'a>, path: String, table: Option<&'d DeTable<'a>>) -> Self {
         let (known, ignored) = (Vec::new(), Vec::new());
-        Section { document, path, title: None, table, known, ignored, unit: "1", about: None, every: None }
+        Section { document, path, title: None, table, index: 0, known, ignored, unit: "1", about: None, every: None }
     }
 
     pub fn path(&self, key: &str) -> String {
@@ -133,7 +135,7 @@ impl<'d, 'a> Section<'d, 'a> {
         for (index, (span, table)) in tables.into_iter().take(most).enumerate() {
             let path = format!("{}[{index}]", self.path(key));
             self.document.spans.insert(path.clone(), Spans { key: span, value: 0..0 });
-            list.push(read(&mut Section::of(&mut *self.document, path, Some(table))));
+            list.push(read(&mut Section { index, ..Section::of(&mut *self.document, path, Some(table)) }));
         }
         list
     }
@@ -190,6 +192,14 @@ impl<'d, 'a> Section<'d, 'a> {
 
     pub fn text(&mut self, key: &str) -> Option<&'d str> {
         self.parsed(key, DeValue::as_str, "text", "write it in quotes")
+    }
+
+    /// Texts, if written.
+    pub fn texts(&mut self, key: &str, example: &str) -> Option<Vec<String>> {
+        let texts = |value: &DeValue<'_>| {
+            value.as_array()?.iter().map(|item| item.get_ref().as_str().map(str::to_owned)).collect()
+        };
+        self.parsed(key, texts, "an array of texts", format!("write it like {example}"))
     }
 
     /// The value of `key` as `parse` reads it, if written; noted as wrong if it gives `None`.

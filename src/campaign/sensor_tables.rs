@@ -7,7 +7,7 @@ use crate::control::observes::Observes;
 use crate::control::sensor_spec::SensorSpec;
 use crate::control::spec::{MOST_TICKS, ticks_per_period};
 use crate::control::{estimators, sensors};
-use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, Value};
+use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row};
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, Name, SceneInput};
 
@@ -62,8 +62,7 @@ pub(super) fn read_sensor(
     }
     // a wrong number is reported already and does not change the columns
     let period = own_period.unwrap_or(f64::NAN);
-    written =
-        written.with("name", name.as_str()).with("kind", Value::Word(sensors::NAMES[kind])).with("period_s", period);
+    written = written.with("name", name.as_str()).with("kind", sensors::NAMES[kind]).with("period_s", period);
     Some(SensorSpec { name, kind, period, latency, written: written.completed(&ROWS, &[]) })
 }
 

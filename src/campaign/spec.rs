@@ -27,11 +27,10 @@ pub struct Spec {
     pub scene: SceneInput,
     /// `None` if wrong.
     pub design: Option<Design>,
-    /// `None` for each wrong table, also below.
-    pub dispersions: Vec<Option<Dispersion>>,
-    pub correlations: Vec<Option<Correlation>>,
-    pub derivations: Vec<Option<Derivation>>,
     /// The valid tables, also below.
+    pub dispersions: Vec<Dispersion>,
+    pub correlations: Vec<Correlation>,
+    pub derivations: Vec<Derivation>,
     pub events: Vec<Event>,
     pub extremes: Vec<Extreme>,
     pub analysis: Analysis,
@@ -64,9 +63,9 @@ impl Spec {
             }
         };
         read(&mut root, &settings::HEAD);
-        let dispersions = root.sections("disperse", MOST_TABLES, draws::dispersion);
-        let correlations = root.sections("correlate", MOST_TABLES, draws::correlation);
-        let derivations = root.sections("derive", MOST_TABLES, draws::derivation);
+        let dispersions = root.sections("disperse", MOST_TABLES, draws::dispersion).into_iter().flatten().collect();
+        let correlations = root.sections("correlate", MOST_TABLES, draws::correlation).into_iter().flatten().collect();
+        let derivations = root.sections("derive", MOST_TABLES, draws::derivation).into_iter().flatten().collect();
 
         read(&mut root, &settings::TAIL);
         let mut spec = Spec {
@@ -122,9 +121,9 @@ impl Spec {
 
     /// `observe.groups` or the default, in the order of the columns.
     pub fn groups(&self) -> Vec<Group> {
-        match self.settings("observe").get("groups") {
-            Some(Value::Words(names)) => Group::ALL.into_iter().filter(|group| names.contains(&group.name())).collect(),
-            _ => Group::DEFAULT.to_vec(),
+        match self.settings("observe").texts("groups") {
+            [] => Group::DEFAULT.to_vec(),
+            names => Group::ALL.into_iter().filter(|group| names.iter().any(|name| name == group.name())).collect(),
         }
     }
 

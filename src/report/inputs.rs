@@ -9,8 +9,8 @@ use crate::findings::names;
 use crate::findings::number::short;
 use crate::findings::origin::origin;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape, Scale};
+use crate::sampling::Values;
 use crate::sampling::correlation::Measure;
-use crate::sampling::keys::Numbers;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
 /// Maximum number of input histograms.
@@ -119,8 +119,8 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
             if correlation.measure == Measure::Ranks { r } else { 6.0 / PI * libm::asin(0.5 * r.clamp(-1.0, 1.0)) }
         };
         match &correlation.numbers {
-            Numbers::One(r) => set(together[0], together.get(1).copied().flatten(), ranks(*r)),
-            Numbers::Rows(rows) if rows.len() == together.len() => {
+            Values::One(r) => set(together[0], together.get(1).copied().flatten(), ranks(*r)),
+            Values::Rows(rows) if rows.len() == together.len() => {
                 for (i, row) in rows.iter().enumerate() {
                     for (j, value) in row.iter().enumerate().filter(|(j, _)| *j != i) {
                         let scale = if correlation.measure == Measure::Covariance {
@@ -132,7 +132,7 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
                     }
                 }
             }
-            Numbers::Rows(rows) => {
+            Values::Rows(rows) => {
                 let (first, others) = together.split_at(rows.len());
                 for (row, a) in rows.iter().zip(first) {
                     for (value, b) in row.iter().zip(others) {
@@ -140,6 +140,7 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
                     }
                 }
             }
+            Values::Each(_) => {} // no table of correlations is a list
         }
     }
     found

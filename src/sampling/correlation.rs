@@ -4,9 +4,9 @@
 //! (a block, or one number). Tables with a common component form one matrix; other pairs are independent.
 
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
-use super::distribution::{Distribution, Quantile};
+use super::distribution::Distribution;
 use super::error::{DispersionError, Table, error_of};
-use super::keys::{Numbers, Written};
+use super::keys::{Values, Written};
 use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
 
@@ -31,10 +31,12 @@ impl Measure {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Correlation {
+    /// Index of its table in the file.
+    pub table: usize,
     pub parameters: Vec<(Parameter, Option<usize>)>,
     pub measure: Measure,
     /// In the order of the parameters and their components.
-    pub numbers: Numbers,
+    pub numbers: Values,
     /// Whether to replace a matrix that is not positive semidefinite by the nearest one.
     pub nearest_psd: bool,
     /// The table as in canonical text.
@@ -53,11 +55,8 @@ const SAME: f64 = 1e-9;
 
 type Drawn<'d> = (usize, &'d Distribution);
 
-struct Pairs {
-    table: usize,
-    measure: Measure,
-    shown: String,
-    nearest_psd: bool,
+struct Pairs<'l> {
+    of: &'l Correlation,
     components: Vec<(usize, String)>,
     /// Pairs of dimensions with the correlation of their normal scores.
     scores: Vec<(usize, usize, f64)>,
@@ -69,15 +68,15 @@ pub(super) fn copulas<'d>(
     list: &[Correlation],
     drawn: impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
 ) -> (Vec<Copula>, Vec<Replaced>, Vec<DispersionError>) {
-    let (mut groups, mut errors): (Vec<Vec<Pairs>>, Vec<_>) = (Vec::new(), Vec::new());
-    for (index, correlation) in list.iter().enumerate() {
-        match correlation.pairs(index, &drawn) {
+    let (mut groups, mut errors): (Vec<Vec<Pairs<'_>>>, Vec<_>) = (Vec::new(), Vec::new());
+    for correlation in list {
+        match correlation.pairs(&drawn) {
             Ok(pairs) => {
-                let shares = |group: &mut Vec<Pairs>| {
+                let shares = |group: &mut Vec<Pairs<'_>>| {
                     let of_group = || group.iter().flat_map(|other| &other.components);
                     pairs.components.iter().any(|(dimension, _)| of_group().any(|(other, _)| other == dimension))
                 };
-                let mut joined: Vec<Pairs> = groups.extract_if(.., shares).flatten().collect();
+                let mut joined: Vec<Pairs<'_>> = groups.extract_if(.., shares).flatten().collect();
                 errors.extend(pairs.named_twice(&joined));
                 joined.push(pairs);
                 groups.push(joined);
@@ -99,7 +98,7 @@ pub(super) fn copulas<'d>(
 }
 
 /// The dependence of a group of tables with common components, and the replaced matrix.
-fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError> {
+fn copula(group: &[Pairs<'_>]) -> Result<(Copula, Option<Replaced>), DispersionError> {
     let mut components: Vec<&(usize, String)> = Vec::new();
     for component in group.iter().flat_map(|pairs| &pairs.components) {
         if !components.iter().any(|(dimension, _)| *dimension == component.0) {
@@ -118,7 +117,7 @@ fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError
     let Some(smallest) = smallest_negative_eigenvalue(&matrix) else {
         return Ok((Copula::new(dimensions, &matrix), None));
     };
-    let Some(last) = group.last().filter(|_| !group.iter().any(|pairs| pairs.nearest_psd)) else {
+    let Some(last) = group.last().filter(|_| !group.iter().any(|pairs| pairs.of.nearest_psd)) else {
         let used = nearest_correlation(&matrix);
         let names = components.iter().map(|(_, name)| name.clone()).collect();
         return Ok((Copula::new(dimensions, &used), Some(Replaced { names, written: matrix, used })));
@@ -129,12 +128,12 @@ fn copula(group: &[Pairs]) -> Result<(Copula, Option<Replaced>), DispersionError
     );
     let remedy =
         "no numbers have these correlations: change them, or add nearest_psd = true for the nearest that exist";
-    Err(error_of(Table::Correlate(last.table), last.measure.key(), last.shown.clone(), allowed, remedy))
+    last.of.refused(format!("{:?}", last.of.numbers), allowed, remedy)
 }
 
-impl Pairs {
+impl Pairs<'_> {
     /// A pair that an earlier table correlates too.
-    fn named_twice(&self, earlier: &[Pairs]) -> Option<DispersionError> {
+    fn named_twice(&self, earlier: &[Pairs<'_>]) -> Option<DispersionError> {
         let same =
             |(a, b, _): &(usize, usize, f64), (c, d, _): &(usize, usize, f64)| (a, b) == (c, d) || (a, b) == (d, c);
         let mut others = earlier.iter().flat_map(|pairs| &pairs.scores);
@@ -147,7 +146,7 @@ impl Pairs {
         let (value, allowed) =
             (format!("{:?}", [name(twice.0), name(twice.1)]), "pairs that are correlated in one table only");
         let remedy = "take the pair out of one of the two tables";
-        Some(error_of(Table::Correlate(self.table), "parameters", value, allowed, remedy))
+        Some(error_of(Table::Correlate(self.of.table), "parameters", value, allowed, remedy))
     }
 }
 
@@ -156,35 +155,34 @@ impl Correlation {
         self.parameters.iter().flat_map(components_of).collect()
     }
 
+    fn refused<T>(&self, value: String, allowed: String, remedy: &str) -> Result<T, DispersionError> {
+        Err(error_of(Table::Correlate(self.table), self.measure.key(), value, allowed, remedy))
+    }
+
     fn pairs<'d>(
         &self,
-        index: usize,
         drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
-    ) -> Result<Pairs, DispersionError> {
-        let key = self.measure.key();
-        let refused = |value: String, allowed: String, remedy: &str| {
-            Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
-        };
+    ) -> Result<Pairs<'_>, DispersionError> {
         let components = self.components();
-        let drawn = self.drawn(index, &components, drawn)?;
+        let drawn = self.drawn(&components, drawn)?;
         let names: Vec<String> = components.iter().map(|(parameter, k)| parameter.component_name(*k)).collect();
         let n = components.len();
         let first = self.parameters.first().map_or(0, |parameter| components_of(parameter).len());
         let is_pair = self.parameters.len() == 2;
         let (rows, matrix) = match &self.numbers {
-            Numbers::One(number) if n == 2 => (0..1, vec![vec![*number]]),
-            Numbers::One(number) => {
+            Values::One(number) if n == 2 => (0..1, vec![vec![*number]]),
+            number @ (Values::One(_) | Values::Each(_)) => {
                 let allowed = format!("rows of numbers: one number is for two components, and here are {n}");
                 let remedy = "write a square matrix, or for two parameters a row for each component of the first";
-                return refused(format!("{number:?}"), allowed, remedy);
+                return self.refused(format!("{number:?}"), allowed, remedy);
             }
-            Numbers::Rows(rows) if rows.len() == n && rows.iter().all(|row| row.len() == n) => (0..n, rows.clone()),
-            Numbers::Rows(rows)
+            Values::Rows(rows) if rows.len() == n && rows.iter().all(|row| row.len() == n) => (0..n, rows.clone()),
+            Values::Rows(rows)
                 if is_pair && n > 2 && rows.len() == first && rows.iter().all(|row| row.len() == n - first) =>
             {
                 (0..first, rows.clone())
             }
-            Numbers::Rows(rows) => {
+            Values::Rows(rows) => {
                 let value = format!("{} x {}", rows.len(), rows.first().map_or(0, Vec::len));
                 let block = if is_pair && n > 2 {
                     format!(", or {first} x {} of the one with the other", n - first)
@@ -197,11 +195,11 @@ impl Correlation {
                 } else {
                     "give one row and column for each component, in their order"
                 };
-                return refused(value, allowed, remedy);
+                return self.refused(value, allowed, remedy);
             }
         };
         let is_square = rows.len() == n && n > 0;
-        let scales = self.scales(index, &drawn, &names, is_square.then_some(&matrix))?;
+        let scales = self.scales(&drawn, &names, is_square.then_some(&matrix))?;
         let mut scores = Vec::new();
         for i in rows {
             for j in if is_square { 0..i } else { first..n } {
@@ -209,31 +207,25 @@ impl Correlation {
                 let mirror = if is_square { matrix[j][i] } else { written };
                 if (written - mirror).abs() > SAME * written.abs().max(mirror.abs()) {
                     let value = format!("{mirror:?} and {written:?} in rows {} and {}", j + 1, i + 1);
-                    return refused(value, "symmetric".to_owned(), "write each pair's number twice");
+                    return self.refused(value, "symmetric".to_owned(), "write each pair's number twice");
                 }
                 let r = 0.5 * (written + mirror) / (scales[i] * scales[j]);
-                let score = self.score(r, drawn[i].1, drawn[j].1).map_err(|(allowed, remedy)| {
-                    let of = if self.measure == Measure::Covariance {
-                        format!(" (a correlation of {r:?})")
-                    } else {
-                        String::new()
+                let score = self.score(r, drawn[i].1, drawn[j].1).or_else(|(allowed, remedy)| {
+                    let of = match self.measure {
+                        Measure::Covariance => format!(" (a correlation of {r:?})"),
+                        _ => String::new(),
                     };
-                    error_of(Table::Correlate(index), key, format!("{written:?}{of}"), allowed, remedy)
+                    self.refused(format!("{written:?}{of}"), allowed, remedy)
                 })?;
                 scores.push((drawn[i].0, drawn[j].0, score));
             }
         }
-        let shown = match &self.numbers {
-            Numbers::One(number) => format!("{number:?}"),
-            Numbers::Rows(rows) => format!("{rows:?}"),
-        };
         let components = drawn.iter().map(|(dimension, _)| *dimension).zip(names).collect();
-        Ok(Pairs { table: index, measure: self.measure, shown, nearest_psd: self.nearest_psd, components, scores })
+        Ok(Pairs { of: self, components, scores })
     }
 
     fn drawn<'d>(
         &self,
-        index: usize,
         components: &[(Parameter, usize)],
         drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
     ) -> Result<Vec<Drawn<'d>>, DispersionError> {
@@ -241,15 +233,13 @@ impl Correlation {
         for (parameter, component) in components {
             let refused = |allowed: &str, remedy: &str| {
                 let name = format!("{:?}", parameter.component_name(*component));
-                Err(error_of(Table::Correlate(index), "parameters", name, allowed, remedy))
+                Err(error_of(Table::Correlate(self.table), "parameters", name, allowed, remedy))
             };
             let Some(one) = drawn((*parameter, *component)) else {
                 let allowed = "made of numbers that a [[disperse]] table draws each for itself: not together with \
                     others (directions, attitudes, rows of a table), and not at a fixed offset";
-                return refused(
-                    allowed,
-                    "give it a distribution of its own such as \"normal\", or take it out of the list",
-                );
+                let remedy = "give it a distribution of its own such as \"normal\", or take it out of the list";
+                return refused(allowed, remedy);
             };
             if found.iter().any(|(dimension, _)| *dimension == one.0) {
                 return refused("named once", "take it out of the list, where it is twice");
@@ -262,22 +252,17 @@ impl Correlation {
     /// The divisors that turn numbers into correlations; checks the diagonal of a `square` matrix.
     fn scales(
         &self,
-        index: usize,
         drawn: &[Drawn<'_>],
         names: &[String],
         square: Option<&Matrix>,
     ) -> Result<Vec<f64>, DispersionError> {
-        let key = self.measure.key();
-        let refused = |value: String, allowed: String, remedy: &str| {
-            Err(error_of(Table::Correlate(index), key, value, allowed, remedy))
-        };
         let mut scales = vec![1.0; drawn.len()];
         for (place, (_, distribution)) in drawn.iter().enumerate() {
             let diagonal = square.map(|matrix| matrix[place][place]);
             let Measure::Covariance = self.measure else {
                 if let Some(value) = diagonal.filter(|value| (value - 1.0).abs() > SAME) {
                     let remedy = "a parameter is correlated with itself by 1; for covariances write the key covariance";
-                    return refused(format!("{value:?}"), "1 on the diagonal".to_owned(), remedy);
+                    return self.refused(format!("{value:?}"), "1 on the diagonal".to_owned(), remedy);
                 }
                 continue;
             };
@@ -297,7 +282,7 @@ impl Correlation {
                 None => format!("with {}", names[place]),
             };
             let remedy = "give it a normal distribution of that standard deviation, or use correlation";
-            return refused(value, allowed, remedy);
+            return self.refused(value, allowed, remedy);
         }
         Ok(scales)
     }

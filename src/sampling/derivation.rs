@@ -10,6 +10,8 @@ use crate::scene::{Parameter, SceneInput};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivation {
+    /// Index of its table in the file.
+    pub table: usize,
     pub parameter: Parameter,
     /// One component; `None` for all.
     pub component: Option<usize>,
@@ -53,6 +55,15 @@ impl Derived {
 /// Relative difference between the expression in the nominal scene and the nominal value.
 const NOMINAL_SLACK: f64 = 1e-9;
 
+/// A component that waits for its inputs, each with its nominal value.
+struct Open<'l> {
+    table: usize,
+    target: (Parameter, usize),
+    expression: Expression,
+    inputs: Vec<((Parameter, usize), f64)>,
+    text: &'l str,
+}
+
 /// Adds the columns of `list` to `columns`, each after its sources; returns them and the errors.
 pub(super) fn derived(
     list: &[Derivation],
@@ -60,100 +71,80 @@ pub(super) fn derived(
     is_drawn: impl Fn(&Columns, (Parameter, usize)) -> bool,
     nominal: &SceneInput,
 ) -> (Vec<Derived>, Vec<DispersionError>) {
-    let mut found = Vec::new();
-    let mut errors = Vec::new();
-    let mut open: Vec<(usize, (Parameter, usize), Expression, &str)> = Vec::new();
-    for (index, derivation) in list.iter().enumerate() {
-        let parameter = derivation.parameter;
-        let components = components_of(&(parameter, derivation.component));
+    let (mut found, mut errors, mut open) = (Vec::new(), Vec::new(), Vec::<Open<'_>>::new());
+    for Derivation { table, parameter, component, expression: text, .. } in list {
         let mut refuse = |key, value: String, allowed: String, remedy: &str| {
-            errors.push(error_of(Table::Derive(index), key, value, allowed, remedy));
+            errors.push(error_of(Table::Derive(*table), key, value, allowed, remedy));
         };
-        let expression = match Expression::parse(&derivation.expression) {
+        let expression = match Expression::parse(text) {
             Ok(expression) => expression,
             Err(allowed) => {
                 let remedy = "operators are + - * / ^ and comparisons; names are those of parameters";
-                refuse("expression", format!("{:?}", derivation.expression), allowed, remedy);
+                refuse("expression", format!("{text:?}"), allowed, remedy);
                 continue;
             }
         };
-        for (_, component) in components {
-            let shown = format!("{:?}", parameter.component_name(component));
-            let is_taken = is_drawn(columns, (parameter, component))
-                || open.iter().any(|(_, target, ..)| *target == (parameter, component));
-            if !parameter.exists(nominal) {
-                refuse("parameter", shown, HAS_KEY.to_owned(), GIVE_KEY);
+        for target in components_of(&(*parameter, *component)) {
+            let (allowed, remedy) = if !parameter.exists(nominal) {
+                (HAS_KEY, GIVE_KEY)
             } else if parameter.shape() == Shape::Quaternion {
-                let allowed = "other than an attitude, which changes as a whole".to_owned();
-                refuse("parameter", shown, allowed, "disperse the attitude");
-            } else if is_taken {
-                refuse(
-                    "parameter",
-                    shown,
-                    "given a value once".to_owned(),
-                    "delete one of the tables that give it one",
-                );
+                ("other than an attitude, which changes as a whole", "disperse the attitude")
+            } else if is_drawn(columns, target) || open.iter().any(|other| other.target == target) {
+                ("given a value once", "delete one of the tables that give it one")
             } else {
-                open.push((index, (parameter, component), expression.clone(), &derivation.expression));
+                open.push(Open { table: *table, target, expression: expression.clone(), inputs: Vec::new(), text });
                 continue;
-            }
+            };
+            refuse("parameter", format!("{:?}", parameter.component_name(target.1)), allowed.to_owned(), remedy);
             break;
         }
     }
-    // errors of variables
-    open.retain(|(index, _, expression, _)| {
-        let wrong = expression.variables().iter().find_map(|name| variable(name, nominal).err().map(|why| (name, why)));
-        if let Some((name, (allowed, remedy))) = &wrong {
-            errors.push(error_of(
-                Table::Derive(*index),
-                "expression",
-                format!("{name:?}"),
-                allowed.clone(),
-                remedy.clone(),
-            ));
+    open.retain_mut(|one| {
+        for name in one.expression.variables() {
+            match variable(name, nominal) {
+                Ok(input) => one.inputs.push(input),
+                Err((allowed, remedy)) => {
+                    let value = format!("{name:?}");
+                    errors.push(error_of(Table::Derive(one.table), "expression", value, allowed, remedy));
+                    return false;
+                }
+            }
         }
-        wrong.is_none()
+        true
     });
     while !open.is_empty() && errors.is_empty() {
-        let waits = |target: &(Parameter, usize)| open.iter().any(|(_, other, ..)| other == target);
-        let ready = open.iter().position(|(_, _, expression, _)| {
-            !expression.variables().iter().any(|name| variable(name, nominal).is_ok_and(|(target, _)| waits(&target)))
-        });
-        let Some(ready) = ready else {
-            let (index, target, _, text) = &open[0];
+        let waits =
+            |one: &Open<'_>| open.iter().any(|other| one.inputs.iter().any(|(input, _)| *input == other.target));
+        let Some(ready) = open.iter().position(|one| !waits(one)) else {
+            let Open { table, target, text, .. } = &open[0];
             let allowed =
                 format!("made of values that do not depend on {} themselves", target.0.component_name(target.1));
             let remedy = "break the cycle: one of them needs a value of its own";
-            errors.push(error_of(Table::Derive(*index), "expression", format!("{text:?}"), allowed, remedy));
+            errors.push(error_of(Table::Derive(*table), "expression", format!("{text:?}"), allowed, remedy));
             break;
         };
-        let (index, (parameter, component), expression, text) = open.remove(ready);
-        let sources = expression
-            .variables()
-            .iter()
-            .filter_map(|name| variable(name, nominal).ok())
-            .map(|(target, value)| match columns.find(target) {
-                Some(column) => DerivedInput::Column(column),
-                None => DerivedInput::Nominal(value),
-            })
-            .collect();
+        let Open { table, target: (parameter, component), expression, inputs, text } = open.remove(ready);
+        let source = |(input, value)| columns.find(input).map_or(DerivedInput::Nominal(value), DerivedInput::Column);
+        let sources = inputs.into_iter().map(source).collect();
         let column = columns.add(parameter, component, nominal);
         let derived = Derived { column, expression, sources, text: text.to_owned() };
         let at_nominal = derived.value(|column| columns.list()[column].nominal);
         let written = columns.list()[column].nominal;
-        let near = (at_nominal - written).abs() <= NOMINAL_SLACK * at_nominal.abs().max(written.abs());
+        let slack = NOMINAL_SLACK * at_nominal.abs().max(written.abs());
+        let is_near = at_nominal.is_finite() && (at_nominal - written).abs() <= slack;
         // NaN is the scene's error
-        if !at_nominal.is_finite() && written.is_finite() {
-            let allowed = "a finite number in the nominal scene".to_owned();
-            let remedy = "a division by zero, or a root or logarithm of a negative number: change the expression";
-            errors.push(error_of(Table::Derive(index), "expression", format!("{at_nominal:?}"), allowed, remedy));
-        } else if !near && written.is_finite() {
-            let allowed = format!(
-                "equal to the nominal {} = {written:?} in the nominal scene",
-                parameter.component_name(component)
-            );
-            let remedy = format!("write the nominal value {at_nominal:?}, or change the expression");
-            errors.push(error_of(Table::Derive(index), "expression", format!("{at_nominal:?}"), allowed, remedy));
+        if !is_near && written.is_finite() {
+            let name = parameter.component_name(component);
+            let (allowed, remedy) = if at_nominal.is_finite() {
+                (
+                    format!("equal to the nominal {name} = {written:?} in the nominal scene"),
+                    format!("write the nominal value {at_nominal:?}, or change the expression"),
+                )
+            } else {
+                let remedy = "a division by zero, or a root or logarithm of a negative number: change the expression";
+                ("a finite number in the nominal scene".to_owned(), remedy.to_owned())
+            };
+            errors.push(error_of(Table::Derive(table), "expression", format!("{at_nominal:?}"), allowed, remedy));
         }
         found.push(derived);
     }

@@ -4,9 +4,9 @@ use super::columns::{Column, Columns};
 use super::copula::Copula;
 use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
-use super::design::{Design, Dimensions, MAX_SAMPLES, Points, Size};
+use super::design::{Design, Dimensions, MAX_SAMPLES, PointSource, Size};
 use super::distribution::target::Target;
-use super::distribution::{Distribution, Joint, Map, NumberWords, Quantile, WrittenDistribution};
+use super::distribution::{Distribution, Joint, NumberWords, WrittenDistribution};
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error, error_of};
 use super::keys::DataColumn;
 use crate::scene::parameter::Shape;
@@ -15,6 +15,8 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dispersion {
+    /// Index of its table in the file.
+    pub table: usize,
     /// The first of several.
     pub parameter: Parameter,
     /// One component; `None` for all.
@@ -75,10 +77,10 @@ impl Dispersions {
             derived: Vec::new(),
         };
         let mut errors: Vec<DispersionError> = Vec::new();
-        for (index, dispersion) in draws.disperse.iter().enumerate() {
-            errors.extend(these.add(index, dispersion, nominal).err());
+        for dispersion in draws.disperse {
+            errors.extend(these.add(dispersion, nominal).err());
         }
-        for column in draws.design.columns() {
+        for column in draws.design.written().columns() {
             errors.extend(these.add_tabled(column, nominal).err());
         }
         if errors.is_empty() {
@@ -161,10 +163,10 @@ impl Dispersions {
         random.enumerate().flat_map(|(factor, count)| vec![factor; count]).collect()
     }
 
-    pub fn points(&self) -> Points {
+    pub fn points(&self) -> Box<dyn PointSource> {
         let factors = self.factors();
         let (seed, samples, names) = (self.seed, self.samples, self.dimensions.as_slice());
-        Points::new(&self.design, Dimensions { seed, samples, names, factors: &factors })
+        self.design.points(Dimensions { seed, samples, names, factors: &factors })
     }
 
     fn distribution_at(&self, component: (Parameter, usize)) -> Option<&Assigned> {
@@ -193,14 +195,14 @@ impl Dispersions {
         Ok(())
     }
 
-    fn add(&mut self, index: usize, dispersion: &Dispersion, nominal: &SceneInput) -> Result<(), DispersionError> {
-        let Dispersion { parameter, component, distribution } = dispersion;
+    fn add(&mut self, dispersion: &Dispersion, nominal: &SceneInput) -> Result<(), DispersionError> {
+        let Dispersion { table, parameter, component, distribution } = dispersion;
         let components = dispersion.components();
-        self.check_components(index, dispersion, &components, nominal)?;
+        self.check_components(dispersion, &components, nominal)?;
         let nominals: Vec<f64> = components.iter().filter_map(|(p, c)| p.value(nominal, *c)).collect();
         let WrittenDistribution { kind, written } = distribution;
         let target = Target {
-            index,
+            index: *table,
             parameter: *parameter,
             component: *component,
             nominals: &nominals,
@@ -223,7 +225,7 @@ impl Dispersions {
                 }
             }
             let columns = components.iter().map(|component| self.add_column(*component, nominal)).collect();
-            self.assigned.push(Assigned { table: index, first, columns, map });
+            self.assigned.push(Assigned { first, columns, map });
         }
         Ok(())
     }
@@ -240,14 +242,13 @@ impl Dispersions {
 
     fn check_components(
         &self,
-        index: usize,
         dispersion: &Dispersion,
         components: &[(Parameter, usize)],
         nominal: &SceneInput,
     ) -> Result<(), DispersionError> {
         let key = if dispersion.distribution.written.columns().is_empty() { "parameter" } else { "parameters" };
         let refused = |(parameter, component): (Parameter, usize), allowed: &str, remedy: &str| {
-            Err(error(index, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
+            Err(error(dispersion.table, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
         };
         if let Some(missing) = components.iter().find(|(parameter, _)| !parameter.exists(nominal)) {
             return refused(*missing, HAS_KEY, GIVE_KEY);
@@ -309,7 +310,6 @@ fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -
 /// A distribution with its dimensions and columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assigned {
-    pub table: usize,
     pub first: usize,
     /// In the order of the distribution's values.
     pub columns: Vec<usize>,

@@ -59,6 +59,14 @@ impl Function {
             Function::If => "if",
         }
     }
+
+    fn arguments(&self) -> usize {
+        match self {
+            Function::One(..) => 1,
+            Function::Two(..) => 2,
+            Function::If => 3,
+        }
+    }
 }
 
 impl PartialEq for Function {
@@ -149,17 +157,33 @@ impl Expression {
     }
 
     fn depth(&self) -> usize {
-        let (mut top, mut most) = (0usize, 0);
+        let (mut top, mut most) = (0, 0);
         for step in &self.steps {
-            match step {
-                Step::Number(_) | Step::Variable(_) => top += 1,
-                Step::Negate | Step::Function(Function::One(..)) => {}
-                Step::Binary(_) | Step::Function(Function::Two(..)) => top -= 1,
-                Step::Function(Function::If) => top -= 2,
-            }
+            top = top + 1 - step.operands();
             most = most.max(top);
         }
         most
+    }
+
+    /// What `of` makes of the whole, step by step: of a step and what it made of the operands.
+    fn fold<T>(&self, mut of: impl FnMut(&Step, &[T]) -> T) -> Option<T> {
+        let mut stack: Vec<T> = Vec::new();
+        for step in &self.steps {
+            let operands = stack.split_off(stack.len().checked_sub(step.operands())?);
+            stack.push(of(step, &operands));
+        }
+        stack.pop()
+    }
+}
+
+impl Step {
+    fn operands(&self) -> usize {
+        match self {
+            Step::Number(_) | Step::Variable(_) => 0,
+            Step::Negate => 1,
+            Step::Binary(_) => 2,
+            Step::Function(function) => function.arguments(),
+        }
     }
 }
 
@@ -340,11 +364,7 @@ impl Parser<'_> {
             let names = FUNCTIONS.map(|known| known.name()).join(", ");
             return Err(self.expected(&format!("a function ({names}), not {name:?},")));
         };
-        let arguments = match function {
-            Function::One(..) => 1,
-            Function::Two(..) => 2,
-            Function::If => 3,
-        };
+        let arguments = function.arguments();
         for argument in 0..arguments {
             if argument > 0 && !self.take(",") {
                 return Err(self.expected(&format!("\",\" ({name} takes {arguments})")));

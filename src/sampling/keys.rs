@@ -3,6 +3,7 @@
 
 use crate::scene::{Name, Parameter};
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 use std::ops::{Bound, RangeBounds};
 use std::sync::Arc;
 
@@ -218,7 +219,7 @@ impl Row {
             (_, Presence::Or(number)) => Some(number.into()),
             (_, Presence::Required { .. }) => None,
             (Kind::Flag, _) => Some(false.into()),
-            (Kind::Word(words), _) => words.first().map(|word| Value::Word(word)),
+            (Kind::Word(words), _) => words.first().map(|word| (*word).into()),
             _ => None,
         }
     }
@@ -294,41 +295,53 @@ impl Condition {
     }
 }
 
-#[derive(Clone, Debug, PartialEq)]
-pub enum Values {
-    All(f64),
-    /// In the order of the components.
-    Each(Vec<f64>),
+/// One value, a list, or rows; Debug writes them as a campaign file does.
+#[derive(Clone, PartialEq)]
+pub enum Values<T = f64> {
+    One(T),
+    /// In the order of the components or of the file.
+    Each(Vec<T>),
+    Rows(Vec<Vec<T>>),
 }
 
-impl Values {
-    pub fn text(&self) -> String {
+impl<T: Debug> Debug for Values<T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Values::All(value) => format!("{value:?}"),
-            Values::Each(list) => format!("{list:?}"),
-        }
-    }
-
-    pub fn numbers(&self) -> &[f64] {
-        match self {
-            Values::All(value) => std::slice::from_ref(value),
-            Values::Each(list) => list,
-        }
-    }
-
-    pub fn over(self, divisor: f64) -> Self {
-        match self {
-            Values::All(value) => Values::All(value / divisor),
-            Values::Each(list) => Values::Each(list.into_iter().map(|value| value / divisor).collect()),
+            Values::One(value) => value.fmt(f),
+            Values::Each(list) => list.fmt(f),
+            Values::Rows(rows) => rows.fmt(f),
         }
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Counts {
-    All(u64),
-    /// In the order of the file.
-    Each(Vec<u64>),
+impl<T: Clone> Values<T> {
+    /// Whether they are a number, three rows of three, or a list of `count` numbers.
+    pub fn are(&self, count: usize) -> bool {
+        match (count, self) {
+            (1, values) => matches!(values, Values::One(_)),
+            (9, Values::Rows(rows)) => rows.len() == 3 && rows.iter().all(|row| row.len() == 3),
+            (count, Values::Each(list)) => count != 9 && list.len() == count,
+            _ => false,
+        }
+    }
+
+    #[must_use]
+    pub fn map(&self, of: impl Fn(&T) -> T) -> Self {
+        match self {
+            Values::One(value) => Values::One(of(value)),
+            Values::Each(list) => Values::Each(list.iter().map(of).collect()),
+            Values::Rows(rows) => Values::Rows(rows.iter().map(|row| row.iter().map(&of).collect()).collect()),
+        }
+    }
+
+    /// All values in turn.
+    pub fn flat(&self) -> Vec<T> {
+        match self {
+            Values::One(value) => vec![value.clone()],
+            Values::Each(list) => list.clone(),
+            Values::Rows(rows) => rows.concat(),
+        }
+    }
 }
 
 /// A column of a data file.
@@ -352,25 +365,12 @@ impl DataColumn {
     }
 }
 
-/// Correlations of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Numbers {
-    /// For two components.
-    One(f64),
-    /// A square matrix of all components, or the block of one parameter with another.
-    Rows(Vec<Vec<f64>>),
-}
-
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// One number, one for each component, a list or a vector.
     Numbers(Values),
-    Matrix([[f64; 3]; 3]),
-    Correlations(Numbers),
-    Counts(Counts),
+    Counts(Values<u64>),
     Text(String),
-    Word(&'static str),
-    Words(Vec<&'static str>),
+    Texts(Vec<String>),
     /// Name and keys.
     Distribution(&'static str, Written),
     Column(DataColumn),
@@ -378,24 +378,18 @@ pub enum Value {
     Columns(Vec<DataColumn>),
     Flag(bool),
     ByName(Vec<(Name, f64)>),
-    Texts(Vec<String>),
     /// By column and parameter.
     Units(BTreeMap<String, &'static str>),
 }
 
 impl Value {
     pub fn text(&self) -> Option<&str> {
-        match self {
-            Value::Text(text) => Some(text),
-            Value::Word(word) => Some(word),
-            _ => None,
-        }
+        if let Value::Text(text) = self { Some(text) } else { None }
     }
 
     fn is_empty(&self) -> bool {
         match self {
             Value::Text(text) => text.is_empty(),
-            Value::Words(list) => list.is_empty(),
             Value::Texts(list) => list.is_empty(),
             Value::Units(list) => list.is_empty(),
             _ => false,
@@ -405,7 +399,7 @@ impl Value {
 
 impl From<f64> for Value {
     fn from(number: f64) -> Self {
-        Value::Numbers(Values::All(number))
+        Value::Numbers(Values::One(number))
     }
 }
 
@@ -423,7 +417,7 @@ impl From<bool> for Value {
 
 impl From<u64> for Value {
     fn from(count: u64) -> Self {
-        Value::Counts(Counts::All(count))
+        Value::Counts(Values::One(count))
     }
 }
 
@@ -493,11 +487,15 @@ impl Written {
     }
 
     pub fn numbers(&self, key: &str) -> Option<&[f64]> {
-        self.values(key).map(Values::numbers)
+        match self.values(key)? {
+            Values::One(number) => Some(std::slice::from_ref(number)),
+            Values::Each(list) => Some(list),
+            Values::Rows(_) => None,
+        }
     }
 
     pub fn matrix(&self, key: &str) -> Option<[[f64; 3]; 3]> {
-        if let Value::Matrix(rows) = self.get(key)? { Some(*rows) } else { None }
+        if let Values::Rows(rows) = self.values(key)? { rows.concat().as_chunks().0.try_into().ok() } else { None }
     }
 
     pub fn vector(&self, key: &str) -> Option<[f64; 3]> {
@@ -514,11 +512,11 @@ impl Written {
     }
 
     pub fn number(&self, key: &str) -> Option<f64> {
-        if let Value::Numbers(Values::All(number)) = self.get(key)? { Some(*number) } else { None }
+        if let Values::One(number) = self.values(key)? { Some(*number) } else { None }
     }
 
     pub fn count(&self, key: &str) -> Option<u64> {
-        if let Value::Counts(Counts::All(count)) = self.get(key)? { Some(*count) } else { None }
+        if let Value::Counts(Values::One(count)) = self.get(key)? { Some(*count) } else { None }
     }
 
     /// Whether `key` is true.

@@ -26,7 +26,7 @@ pub mod stream;
 pub use columns::Column;
 pub use correlation::{Correlation, Measure, Replaced};
 pub use derivation::Derivation;
-pub use design::{Design, Points};
+pub use design::Design;
 pub use dispersions::{Dispersion, Dispersions, Draws, Transform};
 pub use distribution::{Distribution, DistributionKind, Joint, NumberWords, WrittenDistribution};
 pub use error::{DispersionError, Table};

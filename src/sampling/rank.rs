@@ -9,7 +9,7 @@
 //! Discrete distributions reach rank correlation 1 only with the same steps.
 
 use super::copula::score_correlation;
-use super::distribution::{Distribution, Quantile};
+use super::distribution::Distribution;
 use crate::math::normal::quantile;
 use core::f64::consts::{FRAC_PI_2, TAU};
 

@@ -3,11 +3,10 @@
 //! Recorded values are read back from the scene after quaternions are renormalised. An unphysical draw is not repeated:
 //! the scene refuses it later.
 
-use super::columns::Column;
-use super::design::{BLOCK, PointSource, Points};
+use super::design::{BLOCK, PointSource};
 use super::dispersions::{Assigned, Dispersions, Transform};
+use super::distribution::Joint;
 use super::distribution::traits::MAX_DIMENSIONS;
-use super::distribution::{Joint, Map, Quantile};
 use super::stream::SampleId;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
@@ -16,7 +15,7 @@ use crate::scene::{Parameter, SceneInput};
 #[derive(Debug)]
 pub struct Sampler<'a> {
     dispersions: &'a Dispersions,
-    points: Points,
+    points: Box<dyn PointSource>,
     block: Option<u64>,
     u: Vec<[f64; BLOCK]>,
     /// Dimensions at nominal values, in one-at-a-time designs.
@@ -34,28 +33,37 @@ pub struct Sampler<'a> {
 impl Dispersions {
     /// Allocates; drawing does not.
     pub fn sampler(&self) -> Sampler<'_> {
-        Sampler::new(self)
+        let (dimensions, columns) = (self.dimensions.len(), self.columns());
+        let normalised: Vec<Parameter> = columns
+            .iter()
+            .filter(|column| column.component == 0 && column.parameter.shape() == Shape::Quaternion)
+            .map(|column| column.parameter)
+            .collect();
+        let is_row = |column| matches!(self.distribution_of(column), Some(Transform::Joint(Joint::Bootstrap(_))));
+        let of_files = |parameter: &Parameter| {
+            let of_file = |index: &usize| self.is_tabled(*index) || is_row(*index);
+            (0..columns.len()).filter(|index| columns[*index].parameter == *parameter).filter(of_file).count()
+        };
+        let mut correlated = vec![false; dimensions];
+        self.copulas.iter().flat_map(|copula| &copula.dimensions).for_each(|dimension| correlated[*dimension] = true);
+        Sampler {
+            dispersions: self,
+            points: self.points(),
+            block: None,
+            u: vec![[0.5; BLOCK]; dimensions],
+            nominal: vec![[false; BLOCK]; dimensions],
+            scores: vec![[0.0; BLOCK]; dimensions],
+            correlated,
+            // columns without a distribution keep their nominal value
+            values: columns.iter().map(|column| [column.nominal; BLOCK]).collect(),
+            together: vec![0.0; self.assigned.iter().map(|assigned| assigned.columns.len()).max().unwrap_or(0)],
+            recorded: normalised.iter().copied().filter(|one| of_files(one) == one.width()).collect(),
+            normalised,
+        }
     }
 }
 
-impl<'a> Sampler<'a> {
-    fn new(dispersions: &'a Dispersions) -> Self {
-        Sampler {
-            dispersions,
-            points: dispersions.points(),
-            block: None,
-            u: vec![[0.5; BLOCK]; dispersions.dimensions.len()],
-            nominal: vec![[false; BLOCK]; dispersions.dimensions.len()],
-            scores: vec![[0.0; BLOCK]; dispersions.dimensions.len()],
-            correlated: correlated(dispersions),
-            // columns without a distribution keep their nominal value
-            values: dispersions.columns().iter().map(|column| [column.nominal; BLOCK]).collect(),
-            together: vec![0.0; most_together(dispersions)],
-            normalised: normalised(dispersions),
-            recorded: recorded(dispersions),
-        }
-    }
-
+impl Sampler<'_> {
     /// Writes the dispersed numbers of `sample` into `scene`, a copy of the nominal scene or of an earlier draw, and
     /// the applied values, one a column. Sample 0 is nominal.
     ///
@@ -183,34 +191,4 @@ impl<'a> Sampler<'a> {
             }
         }
     }
-}
-
-fn correlated(dispersions: &Dispersions) -> Vec<bool> {
-    let mut correlated = vec![false; dispersions.dimensions.len()];
-    dispersions
-        .copulas
-        .iter()
-        .flat_map(|copula| &copula.dimensions)
-        .for_each(|dimension| correlated[*dimension] = true);
-    correlated
-}
-
-fn most_together(dispersions: &Dispersions) -> usize {
-    dispersions.assigned.iter().map(|assigned| assigned.columns.len()).max().unwrap_or(0)
-}
-
-/// Quaternions that a file gives as a whole.
-fn recorded(dispersions: &Dispersions) -> Vec<Parameter> {
-    let is_row = |column| matches!(dispersions.distribution_of(column), Some(Transform::Joint(Joint::Bootstrap(_))));
-    let tabled = dispersions.columns().iter().enumerate();
-    let tabled = tabled.filter(|(index, _)| dispersions.is_tabled(*index) || is_row(*index));
-    let numbers: Vec<Parameter> = tabled.map(|(_, column)| column.parameter).collect();
-    let is_whole =
-        |parameter: &Parameter| numbers.iter().filter(|other| *other == parameter).count() == parameter.width();
-    normalised(dispersions).into_iter().filter(is_whole).collect()
-}
-
-fn normalised(dispersions: &Dispersions) -> Vec<Parameter> {
-    let first = |column: &&Column| column.component == 0 && column.parameter.shape() == Shape::Quaternion;
-    dispersions.columns().iter().filter(first).map(|column| column.parameter).collect()
 }

@@ -155,7 +155,7 @@ fn drawn(parameter: Parameter, component: usize, nominal: &SceneInput) -> (Scene
     let std = SPREAD * if value == 0.0 { 1.0 } else { value.abs() };
     let distribution =
         WrittenDistribution { kind: DistributionKind::Normal, written: Written::default().with("std", std) };
-    let list = [Dispersion { parameter, component: Some(component), distribution }];
+    let list = [Dispersion { table: 0, parameter, component: Some(component), distribution }];
     let drawn = dispersions(nominal, &list).unwrap_or_else(|errors| panic!("{}", errors[0]));
     let (mut scene, mut applied) = (nominal.clone(), vec![f64::NAN; drawn.columns().len()]);
     drawn.sampler().draw(SampleId(1), &mut scene, &mut applied);

@@ -2,7 +2,6 @@
 
 use crate::support::draws::distance;
 use crate::support::prelude::*;
-use spindrift::sampling::distribution::Quantile;
 use spindrift::sampling::distribution::beta::Beta;
 use spindrift::sampling::distribution::choice::Choice;
 use spindrift::sampling::distribution::empirical::{Empirical, Interpolation};

@@ -3,8 +3,8 @@
 use crate::support::prelude::*;
 use spindrift::analysis::effects::{TestedInput, on_spread};
 use spindrift::math::normal::quantile;
-use spindrift::sampling::design::replicates::Replicates;
-use spindrift::sampling::design::{Dimensions, PointSource, Points};
+use spindrift::sampling::Written;
+use spindrift::sampling::design::Dimensions;
 use spindrift::statistics::correlation::ascending_order;
 
 const CAMPAIGNS: u64 = 300;
@@ -13,7 +13,7 @@ pub fn numbers(design: &Design, seed: u64, dimensions: usize, points: u64) -> Ve
     let names: Vec<String> = (0..dimensions).map(|k| format!("d{k}")).collect();
     let factors: Vec<usize> = (0..dimensions).collect();
     let of = Dimensions { seed, samples: points + 1, names: &names, factors: &factors };
-    let (mut source, mut u) = (Points::new(design, of), vec![[0.0; 8]; dimensions]);
+    let (mut source, mut u) = (design.points(of), vec![[0.0; 8]; dimensions]);
     let mut inputs = vec![Vec::new(); dimensions];
     for block in 0..=points / 8 {
         source.fill(block, &mut u);
@@ -45,15 +45,14 @@ fn named(design: &Design, dimensions: usize, points: u64) -> u64 {
 /// sequence with too few points binds inputs to each other.
 #[test]
 fn what_does_nothing_is_seldom_named() {
-    let one = Replicates::ONE;
-    let sobol = Design::Sobol(one);
-    let others = [Design::Random(()), Design::LatinHypercube(one)];
+    let sobol = Design::Sobol(Written::NONE);
+    let others = [Design::DEFAULT, Design::LatinHypercube(Written::NONE)];
     let mut cases = Vec::new();
     for design in &others {
         cases.extend([(5, 64), (10, 256), (50, 64), (50, 256), (50, 1000), (6, 1024)].map(|case| (design, case)));
     }
     cases.extend([(3, 128), (3, 256), (5, 512), (6, 1024), (6, 1000)].map(|case| (&sobol, case)));
-    let halton = Design::Halton(one);
+    let halton = Design::Halton(Written::NONE);
     cases.extend([(3, 30), (4, 30), (5, 97), (6, 251), (8, 1050), (10, 3169)].map(|case| (&halton, case)));
     for (design, (dimensions, points)) in cases {
         assert_eq!(design.bound(dimensions, points), None);

@@ -1,8 +1,8 @@
 //! Replicates of a design: each is a design of its kind, and independent of the others.
 
 use crate::support::prelude::*;
-use spindrift::sampling::design::replicates::Replicates;
-use spindrift::sampling::design::{BLOCK, Dimensions, PointSource, Points};
+use spindrift::sampling::Written;
+use spindrift::sampling::design::{BLOCK, Dimensions};
 
 const DIMENSIONS: usize = 4;
 
@@ -11,14 +11,13 @@ fn names() -> Vec<String> {
 }
 
 fn designs(replicates: u64) -> [Design; 3] {
-    let replicates = Replicates::of(replicates).unwrap();
-    [Design::LatinHypercube(replicates), Design::Sobol(replicates), Design::Halton(replicates)]
+    let written = || Written::NONE.with("replicates", replicates);
+    [Design::LatinHypercube(written()), Design::Sobol(written()), Design::Halton(written())]
 }
 
 fn numbers(design: &Design, seed: u64, points: u64) -> Vec<[f64; DIMENSIONS]> {
     let names = names();
-    let mut source =
-        Points::new(design, Dimensions { seed, samples: points + 1, names: &names, factors: &[0, 1, 2, 3] });
+    let mut source = design.points(Dimensions { seed, samples: points + 1, names: &names, factors: &[0, 1, 2, 3] });
     let (mut u, mut found) = (vec![[0.0; BLOCK]; DIMENSIONS], Vec::new());
     for block in 0..=points / BLOCK as u64 {
         source.fill(block, &mut u);
@@ -118,7 +117,7 @@ fn means(design: &Design) -> Vec<f64> {
 fn means_of_replicates_are_independent_and_vary_little() {
     const COUNT: u64 = 256;
     const ERRORS: f64 = 3.9;
-    let random = numbers(&Design::Random(()), 3, 64 * COUNT);
+    let random = numbers(&Design::DEFAULT, 3, 64 * COUNT);
     let random: Vec<f64> = random
         .chunks_exact(64)
         .map(|points| points.iter().map(|p| p.iter().map(|x| 0.5 + x).product::<f64>()).sum::<f64>() / 64.0)

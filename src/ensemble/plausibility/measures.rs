@@ -180,7 +180,7 @@ pub fn wide_spreads(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
             match value {
                 Value::Distribution(_, within) => of(name, within, note),
                 Value::Numbers(values) if key.starts_with("relative_") => {
-                    note(largest(values.numbers().iter().copied()), format!("{name}, {key} = {}", values.text()));
+                    note(largest(values.flat().into_iter()), format!("{name}, {key} = {values:?}"));
                 }
                 _ => {}
             }

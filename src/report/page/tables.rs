@@ -16,7 +16,6 @@ use crate::report::page::readable::{in_brackets, number, with_unit};
 use crate::report::page::runs::ShownRun;
 use crate::run::Status;
 use crate::sampling::Transform;
-use crate::sampling::distribution::traits::Quantile;
 
 /// Listed inputs of a run: the farthest from nominal in units of their spread.
 const MOST_INPUTS: usize = 3;

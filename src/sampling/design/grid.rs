@@ -1,7 +1,9 @@
 //! `grid`: all combinations of levels; the first dimension changes fastest.
 
-use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
+use super::levels::{self, LEVELS, Levels, ONE_OF_LEVELS};
 use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, Size, by_point};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::Written;
 
 #[derive(Debug)]
 pub struct Grid {
@@ -27,14 +29,19 @@ impl Kind for Grid {
         ]),
         ..Facts::new("grid", &LEVELS, &[ONE_OF_LEVELS])
     };
-    type Options = Levels;
 
-    fn size(levels: &Levels, dimensions: usize) -> Size {
+    fn size(written: &Written, dimensions: usize) -> Size {
+        let levels = Levels::of(written);
         let product = (0..dimensions).try_fold(1u64, |product, k| product.checked_mul(levels.count(k)));
         product.map_or(Size::TooMany, Size::Points)
     }
 
-    fn points(levels: &Levels, dimensions: Dimensions<'_>) -> Self {
-        Grid { strides: levels.running(dimensions.names.len(), 1, u64::saturating_mul), levels: levels.clone() }
+    fn check(written: &Written, dimensions: Dimensions<'_>, _: Option<u64>) -> Result<(), DispersionError> {
+        levels::check(written, dimensions)
+    }
+
+    fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {
+        let levels = Levels::of(written);
+        Grid { strides: levels.running(dimensions.names.len(), 1, u64::saturating_mul), levels }
     }
 }

@@ -6,8 +6,10 @@
 //! CT-RSA 2002). Within it a sample lies as in the random design. n = samples - 1, without the nominal scene.
 
 use super::hash::keyed;
-use super::replicates::{REPLICATES, Replicates};
-use super::traits::{BLOCK, Dimensions, Facts, Kind, Options, PointSource, streams};
+use super::replicates::{self, REPLICATES};
+use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, streams};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::Written;
 use crate::sampling::stream::{Stream, key};
 
 /// Four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two more for safety.
@@ -88,13 +90,16 @@ impl Kind for LatinHypercube {
         ]),
         ..Facts::new("latin_hypercube", &[REPLICATES], &[])
     };
-    type Options = Replicates;
 
-    fn points(replicates: &Replicates, dimensions: Dimensions<'_>) -> Self {
+    fn check(written: &Written, _: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+        replicates::check(written, samples)
+    }
+
+    fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {
         let Dimensions { seed, samples, names, .. } = dimensions;
-        let strata = (samples.saturating_sub(1) / replicates.replicates()).max(1);
+        let strata = (samples.saturating_sub(1) / replicates::count(written)).max(1);
         let permutation = |name: &String| Permutation::new(strata, key(seed, name, *b"latin   "));
-        let scrambled = replicates.names(names);
+        let scrambled = replicates::scrambling_names(written, names);
         let of_dimension = |dimension: usize| scrambled.iter().map(|names| permutation(&names[dimension])).collect();
         let permutations = (0..names.len()).map(of_dimension).collect();
         LatinHypercube { strata, permutations, within: streams(seed, names) }

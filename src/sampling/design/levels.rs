@@ -3,9 +3,9 @@
 //! A level is a value of u: the midpoints of n equally likely intervals, (i + 1/2)/n, or the listed quantiles. Levels
 //! are computed on demand, so their number costs no memory.
 
-use super::traits::{MAX_SAMPLES, Options};
+use super::traits::{Dimensions, MAX_SAMPLES};
 use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{ALL_BUT_ONE, Counts, Kind, Row, Rule, Value, Values, Written, inside};
+use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values, Written, inside};
 
 pub const LEVELS: [Row; 2] = [
     Row::new(
@@ -26,17 +26,25 @@ pub const ONE_OF_LEVELS: Rule = Rule::One(&[&["levels"], &["quantiles"]], "5", A
 #[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
     /// Their number (`levels = 5`, or `levels = [5, 3]` in the order of the file).
-    Counts(Counts),
+    Counts(Values<u64>),
     /// The same quantiles in each dimension (`quantiles = [0.05, 0.5, 0.95]`).
     Quantiles(Vec<f64>),
 }
 
 impl Levels {
+    pub(super) fn of(written: &Written) -> Self {
+        match written.get("levels") {
+            Some(Value::Counts(counts)) => Levels::Counts(counts.clone()),
+            _ => Levels::Quantiles(written.numbers("quantiles").unwrap_or_default().to_vec()),
+        }
+    }
+
     /// Number of levels of a dimension; one, the median, if the list is too short.
     pub fn count(&self, dimension: usize) -> u64 {
         match self {
-            Levels::Counts(Counts::All(count)) => *count,
-            Levels::Counts(Counts::Each(counts)) => counts.get(dimension).copied().unwrap_or(1),
+            Levels::Counts(Values::One(count)) => *count,
+            Levels::Counts(Values::Each(counts)) => counts.get(dimension).copied().unwrap_or(1),
+            Levels::Counts(Values::Rows(_)) => 1,
             Levels::Quantiles(list) => list.len() as u64,
         }
     }
@@ -56,31 +64,15 @@ impl Levels {
     }
 }
 
-impl Options for Levels {
-    fn read(written: &Written) -> Self {
-        match written.get("levels") {
-            Some(Value::Counts(counts)) => Levels::Counts(counts.clone()),
-            _ => Levels::Quantiles(written.numbers("quantiles").unwrap_or_default().to_vec()),
+/// A list has one number of levels for each dimension.
+pub(super) fn check(written: &Written, dimensions: Dimensions<'_>) -> Result<(), DispersionError> {
+    let dimensions = dimensions.names.len();
+    match written.get("levels") {
+        Some(Value::Counts(Values::Each(list))) if list.len() != dimensions => {
+            let allowed = format!("one number, or {dimensions} in an array, as many as random dimensions");
+            let remedy = "write them in the order of the file's [[disperse]] tables";
+            Err(error_of(Table::Design, "levels", format!("{list:?}"), allowed, remedy))
         }
-    }
-
-    fn written(&self) -> Written {
-        let (key, value) = match self {
-            Levels::Counts(counts) => ("levels", Value::Counts(counts.clone())),
-            Levels::Quantiles(list) => ("quantiles", Value::Numbers(Values::Each(list.clone()))),
-        };
-        Written::default().with(key, value)
-    }
-
-    /// A list has one number of levels for each dimension.
-    fn check(&self, dimensions: usize, _samples: Option<u64>) -> Result<(), DispersionError> {
-        match self {
-            Levels::Counts(Counts::Each(list)) if list.len() != dimensions => {
-                let allowed = format!("one number, or {dimensions} in an array, as many as random dimensions");
-                let remedy = "write them in the order of the file's [[disperse]] tables";
-                Err(error_of(Table::Design, "levels", format!("{list:?}"), allowed, remedy))
-            }
-            _ => Ok(()),
-        }
+        _ => Ok(()),
     }
 }

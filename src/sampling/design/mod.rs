@@ -32,7 +32,7 @@ pub mod sobol;
 pub mod table;
 pub mod traits;
 
-pub use traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, NOMINAL, Options, PointSource, Size};
+pub use traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, NOMINAL, PointSource, Size};
 
 use self::grid::Grid;
 use self::halton::Halton;
@@ -44,18 +44,18 @@ use self::saltelli::Saltelli;
 use self::sobol::Sobol;
 use self::table::TableRows;
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, Row, Rule, Written};
+use crate::sampling::keys::{Row, Rule, Written};
 use crate::sampling::stream::SampleId;
 
 /// Declares the enumeration of all designs and the calls that each passes on to its kind.
 macro_rules! designs {
     ($($Name:ident = $Kind:ty),* $(,)?) => {
-        /// A design, with its options.
+        /// A design, with its keys.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Design {
             $(
                 #[doc = concat!("See [`", stringify!($Kind), "`].")]
-                $Name(<$Kind as Kind>::Options),
+                $Name(Written),
             )*
         }
 
@@ -70,50 +70,36 @@ macro_rules! designs {
             }
 
             /// The design called `name` with the keys `written`.
-            pub fn of(name: &str, written: &Written) -> Option<Self> {
-                $( if name == <$Kind as Kind>::FACTS.name {
-                    return Some(Self::$Name(Options::read(written)));
-                } )*
-                None
+            pub fn of(name: &str, written: Written) -> Option<Self> {
+                let all: &[fn(Written) -> Self] = &[$(Self::$Name),*];
+                Self::NAMES.iter().position(|known| *known == name).map(|place| all[place](written))
             }
 
             pub fn facts(&self) -> Facts {
                 match self { $( Self::$Name(_) => <$Kind as Kind>::FACTS, )* }
             }
 
-            /// See [`Options::written`].
-            pub fn written(&self) -> Written {
-                match self { $( Self::$Name(options) => options.written(), )* }
-            }
-
-            /// See [`Options::replicates`].
-            pub fn replicates(&self) -> u64 {
-                match self { $( Self::$Name(options) => options.replicates(), )* }
-            }
-
-            /// See [`Options::columns`].
-            pub fn columns(&self) -> &[DataColumn] {
-                match self { $( Self::$Name(options) => options.columns(), )* }
+            /// Its keys as in canonical text.
+            pub fn written(&self) -> &Written {
+                match self { $( Self::$Name(written) )|* => written }
             }
 
             /// See [`Kind::size`].
             pub fn size(&self, dimensions: usize) -> Size {
-                match self { $( Self::$Name(options) => <$Kind as Kind>::size(options, dimensions), )* }
+                match self { $( Self::$Name(written) => <$Kind as Kind>::size(written, dimensions), )* }
             }
 
-            /// See [`Options::check`] and [`Kind::check`].
+            /// See [`Kind::check`].
             ///
             /// # Errors
             /// The key that does not fit.
             pub fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-                match self { $( Self::$Name(options) => {
-                    options.check(dimensions.names.len(), samples)?;
-                    <$Kind as Kind>::check(dimensions, samples)
-                } )* }
+                match self { $( Self::$Name(written) => <$Kind as Kind>::check(written, dimensions, samples), )* }
             }
 
-            fn points(&self, dimensions: Dimensions<'_>) -> Box<dyn PointSource> {
-                match self { $( Self::$Name(options) => Box::new(<$Kind as Kind>::points(options, dimensions)), )* }
+            /// Its points, for one worker.
+            pub fn points(&self, dimensions: Dimensions<'_>) -> Box<dyn PointSource> {
+                match self { $( Self::$Name(written) => Box::new(<$Kind as Kind>::points(written, dimensions)), )* }
             }
         }
     };
@@ -132,7 +118,7 @@ designs! {
 
 impl Design {
     /// The design of a file without `[design]`.
-    pub const DEFAULT: Design = Design::Random(());
+    pub const DEFAULT: Design = Design::Random(Written::NONE);
 
     /// The name in campaign files.
     pub fn name(&self) -> &'static str {
@@ -147,6 +133,11 @@ impl Design {
     pub fn names_with(key: &str) -> Vec<&'static str> {
         let has = |name: &&str| Self::keys_of(name).is_some_and(|(keys, _)| keys.iter().any(|row| row.key == key));
         Self::NAMES.iter().copied().filter(has).collect()
+    }
+
+    /// Number of independently scrambled designs.
+    pub fn replicates(&self) -> u64 {
+        replicates::count(self.written())
     }
 
     /// Whether the first samples represent the population as well as all samples do.
@@ -171,22 +162,6 @@ impl Design {
     /// The replicate of `sample`, from zero ([`replicates`]); `None` for the nominal sample.
     pub fn replicate_of(&self, sample: SampleId) -> Option<u64> {
         sample.0.checked_sub(1).map(|point| point % self.replicates())
-    }
-}
-
-/// The points of a [`Design`].
-#[derive(Debug)]
-pub struct Points(Box<dyn PointSource>);
-
-impl Points {
-    pub fn new(design: &Design, dimensions: Dimensions<'_>) -> Self {
-        Points(design.points(dimensions))
-    }
-}
-
-impl PointSource for Points {
-    fn fill(&mut self, block: u64, u: &mut [[f64; BLOCK]]) {
-        self.0.fill(block, u);
     }
 }
 

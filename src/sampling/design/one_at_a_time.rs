@@ -1,7 +1,9 @@
 //! `one_at_a_time`: one dimension after the other through its levels, the others nominal.
 
-use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
+use super::levels::{self, LEVELS, Levels, ONE_OF_LEVELS};
 use super::traits::{BLOCK, Dimensions, Facts, Kind, NOMINAL, PointSource, Size, by_point};
+use crate::sampling::error::DispersionError;
+use crate::sampling::keys::Written;
 
 #[derive(Debug)]
 pub struct OneAtATime {
@@ -28,14 +30,19 @@ impl Kind for OneAtATime {
         ]),
         ..Facts::new("one_at_a_time", &LEVELS, &[ONE_OF_LEVELS])
     };
-    type Options = Levels;
 
-    fn size(levels: &Levels, dimensions: usize) -> Size {
+    fn size(written: &Written, dimensions: usize) -> Size {
+        let levels = Levels::of(written);
         let sum = (0..dimensions).try_fold(0u64, |sum, k| sum.checked_add(levels.count(k)));
         sum.map_or(Size::TooMany, Size::Points)
     }
 
-    fn points(levels: &Levels, dimensions: Dimensions<'_>) -> Self {
-        OneAtATime { starts: levels.running(dimensions.names.len(), 0, u64::saturating_add), levels: levels.clone() }
+    fn check(written: &Written, dimensions: Dimensions<'_>, _: Option<u64>) -> Result<(), DispersionError> {
+        levels::check(written, dimensions)
+    }
+
+    fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {
+        let levels = Levels::of(written);
+        OneAtATime { starts: levels.running(dimensions.names.len(), 0, u64::saturating_add), levels }
     }
 }

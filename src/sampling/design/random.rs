@@ -1,6 +1,7 @@
 //! `random`: independent uniform numbers, one stream for each dimension.
 
 use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, streams};
+use crate::sampling::keys::Written;
 use crate::sampling::stream::Stream;
 
 #[derive(Debug)]
@@ -16,9 +17,8 @@ impl PointSource for Random {
 
 impl Kind for Random {
     const FACTS: Facts = Facts::new("random", &[], &[]);
-    type Options = ();
 
-    fn points(_: &(), dimensions: Dimensions<'_>) -> Self {
+    fn points(_: &Written, dimensions: Dimensions<'_>) -> Self {
         Random(streams(dimensions.seed, dimensions.names))
     }
 }

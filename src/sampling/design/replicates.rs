@@ -1,4 +1,4 @@
-//! [`Replicates`]: several designs of one kind, scrambled independently.
+//! [`REPLICATES`]: several designs of one kind, scrambled independently.
 //!
 //! Points of one net or hypercube depend on each other, so intervals for independent runs do not hold; the spread of
 //! the means of independent replicates gives one (A. B. Owen, *Scrambled net variance for integrals of smooth
@@ -6,7 +6,7 @@
 //!
 //! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R.
 
-use super::traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, Options, PointSource, by_point};
+use super::traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, PointSource, by_point};
 use crate::sampling::error::{DispersionError, Table, error_of};
 use crate::sampling::keys::{self, Row, Written};
 use std::fmt::Debug;
@@ -20,50 +20,25 @@ pub const REPLICATES: Row = Row::new(
     "Number of designs of this kind, each scrambled independently; default: 1",
 );
 
-/// At least 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Replicates(u64);
+/// The number of replicates.
+pub(super) fn count(written: &Written) -> u64 {
+    written.count(REPLICATES.key).unwrap_or(1)
+}
 
-impl Replicates {
-    pub const ONE: Replicates = Replicates(1);
-
-    /// `count` replicates, from 1 to 1024; `None` for other numbers.
-    pub fn of(count: u64) -> Option<Self> {
-        (1..=MOST).contains(&count).then_some(Replicates(count))
-    }
-
-    /// Names that scramble the dimensions, by replicate.
-    pub(super) fn names(self, names: &[String]) -> Vec<Vec<String>> {
-        match self.0 {
-            1 => vec![names.to_vec()],
-            count => (0..count)
-                .map(|replicate| names.iter().map(|name| format!("{name} replicate {replicate}")).collect())
-                .collect(),
-        }
+/// The names that scramble the dimensions of each replicate.
+pub(super) fn scrambling_names(written: &Written, names: &[String]) -> Vec<Vec<String>> {
+    let of = |replicate| names.iter().map(|name| format!("{name} replicate {replicate}")).collect();
+    match count(written) {
+        1 => vec![names.to_vec()],
+        count => (0..count).map(of).collect(),
     }
 }
 
-impl Options for Replicates {
-    fn read(written: &Written) -> Self {
-        written.count(REPLICATES.key).map_or(Replicates::ONE, Replicates)
-    }
-
-    fn written(&self) -> Written {
-        match self.0 {
-            1 => Written::default(),
-            count => Written::default().with(REPLICATES.key, count),
-        }
-    }
-
-    fn replicates(&self) -> u64 {
-        self.0
-    }
-
-    /// Replicates have equally many samples.
-    fn check(&self, _dimensions: usize, samples: Option<u64>) -> Result<(), DispersionError> {
-        let allowed = format!("1 and a multiple of {0}: the nominal scene and {0} replicates of the design", self.0);
-        whole_blocks(samples, self.0, allowed, ", or other replicates in [design]")
-    }
+/// Replicates have equally many samples.
+pub(super) fn check(written: &Written, samples: Option<u64>) -> Result<(), DispersionError> {
+    let count = count(written);
+    let allowed = format!("1 and a multiple of {count}: the nominal scene and {count} replicates of the design");
+    whole_blocks(samples, count, allowed, ", or other replicates in [design]")
 }
 
 /// Checks that `samples` are 1 and a multiple of `block`.
@@ -108,10 +83,13 @@ impl<S: Sequence> PointSource for Replicated<S> {
 
 impl<S: Sequence> Kind for Replicated<S> {
     const FACTS: Facts = Facts { max_dimensions: S::MAX_DIMENSIONS, ..Facts::new(S::NAME, &[REPLICATES], &[]) };
-    type Options = Replicates;
 
-    fn points(replicates: &Replicates, dimensions: Dimensions<'_>) -> Self {
-        let names = replicates.names(dimensions.names);
+    fn check(written: &Written, _: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+        check(written, samples)
+    }
+
+    fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {
+        let names = scrambling_names(written, dimensions.names);
         Replicated(names.iter().map(|names| S::new(dimensions.seed, names)).collect())
     }
 }

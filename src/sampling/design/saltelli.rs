@@ -15,6 +15,7 @@ use super::replicates::{Sequence, whole_blocks};
 use super::sobol::Sobol;
 use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, by_point};
 use crate::sampling::error::DispersionError;
+use crate::sampling::keys::Written;
 use crate::sampling::stream::key;
 
 /// The points of the blocks.
@@ -73,9 +74,8 @@ impl Kind for Saltelli {
         ]),
         ..Facts::new("saltelli", &[], &[])
     };
-    type Options = ();
 
-    fn check(dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+    fn check(_: &Written, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
         let members = members(dimensions.factors);
         let allowed = format!(
             "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two more"
@@ -83,7 +83,7 @@ impl Kind for Saltelli {
         whole_blocks(samples, members, allowed, "")
     }
 
-    fn points(_: &(), dimensions: Dimensions<'_>) -> Self {
+    fn points(_: &Written, dimensions: Dimensions<'_>) -> Self {
         Saltelli::new(dimensions.seed, dimensions.names, dimensions.factors)
     }
 }

@@ -1,7 +1,7 @@
-//! [`Kind`]: the trait of designs; [`Options`]: their keys.
+//! [`Kind`]: the trait of designs.
 
 use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{DataColumn, Row, Rule, Written};
+use crate::sampling::keys::{Row, Rule, Written};
 use crate::sampling::stream::Stream;
 use std::fmt::Debug;
 
@@ -63,53 +63,22 @@ impl Facts {
     }
 }
 
-pub trait Options: Clone + Debug + PartialEq {
-    fn read(written: &Written) -> Self;
-
-    fn written(&self) -> Written;
-
-    /// Number of independently scrambled designs.
-    fn replicates(&self) -> u64 {
-        1
-    }
-
-    /// Checks the options against dimensions and samples of the file.
-    ///
-    /// # Errors
-    /// The key that does not fit.
-    fn check(&self, _dimensions: usize, _samples: Option<u64>) -> Result<(), DispersionError> {
-        Ok(())
-    }
-
-    /// Columns of a data file, one row a sample.
-    fn columns(&self) -> &[DataColumn] {
-        &[]
-    }
-}
-
-impl Options for () {
-    fn read(_written: &Written) -> Self {}
-
-    fn written(&self) -> Written {
-        Written::default()
-    }
-}
-
 pub trait Kind: PointSource + Sized {
     const FACTS: Facts;
-    type Options: Options;
 
-    fn size(_options: &Self::Options, _dimensions: usize) -> Size {
+    fn size(_written: &Written, _dimensions: usize) -> Size {
         Size::Any
     }
 
+    /// Checks the keys against dimensions and samples of the file.
+    ///
     /// # Errors
-    /// An impossible number of samples.
-    fn check(_dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
+    /// The key that does not fit, or an impossible number of samples.
+    fn check(_written: &Written, _dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         Ok(())
     }
 
-    fn points(options: &Self::Options, dimensions: Dimensions<'_>) -> Self;
+    fn points(written: &Written, dimensions: Dimensions<'_>) -> Self;
 }
 
 /// The points of a design, for one worker.

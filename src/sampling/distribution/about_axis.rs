@@ -1,10 +1,7 @@
 //! `about_axis`: the nominal attitude turned about a body `axis` by a random angle (`[disperse.angle_rad]`).
 
-use super::target::Target;
-use super::traits::{Map, Nested, NumberWords, Together};
+use super::prelude::*;
 use crate::math::vector::{hamilton, norm, scaled};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Kind, Row};
 
 /// q = q_0 (x) exp(angle axis/2).
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +19,6 @@ impl<Q: Nested> Together for AboutAxis<Q> {
         Row::new("angle_rad", Kind::Distribution, "The distribution of the angle about it")
             .required_as("given, a distribution of one number", "{ distribution = \"normal\", std = 0.1 }"),
     ];
-    type Map = Self;
 
     fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let nominal = target.attitude(Self::NAME)?;

@@ -1,12 +1,9 @@
 //! `attitude_error`: a normal rotation vector from the nominal attitude, in the frame of the body, with `std_rad` or
 //! `covariance_rad2`.
 
-use super::target::Target;
-use super::traits::{Map, NumberWords, Together};
+use super::prelude::*;
 use crate::math::normal::quantile;
 use crate::math::vector::{dot, hamilton, norm, scaled};
-use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values};
 
 /// q = q_0 (x) exp(theta/2) with a normal rotation vector theta of mean zero, in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,17 +27,17 @@ impl Together for AttitudeError {
         Row::new("covariance_rad2", Kind::Matrix, "Covariance matrix of the rotation vector, by rows, rad^2"),
     ];
     const RULES: &'static [Rule] = &[Rule::One(&[&["std_rad"], &["covariance_rad2"]], "0.01", ALL_BUT_ONE)];
-    type Map = Self;
 
     fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let nominal = target.attitude(Self::NAME)?;
-        let (key, shown, covariance) = match (target.written.values("std_rad"), target.written.get("covariance_rad2")) {
-            (None, Some(Value::Matrix(covariance))) => ("covariance_rad2", format!("{covariance:?}"), *covariance),
-            (std, _) => {
-                let std = std.unwrap_or(&Values::All(0.0));
-                ("std_rad", std.text(), variances(target.index, std)?)
-            }
-        };
+        let (key, shown, covariance) =
+            match (target.written.values("std_rad"), target.written.matrix("covariance_rad2")) {
+                (None, Some(covariance)) => ("covariance_rad2", format!("{covariance:?}"), covariance),
+                (std, _) => {
+                    let std = std.unwrap_or(&Values::One(0.0));
+                    ("std_rad", format!("{std:?}"), variances(target.index, std)?)
+                }
+            };
         match AttitudeError::new(nominal, covariance) {
             Some(map) => Ok(map),
             None => {
@@ -88,15 +85,13 @@ impl Map for AttitudeError {
 }
 
 fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3], DispersionError> {
-    let list = match values {
-        Values::All(value) => [*value; 3],
-        Values::Each(list) => match <[f64; 3]>::try_from(list.as_slice()) {
-            Ok(list) => list,
-            Err(_) => {
-                let remedy = "give one for each axis of the body";
-                return Err(error(index, "std_rad", format!("{list:?}"), "1 number, or 3 in an array", remedy));
-            }
-        },
+    let list = match (values, &values.flat()[..]) {
+        (Values::One(value), _) => [*value; 3],
+        (_, &[x, y, z]) => [x, y, z],
+        (other, _) => {
+            let remedy = "give one for each axis of the body";
+            return Err(error(index, "std_rad", format!("{other:?}"), "1 number, or 3 in an array", remedy));
+        }
     };
     if let Some(x) = list.iter().find(|x| !(0.0..=f64::MAX).contains(*x)) {
         return Err(error(index, "std_rad", format!("{x:?}"), ">= 0", "drop the minus sign"));

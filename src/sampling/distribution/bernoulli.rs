@@ -1,10 +1,7 @@
 //! `bernoulli`: a different `value` with some `probability`, else the nominal value.
 
 use super::choice::Choice;
-use super::target::Target;
-use super::traits::Scalar;
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, between};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Bernoulli;

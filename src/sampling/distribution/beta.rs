@@ -2,12 +2,9 @@
 //! ([`super::of_score`]) as ln(x/(1 - x)), which is smooth and loses digits at neither end.
 
 use super::of_score::OfScore;
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar, each_score};
+use super::prelude::*;
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Range, Row, between};
 
 /// Allowed shape parameters: outside, the distribution is one spike or two.
 const SHAPES: Range = between(0.01, 1e4);

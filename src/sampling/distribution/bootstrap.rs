@@ -1,10 +1,7 @@
 //! `bootstrap`: the `parameters` of one row of a `file`, drawn with replacement (B. Efron, *Ann. Stat.* 7 (1979) 1),
 //! which keeps their joint distribution.
 
-use super::target::Target;
-use super::traits::{Map, NumberWords, Together};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{FILE_OF_PARAMETERS, Row};
+use super::prelude::*;
 use std::sync::Arc;
 
 /// A row of a file.
@@ -29,7 +26,6 @@ impl Bootstrap {
 impl Together for Bootstrap {
     const NAME: &'static str = "bootstrap";
     const KEYS: &'static [Row] = &[FILE_OF_PARAMETERS];
-    type Map = Self;
 
     fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let columns = target.written.columns();

@@ -1,10 +1,7 @@
 //! `choice`: one of `values`, with `weights` or equal ones. They are sorted, so that u and values have equal rank
 //! correlations.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Kind, Row};
+use super::prelude::*;
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]

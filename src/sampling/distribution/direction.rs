@@ -4,11 +4,8 @@
 //! Isotropic means uniform in solid angle, that is in the cosine of the angle to the axis, and not in components or the
 //! angle (test `usual_mistakes_are_caught`).
 
-use super::target::Target;
-use super::traits::{Map, Nested, NumberWords, Together};
+use super::prelude::*;
 use crate::math::vector::{cross, norm, scaled};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Kind, Row, between};
 use core::f64::consts::{PI, TAU};
 use std::fmt::Debug;
 
@@ -136,7 +133,6 @@ enum Magnitude<Q> {
 impl<Q: Nested, S: Spread> Together for Direction<Q, S> {
     const NAME: &'static str = S::NAME;
     const KEYS: &'static [Row] = S::KEYS;
-    type Map = Self;
 
     fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
         let nominal = target.vector(S::NAME)?;

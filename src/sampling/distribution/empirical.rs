@@ -1,9 +1,6 @@
 //! `empirical`: distributed as a `column` of a `file`, with or without `interpolation` between its values.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Kind, Row, Value};
+use super::prelude::*;
 use std::sync::Arc;
 
 /// The distribution between the values of a file.
@@ -44,8 +41,10 @@ impl Scalar for Empirical {
         let Some(Value::Column(data)) = target.written.get("file") else {
             return target.refused("file", String::new(), "given", "name a file");
         };
-        let is_linear = target.written.get("interpolation") == Some(&Value::Word("linear"));
-        let interpolation = if is_linear { Interpolation::Linear } else { Interpolation::None };
+        let interpolation = match target.written.text("interpolation") {
+            Some("linear") => Interpolation::Linear,
+            _ => Interpolation::None,
+        };
         let quantile = Empirical::new(&data.values, interpolation);
         target.all(|_| Ok(quantile.clone()))
     }

@@ -1,4 +1,4 @@
-//! [`distributions!`]: the enumerations over all distributions, which pass each call on to its member.
+//! [`distributions!`]: the enumerations over all distributions.
 
 macro_rules! distributions {
     (one number: $($Scalar:ident),* ; several together: $($Name:ident = $Together:ty),* $(,)?) => {
@@ -23,24 +23,14 @@ macro_rules! distributions {
 
             /// Whether each component of a parameter has this distribution by itself.
             pub const fn is_of_one_number(self) -> bool {
-                match self {
-                    $( Self::$Scalar => true, )*
-                    $( Self::$Name => false, )*
-                }
+                matches!(self, $(Self::$Scalar)|*)
             }
 
-            pub const fn keys(self) -> &'static [Row] {
+            /// The keys and the rules between them.
+            const fn table(self) -> (&'static [Row], &'static [Rule]) {
                 match self {
-                    $( Self::$Scalar => <$Scalar as Scalar>::KEYS, )*
-                    $( Self::$Name => <$Together as Together>::KEYS, )*
-                }
-            }
-
-            /// Rules between keys.
-            pub const fn rules(self) -> &'static [Rule] {
-                match self {
-                    $( Self::$Scalar => <$Scalar as Scalar>::RULES, )*
-                    $( Self::$Name => <$Together as Together>::RULES, )*
+                    $( Self::$Scalar => (<$Scalar as Scalar>::KEYS, <$Scalar as Scalar>::RULES), )*
+                    $( Self::$Name => (<$Together as Together>::KEYS, <$Together as Together>::RULES), )*
                 }
             }
 
@@ -78,37 +68,11 @@ macro_rules! distributions {
             )*
         }
 
-        impl Quantile for Distribution {
-            #[inline]
-            fn quantile(&self, u: f64) -> f64 {
-                match self { $( Self::$Scalar(ready) => ready.quantile(u), )* }
-            }
+        impl Deref for Distribution {
+            type Target = dyn Quantile;
 
-            #[inline]
-            fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
-                match self { $( Self::$Scalar(ready) => ready.quantiles(u, values), )* }
-            }
-
-            #[inline]
-            fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-                match self { $( Self::$Scalar(ready) => ready.of_scores(z, values), )* }
-            }
-
-            #[inline]
-            fn dimensions(&self) -> usize {
-                match self { $( Self::$Scalar(ready) => ready.dimensions(), )* }
-            }
-
-            fn normal_std(&self) -> Option<f64> {
-                match self { $( Self::$Scalar(ready) => ready.normal_std(), )* }
-            }
-
-            fn steps(&self) -> Option<Vec<f64>> {
-                match self { $( Self::$Scalar(ready) => ready.steps(), )* }
-            }
-
-            fn text(&self, words: NumberWords<'_>) -> String {
-                match self { $( Self::$Scalar(ready) => ready.text(words), )* }
+            fn deref(&self) -> &Self::Target {
+                match self { $( Self::$Scalar(quantile) => quantile, )* }
             }
         }
 
@@ -117,29 +81,15 @@ macro_rules! distributions {
         pub enum Joint {
             $(
                 #[doc = concat!("See [`", stringify!($Together), "`].")]
-                $Name(<$Together as Together>::Map),
+                $Name($Together),
             )*
         }
 
-        impl Map for Joint {
-            fn dimensions(&self) -> usize {
-                match self { $( Self::$Name(map) => map.dimensions(), )* }
-            }
+        impl Deref for Joint {
+            type Target = dyn Map;
 
-            fn dimension_name(&self, dimension: usize) -> String {
-                match self { $( Self::$Name(map) => map.dimension_name(dimension), )* }
-            }
-
-            fn components(&self) -> usize {
-                match self { $( Self::$Name(map) => map.components(), )* }
-            }
-
-            fn values(&self, u: &[f64], values: &mut [f64]) {
-                match self { $( Self::$Name(map) => map.values(u, values), )* }
-            }
-
-            fn text(&self, words: NumberWords<'_>) -> String {
-                match self { $( Self::$Name(map) => map.text(words), )* }
+            fn deref(&self) -> &Self::Target {
+                match self { $( Self::$Name(map) => map, )* }
             }
         }
     };

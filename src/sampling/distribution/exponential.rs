@@ -1,10 +1,7 @@
 //! `exponential`: above `min` (default 0) with density proportional to exp(-x/`scale`), such as a delay. Mean `min` +
 //! `scale`.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponential {

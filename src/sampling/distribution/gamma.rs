@@ -2,12 +2,9 @@
 //! `scale`. Tabulated ([`super::of_score`]) as ln x.
 
 use super::of_score::OfScore;
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar, each_score};
+use super::prelude::*;
 use crate::math::incomplete_gamma::log_quantile;
 use crate::math::normal::quantile;
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Range, Row, between};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gamma {

@@ -1,10 +1,7 @@
 //! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` about `median` (default: nominal).
 
-use super::target::{LOGARITHM, Target};
-use super::traits::{NumberWords, Quantile, Scalar, each_score};
+use super::prelude::*;
 use crate::math::normal::{quantile, quantiles};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row, above};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogNormal {

@@ -1,9 +1,6 @@
 //! `log_uniform`: uniform in the logarithm, between `min` and `max`, or about the nominal value by `factor`.
 
-use super::target::{LOGARITHM, Target};
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, above};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogUniform {

@@ -24,6 +24,7 @@ pub mod normal;
 pub mod of_score;
 pub mod offset;
 pub mod pert;
+mod prelude;
 pub mod rayleigh;
 pub mod student_t;
 pub mod target;
@@ -61,6 +62,7 @@ use self::uniform_attitude::UniformAttitude;
 use self::weibull::Weibull;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Kind, Row, Rule, Value, Written};
+use std::ops::Deref;
 
 enumerations::distributions! {
     one number:
@@ -85,6 +87,15 @@ impl DistributionKind {
 
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|kind| kind.name() == name)
+    }
+
+    pub const fn keys(self) -> &'static [Row] {
+        self.table().0
+    }
+
+    /// Rules between keys.
+    pub const fn rules(self) -> &'static [Rule] {
+        self.table().1
     }
 
     /// Whether its file names the parameters, instead of the key `parameter`.

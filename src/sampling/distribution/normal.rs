@@ -1,11 +1,8 @@
 //! `normal`: normal about the nominal value, with standard deviation `std` or `relative_std`, or a third of
 //! `three_sigma`.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar, each_score};
+use super::prelude::*;
 use crate::math::normal::{quantile, quantiles};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
 
 /// The keys of a standard deviation.
 pub(super) const SPREAD: [Row; 3] = [

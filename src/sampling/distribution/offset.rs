@@ -1,10 +1,7 @@
 //! `offset`: a fixed difference from the nominal value in every sample but the nominal one, `offset` or
 //! `relative_offset`.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
+use super::prelude::*;
 
 /// Always this value; takes no u.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,10 +6,7 @@
 //! [`super::beta`]. The inverse is Newton's method for ln I in ln x, which rises and is concave: steps after the first
 //! do not overshoot.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pert {

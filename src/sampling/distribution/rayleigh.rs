@@ -1,10 +1,7 @@
 //! `rayleigh`: the length of a vector with two independent normal components of mean zero and standard deviation
 //! `scale` (Lord Rayleigh, *Phil. Mag.* 10 (1880) 73): an off-axis angle, a lateral offset.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Row, above};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rayleigh {

@@ -2,12 +2,9 @@
 //! *Biometrika* 6 (1908) 1): heavier tails than normal. Tabulated ([`super::of_score`]) as asinh(t/sqrt(nu)).
 
 use super::of_score::OfScore;
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar, each_score};
+use super::prelude::*;
 use crate::math::incomplete_beta::logit_quantile;
 use crate::math::normal::quantile;
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Range, Row, Rule, between};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudentT {

@@ -68,12 +68,12 @@ impl Target<'_> {
     fn spread_out(&self, key: &'static str, values: &Values) -> Numbers {
         let width = self.nominals.len();
         let list = match values {
-            Values::All(value) => vec![*value; width],
+            Values::One(value) => vec![*value; width],
             Values::Each(list) if list.len() == width => list.clone(),
-            Values::Each(list) => {
+            other => {
                 let parts =
                     if width == 1 { "1 number".to_owned() } else { format!("1 number, or {width} in an array") };
-                return self.refused(key, format!("{list:?}"), parts, "give one for each component");
+                return self.refused(key, format!("{other:?}"), parts, "give one for each component");
             }
         };
         match list.iter().find(|x| !x.is_finite()) {
@@ -105,7 +105,7 @@ impl Target<'_> {
         }
         let fractions = self.each(relative)?;
         if self.nominals.iter().all(|nominal| *nominal == 0.0) {
-            let written = self.written.values(relative).map_or(String::new(), Values::text);
+            let written = self.written.values(relative).map_or(String::new(), |values| format!("{values:?}"));
             let allowed = "relative to a nominal value other than 0";
             return self.refused(relative, written, allowed, format!("use {absolute} in the parameter's unit"));
         }

@@ -4,6 +4,7 @@ use super::target::Target;
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Row, Rule};
 use std::fmt::Debug;
+use std::ops::Deref;
 
 /// Formats of the numbers in a distribution's description.
 #[derive(Clone, Copy)]
@@ -38,7 +39,7 @@ pub fn each_score(z: &[f64; 8], values: &mut [f64; 8], of: impl Fn(f64) -> f64) 
     true
 }
 
-pub trait Quantile: Clone + Debug + PartialEq {
+pub trait Quantile: Debug {
     /// The value at the probability `u`, 0 < u < 1.
     fn quantile(&self, u: f64) -> f64;
 
@@ -77,19 +78,18 @@ pub trait Quantile: Clone + Debug + PartialEq {
 }
 
 /// A joint distribution of a vector, an attitude, or the parameters that a file names.
-pub trait Together {
+pub trait Together: Map + Sized {
     const NAME: &'static str;
     const KEYS: &'static [Row];
     const RULES: &'static [Rule] = &[];
-    type Map: Map;
 
     /// # Errors
     /// A target or numbers that do not fit.
-    fn map(target: &Target<'_>) -> Result<Self::Map, DispersionError>;
+    fn map(target: &Target<'_>) -> Result<Self, DispersionError>;
 }
 
 /// A map from several u in (0, 1) to the values of several components.
-pub trait Map: Clone + Debug + PartialEq {
+pub trait Map: Debug {
     /// At most [`MAX_DIMENSIONS`].
     fn dimensions(&self) -> usize;
 
@@ -108,7 +108,7 @@ pub trait Map: Clone + Debug + PartialEq {
 pub const MAX_DIMENSIONS: usize = 8;
 
 /// The distribution of a magnitude or an angle in a table of a joint distribution.
-pub trait Nested: Quantile {
+pub trait Nested: Deref<Target = dyn Quantile> + Clone + Debug + PartialEq {
     /// The distribution about `nominal` in the table `key` of `target`.
     ///
     /// # Errors

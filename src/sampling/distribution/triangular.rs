@@ -1,9 +1,6 @@
 //! `triangular`: between `min` and `max`, most likely at `mode` (default: the nominal value).
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Row};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangular {

@@ -1,11 +1,8 @@
 //! `truncated_normal`: normal about the nominal value, conditional on two bounds.
 
 use super::normal::{ONE_SPREAD, SPREAD};
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
+use super::prelude::*;
 use crate::math::normal::{probability, quantile, quantiles};
-use crate::sampling::error::{DispersionError, error};
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule, Written, above};
 
 /// Absolute, relative, in sigmas.
 const LOWER_KEYS: [&str; 3] = ["lower", "relative_lower", "lower_sigmas"];

@@ -1,9 +1,6 @@
 //! `uniform`: between `min` and `max`, or about the nominal value by `half_width` or `relative_half_width`.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{ALL_BUT_ONE, Row, Rule};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform {

@@ -1,9 +1,6 @@
 //! `uniform_attitude`: an attitude uniform over all rotations.
 
-use super::target::Target;
-use super::traits::{Map, NumberWords, Together};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::Row;
+use super::prelude::*;
 use core::f64::consts::TAU;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +9,6 @@ pub struct UniformAttitude;
 impl Together for UniformAttitude {
     const NAME: &'static str = "uniform_attitude";
     const KEYS: &'static [Row] = &[];
-    type Map = UniformAttitude;
 
     fn map(target: &Target<'_>) -> Result<UniformAttitude, DispersionError> {
         target.attitude(Self::NAME).map(|_| UniformAttitude)

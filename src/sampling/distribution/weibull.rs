@@ -1,10 +1,7 @@
 //! `weibull`: above `min` (default 0) with distribution function 1 - exp(-(x/`scale`)^`shape`) (W. Weibull, *J. Appl.
 //! Mech.* 18 (1951) 293): times to failure, extremes.
 
-use super::target::Target;
-use super::traits::{NumberWords, Quantile, Scalar};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::{Presence, Range, Row, between};
+use super::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weibull {

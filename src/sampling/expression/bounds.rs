@@ -7,28 +7,14 @@ const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 impl Expression {
     /// Whether it is a condition: comparisons, joined by `and` and `or`, chosen by `if`, or the numbers 0 and 1.
     pub fn is_condition(&self) -> bool {
-        let mut stack: Vec<bool> = Vec::new();
-        for step in &self.steps {
-            let is_condition = match step {
-                Step::Number(number) => *number == 0.0 || *number == 1.0,
-                Step::Variable(_) => false,
-                Step::Binary(operator) => {
-                    let (right, left) = (stack.pop(), stack.pop());
-                    match operator {
-                        Binary::Or | Binary::And => left == Some(true) && right == Some(true),
-                        other => other.compares(),
-                    }
-                }
-                Step::Function(Function::If) => {
-                    let (no, yes, condition) = (stack.pop(), stack.pop(), stack.pop());
-                    [no, yes, condition] == [Some(true); 3]
-                }
-                Step::Negate | Step::Function(Function::One(..)) => stack.pop().is_none(),
-                Step::Function(Function::Two(..)) => (stack.pop(), stack.pop()) == (None, None),
-            };
-            stack.push(is_condition);
-        }
-        stack == [true]
+        let are_conditions = |operands: &[bool]| operands.iter().all(|is_condition| *is_condition);
+        let of = |step: &Step, operands: &[bool]| match step {
+            Step::Number(number) => *number == 0.0 || *number == 1.0,
+            Step::Binary(Binary::Or | Binary::And) | Step::Function(Function::If) => are_conditions(operands),
+            Step::Binary(operator) => operator.compares(),
+            Step::Variable(_) | Step::Negate | Step::Function(_) => false,
+        };
+        self.fold(of) == Some(true)
     }
 
     /// Whether it is a number wherever its variables are (barring overflow): it has no quotient, power, root or
@@ -45,45 +31,22 @@ impl Expression {
     /// A range that holds every value, by interval arithmetic over the ranges of the variables (each occurrence counts
     /// as a variable of its own). Functions other than `abs`, powers and quotients can be anything.
     pub fn range(&self, variable: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
-        let mut stack: Vec<[f64; 2]> = Vec::new();
-        for step in &self.steps {
-            let mut take = || stack.pop().unwrap_or(ANYTHING);
-            let range = match step {
-                Step::Number(number) => [*number; 2],
-                Step::Variable(place) => variable(*place),
-                Step::Negate => {
-                    let [low, high] = take();
-                    [-high, -low]
+        let of = |step: &Step, operands: &[[f64; 2]]| {
+            let range = match (step, operands) {
+                (Step::Number(number), _) => [*number; 2],
+                (Step::Variable(place), _) => variable(*place),
+                (Step::Negate, [[low, high]]) => [-high, -low],
+                (Step::Binary(operator), [left, right]) => operator.range(*left, *right),
+                (Step::Function(Function::One("abs", _)), [[low, high]]) => {
+                    let least = if *low <= 0.0 && *high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+                    [least, low.abs().max(high.abs())]
                 }
-                Step::Binary(operator) => {
-                    let right = take();
-                    operator.range(take(), right)
-                }
-                Step::Function(Function::One(name, _)) => {
-                    let [low, high] = take();
-                    let largest = low.abs().max(high.abs());
-                    if *name != "abs" {
-                        ANYTHING
-                    } else if low <= 0.0 && high >= 0.0 {
-                        [0.0, largest]
-                    } else {
-                        [low.abs().min(high.abs()), largest]
-                    }
-                }
-                Step::Function(Function::Two(..)) => {
-                    take();
-                    take();
-                    ANYTHING
-                }
-                Step::Function(Function::If) => {
-                    let (no, yes) = (take(), take());
-                    take();
-                    [no[0].min(yes[0]), no[1].max(yes[1])]
-                }
+                (Step::Function(Function::If), [_, yes, no]) => [no[0].min(yes[0]), no[1].max(yes[1])],
+                _ => ANYTHING,
             };
-            stack.push(if range.iter().any(|end| end.is_nan()) { ANYTHING } else { range });
-        }
-        stack.pop().unwrap_or(ANYTHING)
+            if range.iter().any(|end| end.is_nan()) { ANYTHING } else { range }
+        };
+        self.fold(of).unwrap_or(ANYTHING)
     }
 }
 
