@@ -24,7 +24,7 @@ impl Expected {
         let assigned = plan.dispersions.assigned_to(index)?;
         let Transform::Joint(joint) = &assigned.map else { return None };
         let place = assigned.columns.iter().position(|other| *other == index)?;
-        let mut values = vec![0.0; joint.components()];
+        let mut values = vec![0.0; assigned.columns.len()];
         if let Joint::Bootstrap(rows) = joint {
             let of_row = |row: usize| {
                 rows.values_of(row, &mut values);

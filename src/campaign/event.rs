@@ -4,11 +4,10 @@ use super::known_columns::unit_of;
 use super::numbers::FINITE;
 use super::section::Section;
 use super::units;
-use super::watched_quantity::{self, variables};
+use super::watched_quantity::variables;
 use crate::observables::Request;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::run::Quantity;
-use crate::sampling::expression::Expression;
 use crate::sampling::keys::{Kind, Row, TextLimit, Written, is_name, words};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,12 +136,6 @@ impl Event {
         head.extend(rest);
         table.document.keep("[[event]]", head.completed(&ROWS, &[]));
         Some(Event { name, quantity, value, direction, which, ends_run })
-    }
-
-    /// The expression and the quantities that are its variables; `None` only for events that [`Event::read_all`]
-    /// refuses.
-    pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
-        watched_quantity::parsed(&self.quantity, series)
     }
 
     pub fn says(&self) -> String {

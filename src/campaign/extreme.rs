@@ -4,11 +4,10 @@
 use super::event::Event;
 use super::meaning::meant;
 use super::section::Section;
-use super::watched_quantity::{self, variables};
+use super::watched_quantity::variables;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{ColumnKind, LawColumn, Request};
 use crate::run::Quantity;
-use crate::sampling::expression::Expression;
 use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, TextLimit, is_name};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -86,11 +85,6 @@ impl Extreme {
         let (name, delay_s) = (written.text("name")?.to_owned(), written.number("delay_s")?);
         table.document.keep("[[extreme]]", written);
         Some(Extreme { name, quantity, unit, is_highest, after, delay_s })
-    }
-
-    /// The expression and the quantities that are its variables; `None` only for what [`Extreme::read_all`] refuses.
-    pub fn parsed(&self, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
-        watched_quantity::parsed(&self.quantity, series)
     }
 
     fn since(&self) -> String {

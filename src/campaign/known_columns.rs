@@ -52,39 +52,35 @@ impl KnownColumns {
 
     /// Allowed names and remedy for a `name` without bands.
     pub fn band_refusal(&self, name: &str) -> (String, String) {
-        let allowed = "a quantity over time with bands: a column of bands.parquet".to_owned();
-        let everything = Request { groups: Group::ALL.into_iter().collect(), ..self.request };
-        let is_of_other_groups = band_series(&everything).iter().any(|band| band.quantity.name() == name);
+        let is_of_other_groups = band_series(&self.everything()).iter().any(|band| band.quantity.name() == name);
         let remedy = if is_of_other_groups {
             "it is in a group that is not observed: add its group to observe.groups (`spindrift columns` lists them)"
                 .to_owned()
         } else {
-            let list = || self.bands.iter().map(Quantity::name);
-            match meant(name, list()) {
-                Some(meant) => meant.remedy(),
-                None => format!("name one of {}", list().collect::<Vec<_>>().join(", ")),
-            }
+            let names = || self.bands.iter().map(Quantity::name);
+            let all = || format!("name one of {}", names().collect::<Vec<_>>().join(", "));
+            meant(name, names()).map_or_else(all, |meant| meant.remedy())
         };
-        (allowed, remedy)
+        ("a quantity over time with bands: a column of bands.parquet".to_owned(), remedy)
     }
 
     /// Allowed names and remedy for a `name` that is not an observable.
     pub fn refusal(&self, name: &str) -> (String, String) {
-        let allowed = "an observable of this campaign: a column of its rows, or a [[observable]] of this file";
-        let everything = Request { groups: Group::ALL.into_iter().collect(), ..self.request };
-        if let Some(column) = everything.columns().iter().find(|column| column.quantity.name() == name) {
-            let remedy = format!("it is in the group {0}: add {0:?} to observe.groups", column.group.name());
-            return (allowed.to_owned(), remedy);
-        }
-        let remedy = if table::all().any(|column| column.quantity.name() == name) {
+        let columns = self.everything().columns();
+        let remedy = if let Some(column) = columns.iter().find(|column| column.quantity.name() == name) {
+            format!("it is in the group {0}: add {0:?} to observe.groups", column.group.name())
+        } else if table::all().any(|column| column.quantity.name() == name) {
             "this scene or method does not have it: name another".to_owned()
         } else {
-            match meant(name, self.observables.iter().map(Quantity::name)) {
-                Some(meant) => meant.remedy(),
-                None => "docs/columns.md lists them".to_owned(),
-            }
+            let meant = meant(name, self.observables.iter().map(Quantity::name));
+            meant.map_or_else(|| "docs/columns.md lists them".to_owned(), |meant| meant.remedy())
         };
+        let allowed = "an observable of this campaign: a column of its rows, or a [[observable]] of this file";
         (allowed.to_owned(), remedy)
+    }
+
+    fn everything(&self) -> Request {
+        Request { groups: Group::ALL.into_iter().collect(), ..self.request }
     }
 }
 

@@ -63,7 +63,7 @@ pub mod spec;
 pub mod stop;
 mod tables;
 mod units;
-mod watched_quantity;
+pub mod watched_quantity;
 
 pub use analysis::Analysis;
 pub use derived_observable::DerivedObservable;

@@ -6,7 +6,7 @@ use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{Group, Groups, Request};
 use crate::sampling::expression::Expression;
 
-/// The expression `text` and its variables among `series`; `None` if wrong.
+/// The expression `text` and its variables among `series`; `None` only for what reading a plan refuses.
 pub fn parsed(text: &str, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
     let expression = Expression::parse(text).ok()?;
     let of = |name: &String| series.iter().find(|band| band.quantity.name() == name).cloned();

@@ -7,6 +7,7 @@
 //! points and its end.
 
 use crate::campaign::event::{Event, Which};
+use crate::campaign::watched_quantity::parsed;
 use crate::campaign::{Plan, event_columns};
 use crate::ensemble::crossing::{Located, ROUNDING, Wanted, of_curve, of_steps};
 use crate::ensemble::extreme_finder::ExtremeFinder;
@@ -56,7 +57,7 @@ impl<'p> EventFinder<'p> {
             return None;
         }
         let series = event_series(&plan.request());
-        let parsed = plan.events.iter().filter_map(|event| event.parsed(&series));
+        let parsed = plan.events.iter().filter_map(|event| parsed(&event.quantity, &series));
         Some(EventFinder {
             plan,
             lookup: Lookup::new(plan, grid, engines, parsed),

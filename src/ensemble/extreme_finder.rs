@@ -6,6 +6,7 @@
 
 use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
+use crate::campaign::watched_quantity::parsed;
 use crate::ensemble::flights::{Runs, end_of};
 use crate::ensemble::lookup::{ERRORS, Lookup, Search, ticks};
 use crate::ensemble::peak::{Peak, of_curve};
@@ -40,7 +41,7 @@ fn sign(extreme: &Extreme) -> f64 {
 impl<'p> ExtremeFinder<'p> {
     pub fn new(plan: &'p Plan, grid: &Grid, engines: Engines) -> Self {
         let series = event_series(&plan.request());
-        let parsed = plan.extremes.iter().filter_map(|extreme| extreme.parsed(&series));
+        let parsed = plan.extremes.iter().filter_map(|extreme| parsed(&extreme.quantity, &series));
         ExtremeFinder {
             plan,
             lookup: Lookup::new(plan, grid, engines, parsed),

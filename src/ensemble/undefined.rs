@@ -1,5 +1,6 @@
 //! [`notes`]: quantities of events and extremes that are NaN in the first samples.
 
+use crate::campaign::watched_quantity::parsed;
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Means, Runs};
@@ -23,8 +24,9 @@ struct Undefined {
 /// A sentence for each quantity that is NaN at an observation point of the first samples.
 pub fn notes(plan: &Plan, isa: Isa) -> Vec<String> {
     let series = event_series(&plan.request());
-    let events = plan.events.iter().map(|one| ("event", &one.name, &one.quantity, one.parsed(&series)));
-    let extremes = plan.extremes.iter().map(|one| ("extreme", &one.name, &one.quantity, one.parsed(&series)));
+    let events = plan.events.iter().map(|one| ("event", &one.name, &one.quantity, parsed(&one.quantity, &series)));
+    let extremes =
+        plan.extremes.iter().map(|one| ("extreme", &one.name, &one.quantity, parsed(&one.quantity, &series)));
     let partial = events.chain(extremes).filter_map(|(table, name, quantity, parsed)| {
         let parsed = parsed.filter(|(expression, _)| !expression.is_total())?;
         Some(((table, name, quantity), parsed))

@@ -33,10 +33,6 @@ impl<Q: Nested> Map for AboutAxis<Q> {
         self.angle.dimensions()
     }
 
-    fn components(&self) -> usize {
-        4
-    }
-
     fn values(&self, u: &[f64], values: &mut [f64]) {
         let (sine, cosine) = libm::sincos(0.5 * self.angle.quantile(u.first().copied().unwrap_or(0.5)));
         let [x, y, z] = scaled(sine, self.axis);

@@ -53,10 +53,6 @@ impl Map for AttitudeError {
         3
     }
 
-    fn components(&self) -> usize {
-        4
-    }
-
     fn values(&self, u: &[f64], values: &mut [f64]) {
         let z = [quantile(u[0]), quantile(u[1]), quantile(u[2])];
         let theta = core::array::from_fn(|i| (0..=i).map(|j| self.factor[i][j] * z[j]).sum());

@@ -4,7 +4,6 @@
 use super::of_score::OfScore;
 use super::prelude::*;
 use crate::math::incomplete_beta::logit_quantile;
-use crate::math::normal::quantile;
 
 /// Allowed shape parameters: outside, the distribution is one spike or two.
 const SHAPES: Range = between(0.01, 1e4);
@@ -48,10 +47,12 @@ impl Beta {
         let logit = OfScore::new(&|p, q| logit_quantile(p, q, alpha, beta), alpha.min(beta));
         Beta { alpha, beta, min, max, logit }
     }
+}
 
-    /// The value at the normal score `z`; relative error of its distance from the nearer end below 1e-12 (test
+impl Quantile for Beta {
+    /// The relative error of its distance from the nearer end is below 1e-12 (test
     /// `quantiles_are_those_of_mpmath`).
-    fn at_score(&self, z: f64) -> f64 {
+    fn at_score(&self, z: f64) -> Option<f64> {
         let logit = self.logit.value(z);
         let odds = libm::exp(-logit.abs());
         let place = odds / (1.0 + odds);
@@ -62,17 +63,7 @@ impl Beta {
         } else {
             (1.0 - place) * near + place * far
         };
-        value.clamp(self.min, self.max)
-    }
-}
-
-impl Quantile for Beta {
-    fn quantile(&self, u: f64) -> f64 {
-        self.at_score(quantile(u))
-    }
-
-    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        each_score(z, values, |z| self.at_score(z))
+        Some(value.clamp(self.min, self.max))
     }
 
     fn text(&self, words: NumberWords<'_>) -> String {

@@ -49,10 +49,6 @@ impl Map for Bootstrap {
         "row".to_owned()
     }
 
-    fn components(&self) -> usize {
-        self.columns.len()
-    }
-
     /// Row k of n, counted from zero, for u from k/n to (k + 1)/n.
     fn values(&self, u: &[f64], values: &mut [f64]) {
         let row = ((u[0] * self.rows() as f64) as usize).min(self.rows() - 1);

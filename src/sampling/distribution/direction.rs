@@ -171,10 +171,6 @@ impl<Q: Nested, S: Spread> Map for Direction<Q, S> {
         }
     }
 
-    fn components(&self) -> usize {
-        3
-    }
-
     /// A negative magnitude points backwards.
     fn values(&self, u: &[f64], values: &mut [f64]) {
         let versine = self.spread.versine(u[0]);

@@ -1,7 +1,6 @@
 //! `log_normal`: normal in the natural logarithm, with standard deviation `log_std` about `median` (default: nominal).
 
 use super::prelude::*;
-use crate::math::normal::{quantile, quantiles};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogNormal {
@@ -28,21 +27,8 @@ impl Scalar for LogNormal {
 
 impl Quantile for LogNormal {
     #[inline]
-    fn quantile(&self, u: f64) -> f64 {
-        self.median * libm::exp(self.log_std * quantile(u))
-    }
-
-    #[inline]
-    fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
-        quantiles(u, values);
-        for value in values {
-            *value = self.median * libm::exp(self.log_std * *value);
-        }
-    }
-
-    #[inline]
-    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        each_score(z, values, |z| self.median * libm::exp(self.log_std * z))
+    fn at_score(&self, z: f64) -> Option<f64> {
+        Some(self.median * libm::exp(self.log_std * z))
     }
 
     fn text(&self, words: NumberWords<'_>) -> String {

@@ -2,7 +2,6 @@
 //! `three_sigma`.
 
 use super::prelude::*;
-use crate::math::normal::{quantile, quantiles};
 
 /// The keys of a standard deviation.
 pub(super) const SPREAD: [Row; 3] = [
@@ -34,21 +33,8 @@ impl Scalar for Normal {
 
 impl Quantile for Normal {
     #[inline]
-    fn quantile(&self, u: f64) -> f64 {
-        self.mean + self.std * quantile(u)
-    }
-
-    #[inline]
-    fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
-        quantiles(u, values);
-        for value in values {
-            *value = self.mean + self.std * *value;
-        }
-    }
-
-    #[inline]
-    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        each_score(z, values, |z| self.mean + self.std * z)
+    fn at_score(&self, z: f64) -> Option<f64> {
+        Some(self.mean + self.std * z)
     }
 
     fn normal_std(&self) -> Option<f64> {

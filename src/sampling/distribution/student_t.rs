@@ -4,7 +4,6 @@
 use super::of_score::OfScore;
 use super::prelude::*;
 use crate::math::incomplete_beta::logit_quantile;
-use crate::math::normal::quantile;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudentT {
@@ -35,10 +34,6 @@ impl StudentT {
         let factor = scale * degrees_of_freedom.sqrt();
         StudentT { degrees_of_freedom, middle, factor, scale, asinh: OfScore::new(&asinh, 0.5 * degrees_of_freedom) }
     }
-
-    fn at_score(&self, z: f64) -> f64 {
-        self.middle + self.factor * libm::sinh(self.asinh.value(z))
-    }
 }
 
 impl Scalar for StudentT {
@@ -62,12 +57,8 @@ impl Scalar for StudentT {
 }
 
 impl Quantile for StudentT {
-    fn quantile(&self, u: f64) -> f64 {
-        self.at_score(quantile(u))
-    }
-
-    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
-        each_score(z, values, |z| self.at_score(z))
+    fn at_score(&self, z: f64) -> Option<f64> {
+        Some(self.middle + self.factor * libm::sinh(self.asinh.value(z)))
     }
 
     fn text(&self, words: NumberWords<'_>) -> String {

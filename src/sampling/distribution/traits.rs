@@ -1,6 +1,7 @@
 //! The traits of distributions.
 
 use super::target::Target;
+use crate::math::normal::{quantile, quantiles};
 use crate::sampling::error::DispersionError;
 use crate::sampling::keys::{Row, Rule};
 use std::fmt::Debug;
@@ -30,32 +31,42 @@ pub trait Scalar {
     fn of(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
 }
 
-/// [`Quantile::of_scores`] by a function of the score.
-#[inline]
-pub fn each_score(z: &[f64; 8], values: &mut [f64; 8], of: impl Fn(f64) -> f64) -> bool {
-    for (value, z) in values.iter_mut().zip(z) {
-        *value = of(*z);
-    }
-    true
-}
-
+/// A quantile function: either [`Quantile::quantile`] or [`Quantile::at_score`] is its own.
 pub trait Quantile: Debug {
     /// The value at the probability `u`, 0 < u < 1.
-    fn quantile(&self, u: f64) -> f64;
+    fn quantile(&self, u: f64) -> f64 {
+        self.at_score(quantile(u)).unwrap_or(f64::NAN)
+    }
+
+    /// The value at the normal score `z`, the quantile of Phi(z); `None` if it is no function of the score. In the upper
+    /// tail a score has more digits than its u.
+    #[inline]
+    fn at_score(&self, _z: f64) -> Option<f64> {
+        None
+    }
 
     /// [`Quantile::quantile`] of eight numbers, with the same bits.
     #[inline]
     fn quantiles(&self, u: &[f64; 8], values: &mut [f64; 8]) {
+        let mut z = [0.0; 8];
+        if self.at_score(0.0).is_some() {
+            quantiles(u, &mut z);
+            self.of_scores(&z, values);
+            return;
+        }
         for (value, u) in values.iter_mut().zip(u) {
             *value = self.quantile(*u);
         }
     }
 
-    /// The values at eight normal scores z, the quantiles of Phi(z); false, with `_values` unchanged, if the
-    /// distribution is no function of z. In the upper tail a score has more digits than its u.
+    /// [`Quantile::at_score`] of eight numbers; false, with `values` unchanged, if it is no function of the score.
     #[inline]
-    fn of_scores(&self, _z: &[f64; 8], _values: &mut [f64; 8]) -> bool {
-        false
+    fn of_scores(&self, z: &[f64; 8], values: &mut [f64; 8]) -> bool {
+        for (value, z) in values.iter_mut().zip(z) {
+            let Some(at_score) = self.at_score(*z) else { return false };
+            *value = at_score;
+        }
+        true
     }
 
     /// 0 for a fixed value.
@@ -96,8 +107,6 @@ pub trait Map: Debug {
     fn dimension_name(&self, dimension: usize) -> String {
         (dimension + 1).to_string()
     }
-
-    fn components(&self) -> usize;
 
     /// Writes the values at `u`, one for each component.
     fn values(&self, u: &[f64], values: &mut [f64]);

@@ -20,10 +20,6 @@ impl Map for UniformAttitude {
         3
     }
 
-    fn components(&self) -> usize {
-        4
-    }
-
     fn values(&self, u: &[f64], values: &mut [f64]) {
         values[..4].copy_from_slice(&uniform_attitude([u[0], u[1], u[2]]));
     }
