@@ -6,6 +6,7 @@ use super::units;
 use crate::sampling::DistributionKind;
 use crate::sampling::keys::Kind;
 use crate::scene::Parameter;
+use toml::de::{DeTable, DeValue};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyDifference {
@@ -40,48 +41,36 @@ pub fn text_differences(first: &str, second: &str) -> Vec<KeyDifference> {
     gone.chain(new).collect()
 }
 
-/// Every key of a canonical text with its value. A table of a list is addressed by its name, as in `--set`, its
-/// parameter, or its number.
+/// Every key of a canonical text with its value, in its order.
 fn keys(text: &str) -> Vec<(String, String)> {
-    let mut table = String::new();
-    // list, number of tables so far, name of the last one
-    let mut lists: Vec<(&str, usize, String)> = Vec::new();
     let mut found = Vec::new();
-    let mut lines = text.lines();
-    while let Some(line) = lines.next() {
-        if let Some(list) = line.strip_prefix("[[").and_then(|rest| rest.strip_suffix("]]")) {
-            let at = lists.iter().position(|(name, ..)| *name == list).unwrap_or_else(|| {
-                lists.push((list, 0, String::new()));
-                lists.len() - 1
-            });
-            let (_, count, last) = &mut lists[at];
-            *last = called(list, lines.clone()).unwrap_or_else(|| format!("{list}[{count}]"));
-            *count += 1;
-            table.clone_from(last);
-        } else if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
-            // [disperse.angle_rad] belongs to the list's last table
-            let of_list = lists.iter().find_map(|(list, _, last)| {
-                let rest = name.strip_prefix(list)?.strip_prefix('.')?;
-                Some(format!("{last}.{rest}"))
-            });
-            table = of_list.unwrap_or_else(|| name.to_owned());
-        } else if let Some((key, value)) = line.split_once(" = ").filter(|_| !line.starts_with('#')) {
-            found.push((format!("{table}.{key}"), value.to_owned()));
-        }
-    }
-    found
+    collect(text, "", DeTable::parse_recoverable(text).0.get_ref(), &mut found);
+    found.sort_by_key(|(start, ..)| *start);
+    found.into_iter().map(|(_, key, value)| (key, value)).collect()
 }
 
-/// The address of a table of `list` whose keys follow in `lines`: `guidance.coast`, `disperse[wheels.w1.rate_rad_s]`.
-fn called<'t>(list: &str, lines: impl Iterator<Item = &'t str>) -> Option<String> {
-    let pairs = lines.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once(" = "));
-    let word = |value: &str| Some(value.strip_prefix('"')?.strip_suffix('"')?.to_owned());
-    let mut words = pairs.filter_map(|(key, value)| Some((key, word(value)?)));
-    words.find_map(|(key, word)| match key {
-        "name" | "phase" => Some(format!("{list}.{word}")),
-        "parameter" => Some(format!("{list}[{word}]")),
-        _ => None,
-    })
+/// Adds the keys of `table`, with their places in `text`. A table of a list is addressed by its name, as in `--set`, its
+/// parameter, or its number.
+fn collect(text: &str, path: &str, table: &DeTable<'_>, found: &mut Vec<(usize, String, String)>) {
+    for (key, value) in table {
+        let (start, key, written) = (key.span().start, key.get_ref(), text.get(value.span()).unwrap_or_default());
+        let inner = if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
+        match value.get_ref() {
+            DeValue::Table(table) if !written.starts_with('{') => collect(text, &inner, table, found),
+            DeValue::Array(list) if list.iter().any(|item| item.get_ref().is_table()) => {
+                for (place, table) in list.iter().filter_map(|item| item.get_ref().as_table()).enumerate() {
+                    let word = |key: &str| table.get(key).and_then(|value| value.get_ref().as_str());
+                    let address = match (word("name").or_else(|| word("phase")), word("parameter")) {
+                        (Some(name), _) => format!("{inner}.{name}"),
+                        (None, Some(parameter)) => format!("{inner}[{parameter}]"),
+                        (None, None) => format!("{inner}[{place}]"),
+                    };
+                    collect(text, &address, table, found);
+                }
+            }
+            _ => found.push((start, format!("{path}.{key}"), written.to_owned())),
+        }
+    }
 }
 
 /// The values of a key in two `plans` (SI in canonical text) in their display unit if this is shorter (5 deg for

@@ -8,7 +8,7 @@ use super::watched_quantity::variables;
 use crate::observables::Request;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::run::Quantity;
-use crate::sampling::keys::{Kind, Row, TextLimit, Written, is_name, words};
+use crate::sampling::keys::{Kind, Row, TextLimit, is_name, words};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
@@ -105,7 +105,7 @@ impl Event {
             });
         table.describes(None, unit);
         let rest = table.whole(rest, &[])?;
-        let (direction, which) = (named(&Direction::ALL, &rest, "direction")?, named(&Which::ALL, &rest, "which")?);
+        let (direction, which) = (rest.meaning("direction", &Direction::ALL)?, rest.meaning("which", &Which::ALL)?);
         if (direction, which) == (Direction::Either, Which::Stays) {
             let allowed = "\"first\" or \"last\" where direction is \"either\"";
             return table.refused(
@@ -179,8 +179,4 @@ impl Event {
             Some(_) => others[..1 + usize::from(ends)].iter().copied().chain(of_events).collect(),
         }
     }
-}
-
-fn named<T: Copy>(all: &[(&'static str, T)], written: &Written, key: &str) -> Option<T> {
-    all.iter().find(|(name, _)| written.text(key) == Some(name)).map(|(_, value)| *value)
 }

@@ -11,7 +11,7 @@ use crate::control::laws::rod_law::{ROD_LAWS, RodLaw};
 use crate::control::laws::{self, LawKind, callback};
 use crate::control::parameters;
 use crate::control::spec::PhaseSpec;
-use crate::sampling::keys::{ANY_TEXT, Condition as When, Kind, Row, Rule, Written, words};
+use crate::sampling::keys::{ANY_TEXT, Condition as When, Kind, Row, Rule, words};
 use crate::scene::schema::control::kept;
 use crate::scene::table::Table;
 use crate::scene::{DeclaredTable, LawParameter, Name, SceneInput, WheelMode};
@@ -74,10 +74,6 @@ fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &Modul
     }
 }
 
-fn meaning<T: Copy>(list: &[(&str, T)], written: &Written, key: &str) -> Option<T> {
-    list.iter().find(|(word, _)| written.text(key) == Some(word)).map(|(_, meaning)| *meaning)
-}
-
 /// Reads one table of `[[guidance]]` and adds its name to `taken`. `None` if its name, or a word on which other keys
 /// depend, is wrong.
 pub(super) fn read_phase(
@@ -129,8 +125,8 @@ pub(super) fn read_phase(
     let target = section.name("target", &names, |name| targets.iter().find(|(known, _)| *known == name).copied());
     let mut is_known = !(section.has("law") && law.is_none() || section.has("target") && target.is_none());
     let (target_name, target) = target.unwrap_or(TARGETS[0]);
-    let thrust = meaning(&MANEUVERS, &written, "thrust");
-    let rods = meaning(&ROD_LAWS, &written, "rods");
+    let thrust = written.meaning("thrust", &MANEUVERS);
+    let rods = written.meaning("rods", &ROD_LAWS);
     is_known &= thrust.is_some() && rods.is_some();
     let (thrust, rods) = (thrust.unwrap_or(Maneuver::None), rods.unwrap_or(RodLaw::None));
     if thrust != Maneuver::None && !(has_thrusters && has_debris) {

@@ -528,6 +528,11 @@ impl Written {
         self.get(key)?.text()
     }
 
+    /// The meaning of the word of `key` in a list of words.
+    pub fn meaning<T: Copy>(&self, key: &str, words: &[(&'static str, T)]) -> Option<T> {
+        words.iter().find(|(word, _)| self.text(key) == Some(word)).map(|(_, meaning)| *meaning)
+    }
+
     pub fn texts(&self, key: &str) -> &[String] {
         if let Some(Value::Texts(texts)) = self.get(key) { texts } else { &[] }
     }
