@@ -71,8 +71,8 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     let period = written.number("period_s");
     let place = |key: &str, names: &[&str]| names.iter().position(|name| written.text(key) == Some(name));
     let (estimator, modulation) = (place("estimator", &estimators::NAMES), place("modulation", &modulation::NAMES));
-    let thrusters = scene.thrusters.iter().map(|thruster| Some(thruster.name)).collect();
-    let rods = scene.torque_rods.iter().map(|rod| Some(rod.name)).collect();
+    let [thrusters, rods] =
+        [Table::Thruster, Table::TorqueRod].map(|table| table.owners(scene).into_iter().map(Some).collect());
     let mut driven = |key, known: Vec<Option<Name>>, what| actuators(&mut section, &mut written, (key, what), &known);
     let wheels = driven("wheels", turning(scene), "free wheels");
     let thrusters = driven("thrusters", thrusters, "thrusters");
@@ -177,8 +177,8 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
             .filter(|wheel| wheel.mode != WheelMode::Locked)
             .map(|wheel| wheel.name)
             .collect(),
-        thruster_names: scene.thrusters.iter().map(|thruster| thruster.name).collect(),
-        rod_names: scene.torque_rods.iter().map(|rod| rod.name).collect(),
+        thruster_names: Table::Thruster.owners(scene),
+        rod_names: Table::TorqueRod.owners(scene),
     };
     (has_actuators && !spec.phases.is_empty()).then(|| ControlLaw::closed_loop(spec))
 }

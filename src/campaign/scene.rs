@@ -288,8 +288,7 @@ fn check_part(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usiz
 }
 
 fn read_commands(section: &mut Section<'_, '_>, scene: &mut SceneInput, arc: usize) {
-    let thrusters: Vec<Name> = scene.thrusters.iter().map(|thruster| thruster.name).collect();
-    let wheels: Vec<Name> = scene.wheels.iter().map(|wheel| wheel.name).collect();
+    let [thrusters, wheels] = [Table::Thruster, Table::Wheel].map(|table| table.owners(scene));
     let command = &mut scene.actuation[arc];
     read_by_name(section, "thrust_n", &thrusters, "thrusters", &mut command.thrust_n);
     read_by_name(section, "torque_n_m", &wheels, "wheels", &mut command.torque_n_m);

@@ -29,7 +29,7 @@ pub(super) fn read_sensor(
     scene: &mut SceneInput,
     period: Option<f64>,
 ) -> Option<SensorSpec> {
-    let mut taken = scene.control.sensors.iter().map(|sensor| sensor.name).collect();
+    let mut taken = Table::Sensors.owners(scene).into_iter().collect();
     let name = read_name(section, Table::Sensors, &mut taken);
     section.require("kind", &format!("one of {}", sensors::NAMES.join(", ")), "\"rate_gyro\"");
     let is_seen = |kind: &&sensors::SensorKind| scene.debris.is_some() || !kind.observes.needs_debris();

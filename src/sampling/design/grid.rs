@@ -1,8 +1,7 @@
 //! `grid`: all combinations of levels; the first dimension changes fastest.
 
-use super::levels::{self, LEVELS, Levels, ONE_OF_LEVELS};
+use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
 use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, Size, by_point};
-use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Written;
 
 #[derive(Debug)]
@@ -34,10 +33,6 @@ impl Kind for Grid {
         let levels = Levels::of(written);
         let product = (0..dimensions).try_fold(1u64, |product, k| product.checked_mul(levels.count(k)));
         product.map_or(Size::TooMany, Size::Points)
-    }
-
-    fn check(written: &Written, dimensions: Dimensions<'_>, _: Option<u64>) -> Result<(), DispersionError> {
-        levels::check(written, dimensions)
     }
 
     fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {

@@ -8,7 +8,6 @@
 use super::hash::keyed;
 use super::replicates::{self, REPLICATES};
 use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, streams};
-use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Written;
 use crate::sampling::stream::{Stream, key};
 
@@ -90,10 +89,6 @@ impl Kind for LatinHypercube {
         ]),
         ..Facts::new("latin_hypercube", &[REPLICATES], &[])
     };
-
-    fn check(written: &Written, _: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-        replicates::check(written, samples)
-    }
 
     fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {
         let Dimensions { seed, samples, names, .. } = dimensions;

@@ -89,12 +89,14 @@ macro_rules! designs {
                 match self { $( Self::$Name(written) => <$Kind as Kind>::size(written, dimensions), )* }
             }
 
-            /// See [`Kind::check`].
+            /// Checks its keys against dimensions and samples of the file.
             ///
             /// # Errors
-            /// The key that does not fit.
+            /// The key that does not fit, or an impossible number of samples.
             pub fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-                match self { $( Self::$Name(written) => <$Kind as Kind>::check(written, dimensions, samples), )* }
+                levels::check(self.written(), dimensions)?;
+                replicates::check(self.written(), samples)?;
+                match self { $( Self::$Name(_) => <$Kind as Kind>::check(dimensions, samples), )* }
             }
 
             /// Its points, for one worker.

@@ -1,8 +1,7 @@
 //! `one_at_a_time`: one dimension after the other through its levels, the others nominal.
 
-use super::levels::{self, LEVELS, Levels, ONE_OF_LEVELS};
+use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
 use super::traits::{BLOCK, Dimensions, Facts, Kind, NOMINAL, PointSource, Size, by_point};
-use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Written;
 
 #[derive(Debug)]
@@ -35,10 +34,6 @@ impl Kind for OneAtATime {
         let levels = Levels::of(written);
         let sum = (0..dimensions).try_fold(0u64, |sum, k| sum.checked_add(levels.count(k)));
         sum.map_or(Size::TooMany, Size::Points)
-    }
-
-    fn check(written: &Written, dimensions: Dimensions<'_>, _: Option<u64>) -> Result<(), DispersionError> {
-        levels::check(written, dimensions)
     }
 
     fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {

@@ -84,10 +84,6 @@ impl<S: Sequence> PointSource for Replicated<S> {
 impl<S: Sequence> Kind for Replicated<S> {
     const FACTS: Facts = Facts { max_dimensions: S::MAX_DIMENSIONS, ..Facts::new(S::NAME, &[REPLICATES], &[]) };
 
-    fn check(written: &Written, _: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
-        check(written, samples)
-    }
-
     fn points(written: &Written, dimensions: Dimensions<'_>) -> Self {
         let names = scrambling_names(written, dimensions.names);
         Replicated(names.iter().map(|names| S::new(dimensions.seed, names)).collect())

@@ -70,11 +70,9 @@ pub trait Kind: PointSource + Sized {
         Size::Any
     }
 
-    /// Checks the keys against dimensions and samples of the file.
-    ///
     /// # Errors
-    /// The key that does not fit, or an impossible number of samples.
-    fn check(_written: &Written, _dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
+    /// An impossible number of samples.
+    fn check(_dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
         Ok(())
     }
 
