@@ -5,7 +5,7 @@ use super::lines::Lines;
 use super::numbers::{FINITE, number, numbers_in_words, remedy_for_text, values, whole};
 use super::parameter::{parameter, parameters};
 use super::section::Section;
-use super::{data_keys, display};
+use super::{data_keys, display, units};
 use crate::math::vector::norm;
 use crate::run::Quantity;
 use crate::sampling::expression::Expression;
@@ -145,7 +145,7 @@ impl Section<'_, '_> {
         let unit = match row.kind {
             Kind::Amount | Kind::Amounts | Kind::AmountList | Kind::Numbers(_) => self.unit,
             Kind::Correlations => "1",
-            _ => self.unit_of(key),
+            _ => units::in_name(key),
         };
         let limit = match row.kind {
             Kind::Amount | Kind::Number => Some(row.limit.unwrap_or(FINITE)),
@@ -162,11 +162,10 @@ impl Section<'_, '_> {
             (_, values) => matches!(values, Values::Each(_)),
         };
         let found = values(value, &|value| number(value, unit)).filter(is_arranged);
-        let Some(found) = found.filter(|found| found.flat().iter().all(|x| x.is_finite())) else {
+        // the limit of one number decides whether it may be infinite
+        let is_one = matches!(row.kind, Kind::Amount | Kind::Number);
+        let Some(found) = found.filter(|found| is_one || found.flat().iter().all(|x| x.is_finite())) else {
             let (allowed, remedy) = match (row.kind, limit) {
-                (Kind::Amount | Kind::Number, Some(limit)) if number(value, unit).is_some() => {
-                    (limit.allowed.to_owned(), limit.remedy.to_owned())
-                }
                 (Kind::Amount | Kind::Number, Some(limit)) => {
                     (limit.allowed.to_owned(), remedy_for_text(value).to_owned())
                 }

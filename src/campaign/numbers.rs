@@ -25,23 +25,14 @@ pub const NOT_NEGATIVE: NumberLimit = NumberLimit {
 };
 
 impl Section<'_, '_> {
-    pub(super) fn measures(&mut self, unit: &'static str) {
-        self.every = Some(unit);
-    }
-
     /// Sets the quantity that the table is about, and its unit.
     pub(super) fn describes(&mut self, about: impl Into<Option<String>>, unit: &'static str) {
         (self.about, self.unit) = (about.into(), unit);
     }
 
-    /// The unit of the numbers of `key`.
-    pub(super) fn unit_of(&self, key: &str) -> &'static str {
-        self.every.unwrap_or_else(|| units::in_name(key))
-    }
-
     /// The number of `key`, valid or not, for examples.
     pub fn written(&self, key: &str) -> Option<f64> {
-        number(self.value(key)?.get_ref(), self.unit_of(key))
+        number(self.value(key)?.get_ref(), units::in_name(key))
     }
 
     /// Notes that `value` of `key` is not a number in `unit`: the problem of its unit, else `allowed` and `remedy`.
@@ -63,11 +54,10 @@ impl Section<'_, '_> {
         self.require(key, &numbers_in_words(count), example);
     }
 
-    /// Fills `numbers` with the finite numbers of `key`: one, a list, or three rows for nine; returns whether the key
+    /// Fills `numbers` with the finite numbers of `key` in `unit`: one, a list, or three rows for nine; returns whether the key
     /// was written. A problem is noted, with an example within `limit`, and gives NaN.
-    pub(super) fn fill(&mut self, key: &str, numbers: &mut [f64], limit: Limit) -> bool {
+    pub(super) fn fill(&mut self, key: &str, unit: &'static str, numbers: &mut [f64], limit: Limit) -> bool {
         let Some(value) = self.take(key) else { return false };
-        let unit = self.unit_of(key);
         let found = values(value.get_ref(), &|value| number(value, unit));
         match found.filter(|found| found.are(numbers.len())).map(|found| found.flat()) {
             Some(found) if found.iter().all(|x| x.is_finite()) => numbers.copy_from_slice(&found),

@@ -8,6 +8,7 @@ use super::parameter::lacking;
 use super::scene_table::{Field, SceneTable, flag, list, word};
 use super::section::Section;
 use super::tables::read_keys;
+use super::units;
 use crate::sampling::keys::{Kind, Row, TextLimit, Value};
 use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
@@ -308,12 +309,10 @@ fn read_by_name(section: &mut Section<'_, '_>, key: &'static str, names: &[Name]
         section.refuse(key, allowed, format!("write {key} = {{ {} }}", entries.join(", ")));
         return;
     }
-    let unit = section.unit_of(key);
     let mut table = section.section(key);
-    table.measures(unit);
     for (name, number) in names.iter().zip(numbers) {
         if table.has(name.as_str()) {
-            table.fill(name.as_str(), std::slice::from_mut(number), Limit::Finite);
+            table.fill(name.as_str(), units::in_name(key), std::slice::from_mut(number), Limit::Finite);
         } else {
             table.know(name.as_str());
         }

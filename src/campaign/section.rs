@@ -22,8 +22,6 @@ pub struct Section<'d, 'a> {
     pub(super) unit: &'static str,
     /// Name of this quantity if it may be shown in another unit.
     pub(super) about: Option<String>,
-    /// Unit of every number of the table, if they share one.
-    pub(super) every: Option<&'static str>,
 }
 
 impl<'d, 'a> Section<'d, 'a> {
@@ -33,7 +31,7 @@ impl<'d, 'a> Section<'d, 'a> {
 
     fn of(document: &'d mut Document<'a>, path: String, table: Option<&'d DeTable<'a>>) -> Self {
         let (known, ignored) = (Vec::new(), Vec::new());
-        Section { document, path, title: None, table, index: 0, known, ignored, unit: "1", about: None, every: None }
+        Section { document, path, title: None, table, index: 0, known, ignored, unit: "1", about: None }
     }
 
     pub fn path(&self, key: &str) -> String {

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::section::Section;
+use super::units;
 use crate::scene::table::Table;
 use crate::scene::{LawParameter, Name, SceneInput};
 
@@ -22,7 +23,7 @@ pub(super) fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: u
         if let Some(example) = example {
             section.require_numbers(name, numbers.len(), example);
         }
-        if !section.fill(name, numbers, key.facts().limit) && example.is_some() {
+        if !section.fill(name, units::in_name(name), numbers, key.facts().limit) && example.is_some() {
             numbers.fill(f64::NAN);
         }
     }
