@@ -81,6 +81,7 @@ impl Expected {
 mod tests {
     use super::*;
     use crate::campaign::Overrides;
+    use crate::sampling::distribution::Quantile;
     use crate::sampling::distribution::choice::Choice;
 
     fn plan(dispersion: &str) -> Plan {
