@@ -104,7 +104,7 @@ pub use control::ControlLaw;
 ///     move |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY).with_thrust(&[0.01 * mass])
 /// };
 /// let law = ControlLaw::new("push", Actuated { thrusters: true, ..Actuated::NONE }, &[], make);
-/// assert!(law.parameters().is_empty());
+/// assert!(law.parameters.is_empty());
 /// ```
 #[doc(inline)]
 pub use control::LawContext;

@@ -129,7 +129,7 @@ impl Plan {
                 control::write(spec, &self.nominal, lines);
             } else if let Some(law) = &self.law {
                 lines.table("[control]");
-                lines.key("law", law.name());
+                lines.key("law", law.name);
                 lines.keys(Table::Control, 0, &self.nominal);
             }
         });

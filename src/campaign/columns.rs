@@ -23,7 +23,7 @@ pub fn request(
     let of_extremes = extremes.iter().map(Extreme::column).collect();
     let watched =
         [event_columns::of_failures(acting), event_columns::of_events(events, law.is_some()), of_extremes].concat();
-    let commanded = law.map_or(Actuated::NONE, ControlLaw::commands);
+    let commanded = law.map_or(Actuated::NONE, |law| law.commands);
     Request {
         groups: groups.iter().copied().collect(),
         debris: acting.debris.is_some(),
@@ -32,7 +32,7 @@ pub fn request(
         constrained: method == Method::NullSpace,
         wheels: acting.turning_wheels(),
         nutation_axis: NutationAxis::SpinAxis,
-        of_law: law.map_or(LawColumns::NONE, ControlLaw::columns).with_events(watched),
+        of_law: law.map_or(LawColumns::NONE, |law| law.columns).with_events(watched),
         windows: NO_WINDOWS,
     }
 }

@@ -172,12 +172,12 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput) {
     let Some(law) = root.document.law.clone() else {
         return read_loop(root, scene);
     };
-    scene.control = ControlInput::of(law.parameters());
+    scene.control = ControlInput::of(law.parameters);
     let mut section = root.section("control");
     let name = section.text("law");
-    if name.is_some_and(|name| name != law.name()) {
+    if name.is_some_and(|name| name != law.name) {
         let remedy = "open it with the program whose control law it names";
-        section.refuse("law", format!("{:?}, the control law of this program", law.name()), remedy);
+        section.refuse("law", format!("{:?}, the control law of this program", law.name), remedy);
     }
     read_keys(&mut section, Table::Control, 0, scene);
     section.finish();

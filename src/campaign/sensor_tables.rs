@@ -55,9 +55,8 @@ pub(super) fn read_sensor(
     if let (Some(period), Some(own)) = (period, own_period) {
         check_times(section, period, own, latency);
     }
-    if let Some([allowed, remedy]) =
-        sensors::KINDS[kind].needs.filter(|need| !need.is_met(scene)).map(|need| need.refusal())
-    {
+    if let Some(need) = sensors::KINDS[kind].needs.as_ref().filter(|need| !(need.is_met)(scene)) {
+        let [allowed, remedy] = need.refusal;
         section.refuse("kind", allowed, remedy);
     }
     // a wrong number is reported already and does not change the columns

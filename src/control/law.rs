@@ -18,37 +18,22 @@ use crate::scene::{Actuated, LawParameter};
 /// law. The law of a run is made at its start and must depend on nothing but its context and its input in that run.
 #[derive(Clone)]
 pub struct ControlLaw {
-    name: &'static str,
-    commands: Actuated,
-    parameters: &'static [LawParameter],
-    columns: LawColumns,
+    /// Its name, as in `control.law` of a plan.
+    pub name: &'static str,
+    /// The actuators that it commands, which have columns of work and impulse.
+    pub commands: Actuated,
+    /// Its parameters, keys of `[control]`.
+    pub parameters: &'static [LawParameter],
+    /// The columns that it reports.
+    pub columns: LawColumns,
     make: Arc<LawMaker>,
     /// The loop of a campaign file.
     spec: Option<Arc<LoopSpec>>,
 }
 
 impl ControlLaw {
-    /// The law called `name`, which commands `commands`, with the parameters `parameters`; `make` makes the
-    /// law of a run.
-    ///
-    /// ```
-    /// use spindrift::control::ControlLaw;
-    /// use spindrift::dynamics::actuation::{Actuation, BodyState, WheelState, ZeroOrderHold};
-    /// use spindrift::scene::schema::Limit;
-    /// use spindrift::scene::{Actuated, LawParameter};
-    ///
-    /// static PARAMETERS: [LawParameter; 1] =
-    ///     [LawParameter::number("gain_n_m_s", "N m s", "Torque against a rate", Limit::NotNegative)];
-    /// let commands = Actuated { body_torque: true, ..Actuated::NONE };
-    /// let law = ControlLaw::new("rate_damping", commands, &PARAMETERS, |context| {
-    ///     let gain = context.number("gain_n_m_s");
-    ///     ZeroOrderHold::new(0.1, move |_: f64, body: &BodyState, _: &WheelState| Actuation {
-    ///         body_torque: body.omega_se_s.map(|rate| -gain * rate),
-    ///         ..Actuation::none(f64::INFINITY)
-    ///     })
-    /// });
-    /// assert_eq!(law.name(), "rate_damping");
-    /// ```
+    /// The law called `name`, which commands `commands`, with the parameters `parameters`; `make` makes the law of a run,
+    /// as in `examples/control_campaign.rs`.
     pub fn new<L: ActuationLaw + Send + 'static>(
         name: &'static str,
         commands: Actuated,
@@ -81,26 +66,6 @@ impl ControlLaw {
     #[must_use]
     pub fn reporting(self, columns: &'static [LawColumn]) -> Self {
         ControlLaw { columns: LawColumns { list: columns, ..self.columns }, ..self }
-    }
-
-    /// Its name, as in `control.law` of a plan.
-    pub fn name(&self) -> &'static str {
-        self.name
-    }
-
-    /// The actuators that it commands, which have columns of work and impulse.
-    pub fn commands(&self) -> Actuated {
-        self.commands
-    }
-
-    /// The columns that it reports.
-    pub fn columns(&self) -> LawColumns {
-        self.columns
-    }
-
-    /// Its parameters, keys of `[control]`.
-    pub fn parameters(&self) -> &'static [LawParameter] {
-        self.parameters
     }
 
     /// Memory for the laws of one worker's runs.

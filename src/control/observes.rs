@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::estimators::attitude_innovation::AttitudeSensor;
+use super::estimators::kalman::AttitudeSensor;
 use crate::scene::{DeclaredTable, Scene};
 
 /// Flight software's model of gyro noise: Farrenkopf's sv, rad/sqrt(s), and su, rad/s/sqrt(s).

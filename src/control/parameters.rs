@@ -3,6 +3,7 @@
 use super::declared::{declared, number};
 use super::guidance::phase::Maneuver;
 use super::guidance::target::Target;
+use super::laws::momentum_unloading::UNLOADING;
 use super::net_launch;
 use crate::scene::LawParameter;
 use crate::scene::schema::{Facts, Limit, Shape};
@@ -36,15 +37,6 @@ declared! {
 declared! {
     ConditionNumbers = CONDITION {
         hold: f64 = number("hold_s", "s", "How long the condition of the phase must be met", &[0.0]);
-    }
-}
-
-declared! {
-    UnloadingNumbers = UNLOADING {
-        time: f64 = number("unloading_time_s", "s",
-            "Time constant with which thrusters unload the wheels; 0: they do not", &[0.0]);
-        dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Wheel momentum that need not be unloaded",
-            &[0.0]);
     }
 }
 

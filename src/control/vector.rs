@@ -185,32 +185,3 @@ pub fn solved<const N: usize>(l: &[[f64; N]; N], b: [f64; N]) -> [f64; N] {
     }
     y
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Law: s3 turns to the direction, whatever its length, by an orthonormal, right-handed matrix; s3 itself stays bit
-    /// for bit.
-    #[test]
-    fn s3_turns_to_a_direction() {
-        let cases = [
-            [0.0, 0.0, 1.0],
-            [0.0, 0.0, 7.0],
-            [0.0, 0.0, -1.0],
-            [1.0, 0.0, 0.0],
-            [0.0, -2.0, 0.0],
-            [0.3, 0.4, -0.5],
-            [1e-9, 0.0, -1.0],
-        ];
-        for direction in cases {
-            let c = from_s3_to(direction);
-            let columns: [[f64; 3]; 3] = std::array::from_fn(|j| c.map(|row| row[j]));
-            let unit = scaled(1.0 / norm(direction), direction);
-            assert!(norm(difference(columns[2], unit)) < 4e-15, "{direction:?}: {columns:?}");
-            assert!(norm(difference(cross(columns[0], columns[1]), columns[2])) < 4e-15, "{direction:?}");
-            assert!(columns.iter().all(|column| (norm(*column) - 1.0).abs() < 4e-15), "{direction:?}");
-        }
-        assert_eq!(from_s3_to([0.0, 0.0, 3.0]), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    }
-}

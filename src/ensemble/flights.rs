@@ -106,7 +106,7 @@ impl<'p> Flights<'p> {
             });
         };
         assert_eq!(scenes.len(), draws.len(), "each run has a law");
-        let is_recorded = self.plan.law.as_ref().is_some_and(|law| law.columns().over_time != LawSeries::NONE);
+        let is_recorded = self.plan.law.as_ref().is_some_and(|law| law.columns.over_time != LawSeries::NONE);
         while is_recorded && self.over_time.len() < scenes.len() {
             self.over_time.push(SharedRecord::new(&self.times));
         }

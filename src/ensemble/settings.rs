@@ -43,7 +43,7 @@ pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSe
     let place = StateFields::NONE.with(StateField::ComPosition).with(StateField::ComVelocity);
     let fields = if leaves_orbit(plan) { fields.union(place) } else { fields };
     match &plan.law {
-        Some(law) => settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands()),
+        Some(law) => settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands),
         None => settings(fields),
     }
 }

@@ -235,6 +235,14 @@ fn modules_that_cannot_fly_are_refused() {
     let nested = |depth| [[0x02, 0x40].repeat(depth), vec![0x0b; depth + 1]].concat();
     let branches = |count: usize| [vec![0x41, 0, 0x0e], size(count), vec![0; count + 1], vec![0x0b]].concat();
     let component = b"\0asm\x0d\0\x01\0".to_vec();
+    // of types with so many parameters, and of empty functions
+    let passing = |types: usize, parameters: usize, functions: usize| {
+        let of_type = [vec![0x60], size(parameters), vec![0x7c; parameters], vec![0]].concat();
+        let types = section(1, list(&vec![of_type; types]));
+        let functions = [vec![vec![0]; functions], vec![vec![2, 0, 0x0b]; functions]].map(|all| list(&all));
+        [b"\0asm\x01\0\0\0".to_vec(), types, section(3, functions[0].clone()), section(10, functions[1].clone())]
+            .concat()
+    };
     let truncated = sound.bytes()[..60].to_vec();
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (Vec::new(), "does not begin as one does"),
@@ -261,6 +269,9 @@ fn modules_that_cannot_fly_are_refused() {
             "are 25010001 in all",
         ),
         ([sound.bytes(), section(11, list(&vec![vec![0, 0x41, 0, 0x0b, 0]; 2001]))].concat(), "2001 segments"),
+        (passing(101, 991, 0), "100091 parameters and results in all"),
+        (passing(1, 100, 1_000), "100100 parameters and results in all"),
+        (passing(1, 100, 999), "does not export its memory"),
         (changed(&|module| module.imports = true), "imports print of env"),
         (changed(&|module| module.misnamed = "memory"), "does not export its memory"),
         (changed(&|module| module.misnamed = "spindrift_interface"), "does not export spindrift_interface"),

@@ -221,7 +221,7 @@ fn keys_of_loops() -> String {
     lists.extend(laws::KINDS.iter().map(|kind| (named("[[guidance]]", "law", kind.name), kind.parameters)));
     lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
     lists.push(("`[[guidance]]` with `until`".into(), &parameters::CONDITION));
-    lists.push(("`[[guidance]]` with thrusters".into(), &parameters::UNLOADING));
+    lists.push(("`[[guidance]]` with thrusters".into(), &laws::momentum_unloading::UNLOADING));
     for (name, of) in laws::rod_law::ROD_LAWS {
         lists.push((named("[[guidance]]", "rods", name), of.parameters()));
     }

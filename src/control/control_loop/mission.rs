@@ -33,8 +33,6 @@ pub struct Mission {
     record: Option<SharedRecord>,
     /// Indices of motor torques among them.
     motor_places: [usize; MAX_WHEELS],
-    /// Time at the speed limit after which a run fails; may be infinite.
-    saturation_timeout: f64,
     saturated_since: f64,
 }
 
@@ -42,12 +40,11 @@ impl Mission {
     /// Judges the run of `context`.
     pub fn new(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Self {
         let numbers = &context.parameters.law;
-        let of_loop = LoopNumbers::of(numbers);
         Mission {
             spec: spec.clone(),
             outcome: MissionOutcome::new(MissionCriteria {
                 launch: LaunchState::of(numbers, context.drawn.orbit.as_ref()),
-                of_loop,
+                of_loop: LoopNumbers::of(numbers),
                 period: spec.period,
                 isp: ThrusterNumbers::of(numbers).isp,
             }),
@@ -55,7 +52,6 @@ impl Mission {
             over_time: NOTHING_KNOWN,
             record: context.record.cloned().inspect(|record| record.lock().restart()),
             motor_places: std::array::from_fn(|wheel| place(Series::MotorTorque.of_wheel(wheel))),
-            saturation_timeout: limit(of_loop.saturation_timeout),
             saturated_since: f64::NAN,
         }
     }
@@ -69,7 +65,8 @@ impl Mission {
 
     /// Failure by a wheel at its speed limit for too long.
     pub fn saturation(&self, time: f64) -> Option<Failure> {
-        let longest = self.saturation_timeout + SAME_TIME * self.outcome.criteria.period;
+        let MissionCriteria { of_loop, period, .. } = &self.outcome.criteria;
+        let longest = limit(of_loop.saturation_timeout) + SAME_TIME * period;
         (time - self.saturated_since > longest).then_some(Failure::WheelSaturated)
     }
 

@@ -8,9 +8,10 @@
 
 use std::sync::Arc;
 
-use super::attitude_innovation::{AttitudeInnovation, AttitudeSensor, WholeAttitude};
 use super::delayed::Filter;
-use super::kalman::{NormalizedSquare, blocks, corners, halves, symmetric};
+use super::kalman::{
+    AttitudeInnovation, AttitudeSensor, NormalizedSquare, WholeAttitude, blocks, corners, halves, symmetric,
+};
 use crate::control::measurement::{Values, values};
 use crate::control::observes::GyroNoise;
 use crate::control::vector::{

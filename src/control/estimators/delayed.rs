@@ -89,9 +89,6 @@ impl<F: Filter> Delayed<F> {
         }
         let Innovations { of_tick, sum, count } = &mut self.innovations;
         (*sum, *count) = (*sum + square.value / square.degrees as f64, *count + 1.0);
-        *of_tick = Some(of_tick.map_or(square, |before| NormalizedSquare {
-            value: before.value + square.value,
-            degrees: before.degrees + square.degrees,
-        }));
+        *of_tick = Some(of_tick.map_or(square, |before| before.with(square)));
     }
 }

@@ -1,6 +1,9 @@
-//! The Kalman update, and normalised squares for tests of consistency.
+//! The Kalman update, innovations of all or part of the attitude, and normalised squares for tests of consistency.
 
-use crate::control::vector::{added, cholesky, multiplied, solved, transposed};
+use std::fmt::Debug;
+
+use crate::control::measurement::{Values, part};
+use crate::control::vector::{added, cholesky, conjugate, hamilton, multiplied, solved, transposed, vector_of};
 
 /// e^T S^-1 e of an innovation or an estimation error: chi-square with `degrees` degrees of freedom if the filter is
 /// consistent.
@@ -14,12 +17,14 @@ pub struct NormalizedSquare {
 impl NormalizedSquare {
     /// Sum of independent squares; `None` if one is missing.
     pub fn sum(mut squares: impl Iterator<Item = Option<Self>>) -> Option<Self> {
-        squares.try_fold(NormalizedSquare { value: 0.0, degrees: 0 }, |sum, square| {
-            square.map(|NormalizedSquare { value, degrees }| NormalizedSquare {
-                value: sum.value + value,
-                degrees: sum.degrees + degrees,
-            })
-        })
+        squares
+            .try_fold(NormalizedSquare { value: 0.0, degrees: 0 }, |sum, square| square.map(|square| sum.with(square)))
+    }
+
+    /// Their sum.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
+        NormalizedSquare { value: self.value + other.value, degrees: self.degrees + other.degrees }
     }
 }
 
@@ -101,4 +106,59 @@ pub fn corners(p: &[[f64; 6]; 6]) -> [[[f64; 3]; 3]; 3] {
 pub fn halves(x: [f64; 6]) -> ([f64; 3], [f64; 3]) {
     let [a, b, c, d, e, f] = x;
     ([a, b, c], [d, e, f])
+}
+
+/// An innovation of M components, e = H d + n: d is the attitude error, true = estimated (x) d, a rotation vector in
+/// F_s; n has the covariance R.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Innovation<const M: usize> {
+    pub value: [f64; M],
+    /// H at the estimate.
+    pub sensitivity: [[f64; 3]; M],
+    pub covariance: [[f64; M]; M],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AttitudeInnovation {
+    Two(Innovation<2>),
+    /// An attitude, or a direction with its length.
+    Three(Innovation<3>),
+}
+
+impl<const M: usize> Innovation<M> {
+    fn update(&self, covariance: &mut [[f64; 6]; 6]) -> Option<([f64; 6], NormalizedSquare)> {
+        let sensitivity = self.sensitivity.map(|[x, y, z]| [x, y, z, 0.0, 0.0, 0.0]);
+        let gain = Gain::of(covariance, &sensitivity, &self.covariance)?;
+        Some((gain.correction(self.value), gain.square(self.value)))
+    }
+}
+
+impl AttitudeInnovation {
+    /// Updates `covariance`, whose first three errors are d; the correction of the state and the normalised square.
+    /// `None`, with no change, if the innovation's covariance is singular to rounding.
+    pub fn update(&self, covariance: &mut [[f64; 6]; 6]) -> Option<([f64; 6], NormalizedSquare)> {
+        match self {
+            AttitudeInnovation::Two(innovation) => innovation.update(covariance),
+            AttitudeInnovation::Three(innovation) => innovation.update(covariance),
+        }
+    }
+}
+
+/// A filter's model of a sensor that measures all or part of the attitude.
+pub trait AttitudeSensor: Debug + Send + Sync {
+    /// The innovation of `values`, measured at `time` (s), at the estimate `q_es` (F_s -> F_e, scalar first).
+    fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation;
+}
+
+/// A sensor of the whole attitude as a quaternion, with its error covariance in F_s, rad^2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeAttitude(pub [[f64; 3]; 3]);
+
+const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl AttitudeSensor for WholeAttitude {
+    fn innovation(&self, values: &Values, q_es: [f64; 4], _time: f64) -> AttitudeInnovation {
+        let value = vector_of(hamilton(conjugate(q_es), part(values, 0)));
+        AttitudeInnovation::Three(Innovation { value, sensitivity: IDENTITY, covariance: self.0 })
+    }
 }

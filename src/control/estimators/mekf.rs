@@ -10,12 +10,11 @@
 use std::sync::Arc;
 
 use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroStep};
-use super::attitude_innovation::AttitudeSensor;
 use super::delayed::Delayed;
 use super::estimator::{
     Confidence, Covariance, Estimator, EstimatorContext, EstimatorKind, Filters, KnownSensor, Update, center_of,
 };
-use super::kalman::corners;
+use super::kalman::{AttitudeSensor, corners};
 use super::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
 use super::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
 use crate::control::declared::{declared, number};

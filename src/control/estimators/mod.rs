@@ -4,7 +4,6 @@
 //! through measurements.
 
 pub mod attitude_filter;
-pub mod attitude_innovation;
 pub mod delayed;
 pub mod estimator;
 pub mod kalman;

@@ -3,12 +3,11 @@
 
 use super::*;
 use crate::control::estimate::{DebrisState, Estimate};
-use crate::control::laws::plant::Body;
 use crate::control::measurement::{Measurement, Values, values};
 use crate::control::outcome::estimation::{Consistency, EstimateErrors};
 use crate::control::sensors;
 use crate::control::sensors::bench::{chi_square, input_on_orbit, sensor, table, truth};
-use crate::control::truth::Truth;
+use crate::control::truth::{DebrisMotion, Truth};
 use crate::control::vector::{
     conjugate, dcm_from_quaternion, difference, hamilton, norm, product, quaternion_of, scaled, sum,
     transposed_product, vector_of,
@@ -148,9 +147,9 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     let (kind, parameters) = (kind("mekf").expect("a kind"), &table("mekf", &[]));
     let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 0.1 };
     let (mut estimator, mut estimate) = ((kind.make)(&context), context.start());
-    let body = nominal.mass.debris.as_ref().expect("debris").inertia;
-    let mut debris =
-        Body { inertia: [body[0][0], body[1][1], body[2][2]], q_es: [0.8, 0.6, 0.0, 0.0], omega: [0.03, -0.02, 0.04] };
+    let mut tumbling = nominal.clone();
+    (tumbling.initial.q_ed, tumbling.initial.omega_de_d) = ([0.8, 0.6, 0.0, 0.0], [0.03, -0.02, 0.04]);
+    let mut debris = DebrisMotion::of(&tumbling).expect("debris");
     // a principal axis of the body: without torque the rate is constant
     let omega = [0.0, 0.0, 0.02];
     let mut q = quaternion_of([0.05, -0.02, 0.03]);
@@ -163,14 +162,13 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
         (at.body.r_co_e, at.body.v_co_e) = (r, v);
         at.r_cp_s = nominal.mass.center;
         let r_gdo_e = sum(r_gdo, scaled(at.time, v_gdo));
-        at.debris = Some(DebrisState { r_gdo_e, v_gdo_e: v_gdo, q_ed: debris.q_es, omega_de_d: debris.omega });
+        at.debris = Some(DebrisState { r_gdo_e, v_gdo_e: v_gdo, ..debris.at(at.time) });
         let mut measurements = Vec::new();
         for (place, sensor) in sampled.iter_mut().enumerate() {
             measurements.extend(sensor.deliver(place, tick, &at));
         }
         estimator.update(&Update { acceleration_s, ..update(tick, 0.1, &measurements) }, &mut estimate);
         last = Some((estimate, at));
-        debris.step([0.0; 3], 0.1, 4);
         let q_after = hamilton(q, quaternion_of(scaled(0.1, omega)));
         // thrust along the rotation axis has a constant direction in F_e
         let acceleration = product(dcm_from_quaternion(q), acceleration_s);

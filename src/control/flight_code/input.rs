@@ -1,6 +1,7 @@
 //! Input of a module at a tick, as little-endian numbers in its memory.
 
 use super::module::WantedSensor;
+use crate::control::estimate::Estimate;
 use crate::control::laws::interface::{KnownBody, LawInput};
 use crate::control::measurement::MAX_VALUES;
 use crate::scene::MAX_WHEELS;
@@ -15,38 +16,17 @@ const NONE_YET: f64 = -1.0;
 /// The input of a tick `elapsed` seconds after the phase's last one (zero at the first); `times` are control period and
 /// delay. The order is that of `docs/flight-code.md` and of `struct spindrift_input` in
 /// `examples/flight_code/spindrift.h`.
-pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 2]) -> [u8; 8 * NUMBERS] {
-    let mut bytes = [0; 8 * NUMBERS];
-    let mut places = bytes.chunks_exact_mut(8);
-    let mut write = |numbers: &[f64]| {
-        for number in numbers {
-            if let Some(place) = places.next() {
-                place.copy_from_slice(&number.to_le_bytes());
-            }
+pub fn bytes(body: &KnownBody, input: &LawInput<'_>, elapsed: f64, times: [f64; 2]) -> Vec<u8> {
+    let estimated = match input.estimate {
+        Some(Estimate { q_es, gyro_bias_s, r_co_e, v_co_e, wheel_rates, .. }) => {
+            [&q_es[..], gyro_bias_s, r_co_e, v_co_e, wheel_rates].concat()
         }
+        None => [&[1.0, 0.0, 0.0, 0.0][..], &[0.0; 9 + MAX_WHEELS]].concat(),
     };
-    write(&[input.time, elapsed]);
-    write(&times);
-    write(&input.q_ts);
-    write(&input.omega_se_s);
-    write(&input.omega_te_s);
-    write(&input.acceleration_te_s);
-    write(&input.momentum_s);
-    write(body.inertia.as_flattened());
-    match input.estimate {
-        Some(estimate) => {
-            write(&estimate.q_es);
-            write(&estimate.gyro_bias_s);
-            write(&estimate.r_co_e);
-            write(&estimate.v_co_e);
-            write(&estimate.wheel_rates);
-        }
-        None => {
-            write(&[1.0, 0.0, 0.0, 0.0]);
-            write(&[0.0; 9 + MAX_WHEELS]);
-        }
-    }
-    bytes
+    let target = [&input.q_ts[..], &input.omega_se_s, &input.omega_te_s, &input.acceleration_te_s];
+    let momentum = [&input.momentum_s[..], body.inertia.as_flattened(), &estimated];
+    let numbers = [&[input.time, elapsed][..], &times, &target.concat(), &momentum.concat()].concat();
+    numbers.into_iter().flat_map(f64::to_le_bytes).collect()
 }
 
 /// Last measurements of the sensors `wanted`: age, then values as in telemetry, 0 beyond those of the kind.

@@ -254,7 +254,7 @@ impl Running {
 }
 
 struct Known {
-    input: [u8; 8 * NUMBERS],
+    input: Vec<u8>,
     measured: Vec<u8>,
 }
 

@@ -23,14 +23,14 @@ use super::guidance::target::{AttitudeError, OrbitMotion, Target};
 use super::guidance::{Guidance, Progress};
 use super::laws::callback::is_law_of;
 use super::laws::interface::NoTorque;
-use super::laws::momentum_unloading::MomentumUnloading;
+use super::laws::momentum_unloading::UnloadingNumbers;
 use super::laws::rod_law::MeasuredField;
 use super::laws::{AttitudeLaw, KnownBody, LawSettings};
 use super::measurement::{Measurement, PointMotion, Reading, part};
 use super::net_launch::geometry::{LaunchGeometry, LaunchState};
 use super::net_launch::parameters::TransferNumbers;
 use super::observes::Observes;
-use super::parameters::{AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers, UnloadingNumbers};
+use super::parameters::{AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::sensor_spec::SensorSpec;
 use super::spec::{LoopSpec, PhaseSpec};
 use super::tick_times::TickTimes;
@@ -124,10 +124,7 @@ fn phase((phase, table): (&PhaseSpec, &DeclaredTable)) -> Phase {
         thrust: phase.thrust,
         transfer_time: TransferNumbers::of(table).time,
         rods: phase.rods.with(table),
-        unloading: {
-            let UnloadingNumbers { time, dead_band } = UnloadingNumbers::of(table);
-            (time > 0.0).then_some(MomentumUnloading { dead_band, time_constant: time })
-        },
+        unloading: Some(UnloadingNumbers::of(table)).filter(|numbers| numbers.time > 0.0),
     }
 }
 

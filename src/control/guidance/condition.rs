@@ -5,30 +5,22 @@ use crate::control::net_launch::geometry::LaunchGeometry;
 use crate::control::vector::norm;
 use crate::sampling::expression::Expression;
 
-/// Estimated input of guidance at a tick.
+/// Estimated input of guidance at a tick, by the meanings of [`QUANTITIES`]; NaN without debris or transfer.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceInput {
     pub time: f64,
     pub time_in_phase: f64,
-    /// Magnitude of the body's rate relative to F_e.
     pub body_rate: f64,
-    /// Attitude relative to the phase's target.
     pub error: AttitudeError,
-    /// Largest magnitude of a wheel's rate relative to the body.
     pub wheel_speed: f64,
-    /// Magnitude of the wheels' momentum relative to the body.
     pub wheel_momentum: f64,
     /// Relative to the launch state, if there is debris.
     pub geometry: Option<LaunchGeometry>,
-    /// Remaining impulse per mass of the phase's maneuver, in F_e.
+    /// In F_e, like s3.
     pub velocity_to_go: [f64; 3],
-    /// Direction of s3 in F_e.
     pub s3_e: [f64; 3],
-    /// Time until the current transfer reaches the station; NaN without one.
     pub time_to_station: f64,
-    /// Time since the debris was last measured; NaN without debris.
     pub debris_age: f64,
-    /// Magnitude of the debris's rate relative to F_e; NaN without debris.
     pub debris_rate: f64,
 }
 

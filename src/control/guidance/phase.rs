@@ -2,7 +2,7 @@
 
 use super::condition::Condition;
 use super::target::Target;
-use crate::control::laws::momentum_unloading::MomentumUnloading;
+use crate::control::laws::momentum_unloading::UnloadingNumbers;
 use crate::control::laws::rod_law::RodLaw;
 
 /// Use of thrust along s3.
@@ -45,7 +45,7 @@ pub struct Phase {
     pub thrust: Maneuver,
     /// Time of a transfer that begins in this phase.
     pub transfer_time: f64,
-    pub unloading: Option<MomentumUnloading>,
+    pub unloading: Option<UnloadingNumbers>,
     pub rods: RodLaw,
 }
 

@@ -61,12 +61,6 @@ pub(super) const KIND: LawKind = LawKind {
 };
 
 impl Eigenaxis {
-    /// The acceleration for small errors, without limits and integral.
-    fn uncut(&self, input: &LawInput) -> [f64; 3] {
-        let error = scaled(self.stiffness, input.error_vector());
-        scaled(-1.0, sum(error, scaled(self.damping, input.omega_st_s())))
-    }
-
     /// The acceleration within the rate limit; the integral rests while it is active.
     fn small(&mut self, input: &LawInput, period: f64) -> [f64; 3] {
         // damping balances the error at the rate error/c
@@ -87,7 +81,10 @@ impl PhaseLaw for Eigenaxis {
             return sum(product(craft.inertia, self.small(input, period)), input.feedforward(craft));
         }
         let bounds = [self.largest_rate, self.largest_torque];
-        let slew = self.slew.acceleration(craft, input, bounds, self.uncut(input));
+        // for small errors, without limits and integral
+        let error = scaled(self.stiffness, input.error_vector());
+        let uncut = scaled(-1.0, sum(error, scaled(self.damping, input.omega_st_s())));
+        let slew = self.slew.acceleration(craft, input, bounds, uncut);
         let acceleration = slew.unwrap_or_else(|| self.small(input, period));
         let wanted = product(craft.inertia, acceleration);
         let size = norm(wanted);
@@ -133,19 +130,18 @@ mod tests {
                         damping: 1.8 * bandwidth,
                         integral: Integral::new(0.0, 0.0),
                     };
-                    let mut body = Body { inertia, q_es: quaternion_of(scaled(start, axis)), omega: [0.0; 3] };
-                    let craft = KnownBody { inertia: body.matrix() };
+                    let mut body = Body::new(inertia, quaternion_of(scaled(start, axis)), [0.0; 3]);
                     let (mut settled, mut overshoot, mut fastest) = (0.0, 0.0_f64, 0.0_f64);
                     let part = delay % period;
                     let mut commands = vec![[0.0; 3]; (delay / period) as usize + 1];
                     for tick in 0..(1.5 * book / period) as usize {
-                        commands.push(law.torque(&craft, &body.input(), if tick == 0 { 0.0 } else { period }));
+                        commands.push(law.torque(&body.1, &body.input(), if tick == 0 { 0.0 } else { period }));
                         for (torque, length) in [(commands[tick], part), (commands[tick + 1], period - part)] {
-                            body.step(torque, length, 4);
+                            body.step(torque, length);
                         }
-                        let error = vector_of(body.q_es);
+                        let error = vector_of(body.0.q);
                         overshoot = overshoot.max(-dot(error, axis));
-                        fastest = fastest.max(norm(body.omega));
+                        fastest = fastest.max(norm(body.0.omega));
                         if norm(error) > 0.1_f64.to_radians() {
                             settled = (tick + 1) as f64 * period;
                         }

@@ -21,55 +21,31 @@ pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, 
 
 #[cfg(test)]
 pub(super) mod plant {
-    //! A rigid body in small steps, for tests of laws.
+    //! A rigid body with the diagonal inertia `inertia`, for tests of laws.
 
-    use super::LawInput;
-    use crate::control::vector::{cross, hamilton, product, quaternion_of, scaled, sum};
+    use super::{KnownBody, LawInput};
+    use crate::control::estimators::delayed::Filter;
+    use crate::control::estimators::rigid_body_filter::{BodyStep, RigidBodyFilter};
+    use crate::control::vector::{diagonal, product};
 
-    /// A body with the diagonal inertia `inertia`.
-    #[derive(Clone, Copy, Debug)]
-    pub struct Body {
-        pub inertia: [f64; 3],
-        pub q_es: [f64; 4],
-        pub omega: [f64; 3],
-    }
+    #[derive(Clone)]
+    pub struct Body(pub RigidBodyFilter, pub KnownBody);
 
     impl Body {
-        pub fn matrix(&self) -> [[f64; 3]; 3] {
-            let [a, b, c] = self.inertia;
-            [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
+        pub fn new(inertia: [f64; 3], q_es: [f64; 4], omega: [f64; 3]) -> Self {
+            let inertia = diagonal(inertia);
+            Body(RigidBodyFilter::new(inertia, q_es, omega, [0.0; 2], 0.0), KnownBody { inertia })
         }
 
         /// Input of a law with F_e as target.
         pub fn input(&self) -> LawInput<'static> {
-            let momentum_s = product(self.matrix(), self.omega);
-            LawInput { q_ts: self.q_es, omega_se_s: self.omega, momentum_s, ..LawInput::AT_TARGET }
+            let momentum_s = product(self.1.inertia, self.0.omega);
+            LawInput { q_ts: self.0.q, omega_se_s: self.0.omega, momentum_s, ..LawInput::AT_TARGET }
         }
 
-        fn acceleration(&self, omega: [f64; 3], torque: [f64; 3]) -> [f64; 3] {
-            let total = sum(cross(product(self.matrix(), omega), omega), torque);
-            std::array::from_fn(|i| total[i] / self.inertia[i])
-        }
-
-        /// Steps by `time` seconds under a constant torque, in `steps` steps (RK4 of the rate, exponentials of its
-        /// mean).
-        pub fn step(&mut self, torque: [f64; 3], time: f64, steps: usize) {
-            let h = time / steps as f64;
-            for _ in 0..steps {
-                let w = self.omega;
-                let k1 = self.acceleration(w, torque);
-                let k2 = self.acceleration(sum(w, scaled(0.5 * h, k1)), torque);
-                let k3 = self.acceleration(sum(w, scaled(0.5 * h, k2)), torque);
-                let k4 = self.acceleration(sum(w, scaled(h, k3)), torque);
-                let slope = std::array::from_fn(|i| (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]) / 6.0);
-                let after = sum(w, scaled(h, slope));
-                // midpoint rate with the error of a commutator
-                let turn = sum(scaled(0.5 * h, sum(w, after)), scaled(h * h / 12.0, cross(w, after)));
-                self.q_es = hamilton(self.q_es, quaternion_of(turn));
-                let length = self.q_es.iter().map(|x| x * x).sum::<f64>().sqrt();
-                self.q_es = self.q_es.map(|x| x / length);
-                self.omega = after;
-            }
+        /// Moves by `interval` seconds under a constant torque.
+        pub fn step(&mut self, torque: [f64; 3], interval: f64) {
+            self.0.propagate(&BodyStep { torque, momentum: [0.0; 3], interval });
         }
     }
 }
@@ -101,25 +77,24 @@ mod tests {
     #[test]
     fn a_target_that_turns_is_followed() {
         let follow = |mut law: AttitudeLaw, period: f64, is_told: bool| {
-            let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
-            let craft = KnownBody { inertia: body.matrix() };
+            let mut body = Body::new([30.0, 45.0, 20.0], [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
             let axis = [0.48, -0.6, 0.64];
             for tick in 0..(60.0 / period).round() as usize {
                 // about an axis fixed in F_e by 0.1 t + 0.0005 t^2
                 let time = tick as f64 * period;
                 let q_et = quaternion_of(scaled(0.1 * time + 0.0005 * time * time, axis));
-                let c_es = dcm_from_quaternion(body.q_es);
+                let c_es = dcm_from_quaternion(body.0.q);
                 let [rate, acceleration] = [0.1 + 0.001 * time, 0.001].map(|size| if is_told { size } else { 0.0 });
                 let input = LawInput {
-                    q_ts: hamilton(conjugate(q_et), body.q_es),
+                    q_ts: hamilton(conjugate(q_et), body.0.q),
                     omega_te_s: transposed_product(c_es, scaled(rate, axis)),
                     acceleration_te_s: transposed_product(c_es, scaled(acceleration, axis)),
                     ..body.input()
                 };
-                body.step(law.torque(&craft, &input, period), period, 4);
+                body.step(law.torque(&body.1, &input, period), period);
             }
             let q_et = quaternion_of(scaled(0.1 * 60.0 + 0.0005 * 3600.0, axis));
-            norm(vector_of(hamilton(conjugate(q_et), body.q_es)))
+            norm(vector_of(hamilton(conjugate(q_et), body.0.q)))
         };
         for kind in KINDS.iter().filter(|kind| kind.name != "rate_damping") {
             let law = law_of(kind, 0.1, |key| match key {
@@ -149,13 +124,12 @@ mod tests {
                     "gain_n_m_s" | "stiffness_n_m" | "damping_n_m_s" => Some(5.0),
                     _ => None,
                 });
-                let mut body = Body { inertia: [30.0, 45.0, 20.0], q_es: [1.0, 0.0, 0.0, 0.0], omega: [0.0; 3] };
-                let craft = KnownBody { inertia: body.matrix() };
+                let mut body = Body::new([30.0, 45.0, 20.0], [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
                 for tick in 0..6000 {
-                    let torque = law.torque(&craft, &body.input(), if tick == 0 { 0.0 } else { 0.2 });
-                    body.step(sum(torque, [0.02, -0.01, 0.015]), 0.2, 1);
+                    let torque = law.torque(&body.1, &body.input(), if tick == 0 { 0.0 } else { 0.2 });
+                    body.step(sum(torque, [0.02, -0.01, 0.015]), 0.2);
                 }
-                if kind.name == "rate_damping" { norm(body.omega) } else { norm(vector_of(body.q_es)) }
+                if kind.name == "rate_damping" { norm(body.0.omega) } else { norm(vector_of(body.0.q)) }
             };
             let (without, with) = (left(0.0, 0.0), left(0.03, 0.0));
             assert!(without > 1e-3 && with < 1e-6 * without, "{}: {without:e} and {with:e}", kind.name);

@@ -1,19 +1,22 @@
-//! [`MomentumUnloading`]: a thruster torque that unloads the wheels.
+//! A thruster torque that unloads the wheels.
 
+use crate::control::declared::{declared, number};
 use crate::control::vector::{norm, product, scaled};
+
+declared! {
+    /// T and h_0.
+    UnloadingNumbers = UNLOADING {
+        time: f64 = number("unloading_time_s", "s",
+            "Time constant with which thrusters unload the wheels; 0: they do not", &[0.0]);
+        dead_band: f64 = number("unloading_dead_band_n_m_s", "N m s", "Wheel momentum that need not be unloaded",
+            &[0.0]);
+    }
+}
 
 /// The torque -(|h| - h_0)/T h/|h| on the body for the momentum h of the wheels along axes of two-sided thruster
 /// torque; none in the dead band |h| <= h_0. The attitude law takes the same torque back from the wheels, so that h
 /// decays to the dead band with the time constant T. Momentum across those axes needs a turn first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MomentumUnloading {
-    /// Remaining momentum h_0.
-    pub dead_band: f64,
-    /// Time constant T.
-    pub time_constant: f64,
-}
-
-impl MomentumUnloading {
+impl UnloadingNumbers {
     /// Wanted change of the wheels' momentum `wheels_s` relative to the body, sum J_i Omega_i a_i, in F_s: to the dead
     /// band.
     pub fn change(&self, wheels_s: [f64; 3]) -> [f64; 3] {
@@ -24,7 +27,7 @@ impl MomentumUnloading {
     /// Thruster torque on the body, F_s, within the projection `two_sided`
     /// ([`crate::control::allocation::ThrustAllocation::two_sided_torques`]).
     pub fn torque(&self, wheels_s: [f64; 3], two_sided: [[f64; 3]; 3]) -> [f64; 3] {
-        scaled(1.0 / self.time_constant, self.change(product(two_sided, wheels_s)))
+        scaled(1.0 / self.time, self.change(product(two_sided, wheels_s)))
     }
 }
 
@@ -44,7 +47,7 @@ mod tests {
             (1000.0 / 6000.0 * 100.0, [0.0; 3]),
         ];
         for (dead_band, expected) in cases {
-            let found = MomentumUnloading { dead_band, time_constant: 1.0 }.change(wheels);
+            let found = UnloadingNumbers { time: 1.0, dead_band }.change(wheels);
             assert!(norm(difference(found, expected)) < 1e-12, "{found:?}");
         }
     }

@@ -6,21 +6,16 @@ use crate::control::truth::Truth;
 use crate::control::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled};
 use crate::scene::{MAX_THRUSTERS, Scene};
 
-/// The true state at launch.
+/// The true state at launch, by the meanings of its columns.
 #[derive(Clone, Copy, Debug)]
 pub struct AtLaunch {
-    /// Angle between s3 and the line to the debris.
     pub pointing_error: f64,
-    /// Distance from the line A_d.
     pub axis_offset: f64,
-    /// Distance behind the debris along it, less the wanted one.
     pub distance_error: f64,
     pub relative_speed: f64,
-    /// Magnitude of the body's rate relative to F_e.
     pub body_rate: f64,
-    /// Angle between the debris's angular momentum and A_d, 0 to pi/2; NaN if it does not rotate.
+    /// NaN if the debris does not rotate.
     pub momentum_angle: f64,
-    /// Smallest margin of a wheel's speed to its limit.
     pub speed_margin: f64,
 }
 

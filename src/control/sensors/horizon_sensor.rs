@@ -21,7 +21,10 @@ pub(super) const KIND: SensorKind = SensorKind {
     observes: Observes::Direction(|table, nominal| {
         Arc::new(HorizonSensorNumbers::of(table).angles(nominal.orbit.as_ref().map(OrbitPath::new)))
     }),
-    needs: Some(Need::Orbit),
+    needs: Some(Need {
+        is_met: |scene| scene.orbit.is_some(),
+        refusal: ["another kind without an [orbit]", "add an [orbit] table, or delete this one"],
+    }),
     replaced_by_epoch: None,
     make: |context| {
         let numbers = HorizonSensorNumbers::of(context.parameters);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::sensor::{AXES, MeasuredQuantity, Need, NormalErrors, Sensor, SensorKind, XYZ, axes};
 use crate::control::declared::declared;
-use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
+use crate::control::estimators::kalman::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::observes::Observes;
 use crate::control::truth::Truth;
@@ -31,7 +31,13 @@ pub(super) const KIND: SensorKind = SensorKind {
         let noise = MagnetometerNumbers::of(table).noise;
         Arc::new(Believed { field: orbit.zip(MagneticField::of(nominal)), noise })
     }),
-    needs: Some(Need::MagneticField),
+    needs: Some(Need {
+        is_met: |scene| scene.environment.magnetic_field.is_some(),
+        refusal: [
+            "another kind where [environment] has no magnetic_field",
+            "add magnetic_field = \"igrf\" to [environment], or delete this table",
+        ],
+    }),
     replaced_by_epoch: None,
     make: |context| {
         let numbers = MagnetometerNumbers::of(context.parameters);

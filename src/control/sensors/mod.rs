@@ -126,26 +126,11 @@ pub(super) mod bench {
 mod tests {
     use super::bench::{on_orbit, sensor, table, truth};
     use super::*;
-    use crate::control::estimators::attitude_innovation::AttitudeInnovation;
+    use crate::control::estimators::kalman::AttitudeInnovation;
     use crate::control::measurement::part;
     use crate::control::observes::Observes;
     use crate::control::vector::{hamilton, norm, quaternion_of};
     use crate::dynamics::orbit_path::OrbitPath;
-
-    /// Law: kinds of sensors and estimators have unique names, and defaults for each component of each key.
-    #[test]
-    fn kinds_have_names_and_defaults() {
-        let sensors = KINDS.iter().map(|kind| (kind.name, kind.parameters));
-        let estimators = crate::control::estimators::KINDS.iter().map(|kind| (kind.name, kind.parameters));
-        let all: Vec<_> = sensors.chain(estimators).collect();
-        for (index, (name, parameters)) in all.iter().enumerate() {
-            assert!(all[..index].iter().all(|(other, _)| other != name));
-            for parameter in *parameters {
-                let default = parameter.default.map(<[f64]>::len);
-                assert_eq!(default, Some(parameter.facts.components.len()), "{name} {}", parameter.facts.key);
-            }
-        }
-    }
 
     /// Law: noise depends on a sample's count alone, not on lost or later samples; each run has its own noise, the
     /// nominal one none.

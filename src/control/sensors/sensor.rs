@@ -94,30 +94,11 @@ impl SensorKind {
 }
 
 /// A need of a sensor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
-    Orbit,
-    MagneticField,
-}
-
-impl Need {
-    pub fn is_met(self, scene: &SceneInput) -> bool {
-        match self {
-            Need::Orbit => scene.orbit.is_some(),
-            Need::MagneticField => scene.environment.magnetic_field.is_some(),
-        }
-    }
-
+#[derive(Debug)]
+pub struct Need {
+    pub is_met: fn(&SceneInput) -> bool,
     /// The allowed values without it, and the remedy.
-    pub fn refusal(self) -> [&'static str; 2] {
-        match self {
-            Need::Orbit => ["another kind without an [orbit]", "add an [orbit] table, or delete this one"],
-            Need::MagneticField => [
-                "another kind where [environment] has no magnetic_field",
-                "add magnetic_field = \"igrf\" to [environment], or delete this table",
-            ],
-        }
-    }
+    pub refusal: [&'static str; 2],
 }
 
 /// A measured vector.

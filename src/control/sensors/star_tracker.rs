@@ -8,12 +8,11 @@ use super::sensor::{AXES, MeasuredQuantity, NormalErrors, Sensor, SensorKind, WX
 use std::sync::Arc;
 
 use crate::control::declared::declared;
-use crate::control::estimators::attitude_innovation::WholeAttitude;
+use crate::control::estimators::kalman::WholeAttitude;
 use crate::control::measurement::{Values, values};
 use crate::control::observes::Observes;
 use crate::control::truth::Truth;
 use crate::control::vector::{diagonal, from_s3_to, hamilton, multiplied, norm, product, quaternion_of, transposed};
-use crate::scene::DeclaredTable;
 use crate::scene::schema::Limit;
 
 pub(super) const KIND: SensorKind = SensorKind {
@@ -25,7 +24,12 @@ pub(super) const KIND: SensorKind = SensorKind {
         ["", ""],
         "Attitude quaternion measured by a star tracker, F_s -> F_e",
     )],
-    observes: Observes::Attitude(|table| Arc::new(WholeAttitude(covariance_s(table)))),
+    observes: Observes::Attitude(|table| {
+        let numbers = TrackerNumbers::of(table);
+        let c_st = from_s3_to(numbers.boresight);
+        let in_tracker = diagonal(numbers.noise.map(|sigma| sigma * sigma));
+        Arc::new(WholeAttitude(multiplied(&multiplied(&c_st, &in_tracker), &transposed(&c_st))))
+    }),
     needs: None,
     replaced_by_epoch: None,
     make: |context| {
@@ -51,14 +55,6 @@ declared! {
         max_rate: f64 = optional("max_rate_rad_s", "rad/s",
             "Rate of the body above which it delivers nothing; 0: no limit");
     }
-}
-
-/// Noise covariance in F_s, rad^2.
-fn covariance_s(table: &DeclaredTable) -> [[f64; 3]; 3] {
-    let numbers = TrackerNumbers::of(table);
-    let c_st = from_s3_to(numbers.boresight);
-    let in_tracker = diagonal(numbers.noise.map(|sigma| sigma * sigma));
-    multiplied(&multiplied(&c_st, &in_tracker), &transposed(&c_st))
 }
 
 struct StarTracker {

@@ -5,7 +5,7 @@
 //! Determination and Control*, 1978, section 7.1). The rotation about it is not observed.
 
 use super::sensor::{NormalErrors, Sensor, SensorContext, axes, optional};
-use crate::control::estimators::attitude_innovation::{AttitudeInnovation, AttitudeSensor, Innovation};
+use crate::control::estimators::kalman::{AttitudeInnovation, AttitudeSensor, Innovation};
 use crate::control::measurement::{Values, part, values};
 use crate::control::truth::Truth;
 use crate::control::vector::{

@@ -154,7 +154,7 @@ fn the_law_is_part_of_the_plan() {
     let without = reason(session);
     assert!(without.contains("control") && without.contains("plan.toml"), "{without}");
     let idle = |_: &LawContext<'_>| |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY);
-    let other = ControlLaw::new("idle", Actuated::NONE, law.parameters(), idle);
+    let other = ControlLaw::new("idle", Actuated::NONE, law.parameters, idle);
     let refused = reason(session.under(&other));
     assert!(refused.contains("wheel_hold") && refused.contains("idle"), "{refused}");
     scratch.shows("report r", 4, "control");

@@ -61,7 +61,7 @@ impl Craft {
              [initial]\n{initial}\n[orbit]\nepoch = \"2026-11-24T00:00:00Z\"\nsemi_major_axis_m = \
              6.928e6\ninclination_rad = 1.7\n\
              [environment]\nmagnetic_field = \"dipole\"\n\
-             [control]\nperiod_s = {period:?}\ntorque_rods = [\"mx\", \"my\", \"mz\"]\n{driven}\
+             [control]\nperiod_s = {period:?}\ntorque_rods = [\"mz\", \"mx\", \"my\"]\n{driven}\
              [[sensors]]\nname = \"field\"\nkind = \"magnetometer\"\n{errors}\n[[guidance]]\nphase = \
              \"hold\"\n{phase}\n\
              [[disperse]]\nparameter = \"body.inertia_scale\"\ndistribution = \"offset\"\noffset = 0.0\n"
