@@ -64,24 +64,15 @@ pub const MAX_RUNS: u64 = 10_000_000_000;
 /// No rounding of an inverse decides: the lower bound reaches the target exactly if P(X >= successes) at the target is
 /// at most 1 - confidence, and likewise the upper one.
 pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Decision {
-    match decided(successes, trials, target, confidence) {
-        Some(true) => Decision::Pass,
-        Some(false) => Decision::Fail,
-        None => Decision::Undecided(deciding_runs(successes, trials, target, confidence)),
-    }
-}
-
-/// True if met, false if missed.
-fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<bool> {
     let risk = 1.0 - confidence;
     if trials == 0 {
-        None
+        Decision::Undecided(None)
     } else if at_least(successes, trials, target) <= risk {
-        Some(true)
+        Decision::Pass
     } else if at_most(successes, trials, target) <= risk {
-        Some(false)
+        Decision::Fail
     } else {
-        None
+        Decision::Undecided(deciding_runs(successes, trials, target, confidence))
     }
 }
 
@@ -89,9 +80,6 @@ fn decided(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<
 /// fewer does not; `None` beyond [`MAX_RUNS`]. The exact probability is not monotonic, since successes are whole: a
 /// slightly smaller number may decide as well.
 fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<u64> {
-    if trials == 0 {
-        return None;
-    }
     let (fraction, risk) = (successes as f64 / trials as f64, 1.0 - confidence);
     let power = |runs: u64| {
         if fraction > target {

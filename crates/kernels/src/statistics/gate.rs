@@ -143,29 +143,35 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_a
 
 /// Gate on the mean of independent runs. Runs without spread decide nothing: they may hide a rare event.
 pub fn mean_gate(moments: &Moments, limit: GateLimit, confidence: f64) -> Gate {
-    let (count, estimate) = (moments.count(), moments.mean().unwrap_or(f64::NAN));
     let bounds = mean_bounds(moments, confidence);
     let is_spread = bounds.iter().any(|bound| bound.is_finite());
-    let distance = (estimate - limit.value()).abs();
-    let decides = |n: u64| {
-        let scatter = one_sided(POWER, n as f64 - 1.0) * moments.standard_deviation().unwrap_or(f64::NAN);
-        distance_towards(limit.value(), moments, n, confidence) + scatter / libm::sqrt(n as f64) < distance
-    };
-    let needed = || is_spread.then(|| smallest(count, decides)).flatten();
-    Gate { decision: decision(bounds, limit, needed), estimate, bounds }
+    gate_on_mean(moments, limit, bounds, is_spread, |n| distance_towards(limit.value(), moments, n, confidence))
 }
 
 /// Gate on the mean of runs with values in `range`, for any distribution, even without spread.
 pub fn bounded_mean_gate(moments: &Moments, range: [f64; 2], limit: GateLimit, confidence: f64) -> Gate {
+    let bounds = bounded_mean_bounds(moments, range, confidence);
+    let deviation = moments.standard_deviation().unwrap_or(f64::NAN);
+    let reach = |n| bernstein_reach(n, range[1] - range[0], deviation, confidence);
+    gate_on_mean(moments, limit, bounds, moments.count() > 1, reach)
+}
+
+/// Gate on a mean with these `bounds`, which `n` runs have `reach(n)` from it.
+fn gate_on_mean(
+    moments: &Moments,
+    limit: GateLimit,
+    bounds: [f64; 2],
+    is_decidable: bool,
+    reach: impl Fn(u64) -> f64,
+) -> Gate {
     let estimate = moments.mean().unwrap_or(f64::NAN);
     let deviation = moments.standard_deviation().unwrap_or(f64::NAN);
     let distance = (estimate - limit.value()).abs();
     let decides = |n: u64| {
-        let scatter = one_sided(POWER, n as f64 - 1.0) * deviation / libm::sqrt(n as f64);
-        bernstein_reach(n, range[1] - range[0], deviation, confidence) + scatter < distance
+        let scatter = one_sided(POWER, n as f64 - 1.0) * deviation;
+        reach(n) + scatter / libm::sqrt(n as f64) < distance
     };
-    let needed = || (moments.count() > 1).then(|| smallest(moments.count(), decides)).flatten();
-    let bounds = bounded_mean_bounds(moments, range, confidence);
+    let needed = || is_decidable.then(|| smallest(moments.count(), decides)).flatten();
     Gate { decision: decision(bounds, limit, needed), estimate, bounds }
 }
 
