@@ -98,3 +98,31 @@ fn a_step_too_long_for_the_iteration_is_not_passed_over() {
     assert_eq!(journey.outcome.status, Status::NonFinite);
     assert_eq!((journey.outcome.time, journey.outcome.points), (0.0, 1));
 }
+
+fn gated(parameter: f64, end: f64, tolerance: f64) -> Journey<2> {
+    let case = Case { state: [0.0; 2], parameters: [parameter], ends: vec![end] };
+    let journey = scalar(Adaptive(Dop853), Gated, &[case], &Grid::uniform(end, 2), &control(tolerance, 0.1)).remove(0);
+    assert_eq!(journey.outcome.status, Status::Done);
+    journey
+}
+
+/// Law: pulses much shorter than a step, without a net change of branch, are all found. Truth: the integral of max(0,
+/// cos t - c) over ten turns.
+#[test]
+fn short_pulses_within_a_step_are_found() {
+    for depth in [0.3_f64, 1e-2, 1e-4, 1e-6] {
+        let half = (1.0 - depth).acos();
+        let expected = 21.0 * (half.sin() - (1.0 - depth) * half);
+        let found = gated(depth, 20.0 * std::f64::consts::PI + 3.0, 1e-9).points[1][0];
+        assert!((found - expected).abs() < 1e-8 * expected + 1e-10, "{depth:e}: {found} for {expected}");
+    }
+}
+
+/// Law: difficult switch functions cost no more than some steps.
+#[test]
+fn no_switch_function_hangs() {
+    for (number, (_, most)) in GATES.iter().enumerate() {
+        let effort = gated(1.0 + number as f64, 20.0, 1e-10).outcome.effort;
+        assert!(effort.steps + effort.rejected < *most, "{number}: {effort:?}");
+    }
+}

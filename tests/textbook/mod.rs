@@ -21,8 +21,8 @@ pub trait Law<const N: usize, const P: usize>: Copy {
 
     /// The switch function.
     #[inline(always)]
-    fn switch<R: Real>(_state: &[R; N], zero: R) -> R {
-        zero
+    fn switch<R: Real>(time: R, _state: &[R; N], _parameters: &[R; P]) -> R {
+        time.zero()
     }
 }
 
@@ -57,14 +57,14 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> System<R, N> for Ban
 
     #[inline(always)]
     fn margin(&self, time: R, state: &[R; N]) -> R {
-        self.side * L::switch(state, time.zero())
+        self.side * L::switch(time, state, &self.parameters)
     }
 
     #[inline(always)]
     fn dip(&self, step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> R {
         let (times, [after, before]) = beside(step, ends);
-        let of = |state: &[R; N]| self.margin(times[0], state);
-        dip([of(ends[0][0]), of(&after), of(&before), of(ends[1][0])])
+        let states = [ends[0][0], &after, &before, ends[1][0]];
+        dip([0, 1, 2, 3].map(|k| self.margin(times[k], states[k])))
     }
 
     /// ode45: max |e_i| / max(|y_i|, |y'_i|, atol/rtol) / rtol.
@@ -101,7 +101,8 @@ impl<R: Real, L: Law<N, P>, const N: usize, const P: usize> Runs<R, N> for Bank<
     #[inline(always)]
     fn choose_branches(&mut self, lanes: R::Mask, time: R, state: &[R; N]) {
         let (zero, one) = (time.zero(), time.splat(1.0));
-        self.side = R::select(lanes, R::select(zero.lt(L::switch(state, zero)), one, -one), self.side);
+        self.side =
+            R::select(lanes, R::select(zero.lt(L::switch(time, state, &self.parameters)), one, -one), self.side);
     }
 }
 
@@ -208,8 +209,38 @@ impl Law<2, 1> for TwoSprings {
     }
 
     #[inline(always)]
-    fn switch<R: Real>(y: &[R; 2], _zero: R) -> R {
+    fn switch<R: Real>(_time: R, y: &[R; 2], _p: &[R; 1]) -> R {
         y[0]
+    }
+}
+
+/// A rate while a function of time, number p of [`GATES`], is above zero: one, or the function itself for `p` < 1, which
+/// is then cos t - (1 - p). A cosine in parallel sets the length of the steps. For scalars.
+#[derive(Clone, Copy)]
+pub struct Gated;
+
+/// Difficult switch functions: zero to rounding, touches zero, has a kink, steep, always wrong; and the most steps over
+/// 20 s.
+pub const GATES: [(fn(f64) -> f64, u64); 5] = [
+    (|t| 1e-15 * (1e5 * t).sin(), 100),
+    (|t| 1.0 - t.cos(), 200),
+    (|t| (t - 3.0).abs() - 1e-9, 200),
+    (|t| 1e6 * t.sin(), 500),
+    (|t| if t == 0.0 { 1.0 } else { (1e3 * t).sin() }, 40_000),
+];
+
+impl Law<2, 1> for Gated {
+    const SWITCHES: bool = true;
+
+    fn derivative<R: Real>(time: R, y: &[R; 2], p: &[R; 1], side: R) -> [R; 2] {
+        let is_pulse = p[0].lane(0) < 1.0;
+        let rate = if is_pulse { Self::switch(time, y, p) } else { time.splat(1.0) };
+        [R::select(time.zero().lt(side), rate, time.zero()), time.splat(time.lane(0).cos())]
+    }
+
+    fn switch<R: Real>(time: R, _y: &[R; 2], p: &[R; 1]) -> R {
+        let (t, p) = (time.lane(0), p[0].lane(0));
+        time.splat(if p < 1.0 { t.cos() - (1.0 - p) } else { GATES[p as usize - 1].0(t) })
     }
 }
 
