@@ -49,8 +49,8 @@ fn keys(text: &str) -> Vec<(String, String)> {
     found.into_iter().map(|(_, key, value)| (key, value)).collect()
 }
 
-/// Adds the keys of `table`, with their places in `text`. A table of a list is addressed by its name, as in `--set`, its
-/// parameter, or its number.
+/// Adds the keys of `table`, with their places in `text`. A table of a list is addressed by its name, as in `--set`,
+/// its parameter, or its number.
 fn collect(text: &str, path: &str, table: &DeTable<'_>, found: &mut Vec<(usize, String, String)>) {
     for (key, value) in table {
         let (start, key, written) = (key.span().start, key.get_ref(), text.get(value.span()).unwrap_or_default());

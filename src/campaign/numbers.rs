@@ -54,8 +54,8 @@ impl Section<'_, '_> {
         self.require(key, &numbers_in_words(count), example);
     }
 
-    /// Fills `numbers` with the finite numbers of `key` in `unit`: one, a list, or three rows for nine; returns whether the key
-    /// was written. A problem is noted, with an example within `limit`, and gives NaN.
+    /// Fills `numbers` with the finite numbers of `key` in `unit`: one, a list, or three rows for nine; returns whether
+    /// the key was written. A problem is noted, with an example within `limit`, and gives NaN.
     pub(super) fn fill(&mut self, key: &str, unit: &'static str, numbers: &mut [f64], limit: Limit) -> bool {
         let Some(value) = self.take(key) else { return false };
         let found = values(value.get_ref(), &|value| number(value, unit));

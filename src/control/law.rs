@@ -32,8 +32,8 @@ pub struct ControlLaw {
 }
 
 impl ControlLaw {
-    /// The law called `name`, which commands `commands`, with the parameters `parameters`; `make` makes the law of a run,
-    /// as in `examples/control_campaign.rs`.
+    /// The law called `name`, which commands `commands`, with the parameters `parameters`; `make` makes the law of a
+    /// run, as in `examples/control_campaign.rs`.
     pub fn new<L: ActuationLaw + Send + 'static>(
         name: &'static str,
         commands: Actuated,

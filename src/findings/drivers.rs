@@ -106,6 +106,7 @@ pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
 fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let mut pairs: Vec<[&str; 2]> = Vec::new();
     let mut said = String::new();
+    let has_shares = ranking.drivers().take(NAMED).any(|driver| driver.share.filter(is_known).is_some());
     for driver in ranking.drivers().take(NAMED) {
         let one = driver.input.input.as_str();
         let with = driver.input.correlated_with.as_ref();
@@ -118,8 +119,8 @@ fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
         let [one, other] = [one, other].map(|column| names::of_input_column(plan, column));
         let apart = match (driver.instead(), &ranking.question) {
             (Some(_), _) => ", and these runs do not tell which of them acts",
-            (None, Question::Spread) => ", so their shares overlap",
-            (None, Question::Event(_)) => "",
+            (None, Question::Spread) if has_shares => ", so their shares overlap",
+            (None, _) => "",
         };
         said += &format!("; {one} and {other} are correlated{r}{apart}");
     }

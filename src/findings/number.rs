@@ -115,9 +115,8 @@ fn at_place(value: f64, place: i32, largest: f64) -> String {
     }
 }
 
-/// Digits of an `f64`, and the most that a value with an interval has.
+/// Digits of an `f64`.
 const MOST_DIGITS: i32 = 15;
-const MOST_SHOWN: i32 = 9;
 /// Extra digits for an estimate that would otherwise show as zero.
 const MOST_MORE: i32 = 2;
 /// If numbers of one sign differ by a larger ratio, each keeps its own digits.
@@ -140,7 +139,7 @@ fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Opt
         let outward = outward(ends, 3);
         return (brief(value), outward.map(|end| end.is_finite().then(|| brief(end))));
     }
-    let least_place = libm::floor(libm::log10(most)) as i32 + 1 - MOST_SHOWN;
+    let least_place = libm::floor(libm::log10(most)) as i32 + 1 - MOST_DIGITS;
     let shown = |place: i32| [0, 1].map(|which| rounded(ends[which], place, Some(which == 1)));
     let reaches = |place: i32| (0..2).any(|which| shown(place)[which] == bounds[which] && ends[which] != bounds[which]);
     // a one-sided bound supports three digits

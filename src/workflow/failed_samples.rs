@@ -87,7 +87,8 @@ fn said(status: Status, reason: Option<&str>) -> String {
     reason.map_or_else(|| status.name().to_owned(), |reason| format!("{}: {}", status.name(), readable(reason)))
 }
 
-/// Lets no further part start where a run of `rows` failed, and keeps the `first` such run, in the order of the samples.
+/// Lets no further part start where a run of `rows` failed, and keeps the `first` such run, in the order of the
+/// samples.
 pub(super) fn fail_fast(rows: &Rows, first: &Mutex<Option<FailedRun>>, stop: &AtomicBool) {
     let Some(row) = rows.statuses().iter().position(|status| *status != Status::Done) else { return };
     let reason = rows.reasons().iter().find(|(at, _)| *at == row).map(|(_, reason)| reason.as_str());

@@ -161,8 +161,8 @@ fn differing(
     Ok(found)
 }
 
-/// Makes damaged, missing and differing parts again, and finishes the result; the number of samples that are left where a
-/// signal stopped it.
+/// Makes damaged, missing and differing parts again, and finishes the result; the number of samples that are left where
+/// a signal stopped it.
 fn repair(
     session: &Session<'_>,
     (store, root): (&Arc<dyn Store>, &Path),

@@ -44,8 +44,8 @@ fn is_shown_only(method: Method, family: &str, setting: f64) -> bool {
     (IN_AIR.contains(&family) && setting < 1e-12) || (method == GAUSS_LEGENDRE && family == LIBRATING && setting < 5e-3)
 }
 
-/// Promised coverage. In air the estimate of Dormand and Prince's pair is too small at tight tolerances: on low orbits it
-/// covers 200 of 200 runs at 1e-6, 168 at 1e-8 and 178 at 1e-10 (docs/results.md).
+/// Promised coverage. In air the estimate of Dormand and Prince's pair is too small at tight tolerances: on low orbits
+/// it covers 200 of 200 runs at 1e-6, 168 at 1e-8 and 178 at 1e-10 (docs/results.md).
 fn promised(method: Method, family: &str) -> f64 {
     if method == DORMAND_PRINCE && IN_AIR.contains(&family) { 0.8 } else { COVERAGE }
 }

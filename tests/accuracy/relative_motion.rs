@@ -8,8 +8,8 @@ fn ellipse() -> OrbitInput {
     OrbitInput { position_m, velocity_m_s, body_radius_m: 6e6, ..OrbitInput::DEFAULT }
 }
 
-/// Truth: debris minus spacecraft on their Kepler orbits, by the formulas of [`spindrift::dynamics::orbit`] in 60 digits
-/// (mpmath), Kepler's equation by Newton's method.
+/// Truth: debris minus spacecraft on their Kepler orbits, by the formulas of [`spindrift::dynamics::orbit`] in 60
+/// digits (mpmath), Kepler's equation by Newton's method.
 #[test]
 fn a_day_beside_an_orbit_without_thrust() {
     #[rustfmt::skip]

@@ -214,8 +214,8 @@ impl Law<2, 1> for TwoSprings {
     }
 }
 
-/// A rate while a function of time, number p of [`GATES`], is above zero: one, or the function itself for `p` < 1, which
-/// is then cos t - (1 - p). A cosine in parallel sets the length of the steps. For scalars.
+/// A rate while a function of time, number p of [`GATES`], is above zero: one, or the function itself for `p` < 1,
+/// which is then cos t - (1 - p). A cosine in parallel sets the length of the steps. For scalars.
 #[derive(Clone, Copy)]
 pub struct Gated;
 

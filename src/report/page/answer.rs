@@ -2,9 +2,10 @@
 //! nothing is required.
 
 use crate::analysis::survey::Survey;
-use crate::campaign::{Plan, Statement};
+use crate::campaign::{Plan, Requirement, Statement};
 use crate::findings::names::sentence;
 use crate::findings::number::{time, trimmed, typeset};
+use crate::findings::requirement::limit_text;
 use crate::findings::{Finding, Findings, Kind, Verdict};
 use crate::report::escaped::escaped;
 use crate::report::figure::Figure;
@@ -142,8 +143,8 @@ struct Row<'f> {
     outcome: Option<&'f Finding>,
     /// The large figure: of the outcome, or over time for a band.
     figure: Option<&'f Figure>,
-    /// The limit of single runs.
-    limit: Option<GateLimit>,
+    /// The limit of single runs, and its name in the figure.
+    limit: Option<(GateLimit, String)>,
     /// Whether no single run can violate the requirement.
     is_of_mean: bool,
     drivers: Vec<&'f Finding>,
@@ -160,11 +161,16 @@ impl<'f> Row<'f> {
         let is_of_it = |one: &&Finding| {
             one.id.strip_prefix(&ranking).is_some_and(|rest| rest.is_empty() || rest.starts_with("_event"))
         };
+        let outcome = found.of(Kind::Outcome).find(|one| one.id == name);
+        let of_runs = |one: &Requirement| {
+            let unit = outcome.and_then(|outcome| outcome.numbers.first()).map_or("", |number| &number.unit);
+            (one.limit, typeset(&limit_text(one.limit, &plan.analysis.display.of(name, unit))))
+        };
         Row {
             finding,
-            outcome: found.of(Kind::Outcome).find(|one| one.id == name),
+            outcome,
             figure: called.iter().find_map(|called| figures.iter().find(|figure| figure.name == *called)),
-            limit: requirement.filter(|one| one.statement != Statement::Mean).map(|one| one.limit),
+            limit: requirement.filter(|one| one.statement != Statement::Mean).map(of_runs),
             is_of_mean: requirement.is_some_and(|one| one.statement == Statement::Mean),
             drivers: found.of(Kind::Driver).filter(is_of_it).filter(|one| !one.title.is_empty()).collect(),
         }
@@ -196,7 +202,7 @@ impl<'f> Row<'f> {
         let yes = self.outcome.and_then(|one| one.number("yes"));
         let picture = match (yes, self.figure) {
             (Some(yes), _) => pictures::shares(yes),
-            (None, Some(figure)) => pictures::histogram(figure, self.limit, None),
+            (None, Some(figure)) => pictures::histogram(figure, self.limit.as_ref(), None),
             (None, None) => String::new(),
         };
         let below = self.outcome.map_or_else(String::new, pictures::said_of);

@@ -141,10 +141,11 @@ fn of_number(number: &Number, span: Span) -> String {
 
 /// A small histogram with `limit`, the runs beyond it highlighted, or with the vertical lines named `lines`, and the
 /// expected curve; without `lines` only bars. Empty without bars.
-pub fn histogram(figure: &Figure, limit: Option<GateLimit>, lines: Option<&str>) -> String {
+pub fn histogram(figure: &Figure, limit: Option<&(GateLimit, String)>, lines: Option<&str>) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
         Mark::Limit { label, at, vertical: true } => {
-            let is_shown = lines == Some(label) || limit.is_some_and(|limit| limit.value() == *at);
+            let is_named = lines.is_some_and(|start| label.starts_with(start));
+            let is_shown = is_named || limit.is_some_and(|(_, name)| name == label);
             is_shown.then_some(*at)
         }
         _ => None,
@@ -167,7 +168,13 @@ pub fn histogram(figure: &Figure, limit: Option<GateLimit>, lines: Option<&str>)
     let mut inside = String::new();
     for (ends, count) in edges.windows(2).zip(heights).filter(|(_, count)| **count > 0.0) {
         let middle = if is_log { libm::sqrt(ends[0] * ends[1]) } else { 0.5 * (ends[0] + ends[1]) };
-        let class = if limit.is_none_or(|limit| limit.is_met(middle)) { "" } else { " class=\"missed\"" };
+        // the limit in the unit of the figure
+        let is_beyond = |at: f64| match limit {
+            Some((GateLimit::AtMost(_), _)) => middle > at,
+            Some((GateLimit::AtLeast(_), _)) => middle < at,
+            None => false,
+        };
+        let class = if limits.first().copied().is_some_and(is_beyond) { " class=\"missed\"" } else { "" };
         let (from, to) = (at(ends[0]), at(ends[1]));
         // keep single runs visible
         let height = ((HEIGHT - 2.0) * count / highest).max(1.2);

@@ -38,8 +38,8 @@ pub trait Quantile: Debug {
         self.at_score(quantile(u)).unwrap_or(f64::NAN)
     }
 
-    /// The value at the normal score `z`, the quantile of Phi(z); `None` if it is no function of the score. In the upper
-    /// tail a score has more digits than its u.
+    /// The value at the normal score `z`, the quantile of Phi(z); `None` if it is no function of the score. In the
+    /// upper tail a score has more digits than its u.
     #[inline]
     fn at_score(&self, _z: f64) -> Option<f64> {
         None
