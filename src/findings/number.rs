@@ -207,10 +207,7 @@ pub fn apart<const N: usize>(values: [f64; N]) -> [String; N] {
     texts((3..MOST_DIGITS as usize).find(is_apart).unwrap_or(3))
 }
 
-/// Longest word that stays on the line of the number before it, as units do.
-const MOST_JOINED: usize = 6;
-
-/// True minus signs, superscript powers of ten, and no line break between a number and its unit, for pages.
+/// True minus signs and superscript powers of ten, for pages.
 pub fn typeset(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let (mut out, mut at) = (String::with_capacity(text.len()), 0);
@@ -231,17 +228,25 @@ pub fn typeset(text: &str) -> String {
             continue;
         }
         let is_minus = letters[at] == '-' && is_digit(at + 1) && before.is_none_or(|one| " [(=".contains(one));
-        let is_after_number = before.is_some_and(|letter| letter.is_ascii_digit() || letter == ']');
-        let is_joined = letters[at] == ' ' && is_after_number && {
-            let word = letters[at + 1..].iter().take_while(|letter| **letter != ' ').count();
-            (1..=MOST_JOINED).contains(&word) && letters[at + 1] != '['
-        };
-        out.push(match letters[at] {
-            _ if is_minus => '\u{2212}',
-            _ if is_joined => '\u{a0}',
-            letter => letter,
-        });
+        out.push(if is_minus { '\u{2212}' } else { letters[at] });
         at += 1;
+    }
+    out
+}
+
+/// Longest word that stays on the line of the number before it, as units do.
+const MOST_JOINED: usize = 6;
+
+/// No line break between a number and its unit, for texts of pages.
+pub fn unbroken(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for word in text.split(' ') {
+        let is_joined = out.ends_with(|letter: char| letter.is_numeric() || letter == ']')
+            && word.chars().count() <= MOST_JOINED
+            && word.starts_with(char::is_alphabetic)
+            && word != "of";
+        out += if out.is_empty() { "" } else { [" ", "\u{a0}"][usize::from(is_joined)] };
+        out += word;
     }
     out
 }
@@ -355,7 +360,7 @@ mod tests {
         assert_eq!(apart([1.000_001_2, 1.000_003_4, 2.0]), ["1.000001", "1.000003", "2"]);
         assert_eq!(apart([0.5, 0.5]), ["0.500", "0.500"]);
         assert_eq!([90.0, 7200.0, 172_800.0, 12_345.6].map(time), ["90 s", "2 h", "2 days", "12345.6 s"]);
-        assert_eq!(typeset("2 deg/s, 3 [1, 4] N m"), "2\u{a0}deg/s, 3 [1, 4]\u{a0}N m");
+        assert_eq!(unbroken("2 deg/s, 3 [1, 4] N m, 3 of 5"), "2\u{a0}deg/s, 3 [1, 4]\u{a0}N m, 3 of 5");
         assert_eq!(typeset("-3e-13 [-4, 5-6]"), "\u{2212}3\u{202f}\u{d7}\u{202f}10⁻¹³ [\u{2212}4, 5-6]");
     }
 }

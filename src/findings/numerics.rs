@@ -261,7 +261,7 @@ pub(super) fn beyond_tolerance(plan: &Plan, analysed: &Analysed) -> Option<Findi
         let promised = if limit == SEEN {
             format!("{} would not be seen", number::written(SEEN))
         } else {
-            format!("tolerance {} allows about {}", number::written(plan.tolerance.relative), number::written(limit))
+            format!("tolerance {} allows about {}", number::written(plan.tolerance.relative), number::trimmed(limit, 3))
         };
         Finding::new(Kind::Note, BEYOND_TOLERANCE, "numerical errors", format!("{name} {reached}; {promised}"))
     })

@@ -4,7 +4,7 @@
 use crate::analysis::survey::Survey;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::findings::names::sentence;
-use crate::findings::number::{time, trimmed, typeset};
+use crate::findings::number::{time, trimmed, typeset, unbroken};
 use crate::findings::requirement::limit_text;
 use crate::findings::{Finding, Findings, Kind, Verdict};
 use crate::report::escaped::escaped;
@@ -19,7 +19,7 @@ const MOST_OUTCOMES: usize = 8;
 
 /// A text of a finding as HTML.
 pub fn text(said: &str) -> String {
-    escaped(&typeset(said))
+    escaped(&unbroken(&typeset(said)))
 }
 
 /// A sentence of a finding as HTML with its full stop; keys become code.

@@ -42,7 +42,8 @@ fn answer_shows(row: &str, name: &str, value: &Value, interval: &Value, limit: O
     let cell = between(row, "<span class=\"number\">", "</span></span><span>").replace("<br>", "|");
     let said = plain(&cell);
     let (number, statistic) = said.split_once('|').unwrap();
-    assert_eq!(statistic, name, "{row}");
+    // the row of a mean goes on with its assumption
+    assert_eq!(statistic.split('|').next(), Some(name), "{row}");
     let (estimate, ends) = number.split_once(" [").unwrap_or((number, "?, ?]"));
     let (ends, unit) = ends.split_once(']').unwrap();
     let unit = if estimate.ends_with('%') { "%".to_owned() } else { unit.to_owned() };
@@ -180,7 +181,7 @@ fn small_pictures_are_the_figures() {
         missed.flat_map(|mark| found.array(&mark["heights"])).filter(|height| *height > 0.0).count()
     };
     let missed = picture.matches("class=\"missed\"").count();
-    assert_eq!([picture.matches("<rect").count() - missed, missed], [bars("runs"), bars("missed")]);
+    assert_eq!([picture.matches("<rect").count(), missed], [bars("runs"), bars("missed")]);
     assert!(missed > 0 && picture.contains("class=\"limit\"") && plain(picture).contains("1500 deg/s"), "{picture}");
 }
 
@@ -218,28 +219,29 @@ fn listed_runs_have_their_ranks() {
             let sample = between(row, "<th scope=\"row\">", "</th>");
             assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
             let why = between(row, "<td class=\"text\">", "</td>").split("<p").next().unwrap().to_lowercase();
-            let why = why.as_str();
-            if let Some((what, value)) = why.split_once(" (") {
-                // the rank says what a maximum or a minimum is
-                let short = |words: &'static str| {
-                    words.strip_prefix("maximum ").or(words.strip_prefix("minimum ")).unwrap_or(words)
-                };
-                let of = |(words, ..): &&(&'static str, &str, bool)| what.ends_with(short(words));
-                let (words, column, is_low) = outcomes.iter().find(of).unwrap_or_else(|| panic!("{what}"));
-                let rank = what.strip_suffix(short(words)).unwrap().trim_end();
-                assert!(!rank.ends_with("maximum") && !rank.ends_with("minimum"), "{what}");
-                let side = if *is_low { "smallest" } else { "largest" };
-                let place = rank.strip_suffix(side).expect(side).trim_end();
-                let place = ["", "second", "third", "fourth", "fifth"].iter().position(|word| *word == place);
-                let place = place.unwrap_or_else(|| panic!("{rank}"));
-                let ordered = ordered(column, *is_low);
-                assert_eq!(sample, ordered[place].0.to_string(), "{why}");
-                same(value.trim_end_matches(')'), &ordered[place].1[0].into(), why);
-                *if place == 0 { &mut first } else { &mut later } += 1;
-            } else {
-                let not_computed = ["computation failed: ", "invalid: not physical", "inaccurate"];
-                let is_said = not_computed.iter().any(|words| why.starts_with(words));
-                assert!(is_said || (why, sample) == ("nominal run", "0"), "{why}");
+            for why in why.split("; ") {
+                if let Some((what, value)) = why.split_once(" (") {
+                    // the rank says what a maximum or a minimum is
+                    let short = |words: &'static str| {
+                        words.strip_prefix("maximum ").or(words.strip_prefix("minimum ")).unwrap_or(words)
+                    };
+                    let of = |(words, ..): &&(&'static str, &str, bool)| what.ends_with(short(words));
+                    let (words, column, is_low) = outcomes.iter().find(of).unwrap_or_else(|| panic!("{what}"));
+                    let rank = what.strip_suffix(short(words)).unwrap().trim_end();
+                    assert!(!rank.ends_with("maximum") && !rank.ends_with("minimum"), "{what}");
+                    let side = if *is_low { "smallest" } else { "largest" };
+                    let place = rank.strip_suffix(side).expect(side).trim_end();
+                    let place = ["", "second", "third", "fourth", "fifth"].iter().position(|word| *word == place);
+                    let place = place.unwrap_or_else(|| panic!("{rank}"));
+                    let ordered = ordered(column, *is_low);
+                    assert_eq!(sample, ordered[place].0.to_string(), "{why}");
+                    same(value.trim_end_matches(')'), &ordered[place].1[0].into(), why);
+                    *if place == 0 { &mut first } else { &mut later } += 1;
+                } else {
+                    let not_computed = ["computation failed: ", "invalid: not physical", "inaccurate"];
+                    let is_said = not_computed.iter().any(|words| why.starts_with(words));
+                    assert!(is_said || (why, sample) == ("nominal run", "0"), "{why}");
+                }
             }
             if sample == "0" {
                 continue;
@@ -252,7 +254,7 @@ fn listed_runs_have_their_ranks() {
                 let name = &inputs[place].0;
                 let (values, nominal) = (&columns[place], columns[place][0]);
                 let (value, rest) = input[name.len() + 1..].split_once(" (").unwrap();
-                let rest = rest.strip_suffix("\u{a0}\u{3c3})").unwrap();
+                let rest = rest.strip_suffix(" \u{3c3})").unwrap();
                 let (known, sigmas) = rest.rsplit_once(", ").unwrap_or(("nominal 0", rest));
                 same(value, &values[sample].into(), name);
                 same(known.strip_prefix("nominal ").unwrap(), &nominal.into(), name);
@@ -264,10 +266,7 @@ fn listed_runs_have_their_ranks() {
                 last = distance;
             }
         }
-        let distinct =
-            || outcomes.iter().map(|(_, column, is_low)| ordered(column, *is_low)[0].0).collect::<BTreeSet<_>>();
-        let shown = if shown == outcomes.len() { distinct().len() } else { shown };
-        assert_eq!(first, shown, "the first of each outcome");
+        assert!((shown..=outcomes.len()).contains(&first), "the first of each outcome: {first}");
         assert!(later > 2, "{later} others");
     }
 }

@@ -254,9 +254,10 @@ fn filters_that_do_not_know_their_errors_are_named() {
         let shown = [found.said.contains("overconfident"), html.contains("overconfident")];
         assert_eq!(shown, [is_named; 2], "{}", found.said);
         if is_named {
-            let factor = "attitude and gyro bias end # sigma off";
+            let factor = "median error of attitude and gyro bias # sigma";
             assert!(median > 2.0, "{median}");
-            for said in [notes[0].as_str().unwrap(), &found.said, &html.to_lowercase()] {
+            let html = html.to_lowercase().replace('\u{a0}', " ");
+            for said in [notes[0].as_str().unwrap(), &found.said, &html] {
                 let of = screen_numbers::numbers(said, factor);
                 assert!((of[0] / median.sqrt() - 1.0).abs() < 6e-3, "{of:?} for {median}");
             }

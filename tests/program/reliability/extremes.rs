@@ -104,7 +104,12 @@ fn what_is_out_of_reach_ends_at_once() {
         let said = scratch.prints_wide("check long.toml", 0);
         let (_, why) =
             said.split_once("cannot be estimated: sample 0 needs more than 20000 steps, which lead to ").expect(&said);
-        assert!(why.contains("s of 1 s; at that pace integrator.max_steps (10000000) does not suffice"), "{to}: {why}");
+        assert!(
+            why.contains(
+                "s of 1 s; at that pace the steps do not suffice; to fix: increase integrator.max_steps (10000000)"
+            ),
+            "{to}: {why}"
+        );
         let said = scratch.prints("simulate long.toml", 1);
         assert!(said.contains("step_limit: integrator.max_steps does not suffice: the run reached "), "{to}: {said}");
         let said = scratch.prints("campaign long.toml --samples 3000 --out many", 2);
