@@ -21,11 +21,13 @@ pub struct Recorder {
     groups: Vec<Group>,
 }
 
+/// The value at a tick of the column with this index in its group.
+type ValueAt = Box<dyn Fn(&Tick<'_>, usize) -> f64 + Send + Sync>;
+
 /// Columns recorded together.
 struct Group {
     quantities: Vec<Quantity>,
-    /// The value of the column with this index in the group.
-    value: Box<dyn Fn(&Tick<'_>, usize) -> f64 + Send + Sync>,
+    value: ValueAt,
 }
 
 pub struct Tick<'a> {

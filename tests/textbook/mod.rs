@@ -219,9 +219,12 @@ impl Law<2, 1> for TwoSprings {
 #[derive(Clone, Copy)]
 pub struct Gated;
 
+/// A function of time, s.
+pub type OfTime = fn(f64) -> f64;
+
 /// Difficult switch functions: zero to rounding, touches zero, has a kink, steep, always wrong; and the most steps over
 /// 20 s.
-pub const GATES: [(fn(f64) -> f64, u64); 5] = [
+pub const GATES: [(OfTime, u64); 5] = [
     (|t| 1e-15 * (1e5 * t).sin(), 100),
     (|t| 1.0 - t.cos(), 200),
     (|t| (t - 3.0).abs() - 1e-9, 200),

@@ -128,7 +128,8 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     // p turns about c, so that c relative to it depends on the time of the measurement
     nominal.mass.center = [0.4, -0.3, 0.2];
     let nominal = &nominal;
-    let mut list: Vec<(&str, [u64; 2], &[(&str, &[f64])])> = vec![
+    type Key<'a> = (&'a str, &'a [f64]);
+    let mut list: Vec<(&str, [u64; 2], &[Key<'_>])> = vec![
         ("star_tracker", [5, 2], &[("noise_rad", &[1e-5; 3])]),
         ("ground_radar", [10, 3], &[("position_noise_m", &[0.1]), ("velocity_noise_m_s", &[0.001])]),
         ("relative_camera", [4, 4], &[("attitude_noise_rad", &[1e-3]), ("rate_noise_rad_s", &[1e-3])]),

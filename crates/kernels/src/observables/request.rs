@@ -276,7 +276,8 @@ pub(super) mod tests {
         let residual = "residual_attitude_max";
         let [by_thrust, by_motors] = ["work_thrusters_final_j", "work_motors_final_j"];
         let wheels = &["w1", "w2"][..];
-        let cases: [(Actuated, bool, bool, &[&str], &[&str]); 8] = [
+        type Names<'a> = &'a [&'a str];
+        let cases: [(Actuated, bool, bool, Names<'_>, Names<'_>); 8] = [
             (none, true, false, wheels, &[]),
             (others, true, false, wheels, &[by_thrust, by_motors]),
             (motors, false, false, wheels, &[by_motors]),
