@@ -1,5 +1,5 @@
 //! Samples that failed: those of a result run again under another plan ([`plan_of_failed`]), or the first ends the
-//! campaign ([`fail_fast`]).
+//! campaign.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,5 +1,4 @@
-//! [`complete`]: what is made of the rows of a campaign once all of them are there; [`finish`]: the same of a result in
-//! a folder.
+//! Statistics, findings and page of a campaign once all rows are there; [`finish`] makes those of a result in a folder.
 //!
 //! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the
 //! files are the same.

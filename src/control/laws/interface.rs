@@ -73,7 +73,7 @@ impl DerefMut for AttitudeLaw {
 
 /// An attitude law that phases of `[[guidance]]` can name: built in, a WebAssembly module, a Python function
 /// ([`super::callback`]), or a static of your program, given to its session
-/// ([`crate::workflow::session::Session::with_attitude_law`]).
+/// ([`crate::workflow::session::Session::attitude_law`]).
 ///
 /// ```
 /// use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
