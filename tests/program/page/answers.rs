@@ -231,7 +231,9 @@ fn listed_runs_have_their_ranks() {
                     assert!(!rank.ends_with("maximum") && !rank.ends_with("minimum"), "{what}");
                     let side = if *is_low { "smallest" } else { "largest" };
                     let place = rank.strip_suffix(side).expect(side).trim_end();
-                    let place = ["", "second", "third", "fourth", "fifth"].iter().position(|word| *word == place);
+                    let place = "|second|third|fourth|fifth|sixth|seventh|eighth|ninth|tenth"
+                        .split('|')
+                        .position(|word| word == place);
                     let place = place.unwrap_or_else(|| panic!("{rank}"));
                     let ordered = ordered(column, *is_low);
                     assert_eq!(sample, ordered[place].0.to_string(), "{why}");
