@@ -247,8 +247,8 @@ export class Replay {
     if (this.data.scene.plates.length > 0) notes.push("Squares have the areas of the plates that air and light push.");
     notes.push("Arrows show directions only; the sphere shows where s3 points in F_e.");
     if (this.approach) notes.push("The approach view is to scale, centred on the debris, with the axes of F_e.");
+    if (run.sample !== 0 && this.nominal) notes.push("Grey edges, with \u201cnominal too\u201d: the nominal run at the same time.");
     this.wantsGhost = run.failed;
-    if (this.wantsGhost && run.sample !== 0 && this.nominal) notes.push("Grey edges: the nominal run at the same time.");
     this.ghostButton.hidden = run.sample === 0 || !this.nominal;
     this.ghostButton.setAttribute("aria-pressed", String(this.wantsGhost));
     this.notes.textContent = notes.join(" ");

@@ -139,8 +139,8 @@ fn of_number(number: &Number, span: Span) -> String {
     picture("scale", HEIGHT + WORDS, &typeset(&format!("{} {}", number.name, number.text())), &inside)
 }
 
-/// A small histogram with `limit`, the runs beyond it highlighted, or with the vertical lines named `lines`, and the
-/// expected curve; without `lines` only bars. Empty without bars.
+/// A small histogram with the expected curve, `limit` (its name in the figure beside it) with the runs beyond it
+/// highlighted, and the vertical lines whose names begin with `lines`. Empty without bars.
 pub fn histogram(figure: &Figure, limit: Option<&(GateLimit, String)>, lines: Option<&str>) -> String {
     let limits = figure.marks.iter().filter_map(|mark| match mark {
         Mark::Limit { label, at, vertical: true } => {
