@@ -91,14 +91,16 @@ impl dyn Store + '_ {
     /// # Errors
     /// Where it cannot be read now.
     pub fn read(&self, name: &str) -> Result<Result<Vec<u8>, io::Error>, StoreError> {
-        let mut got = self.get(name);
-        if let Err(error) = &got
-            && error.kind() == ErrorKind::NotFound
-            && !self.is_absent(name, error)?
-        {
-            // another process has put it since
-            got = self.get(name);
-        }
+        let got = match self.get(name) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                if self.is_absent(name, &error)? {
+                    return Ok(Err(error));
+                }
+                // another process has put it since
+                self.get(name)
+            }
+            got => got,
+        };
         match got {
             Ok(bytes) => Ok(Ok(bytes)),
             Err(error) if is_unfit(&error) || self.is_absent(name, &error)? => Ok(Err(error)),
