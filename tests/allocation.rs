@@ -5,17 +5,23 @@
 
 mod support;
 
-use crate::support::prelude::*;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-use std::hint::black_box;
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    cell::Cell,
+    hint::black_box,
+};
+use support::prelude::*;
 
-use spindrift::analysis::fold::RunningFold;
-use spindrift::storage::part_sink::{CountRows, PartFiles};
-use support::feedback::law;
-use support::plans::shipped;
-use support::runs::{METHODS, adaptive, everything};
-use support::scenes::mixed;
+use spindrift::{
+    analysis::fold::RunningFold,
+    storage::part_sink::{CountRows, PartFiles},
+};
+use support::{
+    feedback::law,
+    plans::shipped,
+    runs::{METHODS, adaptive, everything},
+    scenes::mixed,
+};
 
 struct Counting;
 

@@ -1,14 +1,10 @@
 //! Accuracy claims for states, against the reference solution in double-double.
 
-use crate::support::exact::distance;
-use crate::support::invariants::Invariants;
-use crate::support::prelude::*;
-use crate::support::scenes::keep_wheels;
+use crate::support::{exact::distance, invariants::Invariants, prelude::*};
 use rayon::prelude::*;
 
 const SECTION: &str = "accuracy_claims";
 const TOLERANCE: f64 = 1e-16;
-const TRUE: f64 = 1e-24;
 const REVOLUTIONS: f64 = 1000.0;
 /// State error, rad and relative, of 99 scenes in a hundred.
 const STATE: f64 = 1e-11;
@@ -22,7 +18,7 @@ fn gyrostats(count: u64, mode: WheelMode) -> Vec<(Scene, f64)> {
         for wheel in &mut input.wheels {
             wheel.mode = mode;
         }
-        let scene = Scene::resolve(&input).unwrap();
+        let scene = resolved(&input);
         let time = REVOLUTIONS * core::f64::consts::TAU / norm(scene.initial.omega_se_s);
         (scene, time)
     };
@@ -30,18 +26,13 @@ fn gyrostats(count: u64, mode: WheelMode) -> Vec<(Scene, f64)> {
 }
 
 fn run(method: Method, scene: &Scene, grid: &Grid) -> Run {
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
-    let plan = PropagationSettings::new(method, adaptive(TOLERANCE), grid.clone(), fields, scene);
-    let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0);
-    assert_eq!(run.outcome.status, Status::Done);
-    run
+    done(method, adaptive(TOLERANCE), grid, rotational(), scene)
 }
 
 fn state_errors(methods: [Method; 2], scenes: &[(Scene, f64)]) -> [Vec<f64>; 2] {
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
     let error = |(scene, time): &(Scene, f64)| {
         let grid = Grid::at(vec![0.0, 0.25 * time, 0.5 * time, 0.9 * time, *time]);
-        let truth = ReferenceSolution::new(Isa::best(), scene, &grid, fields, TRUE).unwrap();
+        let truth = solved(scene, &grid, rotational());
         methods.map(|method| {
             let [rate, attitude] = distance(&run(method, scene, &grid).table, &grid, &truth);
             rate.max(attitude)
@@ -106,19 +97,18 @@ const HARD: f64 = 1e-12;
 const ROUNDINGS: f64 = 20.0;
 
 fn hard() -> Vec<Hard> {
-    let scene = |input: &SceneInput| Scene::resolve(input).unwrap();
     let table1 = Golden::load("table1").scene;
-    let mut list = vec![Hard { name: "Table I, 100 s", scene: scene(&table1), horizon: 100.0 }];
+    let mut list = vec![Hard { name: "Table I, 100 s", scene: resolved(&table1), horizon: 100.0 }];
 
     let mut fast = table1.clone();
     set_wheel_rates(&mut fast, [1e4, -7e3]);
     fast.initial.angular_velocity_rad_s = [0.5, -1.0, 2.0];
-    list.push(Hard { name: "wheels at 1e4 rad/s, 20 s", scene: scene(&fast), horizon: 20.0 });
+    list.push(Hard { name: "wheels at 1e4 rad/s, 20 s", scene: resolved(&fast), horizon: 20.0 });
 
     let mut boxed = table1.clone();
     boxed.debris = Some(DebrisInput::Box { size_m: [0.1, 0.25, 0.6], density_kg_m3: 2700.0 });
     boxed.initial.debris_relative_angular_velocity_rad_s = [3.0, 20.0, -5.0];
-    list.push(Hard { name: "tumbling box, 50 s", scene: scene(&boxed), horizon: 50.0 });
+    list.push(Hard { name: "tumbling box, 50 s", scene: resolved(&boxed), horizon: 50.0 });
 
     let mut near = table1.clone();
     near.debris = None;
@@ -126,12 +116,12 @@ fn hard() -> Vec<Hard> {
     near.body.center_of_mass_m = Some([0.05, -0.03, 1.45]);
     keep_wheels(&mut near, [false, true]);
     set_wheel_rates(&mut near, [0.0, 0.0]);
-    let free = scene(&near).mass.inertia_free;
+    let free = resolved(&near).mass.inertia_free;
     let (moments, axes) = spindrift::math::symmetric::principal_axes(free);
     let middle = (0..3).find(|i| (0..3).filter(|j| moments[*j] < moments[*i]).count() == 1).unwrap();
     let first = (middle + 1) % 3;
     near.initial.angular_velocity_rad_s = from_fn(|i| 2.0 * axes[i][middle] + 1e-4 * axes[i][first]);
-    list.push(Hard { name: "near-separatrix, products, offset centre, 60 s", scene: scene(&near), horizon: 60.0 });
+    list.push(Hard { name: "near-separatrix, products, offset centre, 60 s", scene: resolved(&near), horizon: 60.0 });
     list
 }
 
@@ -147,8 +137,7 @@ fn one_rounding(scene: &Scene, grid: &Grid, truth: &ReferenceSolution) -> f64 {
             rest.initial.wheel_rates[wheel] = truth.high.column(StateField::WheelRates, wheel)[point];
         }
         let rest_grid = Grid::at(vec![0.0, grid.times()[last] - grid.times()[point]]);
-        let fields = blocks([StateField::Rate, StateField::Attitude]);
-        let end = ReferenceSolution::new(Isa::best(), &rest, &rest_grid, fields, TRUE).unwrap();
+        let end = solved(&rest, &rest_grid, rotational());
         let size = norm(truth.high.at::<3>(StateField::Rate, last));
         let rates = [end.high.at::<3>(StateField::Rate, 1), truth.high.at(StateField::Rate, last)];
         let attitudes = [end.high.at::<4>(StateField::Attitude, 1), truth.high.at(StateField::Attitude, last)];
@@ -165,13 +154,10 @@ fn hard_scenes_are_exact_to_their_conditioning() {
         let own = [StateField::Rate, StateField::Attitude, StateField::WheelRates];
         let debris = [StateField::DebrisRate, StateField::DebrisAttitude];
         let fields = if scene.mass.debris.is_some() { blocks(own.into_iter().chain(debris)) } else { blocks(own) };
-        let solve = |scene: &Scene| ReferenceSolution::new(Isa::best(), scene, &grid, fields, TRUE).unwrap();
-        let truth = solve(&scene);
+        let truth = solved(&scene, &grid, fields);
         let rounding = one_rounding(&scene, &grid, &truth);
         for method in [Method::Auto, Method::Taylor] {
-            let plan = PropagationSettings::new(method, adaptive(TOLERANCE), grid.clone(), fields, &scene);
-            let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0);
-            assert_eq!(run.outcome.status, Status::Done);
+            let run = done(method, adaptive(TOLERANCE), &grid, fields, &scene);
             let [rate, attitude] = distance(&run.table, &grid, &truth);
             let mut worst = rate.max(attitude);
             for point in 0..run.table.points() {

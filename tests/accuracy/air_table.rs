@@ -1,9 +1,6 @@
 //! A table of the air: Vallado's again, one exponential, and layers that an orbit crosses.
 
-use crate::support::exact::distance;
-use crate::support::exact::solved;
-use crate::support::orbits::in_thin_air;
-use crate::support::prelude::*;
+use crate::support::{exact::distance, orbits::in_thin_air, prelude::*};
 use spindrift::dynamics::environment::air::AirTable;
 
 fn methods() -> impl Iterator<Item = Method> {
@@ -88,7 +85,7 @@ fn every_method_crosses_the_layers() {
         environment.air_heights_m = Some(&[3.9e5, 4.3e5, 4.5e5, 4.6e5, 4.9e5]);
         environment.air_densities_kg_m3 = Some(&[9e-12, 2e-12, 1.9e-12, 6e-13, 5e-13]);
     });
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
+    let fields = rotational();
     for scene in &scenes {
         let reference = solved(scene, &grid, fields);
         for method in methods() {

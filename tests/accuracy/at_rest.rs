@@ -1,7 +1,7 @@
 //! Runs that start at rest, hardly move, or stop obey the law of [`super::error_estimate`], for every method.
 
 use super::error_estimate::{Family, Found, Measured, breaches, found, settings};
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 const DURATION: f64 = 20.0;
 const FAST: f64 = 60.0;
@@ -122,7 +122,7 @@ fn family((name, make): Regime, count: u64) -> Family {
     let scene = |k: u64| {
         let mut input = satellite(k, &mut u);
         make(k, &mut u, &mut input);
-        Scene::resolve(&input).unwrap()
+        resolved(&input)
     };
     Family::new(name, Grid::uniform(DURATION, 41), (0..count).map(scene).collect())
 }
@@ -165,7 +165,7 @@ fn a_slew_that_is_wrong_is_inaccurate() {
         let mut input = satellite(k, &mut u);
         input.wheels[0].rate_rad_s = 30.0 * FAST;
         slew(&mut input, (1.0, 4.0, 1.0), &u.vector::<4>(0.5));
-        Scene::resolve(&input).unwrap()
+        resolved(&input)
     };
     let family = Family::new("biased slew", Grid::uniform(DURATION, 41), (0..16).map(scene).collect());
     let runs = found(&family, RUNGE_KUTTA, fixed(0.5));

@@ -1,7 +1,6 @@
 //! Bodies and actuators of files: refused draws, tensors, and errors of actuators.
 
-use crate::support::campaigns::THRUSTERS;
-use crate::support::prelude::*;
+use crate::support::{campaigns::THRUSTERS, prelude::*};
 
 fn plan(debris: &str, rest: &str) -> Result<Plan, String> {
     let text = format!(
@@ -45,7 +44,7 @@ fn a_debris_turns_as_in_its_principal_frame() {
         let kind = Kind { wheels: [true; 2], debris: 1, products: false, offset: false, forced: false };
         let mut input = random(kind, 23, 4.0);
         input.debris = Some(DebrisInput::Tensor { mass_kg: 20.0, inertia_kg_m2: tensor });
-        let mut scene = Scene::resolve(&input).unwrap();
+        let mut scene = resolved(&input);
         scene.initial.omega_de_d = rate;
         let control = if method.has_fixed_step() { fixed(1e-3) } else { adaptive(1e-12) };
         propagate(method, control, &grid, &[scene]).remove(0)
@@ -89,7 +88,7 @@ fn a_scaled_actuator_is_a_scaled_command() {
     let mut off = errors.clone();
     off.thrusters.iter_mut().for_each(|thruster| thruster.thrust_scale = 0.0);
     off.wheels.iter_mut().for_each(|wheel| wheel.torque_scale = 0.0);
-    let scene = |input| Scene::resolve(input).unwrap();
+    let scene = |input| resolved(input);
     let scenes = [scene(&off), scene(&errors), scene(&scaled)];
     let runs: Vec<Run> = propagate(Method::Taylor, adaptive(1e-16), &Grid::uniform(1.0, 9), &scenes);
     assert_eq!(runs[1].bits(), runs[2].bits(), "factors of two leave no rounding");

@@ -1,9 +1,7 @@
 //! Published motions against every method at its smallest tolerance: free asymmetric bodies by Jacobi's elliptic
 //! functions (`tests/golden/free_bodies.json`), symmetric tops and axial rotors by uniform rotations.
 
-use crate::support::prelude::*;
-use spindrift::math::Real;
-use spindrift::math::double_double::DoubleDouble;
+use crate::prelude::*;
 
 const SECTION: &str = "closed_forms";
 const TOLERANCE: f64 = 1e-16;
@@ -46,7 +44,7 @@ fn cases() -> Vec<Case> {
         let moments = numbers(&case["moments"]);
         Case {
             name: case["name"].as_str().unwrap().to_owned(),
-            scene: Scene::resolve(&body(moments, numbers(&case["omega"]))).unwrap(),
+            scene: resolved(&body(moments, numbers(&case["omega"]))),
             moments,
             hundred_periods: number(&case["periods_100_s"]),
             times: truth.iter().map(|row| number(&row["t"])).collect(),
@@ -67,11 +65,7 @@ fn error(table: &StateTable, point: usize, omega: [f64; 3], q: [f64; 4]) -> f64 
 }
 
 fn states(method: Method, tolerance: f64, scene: &Scene, times: &[f64]) -> StateTable {
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
-    let plan = PropagationSettings::new(method, adaptive(tolerance), Grid::at(times.to_vec()), fields, scene);
-    let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0);
-    assert_eq!(run.outcome.status, Status::Done);
-    run.table
+    done(method, adaptive(tolerance), &Grid::at(times.to_vec()), rotational(), scene).table
 }
 
 /// State error after a hundred periods, rad and relative, in the eight classical regimes.
@@ -125,7 +119,7 @@ fn published_campaigns_are_the_published_cases() {
     for (file, name) in
         [("published_rigid_body", "Hairer, Lubich & Wanner"), ("published_tumbling_brick", "NESC check case 2")]
     {
-        let scene = Scene::resolve(&shipped(file, None).nominal).unwrap();
+        let scene = resolved(&shipped(file, None).nominal);
         let case = cases().into_iter().find(|case| case.name == name).unwrap();
         let inertia = scene.mass.inertia_free;
         assert_eq!([inertia[0][0], inertia[1][1], inertia[2][2]], case.moments, "{file}");
@@ -141,7 +135,7 @@ const NESC_SPREAD: f64 = 1e-4;
 
 #[test]
 fn the_tumbling_brick_tumbles_as_published() {
-    let scene = Scene::resolve(&shipped("published_tumbling_brick", None).nominal).unwrap();
+    let scene = resolved(&shipped("published_tumbling_brick", None).nominal);
     let table = states(Method::Auto, TOLERANCE, &scene, &[0.0, 30.0]);
     let rates = table.at::<3>(StateField::Rate, 1).map(f64::to_degrees);
     let off = (0..3).map(|i| (rates[i] - NESC_RATES[i]).abs()).fold(0.0, f64::max);
@@ -205,7 +199,7 @@ fn symmetric_bodies_turn_uniformly() {
             let axial = Golden::load("table1").scene.wheels[1];
             input.wheels = vec![WheelInput { mode, rate_rad_s: rate, ..axial }];
         }
-        let scene = Scene::resolve(&input).unwrap();
+        let scene = resolved(&input);
         let inertia = scene.mass.inertia_free;
         assert!(inertia[0][0] == inertia[1][1] && inertia[0][1] == 0.0 && inertia[0][2] == 0.0 && inertia[1][2] == 0.0);
         let long = axial_error(&scene, &times, &states(Method::Auto, TOLERANCE, &scene, &times));

@@ -3,7 +3,7 @@
 //! distribution; H0: the same (Kolmogorov-Smirnov, alpha = 1e-4, critical distance 0.139).
 //! `SPINDRIFT_WRITE_BASELINE=1 cargo test --release --test accuracy drift_bounds` writes it again.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use serde_json::json;
 
 const SECTION: &str = "drift_bounds";

@@ -3,7 +3,7 @@
 //! With the moment K3 about the spin axis, the spin rate omega and the rotor's momentum h, K = K3 + h/omega has to be
 //! above or below both transverse moments A and B (P. C. Hughes, *Spacecraft Attitude Dynamics*, 1986, 6.2).
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 /// K of the campaign, kg m^2: K3 = 100, h = 5 N m s, omega = 0.5 rad/s.
 const BOUNDARY: f64 = 110.0;

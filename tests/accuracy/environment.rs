@@ -1,6 +1,6 @@
 //! A constant torque of the environment in closed form, by every method.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 /// Methods with their largest relative distances. Measured: 6.6e-15, 6.6e-15, 5.8e-13, 1.1e-11, 5.5e-15, 1.1e-8,
 /// 5.9e-11.
@@ -27,7 +27,7 @@ fn an_axisymmetric_body_spins_up() {
     let mut input = SceneInput::default();
     input.initial.angular_velocity_rad_s = [0.0, 0.0, rate];
     input.environment.body_torque_n_m = Some([0.0, 0.0, torque]);
-    let scene = Scene::resolve(&input).unwrap();
+    let scene = resolved(&input);
     let moment = scene.mass.inertia[2][2];
     let grid = Grid::uniform(12.0, 25);
     for (method, control, bound) in METHODS {

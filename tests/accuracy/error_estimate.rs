@@ -4,16 +4,14 @@
 //! at most 100 times too large in the median. Rejected below [`ALPHA`]; a coverage of 75% for 24 runs with a power of
 //! 73%.
 
-use crate::support::exact::solved;
-use crate::support::orbits::{in_thin_air, magnetic, tumbling};
-use crate::support::plans;
-use crate::support::prelude::*;
-use crate::support::scenes::{of_most_wheels, speed_held};
+use crate::support::{
+    orbits::{in_thin_air, magnetic},
+    plans,
+    prelude::*,
+    scenes::{of_most_wheels, speed_held},
+};
 use rayon::prelude::*;
-use spindrift::math::symmetric::principal_axes;
-use spindrift::propagation::debris_rotation_errors;
-use spindrift::run::LocalErrors;
-use spindrift::statistics::binomial::at_most;
+use spindrift::{math::symmetric::principal_axes, propagation::debris_rotation_errors, statistics::binomial::at_most};
 
 /// Chance of rejecting a setting with 95% coverage: there are about two hundred settings.
 const ALPHA: f64 = 1e-5;
@@ -86,7 +84,7 @@ fn boxes(count: u64) -> Family {
     let mut u = Uniform::new(83);
     let scene = |k: u64| {
         let kind = Kind { wheels: [false; 2], debris: 2, products: false, offset: false, forced: false };
-        let mut scene = Scene::resolve(&random(kind, 900 + k, 10.0)).unwrap();
+        let mut scene = resolved(&random(kind, 900 + k, 10.0));
         let inertia = scene.mass.debris.as_ref().unwrap().inertia;
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| inertia[*a][*a].total_cmp(&inertia[*b][*b]));
@@ -117,7 +115,7 @@ fn separatrix(count: u64) -> Family {
             input.body.center_of_mass_m = None;
         }
         set_wheel_rates(&mut input, [if wheels { u.between(-30.0, 30.0) } else { 0.0 }, 0.0]);
-        let (moments, axes) = principal_axes(Scene::resolve(&input).unwrap().mass.inertia_free);
+        let (moments, axes) = principal_axes(resolved(&input).mass.inertia_free);
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
         let off = libm::pow(10.0, u.between(-14.0, -1.0));
@@ -127,7 +125,7 @@ fn separatrix(count: u64) -> Family {
             let off = if is_aligned && i == 1 { 0.0 } else { off * noise[i] };
             rate * (axis(i) + off)
         });
-        Scene::resolve(&input).unwrap()
+        resolved(&input)
     };
     Family::new("separatrix", Grid::uniform(60.0, 101), (0..count).map(scene).collect())
 }
@@ -142,7 +140,7 @@ fn nutating(count: u64) -> Family {
         let rate = u.between(0.5, 30.0);
         input.initial.angular_velocity_rad_s = [rate * off * u.between(-1.0, 1.0), rate * off, rate];
         set_wheel_rates(&mut input, u.vector(300.0));
-        Scene::resolve(&input).unwrap()
+        resolved(&input)
     };
     Family::new("nutating", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
@@ -150,7 +148,7 @@ fn nutating(count: u64) -> Family {
 fn held(count: u64) -> Family {
     let scene = |k: u64| {
         let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: k % 5 > 1, forced: false };
-        Scene::resolve(&speed_held(random(kind, 300 + k, 10.0), [k % 3 != 2, !k.is_multiple_of(3)])).unwrap()
+        resolved(&speed_held(random(kind, 300 + k, 10.0), [k % 3 != 2, !k.is_multiple_of(3)]))
     };
     Family::new("speed held", Grid::uniform(10.0, 101), (0..count).map(scene).collect())
 }
@@ -373,7 +371,7 @@ fn what_rounding_decides_is_ill_conditioned() {
         let mut input = random(kind, 5, 10.0);
         input.body.inertia_kg_m2 = Some([[900.0, 0.0, 0.0], [0.0, 1400.0, 0.0], [0.0, 0.0, 1800.0]]);
         input.initial.angular_velocity_rad_s = from_fn(|i| if i == axis { 3.0 } else { 3.0 * off });
-        Scene::resolve(&input).unwrap()
+        resolved(&input)
     };
     let offs = [1e-2, 1e-4, 1e-12, 1e-15];
     for axis in 0..3 {

@@ -1,6 +1,6 @@
 //! Every method against golden truth of 25 digits from a 40-digit Taylor solution.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use crate::support::runs::base_point;
 
@@ -77,7 +77,7 @@ fn errors_of(golden: &Golden, scene: &Scene, method: Method, grid: &Grid, run: &
 
 fn errors(name: &str, method: Method, control: Control) -> Errors {
     let golden = Golden::load(name);
-    let scene = Scene::resolve(&golden.scene).unwrap();
+    let scene = resolved(&golden.scene);
     let grid = Grid::at(golden.times());
     let run = propagate_one(method, control, &grid, &scene);
     errors_of(&golden, &scene, method, &grid, &run)

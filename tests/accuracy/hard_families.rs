@@ -4,7 +4,7 @@
 //! out.
 
 use super::error_estimate::{Family, Found, Measured, breaches, of_families};
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::scene::BodyInput;
 
 type Regime = (&'static str, f64, usize, fn(u64, &mut Uniform) -> SceneInput);
@@ -93,7 +93,7 @@ fn family((name, duration, points, make): Regime, count: u64, seed: u64) -> Fami
     let mut u = Uniform::new(seed);
     let mut scene = |k: u64| {
         let input = make(k, &mut u);
-        Scene::resolve(&input).unwrap_or_else(|errors| panic!("{name}: {}", errors[0]))
+        resolved(&input)
     };
     Family::new(name, Grid::uniform(duration, points), (0..count).map(&mut scene).collect())
 }

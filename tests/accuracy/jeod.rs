@@ -1,7 +1,7 @@
 //! NASA's JEOD: free rotation, pulses of torque and force on the space station, and the gravity gradient on a circle
 //! and an ellipse, over eight hours of a two-body orbit.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 pub struct JeodRun {
     name: String,
@@ -106,9 +106,8 @@ fn nasa_jeod_runs() {
     let runs = jeod_runs();
     assert_eq!(runs.len(), 9);
     for jeod in &runs {
-        let scene = Scene::resolve(&jeod.input(true)).unwrap();
-        let fields = everything(Method::Auto);
-        let exact = ReferenceSolution::new(Isa::best(), &scene, &grid, fields, TOLERANCE).unwrap().high;
+        let scene = resolved(&jeod.input(true));
+        let exact = solved(&scene, &grid, everything(Method::Auto)).high;
         let from = |table: &StateTable, position: [f64; 3], rate: [f64; 3], dcm: [[f64; 3]; 3]| {
             let c_es = dcm_from_quaternion(table.at(StateField::Attitude, 480));
             let entries = (0..9).map(|k| (c_es[k % 3][k / 3] - dcm[k / 3][k % 3]).abs());
@@ -131,8 +130,8 @@ fn nasa_jeod_runs() {
             assert!(ours[0] < 1e-6 && ours[1] < 1e-15 && ours[2] < 2e-13, "{} {}", jeod.name, method.name());
         }
         if jeod.craft != Craft::Sphere {
-            let scene = Scene::resolve(&jeod.input(false)).unwrap();
-            let run = propagate(Method::Auto, adaptive(1e-16), &grid, &[scene]).remove(0);
+            let scene = resolved(&jeod.input(false));
+            let run = propagate_one(Method::Auto, adaptive(1e-16), &grid, &scene);
             assert!(norm(difference(run.table.at(StateField::Rate, 480), jeod.rates[1])) > 1e-5, "{}", jeod.name);
         }
     }

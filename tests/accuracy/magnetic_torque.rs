@@ -1,7 +1,7 @@
 //! The torque of a residual magnetic dipole by every method, against SciPy with the field of another package.
 
-use crate::support::prelude::*;
-use spindrift::scene::{Arc, TorqueRod};
+use crate::prelude::*;
+use spindrift::scene::Arc;
 
 fn scene(model: FieldModel) -> Scene {
     let orbit = OrbitInput {
@@ -20,7 +20,7 @@ fn scene(model: FieldModel) -> Scene {
     let q = [0.5, -0.5, 0.1, 0.7];
     input.initial.attitude = q.map(|x| x / q.iter().map(|x| x * x).sum::<f64>().sqrt());
     input.initial.angular_velocity_rad_s = [0.01, -0.02, 0.015];
-    Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
+    resolved(&input)
 }
 
 /// Truth: `benches/peers/magnetic_torque.py` (SciPy 1.16's DOP853 at 1e-13, pyIGRF14 1.0.4, pyerfa 2.0.1.5).

@@ -37,3 +37,5 @@ mod round_off;
 mod stress;
 mod tolerance;
 mod wheels;
+
+use support::prelude;

@@ -1,11 +1,12 @@
 //! Any number of wheels, anywhere, about any axis, in any mode, with up to sixteen thrusters.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use rayon::prelude::*;
 
-use crate::support::runs::{base_point, relative_field};
-use crate::support::scenes::{COUNTS, many_wheels};
-use spindrift::propagation::taylor::reference_solution::TOLERANCE as TRUTH_TOLERANCE;
+use crate::support::{
+    runs::{base_point, relative_field},
+    scenes::COUNTS,
+};
 use spindrift::scene::Arc;
 
 const HORIZON: f64 = 1.0;
@@ -118,18 +119,12 @@ fn bound(scene: &Scene, method: Method, outcome: &Outcome) -> f64 {
     local * (1.0 + angle(scene))
 }
 
-fn scene(input: &SceneInput) -> Scene {
-    Scene::resolve(input).unwrap_or_else(|errors| panic!("{errors:?}"))
-}
-
 fn truth(scene: &Scene, grid: &Grid) -> ReferenceSolution {
-    ReferenceSolution::new(Isa::best(), scene, grid, everything(Method::Taylor), TRUTH_TOLERANCE).unwrap()
+    solved(scene, grid, everything(Method::Taylor))
 }
 
 fn run(scene: &Scene, grid: &Grid, method: Method, control: Control) -> Run {
-    let run = propagate_one(method, control, grid, scene);
-    assert_eq!(run.outcome.status, Status::Done, "{}", method.name());
-    run
+    done(method, control, grid, everything(method), scene)
 }
 
 fn balances(input: &SceneInput, scene: &Scene, grid: &Grid, method: Method, run: &Run) -> [f64; 3] {
@@ -154,7 +149,7 @@ struct Off {
 fn offs(k: u64) -> Vec<Off> {
     let grid = Grid::uniform(HORIZON, POINTS);
     let input = input(k);
-    let scene = scene(&input);
+    let scene = resolved(&input);
     let truth = truth(&scene, &grid);
     let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked).count();
     assert_eq!(scene.mass.wheels.len(), turning);

@@ -1,12 +1,11 @@
 //! The right-hand side of the null-space kernel: its block form against Berdoz's matrices and the gyrostat equations.
 
-use crate::null_space_matrices as matrices;
-use crate::null_space_matrices::{COMPONENTS, Kernel, Parameters, State, with_printed_sign};
-use crate::support::prelude::*;
-use crate::support::scenes::keep_wheels;
+use crate::{
+    null_space_matrices::{self as matrices, COMPONENTS, Kernel, Parameters, State, with_printed_sign},
+    support::prelude::*,
+};
 use nalgebra::{Matrix3, SVector, Vector3};
-use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use proptest::{prelude::*, test_runner::RngSeed};
 use spindrift::dynamics::null_space::{residuals, sigma};
 
 /// Rates of random scenes, relative to the size of their terms: roundings. Measured: 7.7e-16.
@@ -47,7 +46,7 @@ fn scenes() -> impl Strategy<Value = (Scene, Actuation)> {
             input.initial.position_m = linear.0;
             input.initial.velocity_m_s = linear.1;
             let torque: Vec<f64> = (0..2).filter(|wheel| present[*wheel]).map(|wheel| torque[wheel]).collect();
-            let scene = Scene::resolve(&input).unwrap();
+            let scene = resolved(&input);
             Some((scene, Actuation::none(1.0).with_thrust(&thrust).with_motor_torque(&torque)))
         },
     )
@@ -265,7 +264,7 @@ proptest! {
 fn the_printed_sign_feeds_energy_from_nowhere() {
     let mut input = Golden::load("table1").scene;
     input.body.center_of_mass_m = Some([0.1, 0.0, 1.5]);
-    let scene = Scene::resolve(&input).unwrap();
+    let scene = resolved(&input);
     let (parameters, state, coast): (_, State, _) = (Parameters::of(&scene), sigma(&scene), Actuation::none(1.0));
     let relative = |rate: &State| {
         let (rate, size) = energy_rate(&parameters, &state, rate);

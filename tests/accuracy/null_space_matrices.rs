@@ -3,8 +3,10 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use spindrift::dynamics::null_space;
-use spindrift::dynamics::null_space::state::{PER_BODY, coordinates, speeds};
+use spindrift::dynamics::null_space::{
+    self,
+    state::{PER_BODY, coordinates, speeds},
+};
 
 const WHEELS: usize = 2;
 pub type State = null_space::State<WHEELS>;

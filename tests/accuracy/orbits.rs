@@ -1,16 +1,16 @@
 //! The gravity gradient on two-body orbits, by every method that integrates it.
 
 use super::jeod::jeod_runs;
-use crate::support::exact::solved;
-use crate::support::orbits::{circle, leaving, tumbling};
-use crate::support::prelude::*;
-use spindrift::dynamics::effects::within_arcs::Motion;
-use spindrift::dynamics::effects::{ChangingEffects, Effect};
-use spindrift::dynamics::gravity::Gravity;
-use spindrift::dynamics::orbit::KeplerOrbit;
-use spindrift::dynamics::orbit_state::OrbitState;
-use spindrift::math::vector::transposed_product;
-use spindrift::scene::{Arc, TorqueRod};
+use crate::support::{orbits::leaving, prelude::*};
+use spindrift::{
+    dynamics::{
+        effects::{ChangingEffects, within_arcs::Motion},
+        gravity::Gravity,
+        orbit::KeplerOrbit,
+        orbit_state::OrbitState,
+    },
+    scene::Arc,
+};
 
 fn methods() -> Vec<(Method, Control)> {
     near_rounding(ForceModel::NONE.with(Effect::GravityGradient).with(Effect::Gravity))
@@ -33,7 +33,7 @@ fn librations_in_pitch() {
     aligned(&mut input, n);
     let speed = AMPLITUDE * frequency;
     input.initial.angular_velocity_rad_s[1] += speed;
-    let scene = Scene::resolve(&input).unwrap();
+    let scene = resolved(&input);
     let grid = Grid::uniform(12_000.0, 201);
     for (method, control) in methods() {
         let run = propagate_one(method, control, &grid, &scene);
@@ -76,9 +76,9 @@ fn the_constant_is_constant(orbits: f64, methods: &[(Method, Control)], bound: i
     tumbling.initial.angular_velocity_rad_s = [2.0 * n, 1.0 * n, -3.0 * n];
     let grid = Grid::uniform(orbits * core::f64::consts::TAU / n, 1001);
     for input in [librating, tumbling] {
-        let scene = Scene::resolve(&input).unwrap();
+        let scene = resolved(&input);
         for (method, control) in methods {
-            let run = propagate(*method, *control, &grid, std::slice::from_ref(&scene)).remove(0);
+            let run = propagate_one(*method, *control, &grid, &scene);
             let worst = change_of_the_constant(&scene, &run, n);
             assert!(worst < bound(*method), "{}: {worst:e}", method.name());
         }
@@ -146,7 +146,7 @@ fn with_and_without(effect: Effect) -> [Scene; 2] {
             without = SceneInput { orbit: None, ..input.clone() };
         }
     }
-    let mut scenes = [input, without].map(|input| Scene::resolve(&input).unwrap());
+    let mut scenes = [input, without].map(|input| resolved(&input));
     if effect == Effect::MagneticTorque {
         let until = [700.0, 1_600.0, 2_400.0];
         let dipoles = [[40.0, -20.0, 60.0], [0.0; 3], [-90.0, 10.0, 30.0]];
@@ -226,7 +226,7 @@ fn an_orbit_without_gradient_costs_nothing() {
         input.environment.gravity_gradient = false;
         let flat = SceneInput { orbit: None, ..input.clone() };
         let runs = [input, flat].map(|input| {
-            let scene = Scene::resolve(&input).unwrap();
+            let scene = resolved(&input);
             let settings =
                 PropagationSettings::new(method, control, Grid::uniform(20_000.0, 101), everything(method), &scene);
             propagate_on(Isa::best(), &settings, &[scene]).remove(0)
@@ -251,7 +251,7 @@ fn each_key_of_an_orbit_has_a_truth() {
         ..OrbitInput::DEFAULT
     };
     let place = |input: OrbitInput| {
-        let scene = Scene::resolve(&body([90.0, 100.0, 40.0], input)).unwrap();
+        let scene = resolved(&body([90.0, 100.0, 40.0], input));
         let orbit = scene.orbit.unwrap();
         (orbit.position, orbit.velocity)
     };

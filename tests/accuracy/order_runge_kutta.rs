@@ -1,8 +1,7 @@
 //! Runge-Kutta methods converge with their order and tolerance, at the steps and between them.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use crate::textbook::*;
-use spindrift::ode::{Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 
 const HORIZON: f64 = 10.0;
 const FREQUENCY: f64 = 2.0;
@@ -90,16 +89,10 @@ fn every_method_carries_what_its_steps_lose() {
     let end = 1.0 + SLOPE * time;
     let case = Case { state: [1.0], parameters: [SLOPE], ends: ends.clone() };
     let grid = Grid::at(vec![0.0, time]);
-    let mut errors = Vec::new();
-    let mut off = |name: &'static str, journey: Journey<1>| {
-        assert!(journey.outcome.status == Status::Done && journey.outcome.effort.steps >= u64::from(ARCS), "{name}");
-        errors.push((name, (journey.points[1][0] - end).abs()));
-    };
-    let (cases, tolerance, step) = (std::slice::from_ref(&case), control(1e-6, 0.0), control(1e-6, 1.0));
-    off("Dormand-Prince", scalar(Adaptive(DormandPrince), Slope, cases, &grid, &tolerance).remove(0));
-    off("DOP853", scalar(Adaptive(Dop853), Slope, cases, &grid, &tolerance).remove(0));
-    off("Runge-Kutta 4", scalar(Fixed(RungeKutta4), Slope, cases, &grid, &step).remove(0));
-    off("Gauss-Legendre", scalar(Fixed(GaussLegendre), Slope, cases, &grid, &step).remove(0));
+    let errors = by_every_method(Slope, case, &grid, &control(1e-6, 1.0)).map(|(name, Journey { points, outcome })| {
+        assert!(outcome.status == Status::Done && outcome.effort.steps >= u64::from(ARCS), "{name}");
+        (name, (points[1][0] - end).abs())
+    });
     assert!(errors.iter().all(|(_, error)| *error <= COMPENSATED), "{errors:?}");
     let steps = ends.iter().scan(0.0, |last, end| Some(end - std::mem::replace(last, *end)));
     let plain = (steps.fold(1.0, |sum: f64, step| sum + SLOPE * step) - end).abs();

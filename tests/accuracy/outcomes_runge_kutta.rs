@@ -1,76 +1,54 @@
 //! Ends of runs: done, step limit, step floor, not finite; arcs and observation points are met exactly.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use crate::textbook::*;
-use spindrift::ode::{Dop853, DormandPrince, GaussLegendre, RungeKutta4};
 
 const ROUND_OFF: f64 = 1e-14;
 
-fn jumps_are_met<M: LaneMethod>(method: M, name: &str) {
-    let ends = vec![0.3, 0.3, 1.0, 1.7];
-    let case = Case { state: [0.0], parameters: [], ends };
-    let times = vec![0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 1.7];
+#[test]
+fn arcs_restart_exactly() {
+    let case = Case { state: [0.0], parameters: [], ends: vec![0.3, 0.3, 1.0, 1.7] };
+    let grid = Grid::at(vec![0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 1.7]);
     let truth = |t: f64| {
         let cube = |t: f64| t * t * t;
         cube(t.min(0.3)) + 3.0 * (cube(t.clamp(0.3, 1.0)) - cube(0.3)) + 4.0 * (cube(t.max(1.0)) - 1.0)
     };
-    let grid = Grid::at(times.clone());
-    let journey = scalar(method, Switched, &[case], &grid, &control(1e-6, 0.07)).remove(0);
-    assert_eq!(
-        (journey.outcome.status, journey.outcome.time, journey.outcome.points),
-        (Status::Done, 1.7, 7),
-        "{name}"
-    );
-    assert_eq!(journey.points[0], [0.0]);
-    for (time, state) in std::iter::zip(times, &journey.points) {
-        assert!((state[0] - truth(time)).abs() < ROUND_OFF, "{name} at {time}: {} {}", state[0], truth(time));
+    for (name, Journey { points, outcome }) in by_every_method(Switched, case, &grid, &control(1e-6, 0.07)) {
+        assert_eq!((outcome.status, outcome.time, outcome.points), (Status::Done, 1.7, 7), "{name}");
+        assert_eq!(points[0], [0.0]);
+        for (time, state) in grid.times().iter().zip(&points) {
+            assert!((state[0] - truth(*time)).abs() < ROUND_OFF, "{name} at {time}: {} {}", state[0], truth(*time));
+        }
     }
 }
 
-#[test]
-fn arcs_restart_exactly() {
-    jumps_are_met(Adaptive(DormandPrince), "Dormand-Prince");
-    jumps_are_met(Adaptive(Dop853), "DOP853");
-    jumps_are_met(Fixed(RungeKutta4), "Runge-Kutta 4");
-    jumps_are_met(Fixed(GaussLegendre), "Gauss-Legendre");
-}
-
-fn ends_as<M: LaneMethod, L: Law<1, 0>>(method: M, law: L, state: f64, control: &Control, status: Status) {
+fn ends<L: Law<1, 0>>(law: L, state: f64) -> [(&'static str, Outcome); 4] {
     let case = Case { state: [state], parameters: [], ends: vec![2.0] };
-    let journey = scalar(method, law, &[case], &Grid::uniform(2.0, 21), control).remove(0);
-    let outcome = journey.outcome;
-    assert_eq!(outcome.status, status, "{outcome:?}");
-    assert!(outcome.time < 2.0);
-    assert_eq!(outcome.points, 1 + (outcome.time / 0.1 + 1e-9) as usize, "{outcome:?}");
-    for (point, state) in journey.points.iter().enumerate() {
-        assert_eq!(state[0].is_nan(), point >= outcome.points, "point {point}");
-    }
+    by_every_method(law, case, &Grid::uniform(2.0, 21), &control(1e-8, 0.01)).map(|(name, journey)| {
+        let outcome = journey.outcome;
+        assert!(outcome.time < 2.0);
+        assert_eq!(outcome.points, 1 + (outcome.time / 0.1 + 1e-9) as usize, "{name}: {outcome:?}");
+        for (point, state) in journey.points.iter().enumerate() {
+            assert_eq!(state[0].is_nan(), point >= outcome.points, "{name}, point {point}");
+        }
+        (name, outcome)
+    })
 }
 
 #[test]
 fn a_pole_is_a_step_floor_or_not_finite() {
-    let control = control(1e-8, 0.01);
-    let case = Case { state: [1.0], parameters: [], ends: vec![2.0] };
-    for journey in [
-        scalar(Adaptive(DormandPrince), BlowUp, std::slice::from_ref(&case), &Grid::uniform(2.0, 21), &control)
-            .remove(0),
-        scalar(Adaptive(Dop853), BlowUp, &[case], &Grid::uniform(2.0, 21), &control).remove(0),
-    ] {
-        assert!(matches!(journey.outcome.status, Status::StepFloor | Status::NonFinite), "{:?}", journey.outcome);
-        assert!((journey.outcome.time - 1.0).abs() < 1e-8, "the pole is at 1: {:?}", journey.outcome);
-        assert_eq!(journey.outcome.points, 10 + usize::from(journey.outcome.time >= 1.0));
+    let all = ends(BlowUp, 1.0);
+    for (name, outcome) in &all[..2] {
+        assert!(matches!(outcome.status, Status::StepFloor | Status::NonFinite), "{name}: {outcome:?}");
+        assert!((outcome.time - 1.0).abs() < 1e-8, "{name}: the pole is at 1: {outcome:?}");
     }
-    ends_as(Fixed(RungeKutta4), BlowUp, 1.0, &control, Status::NonFinite);
-    ends_as(Fixed(GaussLegendre), BlowUp, 1.0, &control, Status::NonFinite);
+    assert!(all[2..].iter().all(|(_, outcome)| outcome.status == Status::NonFinite), "{all:?}");
 }
 
 #[test]
 fn what_is_no_number_from_the_start_ends_at_once() {
-    let control = control(1e-8, 0.01);
-    ends_as(Adaptive(DormandPrince), NotANumber, -1.0, &control, Status::NonFinite);
-    ends_as(Adaptive(Dop853), NotANumber, -1.0, &control, Status::NonFinite);
-    ends_as(Fixed(RungeKutta4), NotANumber, -1.0, &control, Status::NonFinite);
-    ends_as(Fixed(GaussLegendre), NotANumber, -1.0, &control, Status::NonFinite);
+    let all = ends(NotANumber, -1.0);
+    assert!(all.iter().all(|(_, outcome)| outcome.status == Status::NonFinite), "{all:?}");
 }
 
 #[test]

@@ -1,17 +1,12 @@
 //! Periodic propagation: its cost, its agreement with plain Taylor integration, and special periods.
 
-use crate::support::prelude::*;
-use crate::support::runs::rotation_distance;
+use crate::support::{prelude::*, runs::rotation_distance};
 
 const TOLERANCE: f64 = 1e-16;
 const POINTS: usize = 101;
 
 fn runs(method: Method, horizon: f64, scenes: &[Scene]) -> Vec<Run> {
     propagate(method, adaptive(TOLERANCE), &Grid::uniform(horizon, POINTS), scenes)
-}
-
-fn scene(input: &SceneInput) -> Scene {
-    Scene::resolve(input).unwrap()
 }
 
 fn table_one(count: u64) -> Vec<Scene> {
@@ -25,7 +20,7 @@ fn table_one(count: u64) -> Vec<Scene> {
             input.initial.angular_velocity_rad_s =
                 from_fn(|i| nominal.angular_velocity_rad_s[i] + off[i] * [0.5, 0.5, 1.5][i]);
         }
-        scene(&input)
+        resolved(&input)
     };
     (0..count).map(&mut dispersed).collect()
 }
@@ -120,7 +115,7 @@ fn spun(omega: [f64; 3], wheel_rates: [f64; 2]) -> SceneInput {
 
 fn without_momentum(omega: [f64; 3]) -> SceneInput {
     let mut input = spun(omega, [0.0; 2]);
-    let mass = scene(&input).mass;
+    let mass = resolved(&input).mass;
     let rates = from_fn(|i| {
         let own: f64 = (0..3).map(|j| mass.inertia_free[i + 1][j] * omega[j]).sum();
         -own / mass.wheels[i].axial - omega[i + 1]
@@ -174,7 +169,7 @@ fn specials() -> Vec<Special> {
 #[test]
 fn special_cases_are_plain_propagation() {
     for Special { name, input, horizon, amplification } in specials() {
-        let scenes = [scene(&input)];
+        let scenes = [resolved(&input)];
         let (auto, taylor) =
             (runs(Method::Auto, horizon, &scenes).remove(0), runs(Method::Taylor, horizon, &scenes).remove(0));
         for run in [&auto, &taylor] {
@@ -204,7 +199,7 @@ fn equilibria_stand_still() {
         body([1000.0; 3], [1.0, -2.0, 0.5]),
     ];
     for (case, input) in cases.iter().enumerate() {
-        let run = runs(Method::Auto, 1e4, &[scene(input)]).remove(0);
+        let run = runs(Method::Auto, 1e4, &[resolved(input)]).remove(0);
         assert_eq!(run.outcome.effort.steps, 1, "case {case}");
         for point in 0..POINTS {
             assert_eq!(run.table.at::<3>(StateField::Rate, point), input.initial.angular_velocity_rad_s, "case {case}");
@@ -224,7 +219,7 @@ fn special_cases_are_those_of_the_null_space_form() {
         if fastest > 150.0 || amplification > 1e4 || input.initial.angular_velocity_rad_s[0].abs() > 100.0 {
             continue;
         }
-        let scenes = [scene(&input)];
+        let scenes = [resolved(&input)];
         let horizon = if amplification > 1.0 { 12.0 } else { 5.0 };
         let grid = Grid::uniform(horizon, POINTS);
         let reference = propagate(Method::NullSpace, adaptive(REFERENCE), &grid, &scenes).remove(0);
@@ -242,7 +237,7 @@ fn time_has_no_scale() {
     for method in [Method::Auto, Method::Taylor] {
         for seed in 0..4 {
             let input = random(kind, seed, horizon);
-            let nominal = runs(method, horizon, &[scene(&input)]).remove(0);
+            let nominal = runs(method, horizon, &[resolved(&input)]).remove(0);
             for power in [-30, -7, 1, 20] {
                 let factor = 2.0_f64.powi(power);
                 let mut scaled = input.clone();
@@ -253,7 +248,7 @@ fn time_has_no_scale() {
                     rates.iter_mut().for_each(|rate| *rate *= factor);
                 }
                 scaled.wheels.iter_mut().for_each(|wheel| wheel.rate_rad_s *= factor);
-                let found = runs(method, horizon / factor, &[scene(&scaled)]).remove(0);
+                let found = runs(method, horizon / factor, &[resolved(&scaled)]).remove(0);
                 assert_eq!(found.outcome.effort, nominal.outcome.effort, "2^{power}");
                 for point in 0..POINTS {
                     let rates = |run: &Run| run.table.at::<3>(StateField::Rate, point);

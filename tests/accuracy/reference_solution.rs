@@ -1,8 +1,6 @@
 //! The reference solution in double-double, against 40 digits and conservation laws.
 
-use crate::support::prelude::*;
-use spindrift::math::Real;
-use spindrift::math::double_double::DoubleDouble;
+use crate::prelude::*;
 use spindrift::math::vector::{constant, constant_matrix};
 
 fn everything() -> StateFields {
@@ -12,7 +10,7 @@ fn everything() -> StateFields {
 
 fn solved(name: &str, tolerance: f64) -> (Golden, Scene, ReferenceSolution) {
     let golden = Golden::load(name);
-    let scene = Scene::resolve(&golden.scene).unwrap();
+    let scene = resolved(&golden.scene);
     let truth =
         ReferenceSolution::new(Isa::best(), &scene, &Grid::at(golden.times()), everything(), tolerance).unwrap();
     (golden, scene, truth)

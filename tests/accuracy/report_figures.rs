@@ -1,7 +1,6 @@
 //! Figures 3 to 5 of Berdoz, *Final Report - ADR Spacecraft*, against an independent run over two seconds.
 
-use crate::support::prelude::*;
-use spindrift::run::StepStatistics;
+use crate::prelude::*;
 
 const HORIZON: f64 = 2.0;
 const POINTS: usize = 201;
@@ -9,7 +8,7 @@ const POINTS: usize = 201;
 const FACTOR: f64 = 3.0;
 
 fn table_one() -> Scene {
-    Scene::resolve(&Golden::load("table1").scene).unwrap()
+    resolved(&Golden::load("table1").scene)
 }
 
 fn figures(control: Control) -> (Vec<(String, Vec<f64>)>, StepStatistics) {

@@ -4,8 +4,7 @@
 //! Of the signed relative errors e of 64 random scenes after N steps: rms e <= bound sqrt(N); the log-log slope of rms
 //! e is 0.5 +- 0.1; the mean of e is within three standard errors of zero (alpha = 0.0027).
 
-use crate::support::invariants::Invariants;
-use crate::support::prelude::*;
+use crate::support::{invariants::Invariants, prelude::*};
 use rayon::prelude::*;
 
 const SECTION: &str = "round_off";
@@ -44,10 +43,7 @@ impl Walk {
     fn slope(&self) -> f64 {
         let points: Vec<[f64; 2]> =
             self.steps.iter().zip(&self.errors).map(|(n, e)| [libm::log(*n), libm::log(rms(e))]).collect();
-        let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
-        let (x, y) = (mean(0), mean(1));
-        let covariance: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-        covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
+        draws::slope(&points)
     }
 
     fn bias(&self) -> f64 {
@@ -80,7 +76,7 @@ fn taylor(steps: &[f64]) -> [Walk; 4] {
     let scenes = mixed(SCENES, false, 10.0);
     let run = |times: Vec<f64>, scenes: &[Scene]| {
         let grid = Grid::at(times);
-        let fields = blocks([StateField::Rate, StateField::Attitude]);
+        let fields = rotational();
         let plan = PropagationSettings::new(Method::Taylor, adaptive(TOLERANCE), grid, fields, &scenes[0]);
         let parts: Vec<_> = scenes.par_chunks(8).map(|part| propagate_on(Isa::best(), &plan, part)).collect();
         parts.into_iter().flatten().collect::<Vec<_>>()
@@ -165,7 +161,7 @@ const MOST_STEPS: u64 = 200;
 #[test]
 fn periods_add_no_error_of_conservation() {
     let scenes = mixed(SCENES, false, 10.0);
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
+    let fields = rotational();
     let (mut first, mut all) = (0.0_f64, 0.0_f64);
     for exponent in 2..=6 {
         let horizon = libm::pow(10.0, f64::from(exponent));

@@ -1,7 +1,6 @@
 //! Extreme parameters: every campaign `stress_*.toml` in a small version, and scenes beyond campaign files.
 
-use crate::support::plans::Table;
-use crate::support::prelude::*;
+use crate::support::{plans::Table, prelude::*};
 use spindrift::observables::accuracy::INACCURATE_STATE;
 
 const SECTION: &str = "stress";
@@ -43,7 +42,7 @@ fn plan(scene: &SceneInput, duration: f64, points: usize) -> Plan {
                 [body]\nmass_kg = 1\ncenter_of_mass_m = [0, 0, 0]\ninertia_kg_m2 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n\
                 includes_wheels = false\n[initial]\n\
                 angular_velocity_rad_s = [0, 0, 1]\n";
-    let mut plan = Plan::from_text("stress", text, Overrides::default()).unwrap();
+    let mut plan = planned(text);
     plan.nominal = scene.clone();
     plan.grid = Grid::uniform(duration, points);
     plan
@@ -70,10 +69,8 @@ fn diagonal([a, b, c]: [f64; 3]) -> [[f64; 3]; 3] {
     [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
 }
 
-fn run(scene: &Scene, method: Method, tolerance: f64, grid: Grid) -> Run {
-    let fields = blocks([StateField::Rate, StateField::Attitude]);
-    let plan = PropagationSettings::new(method, adaptive(tolerance), grid, fields, scene);
-    propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0)
+fn run(scene: &Scene, method: Method, tolerance: f64, grid: &Grid) -> Run {
+    done(method, adaptive(tolerance), grid, rotational(), scene)
 }
 
 #[test]
@@ -92,9 +89,8 @@ fn flips_come_later_with_the_logarithm_of_the_offset() {
     let mut points = Vec::new();
     for exponent in 2..=15 {
         let delta = libm::pow(10.0, -f64::from(exponent));
-        let scene = Scene::resolve(&body(diagonal(moments), [0.0, rate, rate * delta])).unwrap();
-        let run = run(&scene, Method::Auto, 1e-16, Grid::uniform(60.0, 6001));
-        assert_eq!(run.outcome.status, Status::Done);
+        let scene = resolved(&body(diagonal(moments), [0.0, rate, rate * delta]));
+        let run = run(&scene, Method::Auto, 1e-16, &Grid::uniform(60.0, 6001));
         let rates = run.table.column(StateField::Rate, 1);
         let after = (1..6001).find(|point| rates[*point] < 0.0).unwrap();
         let (before, here) = (rates[after - 1], rates[after]);
@@ -221,13 +217,10 @@ fn short_thrusts_are_not_missed() {
         ];
         let table = rows(&plan(&input, 2.0, 21));
         worst = worst.max(largest_error(&format!("thrust for {length:e} s"), &table));
-        let scene = Scene::resolve(&input).unwrap();
+        let scene = resolved(&input);
         let expected: f64 = input.actuation.iter().map(|act| act.thrust_n[0] * (act.end_s - act.start_s)).sum();
-        let fields = blocks([StateField::Impulse, StateField::Rate, StateField::Attitude]);
-        let run = {
-            let plan = PropagationSettings::new(Method::Auto, adaptive(1e-16), Grid::uniform(2.0, 21), fields, &scene);
-            propagate_on(Isa::best(), &plan, std::slice::from_ref(&scene)).remove(0)
-        };
+        let fields = rotational().with(StateField::Impulse);
+        let run = done(Method::Auto, adaptive(1e-16), &Grid::uniform(2.0, 21), fields, &scene);
         let off = (run.table.column(StateField::Impulse, 2)[20] / expected - 1.0).abs();
         worst = worst.max(off);
     }
@@ -267,10 +260,8 @@ fn units_do_not_matter() {
     input.debris = None;
     let grid = Grid::uniform(10.0, 21);
     let states = |input: &SceneInput| {
-        let scene = Scene::resolve(input).unwrap();
-        let run = run(&scene, Method::Auto, 1e-16, grid.clone());
-        assert_eq!(run.outcome.status, Status::Done);
-        run.table
+        let scene = resolved(input);
+        run(&scene, Method::Auto, 1e-16, &grid).table
     };
     let nominal = states(&input);
     for (length, mass) in

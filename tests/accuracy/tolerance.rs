@@ -1,7 +1,6 @@
 //! Promises of a tolerance, a step and a direction of time.
 
-use crate::support::exact::Exact;
-use crate::support::prelude::*;
+use crate::support::{exact::Exact, prelude::*};
 
 const SECTION: &str = "tolerance";
 
@@ -15,13 +14,6 @@ fn error(exact: &Exact, method: Method, control: Control) -> (f64, f64) {
     let count = errors.len() as f64;
     let steps = runs.iter().map(|run| run.outcome.effort.steps as f64).sum::<f64>() / count;
     ((errors.iter().map(|e| e * e).sum::<f64>() / count).sqrt(), steps)
-}
-
-fn slope(points: &[[f64; 2]]) -> f64 {
-    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
-    let (x, y) = (mean(0), mean(1));
-    let covariance: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-    covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
 }
 
 const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
@@ -52,7 +44,7 @@ fn errors_fall_in_proportion_to_the_tolerance() {
             }
             former = error;
         }
-        let off = (slope(&points) - 1.0).abs();
+        let off = (draws::slope(&points) - 1.0).abs();
         let claim = |what: &str| format!("`{}`, 1e-4 to 1e-13, rms over scenes: {what}", method.name());
         let slack = if matches!(method, Method::Auto | Method::Taylor) { STAIRCASE } else { PROPORTIONAL };
         hold(SECTION, &claim("distance of the error's log-log slope over the tolerance from 1"), slack, off);
@@ -91,15 +83,7 @@ const RETURN: f64 = 1e3 * f64::EPSILON;
 
 #[test]
 fn runs_are_reversible() {
-    for (method, control, horizon) in reversals() {
-        let off = there_and_back(method, control, horizon, -1.0);
-        let regime = format!("`{}`, {horizon} s forward and back: distance from the start", method.name());
-        hold(SECTION, &regime, RETURN, off);
-    }
-}
-
-fn reversals() -> [(Method, Control, f64); 7] {
-    [
+    for (method, control, horizon) in [
         (Method::Auto, adaptive(1e-16), 10.0),
         (Method::Taylor, adaptive(1e-16), 10.0),
         (DORMAND_PRINCE, adaptive(1e-14), 2.0),
@@ -107,23 +91,27 @@ fn reversals() -> [(Method, Control, f64); 7] {
         (RUNGE_KUTTA, fixed(1e-4), 2.0),
         (GAUSS_LEGENDRE, fixed(1e-2), 10.0),
         (Method::NullSpace, adaptive(1e-14), 0.5),
-    ]
+    ] {
+        let off = there_and_back(method, control, horizon);
+        let regime = format!("`{}`, {horizon} s forward and back: distance from the start", method.name());
+        hold(SECTION, &regime, RETURN, off);
+    }
 }
 
-fn reversed(scene: &Scene, run: &Run, wheels: f64) -> Scene {
+fn reversed(scene: &Scene, run: &Run) -> Scene {
     let last = run.table.points() - 1;
     let mut back = scene.clone();
     back.initial.q_es = run.table.at(StateField::Attitude, last);
     back.initial.omega_se_s = run.table.at::<3>(StateField::Rate, last).map(|x| -x);
     let rates = run.table.at::<2>(StateField::WheelRates, last);
-    back.initial.wheel_rates[..2].copy_from_slice(&rates.map(|x| wheels * x));
+    back.initial.wheel_rates[..2].copy_from_slice(&rates.map(|x| -x));
     back
 }
 
-fn there_and_back(method: Method, control: Control, horizon: f64, wheels: f64) -> f64 {
+fn there_and_back(method: Method, control: Control, horizon: f64) -> f64 {
     let there = Exact { scenes: mixed(8, false, horizon), grid: Grid::uniform(horizon, 3), truths: Vec::new() };
     let runs = there.runs(method, control);
-    let turned = there.scenes.iter().zip(&runs).map(|(scene, run)| reversed(scene, run, wheels)).collect();
+    let turned = there.scenes.iter().zip(&runs).map(|(scene, run)| reversed(scene, run)).collect();
     let back = Exact { scenes: turned, grid: there.grid.clone(), truths: Vec::new() };
     let mut worst = 0.0_f64;
     for (scene, run) in there.scenes.iter().zip(back.runs(method, control)) {

@@ -1,8 +1,10 @@
 //! Wheels whose motors hold their speed, and wheels with misaligned axes and offset centres.
 
-use crate::support::prelude::*;
-use crate::support::runs::rotation_distance;
-use crate::support::scenes::{keep_wheels, misaligned, speed_held};
+use crate::support::{
+    prelude::*,
+    runs::rotation_distance,
+    scenes::{misaligned, speed_held},
+};
 
 const HORIZON: f64 = 1.0;
 const TAYLOR: f64 = 1e-16;
@@ -12,12 +14,11 @@ fn held_scenes(count: u64, forced: bool) -> Vec<Scene> {
         let kind = Kind { wheels: [true; 2], debris: 0, products: k % 2 == 1, offset: !k.is_multiple_of(3), forced };
         let held = [[true, false], [false, true], [true, true]][(k % 3) as usize];
         let input = speed_held(random(kind, 400 + k, HORIZON), held);
-        Scene::resolve(&if k % 5 > 1 { misaligned(input, k) } else { input }).unwrap()
+        resolved(&if k % 5 > 1 { misaligned(input, k) } else { input })
     };
     (0..count).map(scene).collect()
 }
 
-const CAMPAIGN_BALANCE: f64 = 2e-13;
 #[test]
 fn a_held_wheel_keeps_its_rate_and_its_angle_is_a_line() {
     let scenes = held_scenes(12, false);
@@ -61,7 +62,7 @@ fn a_torque_about_the_wheels_axis_has_a_closed_form() {
     for (method, tolerance) in [(Method::Taylor, TAYLOR), (DOP853, 1e-13), (Method::NullSpace, 1e-13)] {
         let mut rates = [0.0; 2];
         for mode in [WheelMode::Free, WheelMode::SpeedHeld] {
-            let scene = Scene::resolve(&rotor(mode)).unwrap();
+            let scene = resolved(&rotor(mode));
             let (wheel, locked) = (scene.mass.wheels[0], scene.mass.inertia[0][0]);
             let held = mode == WheelMode::SpeedHeld;
             let inertia = if held { locked } else { locked - wheel.axial };
@@ -92,7 +93,7 @@ fn periods_carry_held_wheels_too() {
     let mut folded = 0;
     for seed in 0..6 {
         let input = misaligned(speed_held(random(kind, 70 + seed, 1.0), [seed % 2 == 0, seed % 3 > 0]), seed);
-        let scene = Scene::resolve(&input).unwrap();
+        let scene = resolved(&input);
         let run = |method| propagate_one(method, adaptive(TAYLOR), &grid, &scene);
         let (auto, plain) = (run(Method::Auto), run(Method::Taylor));
         folded += usize::from(auto.outcome.effort.steps * 4 < plain.outcome.effort.steps);
@@ -102,27 +103,4 @@ fn periods_carry_held_wheels_too() {
         assert!(rate.max(attitude) < 2.0 * f64::EPSILON * angle, "{rate:e} {attitude:e} over {angle} rad");
     }
     assert!(folded >= 4, "most of these have a period within the horizon: {folded}");
-}
-
-const HEAD: &str = "[campaign]\nname = \"held\"\nsamples = 2\nseed = 1\nduration_s = 1.0\n";
-const HELD_WHEEL: &str = "[[wheels]]\nname = \"w1\"\naxis = [0, 1, 0]\nradius_m = 0.25\n\
-    length_m = 0.1\nposition_m = [0.0, 0.1, 1.0]\ndensity_kg_m3 = 2700\nmode = \"speed_held\"\ntilt_rad = [0.01, \
-    0.02]\n\
-    rate_rad_s = 100\n[initial]\nangular_velocity_rad_s = [0.1, 0.2, 1.0]\n";
-
-#[test]
-fn a_campaign_says_how_a_wheel_runs_and_gets_the_motors_work() {
-    let plan = |text: &str| parsed(text);
-    let file = [HEAD, FUSELAGE, HELD_WHEEL].concat();
-    let held = plan(&file).unwrap();
-    let run = SingleRun::new(&held, SampleId(0), held.grid.clone(), Isa::best()).unwrap();
-    let value = |name: &str| {
-        let place = run.request.columns().iter().position(|column| column.quantity.name() == name);
-        run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
-    };
-    // measured: 12.5 J
-    assert!(value("work_motors_final_j").abs() > 1e-3);
-    assert!(value("energy_error_max") < CAMPAIGN_BALANCE);
-    let free = plan(&file.replace("speed_held", "free")).unwrap();
-    assert!(!Actuated::of(&free.nominal).any());
 }

@@ -1,8 +1,8 @@
 //! The table of accuracy claims: [`hold`] fails where the measured number exceeds the bound, and where
 //! `docs/accuracy.md` states another one. With `SPINDRIFT_WRITE_ACCURACY=1` it writes the row instead.
 
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use super::prelude::*;
+use std::sync::PoisonError;
 
 pub const WRITE: &str = "SPINDRIFT_WRITE_ACCURACY";
 

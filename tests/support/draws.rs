@@ -1,8 +1,6 @@
 //! Draws of a plan, and statistics of them.
 
-use spindrift::campaign::Plan;
-use spindrift::sampling::SampleId;
-use spindrift::scene::{Scene, SceneInput};
+use super::prelude::*;
 
 pub fn seen<T>(
     plan: &Plan,
@@ -18,12 +16,20 @@ pub fn seen<T>(
     ids.into_iter().map(draw).collect()
 }
 
+/// Of the least-squares line through `points`.
+pub fn slope(points: &[[f64; 2]]) -> f64 {
+    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(0), mean(1));
+    let covariance: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+    covariance / points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum::<f64>()
+}
+
 pub fn applied(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Vec<f64>> {
     seen(plan, ids, |_, applied| applied.to_vec())
 }
 
 pub fn scenes(plan: &Plan, ids: impl IntoIterator<Item = u64>) -> Vec<Scene> {
-    seen(plan, ids, |input, _| Scene::resolve(input).unwrap())
+    seen(plan, ids, |input, _| resolved(input))
 }
 
 pub fn names(plan: &Plan) -> Vec<String> {

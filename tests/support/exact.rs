@@ -1,14 +1,7 @@
 //! Scenes with their reference solution (double-double), and the errors of runs.
 
+use super::prelude::*;
 use rayon::prelude::*;
-use spindrift::math::Isa;
-use spindrift::ode::Control;
-use spindrift::propagation::taylor::reference_solution::{ReferenceSolution, TOLERANCE};
-use spindrift::propagation::{Method, PropagationSettings, RotationError, rotation_errors};
-use spindrift::run::{Grid, StateField, StateFields, StateTable, Status};
-use spindrift::scene::Scene;
-
-use super::runs::{Run, blocks, propagate_on};
 
 pub struct Exact {
     pub scenes: Vec<Scene>,
@@ -23,7 +16,7 @@ pub fn distance(table: &StateTable, grid: &Grid, reference: &ReferenceSolution) 
 
 impl Exact {
     pub fn new(scenes: Vec<Scene>, grid: Grid) -> Self {
-        let fields = blocks([StateField::Rate, StateField::Attitude]);
+        let fields = rotational();
         let truths = scenes.par_iter().map(|scene| solved(scene, &grid, fields)).collect();
         Exact { scenes, grid, truths }
     }

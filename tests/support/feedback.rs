@@ -1,13 +1,7 @@
 //! A control law for tests, and runs under it.
 
-use spindrift::dynamics::actuation::{
-    Actuation, ActuationLaw, Arc, BodyState, LawSource, Laws, WheelState, ZeroOrderHold, actuation_at,
-};
-use spindrift::math::Isa;
-use spindrift::propagation::{CompletedRun, PropagationSettings};
-use spindrift::scene::Scene;
-
-use super::runs::Run;
+use super::prelude::*;
+use spindrift::dynamics::actuation::{Actuation, ActuationLaw, Arc, LawSource, ZeroOrderHold, actuation_at};
 
 /// Control period, s.
 pub const PERIOD: f64 = 0.25;

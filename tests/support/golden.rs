@@ -1,9 +1,7 @@
 //! Golden data: scenes with states to 25 digits, from a 40-digit Taylor solution of the gyrostat equations.
 
-use std::path::Path;
-
-use serde_json::Value;
-use spindrift::scene::{ActuationInput, DebrisInput, InitialInput, SceneInput, ThrusterInput};
+use super::prelude::*;
+use spindrift::scene::InitialInput;
 
 pub struct Golden {
     pub scene: SceneInput,

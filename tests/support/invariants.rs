@@ -1,11 +1,10 @@
 //! Energy and angular momentum of a run without actuators from its states, in double-double.
 
-use spindrift::math::double_double::DoubleDouble;
-use spindrift::math::vector::{constant, constant_matrix, dcm_from_quaternion, dot, product, scaled, sum};
-use spindrift::math::{Real, vector};
-use spindrift::run::{StateField, StateTable};
-use spindrift::scene::mass::Wheel;
-use spindrift::scene::{Scene, WheelMode};
+use super::prelude::*;
+use spindrift::{
+    math::vector::{self, constant, constant_matrix},
+    scene::mass::Wheel,
+};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Invariants {

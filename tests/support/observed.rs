@@ -1,14 +1,11 @@
 //! Runs as an observer sees them.
 
-use std::collections::HashMap;
-
-use spindrift::math::Isa;
-use spindrift::observables::nominal_attitude::NominalAttitude;
-use spindrift::observables::request::{NutationAxis, wheel_names};
-use spindrift::observables::window::NO_WINDOWS;
-use spindrift::observables::{Groups, LawColumns, Observer, Request};
-use spindrift::run::{Grid, Outcome, StateTable};
-use spindrift::scene::{Actuated, Scene};
+use super::prelude::*;
+use spindrift::observables::{
+    LawColumns,
+    request::{NutationAxis, wheel_names},
+    window::NO_WINDOWS,
+};
 
 const NAMES: [&str; 8] = ["w1", "w2", "w3", "w4", "w5", "w6", "w7", "w8"];
 

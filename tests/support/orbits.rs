@@ -1,15 +1,7 @@
 //! Spacecraft on orbits under the gravity gradient.
 
-use super::runs::{DOP853, DORMAND_PRINCE, GAUSS_LEGENDRE, RUNGE_KUTTA};
-use super::runs::{adaptive, fixed};
-use super::scenes::Uniform;
-use spindrift::dynamics::effects::ForceModel;
-use spindrift::ode::Control;
-use spindrift::propagation::Method;
-use spindrift::scene::{
-    Actuation, ActuationInput, Arc, BodyInput, DebrisInput, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput,
-    PlateInput, Scene, SceneInput, ThrusterInput, TorqueRod,
-};
+use super::prelude::*;
+use spindrift::scene::{Arc, BodyInput, Offset, Offsets};
 
 /// Gravitational parameter of the Earth, m^3/s^2.
 pub const MU: f64 = 3.986004418e14;
@@ -73,7 +65,18 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
         };
         input
     };
-    inputs(count, seed, rates).into_iter().map(plates).map(resolved).collect()
+    inputs(count, seed, rates).into_iter().map(plates).map(|input| resolved(&input)).collect()
+}
+
+/// Those of [`plated`] without wheels, whose air and light move them.
+pub fn coupled(count: u64, seed: u64) -> Vec<Scene> {
+    let mut scenes = plated(2 * count, seed, [0.5, 20.0]);
+    scenes.retain(|scene| scene.mass.wheels.is_empty());
+    for scene in &mut scenes {
+        scene.environment.coupled = true;
+        scene.offsets = Some(Offsets { spacecraft: Offset::default(), debris: Offset::default() });
+    }
+    scenes
 }
 
 /// [`tumbling`] with a residual dipole in the field (IGRF for even numbers, a dipole for others) in place of a gravity
@@ -87,7 +90,7 @@ pub fn magnetic(count: u64, seed: u64, rates: [f64; 2], duration: f64) -> Vec<Sc
             magnetic_dipole_a_m2: Some(u.vector(10.0)),
             ..EnvironmentInput::DEFAULT
         };
-        let mut scene = resolved(input);
+        let mut scene = resolved(&input);
         scene.torque_rods =
             [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8]].map(|axis| TorqueRod { axis, limit: 15.0, scale: 1.0 }).to_vec();
         let mut start = 0.0;
@@ -142,17 +145,13 @@ pub fn in_thin_air(count: u64, seed: u64) -> Vec<Scene> {
         input.initial.attitude = u.unit_quaternion();
         let rate = libm::pow(10.0, u.between(-2.0, 0.3)).to_radians();
         input.initial.angular_velocity_rad_s = u.vector::<3>(1.0).map(|x| rate * x);
-        resolved(input)
+        resolved(&input)
     };
     (0..count).map(|_| scene()).collect()
 }
 
-fn resolved(input: SceneInput) -> Scene {
-    Scene::resolve(&input).unwrap_or_else(|errors| panic!("{}", errors[0]))
-}
-
 pub fn tumbling(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
-    inputs(count, seed, rates).into_iter().map(resolved).collect()
+    inputs(count, seed, rates).iter().map(resolved).collect()
 }
 
 fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
@@ -194,6 +193,26 @@ fn inputs(count: u64, seed: u64, rates: [f64; 2]) -> Vec<SceneInput> {
         input
     };
     (0..count).map(input).collect()
+}
+
+/// Position and velocity after `steps` steps of `h` seconds by the classical Runge-Kutta method.
+pub fn runge_kutta(
+    mut state: [[f64; 3]; 2],
+    (steps, h): (usize, f64),
+    slope: impl Fn(f64, [[f64; 3]; 2]) -> [[f64; 3]; 2],
+) -> [[f64; 3]; 2] {
+    let moved = |state: [[f64; 3]; 2], h: f64, slope: [[f64; 3]; 2]| [0, 1].map(|i| sum(state[i], scaled(h, slope[i])));
+    for step in 0..steps {
+        let time = step as f64 * h;
+        let a = slope(time, state);
+        let b = slope(time + 0.5 * h, moved(state, 0.5 * h, a));
+        let c = slope(time + 0.5 * h, moved(state, 0.5 * h, b));
+        let d = slope(time + h, moved(state, h, c));
+        for (factor, slope) in [(1.0, a), (2.0, b), (2.0, c), (1.0, d)] {
+            state = moved(state, factor * h / 6.0, slope);
+        }
+    }
+    state
 }
 
 pub fn leaving(input: SceneInput) -> SceneInput {

@@ -1,17 +1,13 @@
 //! Parquet files as Arrow's arrays, through Parquet's record reader.
 
-use std::fs::File;
-use std::path::Path;
+use super::prelude::*;
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray};
 use arrow_ipc::convert::try_schema_from_ipc_buffer;
 use arrow_schema::Schema;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use parquet::basic::Type;
-use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::record::Field;
+use base64::{Engine, engine::general_purpose::STANDARD};
+use parquet::{basic::Type, record::Field};
 
 pub fn groups(path: &Path) -> Vec<RecordBatch> {
     let reader = SerializedFileReader::new(File::open(path).unwrap()).unwrap();

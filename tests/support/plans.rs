@@ -1,15 +1,7 @@
 //! Campaigns run in memory: rows by column name.
 
+use super::prelude::*;
 use std::convert::Infallible;
-use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-
-use spindrift::campaign::{CampaignError, Overrides, Plan};
-use spindrift::ensemble::{Ensemble, Parts, Rows, Supervision, run};
-use spindrift::math::Isa;
-use spindrift::run::Status;
-use spindrift::sampling::SampleId;
 
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -23,6 +15,12 @@ pub fn planned(text: &str) -> Plan {
     parsed(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
+/// The text of a shipped campaign.
+pub fn campaign_text(name: &str) -> String {
+    std::fs::read_to_string(root().join(format!("campaigns/{name}.toml"))).unwrap()
+}
+
+/// The files of the shipped campaigns.
 pub fn files() -> Vec<PathBuf> {
     let folder = root().join("campaigns");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -36,10 +34,8 @@ pub fn shipped(name: &str, samples: Option<u64>) -> Plan {
 }
 
 pub fn shipped_with(name: &str, samples: Option<u64>, tables: &str) -> Plan {
-    let folder = root().join("campaigns");
-    let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap() + tables;
     let overrides = Overrides { samples, ..Overrides::default() };
-    Plan::from_text_in(&folder, name, &text, overrides).unwrap()
+    Plan::from_text_in(&root().join("campaigns"), name, &(campaign_text(name) + tables), overrides).unwrap()
 }
 
 /// A wheel of `spin_sweep` that is sometimes impossible.
@@ -105,4 +101,18 @@ pub fn rows(plan: &Plan) -> Table {
     });
     let values = (0..names.len()).map(|place| kept.iter().map(|(_, (_, row))| row[place]).collect()).collect();
     Table { names, statuses: kept.iter().map(|(_, (status, _))| *status).collect(), values }
+}
+
+pub fn single(plan: &Plan, sample: u64) -> SingleRun {
+    single_on(plan, sample, plan.grid.clone())
+}
+
+pub fn single_on(plan: &Plan, sample: u64, grid: Grid) -> SingleRun {
+    SingleRun::new(plan, SampleId(sample), grid, Isa::best()).unwrap()
+}
+
+/// A number of the row of `run`.
+pub fn value(run: &SingleRun, name: &str) -> f64 {
+    let place = run.request.columns().iter().position(|column| column.quantity.name() == name);
+    run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
 }

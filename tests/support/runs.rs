@@ -1,12 +1,6 @@
 //! Runs through [`PropagationSettings`], as in a campaign, and the distances that the tests compare.
 
-use sha2::{Digest, Sha256};
-use spindrift::math::Isa;
-use spindrift::math::vector::{cross, dcm_from_quaternion, difference, norm, product};
-use spindrift::ode::{Control, Integrator, Tolerance};
-use spindrift::propagation::{CompletedRun, Method, PropagationSettings};
-use spindrift::run::{Grid, Outcome, StateField, StateFields, StateTable};
-use spindrift::scene::Scene;
+use super::prelude::*;
 
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -104,6 +98,18 @@ pub fn propagate(method: Method, control: Control, grid: &Grid, scenes: &[Scene]
 
 pub fn propagate_one(method: Method, control: Control, grid: &Grid, scene: &Scene) -> Run {
     propagate(method, control, grid, std::slice::from_ref(scene)).remove(0)
+}
+
+pub fn rotational() -> StateFields {
+    blocks([StateField::Rate, StateField::Attitude])
+}
+
+/// One run to its end.
+pub fn done(method: Method, control: Control, grid: &Grid, fields: StateFields, scene: &Scene) -> Run {
+    let plan = PropagationSettings::new(method, control, grid.clone(), fields, scene);
+    let run = propagate_on(Isa::best(), &plan, std::slice::from_ref(scene)).remove(0);
+    assert_eq!(run.outcome.status, Status::Done, "{method:?}");
+    run
 }
 
 pub fn relative<const N: usize>(found: [f64; N], expected: [f64; N]) -> f64 {

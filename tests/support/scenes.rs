@@ -1,8 +1,7 @@
 //! Random scenes that are a function of a number: the same on every machine, in every version of any crate.
 
-use spindrift::scene::{
-    ActuationInput, DebrisInput, InitialInput, PartShape, Scene, SceneInput, ThrusterInput, WheelInput, WheelMode,
-};
+use super::prelude::*;
+use spindrift::scene::{InitialInput, PartShape};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
@@ -55,6 +54,10 @@ impl Uniform {
             }
         }
     }
+}
+
+pub fn resolved(input: &SceneInput) -> Scene {
+    Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]))
 }
 
 pub const WHEELS: [&str; 2] = ["w1", "w2"];
@@ -188,7 +191,7 @@ pub fn mixed_kind(k: u64, forced: bool) -> Kind {
 
 pub fn mixed(count: u64, forced: bool, horizon: f64) -> Vec<Scene> {
     let input = |k: u64| random(mixed_kind(k, forced), 1000 + k, horizon);
-    (0..count).map(|k| Scene::resolve(&input(k)).unwrap()).collect()
+    (0..count).map(|k| resolved(&input(k))).collect()
 }
 
 /// Numbers of wheels of [`many_wheels`].

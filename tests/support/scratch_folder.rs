@@ -1,16 +1,9 @@
 //! A folder in which a test runs the program.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use super::prelude::*;
+use arrow_array::StringArray;
 
-use arrow_array::RecordBatch;
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-
-use spindrift::storage::disk::folder;
-use spindrift::storage::rows_reader::RowsReader;
+use spindrift::storage::{disk::folder, rows_reader::RowsReader};
 
 use super::parquet_tables;
 
@@ -67,8 +60,7 @@ impl ScratchFolder {
     }
 
     pub fn shows(&self, arguments: &str, code: i32, words: &str) {
-        let said = self.prints(arguments, code);
-        assert!(said.contains(words), "{said}");
+        assert_says(self.prints(arguments, code), [words]);
     }
 
     pub fn small_shows(&self, options: &str, code: i32, words: &str) {
@@ -132,6 +124,12 @@ impl ScratchFolder {
     }
 }
 
+#[track_caller]
+pub fn assert_says<const N: usize>(said: impl AsRef<str>, words: [&str; N]) {
+    let said = said.as_ref();
+    words.iter().for_each(|words| assert!(said.contains(words), "{words:?} is not in:\n{said}"));
+}
+
 pub fn assert_fits(said: &str, lines: usize, width: usize) {
     assert!(said.lines().count() <= lines, "{} lines:\n{said}", said.lines().count());
     assert!(said.lines().all(|line| line.chars().count() <= width), "{said}");
@@ -158,6 +156,10 @@ pub fn batches(path: &Path) -> Vec<RecordBatch> {
     parquet_tables::groups(path)
 }
 
+pub fn texts<'b>(batch: &'b RecordBatch, name: &str) -> &'b StringArray {
+    batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}")).as_string()
+}
+
 pub fn floats(batch: &RecordBatch, name: &str) -> Vec<f64> {
     let column = batch.column_by_name(name).unwrap_or_else(|| panic!("no column {name}"));
     column.as_primitive::<Float64Type>().iter().map(|value| value.unwrap_or(f64::NAN)).collect()
@@ -175,10 +177,9 @@ pub fn column(rows: &[RecordBatch], name: &str) -> Vec<f64> {
 }
 
 pub fn ended(rows: &[RecordBatch]) -> Vec<(u64, String)> {
-    let statuses = rows.iter().flat_map(|batch| {
-        let statuses = batch.column_by_name("status").unwrap().as_string::<i32>();
-        statuses.iter().map(|status| status.unwrap().to_owned()).collect::<Vec<_>>()
-    });
+    let statuses = rows
+        .iter()
+        .flat_map(|batch| texts(batch, "status").iter().map(|status| status.unwrap().to_owned()).collect::<Vec<_>>());
     column(rows, "sample_id").into_iter().map(|sample| sample as u64).zip(statuses).collect()
 }
 

@@ -3,14 +3,19 @@
 #![allow(dead_code)] // Every test file uses its own part.
 
 use fearless_simd::Simd;
-use spindrift::math::isa::Work;
-use spindrift::math::{Isa, Lanes, Real};
-use spindrift::ode::explicit::Step;
-use spindrift::ode::switches::{beside, dip};
 pub use spindrift::ode::{Adaptive, Fixed, LaneMethod};
-use spindrift::ode::{Control, Runs, System, Tolerance, integrate};
-use spindrift::propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder};
-use spindrift::run::{Grid, Outcome, Trajectory};
+use spindrift::{
+    math::{Isa, Lanes, Real, isa::Work},
+    ode::{
+        explicit::Step,
+        switches::{beside, dip},
+    },
+};
+use spindrift::{
+    ode::{Control, Dop853, DormandPrince, GaussLegendre, RungeKutta4, Runs, System, Tolerance, integrate},
+    propagation::trajectory_recorder::{LaneTrajectory, TrajectoryRecorder},
+    run::{Grid, Outcome, Trajectory},
+};
 
 /// A right-hand side with `P` parameters; `arc` counts the arcs, and of a law with a switch it is its side, 1 or -1.
 pub trait Law<const N: usize, const P: usize>: Copy {
@@ -155,6 +160,22 @@ pub fn scalar<M: LaneMethod, L: Law<N, P>, const N: usize, const P: usize>(
     control: &Control,
 ) -> Vec<Journey<N>> {
     integrated((method, law), 0.0_f64, cases, grid, control)
+}
+
+/// One case by every Runge-Kutta method: those with an error estimate first.
+pub fn by_every_method<L: Law<N, P>, const N: usize, const P: usize>(
+    law: L,
+    case: Case<N, P>,
+    grid: &Grid,
+    control: &Control,
+) -> [(&'static str, Journey<N>); 4] {
+    let case = &[case];
+    [
+        ("Dormand-Prince", scalar(Adaptive(DormandPrince), law, case, grid, control).remove(0)),
+        ("DOP853", scalar(Adaptive(Dop853), law, case, grid, control).remove(0)),
+        ("Runge-Kutta 4", scalar(Fixed(RungeKutta4), law, case, grid, control).remove(0)),
+        ("Gauss-Legendre", scalar(Fixed(GaussLegendre), law, case, grid, control).remove(0)),
+    ]
 }
 
 /// Integrates all cases in lanes.
