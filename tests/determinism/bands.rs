@@ -1,7 +1,8 @@
 //! Bands are the quantiles over time of the runs, and depend on nothing but the plan.
 
-use crate::support::prelude::*;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use crate::prelude::*;
+use crate::support::plans::{SOMETIMES_IMPOSSIBLE, shipped_with};
+use std::sync::atomic::AtomicUsize;
 
 use spindrift::ensemble::Bands;
 use spindrift::statistics::deviation::RELATIVE_ERROR;
@@ -11,14 +12,8 @@ use spindrift::storage::disk::folder;
 const SAMPLES: u64 = 700;
 
 fn plan(points: usize) -> Plan {
-    let path = format!("{}/campaigns/spin_sweep.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut text = std::fs::read_to_string(path).unwrap();
-    text.push_str(
-        "\n[[disperse]]\nparameter = \"wheels.w2.length_m\"\ndistribution = \"uniform\"\nmin = -0.05\nmax = 0.1\n",
-    );
-    text.push_str(&format!("\n[bands]\npoints = {points}\n"));
-    let mut plan =
-        Plan::from_text("bands", &text, Overrides { samples: Some(SAMPLES), ..Overrides::default() }).unwrap();
+    let more = format!("{SOMETIMES_IMPOSSIBLE}\n[bands]\npoints = {points}\n");
+    let mut plan = shipped_with("spin_sweep", Some(SAMPLES), &more);
     plan.groups = Group::ALL.to_vec();
     plan
 }
@@ -220,14 +215,14 @@ fn quantiles_of_a_large_campaign_are_those_of_its_first_runs() {
 
 #[test]
 fn all_runs_of_a_grid_are_counted() {
-    let text = std::fs::read_to_string(format!("{}/campaigns/no_debris.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let text = campaign_text("no_debris");
     let last = |design: &str| {
         let text = format!("{text}\n[design]\nkind = \"{design}\"\n");
-        Plan::from_text("bands", &text, Overrides::default()).map(|plan| plan.last_counted().0)
+        parsed(&text).map(|plan| plan.last_counted().0)
     };
     for design in ["random", "latin_hypercube", "sobol", "halton"] {
         assert_eq!(last(design).unwrap(), 131_072, "{design}");
     }
-    let plan = Plan::from_text("bands", &text, Overrides::default()).unwrap();
+    let plan = planned(&text);
     assert_eq!(plan.only(vec![0, 5, 9]).unwrap().last_counted().0, u64::MAX);
 }

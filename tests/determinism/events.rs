@@ -1,11 +1,9 @@
 //! Events: times at which quantities of a run cross values.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use super::extremes::extreme;
-use super::whole_rows::{
-    SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows, single,
-};
+use super::whole_rows::{SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows};
 
 fn free(method: &str, points: usize, more: &str) -> Plan {
     plan(&(free_body(method, points, 30.0) + more))

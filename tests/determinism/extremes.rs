@@ -1,5 +1,5 @@
-use super::whole_rows::{SPREAD, column, event, free_body, near_rounding, plan, precession, rows, single};
-use crate::support::prelude::*;
+use super::whole_rows::{SPREAD, column, event, free_body, near_rounding, plan, precession, rows};
+use crate::prelude::*;
 
 fn free(method: &str, points: usize, middle: f64, more: &str) -> Plan {
     plan(&(free_body(method, points, middle) + more))
@@ -67,7 +67,7 @@ fn extremes_are_values_of_the_quantity() {
             assert_eq!([of("step", row), of("third", row), of("lowest", row)], [1.0, 1.0 / 3.0, 0.7], "sample {row}");
             assert_eq!(of("plateau", row), 0.05, "sample {row}");
             assert!(of("kink", row) <= 0.1 && of("kink", row) > 0.1 - 1e-9, "sample {row}: {}", of("kink", row));
-            let run = single(&plan, row);
+            let run = single(&plan, row as u64);
             let rate = run.table.at::<3>(StateField::Rate, 60).map(|rate| rate * rate).iter().sum::<f64>().sqrt();
             assert!((of("end", row) - rate).abs() < 1e-15, "sample {row}: {} for {rate}", of("end", row));
             assert!(of("root", row).is_nan() && of("at_start", row).is_nan(), "sample {row}");
@@ -121,7 +121,7 @@ fn extremes_of_loops_are_at_ticks() {
     let plan = plan(&(shipped.replace("points = 181", "points = 721") + &more));
     let (_, turned) = of(721);
     for sample in 0..12 {
-        let run = single(&plan, sample);
+        let run = single(&plan, sample as u64);
         let is_error = |(series, _): &&(Series, Vec<f64>)| *series == Series::PointingError;
         let (_, values) = run.series.iter().find(is_error).unwrap();
         let from = turned[sample] + 30.0;

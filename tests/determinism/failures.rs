@@ -1,6 +1,6 @@
 //! Devices that fail during a run: the motion before and after, and the columns of the failure.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 const HELD: &str = r#"[campaign]
 name = "held"
@@ -64,14 +64,7 @@ fn plan(text: &str) -> Plan {
 }
 
 fn run(text: &str, sample: u64) -> SingleRun {
-    let plan = plan(text);
-    SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
-}
-
-fn value(run: &SingleRun, name: &str) -> f64 {
-    let columns = run.request.columns();
-    let place = columns.iter().position(|column| column.quantity.name() == name);
-    run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
+    single(&plan(text), sample)
 }
 
 fn bits(table: &StateTable, point: usize) -> Vec<u64> {

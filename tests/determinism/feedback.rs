@@ -1,12 +1,16 @@
 //! Runs under laws: bits do not depend on company, order, instruction set or threads, and the record of arcs replays.
 
-use crate::support::feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law};
-use crate::support::prelude::*;
-use crate::support::runs::{Bits, METHODS};
-use crate::support::scenes::{WHEELS, many_wheels};
-use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState, ZeroOrderHold};
-use spindrift::observables::FlownRun;
-use spindrift::scene::Arc;
+use crate::support::{
+    feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law},
+    prelude::*,
+    runs::{Bits, METHODS},
+    scenes::WHEELS,
+};
+use spindrift::{
+    dynamics::actuation::{Actuation, ActuationLaw, ZeroOrderHold},
+    observables::FlownRun,
+    scene::Arc,
+};
 
 const HORIZON: f64 = 3.1;
 
@@ -114,7 +118,7 @@ impl<L: ActuationLaw> ActuationLaw for Pushing<L> {
 
 #[test]
 fn a_torque_on_a_held_wheel_changes_no_bit() {
-    let scenes = (0..12).map(|k| Scene::resolve(&many_wheels(4, k, false, HORIZON)).unwrap());
+    let scenes = (0..12).map(|k| resolved(&many_wheels(4, k, false, HORIZON)));
     let is_held = |scene: &Scene| -> Vec<bool> {
         scene.mass.wheels.iter().map(|wheel| wheel.mode == WheelMode::SpeedHeld).collect()
     };

@@ -1,11 +1,12 @@
 //! The bits of a run do not depend on other runs, order, lane or instruction set.
 
-use crate::support::orbits::tumbling;
-use crate::support::prelude::*;
-use crate::support::runs::{Bits, METHODS, control_of, hash};
-use crate::support::scenes::{many_wheels, mixed_kind};
+use crate::support::{
+    orbits::coupled,
+    prelude::*,
+    runs::{Bits, METHODS, control_of, hash},
+    scenes::mixed_kind,
+};
 use rayon::prelude::*;
-use spindrift::run::LocalErrors;
 
 const HORIZON: f64 = 6.0;
 
@@ -72,7 +73,7 @@ fn bits_do_not_depend_on_other_runs() {
 fn many_wheels_among_any_runs() {
     let scenes = |forced: bool| -> Vec<Scene> {
         let input = |k: u64| many_wheels([8, 4, 3, 1, 0][(k % 5) as usize], k, forced, HORIZON);
-        (0..13).map(|k| Scene::resolve(&input(k)).unwrap()).collect()
+        (0..13).map(|k| resolved(&input(k))).collect()
     };
     METHODS.par_iter().filter(|(method, _)| !method.has_fixed_step()).for_each(|(method, control)| {
         let horizon = if *method == Method::NullSpace { 1.0 } else { HORIZON };
@@ -80,21 +81,31 @@ fn many_wheels_among_any_runs() {
     });
 }
 
+/// Law: so do runs on orbits about a point mass and a flattened body, with air and light that turn and move them.
 #[test]
 fn orbits_among_any_runs() {
-    let scenes = |forced: bool| -> Vec<Scene> {
-        let torque = |mut scene: Scene| {
-            scene.environment.body_torque_n_m = forced.then_some([1e-4, 2e-4, -1e-4]);
-            scene
-        };
-        tumbling(13, 41, [0.2, 10.0]).into_iter().map(torque).collect()
+    let turning = |forced: bool| {
+        let mut scenes = tumbling(13, 41, [0.2, 10.0]);
+        let torque = forced.then_some([1e-4, 2e-4, -1e-4]);
+        scenes.iter_mut().for_each(|scene| scene.environment.body_torque_n_m = torque);
+        scenes
     };
-    METHODS.par_iter().filter(|(method, _)| method.integrates(ForceModel::of(&scenes(true)[0]))).for_each(
-        |(method, control)| {
+    let flattened = |forced: bool| {
+        let mut scenes = turning(forced);
+        for (k, scene) in scenes.iter_mut().enumerate() {
+            scene.orbit.as_mut().unwrap().j2 = Some([0.0, 1e-3][k % 2]);
+        }
+        scenes
+    };
+    let moved = |forced: bool| coupled(13, if forced { 5 } else { 6 });
+    let families: [&(dyn Fn(bool) -> Vec<Scene> + Sync); 3] = [&turning, &flattened, &moved];
+    for scenes in families {
+        let able = METHODS.par_iter().filter(|(method, _)| method.integrates(ForceModel::of(&scenes(true)[0])));
+        able.for_each(|(method, control)| {
             let control = Control { step: control.step.map(|_| 10.0), ..*control };
             equal_among_runs_of(6000.0, *method, control, &scenes);
-        },
-    );
+        });
+    }
 }
 
 #[test]
@@ -116,44 +127,16 @@ fn runs_that_fail_beside_runs_that_do_not() {
     }
 }
 
-/// SHA-256 of outcome and states of sixteen fixed scenes. A deliberate change of a method's arithmetic commits new ones
-/// (printed by this test) with its reason.
+/// The first 64 bits of the SHA-256 of outcome and states of sixteen fixed scenes. A deliberate change of a method's
+/// arithmetic commits new ones (printed by this test) with its reason.
 const GOLDEN: [(Method, &str, &str); 7] = [
-    (
-        Method::Auto,
-        "d50ff790ae91ea577c8081db87a55bb1f45f10ca77b30e9dd1998223749f742e",
-        "1ea1a21bc85d540252d694031c319bb394c97d27c93865bbe97a520f44a119e3",
-    ),
-    (
-        Method::Taylor,
-        "946cf90aedee39ca6def1edd8a49843191a30cb359c8e0026c06c427bb11b27d",
-        "116e9773de473632fc6495a6b50b30d710c2a2b2206a53b919bc3429dbdfb59e",
-    ),
-    (
-        DORMAND_PRINCE,
-        "98b666c6598c06bfbc659c6daedf530b406ba72cea1f3c1c274f684af65d825a",
-        "35453f7aadc57cfb35577b0d8f3d3bb071501230801766b2520bab6f07f1cc8b",
-    ),
-    (
-        DOP853,
-        "09aaab6fca8de5d1a8dd4f40b9e5e871c57f2dd0872b686725f8792580a4996f",
-        "c5927ff47dae48c177e950a70532e9857d2ddbb30eacef9cb0cc4fbbf988f619",
-    ),
-    (
-        RUNGE_KUTTA,
-        "b12204d809439ba8b0d36d2ab6d3064aa8c438d9b0c71cb9475da46e0cc4ce4f",
-        "d8c41193ad6096294757d77b73dba655a4b32207c81e1247c06639b11f90abac",
-    ),
-    (
-        GAUSS_LEGENDRE,
-        "ffb8ee51245782fdd5503dab671360640093cef20f5415435cce774e55225272",
-        "3f2593a94efcea1575f39642171e2f7bd96ad8fd868cde9ebb8ff402ea855701",
-    ),
-    (
-        Method::NullSpace,
-        "2dcfc8a1b4dcc6686edff49eedd0d79f381ee48855ab10b467df15656de7f3d2",
-        "1933a2c1436c1eb1275c558a7322704cfaefda8a39f295f15a631789e1c5c892",
-    ),
+    (Method::Auto, "d50ff790ae91ea57", "1ea1a21bc85d5402"),
+    (Method::Taylor, "946cf90aedee39ca", "116e9773de473632"),
+    (DORMAND_PRINCE, "98b666c6598c06bf", "35453f7aadc57cfb"),
+    (DOP853, "09aaab6fca8de5d1", "c5927ff47dae48c1"),
+    (RUNGE_KUTTA, "b12204d809439ba8", "d8c41193ad609629"),
+    (GAUSS_LEGENDRE, "ffb8ee51245782fd", "3f2593a94efcea15"),
+    (Method::NullSpace, "2dcfc8a1b4dcc668", "1933a2c1436c1eb1"),
 ];
 
 fn golden_bits(run: &Run, k: u64, forced: bool) -> Bits {
@@ -193,8 +176,8 @@ fn bits_are_golden() {
             let scenes = mixed(16, forced, HORIZON);
             let runs = propagate_on(Isa::best(), &plan(method, control, &scenes), &scenes);
             let found = hash((0..).zip(&runs).flat_map(|(k, run)| golden_bits(run, k, forced)));
-            if found != expected {
-                wrong.push_str(&format!("{method:?}, forced {forced}: {found}\n"));
+            if found[..16] != *expected {
+                wrong.push_str(&format!("{method:?}, forced {forced}: {}\n", &found[..16]));
             }
         }
     }

@@ -35,3 +35,5 @@ mod surface;
 mod threads_and_order;
 mod value_hashes;
 mod whole_rows;
+
+use support::prelude;

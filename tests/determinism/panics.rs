@@ -1,6 +1,6 @@
 //! A panic of the program is the end of one run.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::propagation::{CompletionCallback, Engine};
 
 /// An engine that panics at spins above [`TOO_FAST`], before the last run of a batch ends.
@@ -48,7 +48,7 @@ fn a_panic_ends_one_run() {
         if is_failed {
             failed += 1;
             let (_, reason) = fragile.reasons().iter().find(|(at, _)| *at == row).unwrap();
-            assert!(reason.contains("34.5 rad/s"), "{reason}");
+            assert_says(&reason, ["34.5 rad/s"]);
         }
     }
     assert!((2..40).contains(&failed), "{failed} of {RUNS}");

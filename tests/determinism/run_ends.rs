@@ -1,9 +1,7 @@
 //! Events that end runs: the row is that of a campaign of that duration, with the final state of closed forms.
 
-use super::whole_rows::{
-    SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows, single,
-};
-use crate::support::prelude::*;
+use super::whole_rows::{SPREAD, column, event, free_body, names, near_rounding, own_rows, plan, precession, rows};
+use crate::prelude::*;
 
 const ENDS: &str = "ends_run = true\n";
 
@@ -82,7 +80,7 @@ fn single_runs_end_where_their_rows_do() {
     for (sample, time) in column(&plan, &all, "tipped_time_s").iter().enumerate() {
         let end = if time.is_nan() { 60.0 } else { *time };
         for grid in [plan.grid.clone(), Grid::uniform(60.0, 777)] {
-            let run = SingleRun::new(&plan, SampleId(sample as u64), grid, Isa::best()).unwrap();
+            let run = single_on(&plan, sample as u64, grid);
             assert_eq!((run.grid.duration(), run.outcome.time, run.outcome.points), (end, end, run.grid.points()));
         }
     }
@@ -112,7 +110,7 @@ fn loops_end_as_in_a_campaign_of_that_duration() {
         let compared = names(&short).into_iter().filter(|name| !name.starts_with("nutation_angle"));
         let wrong: Vec<String> = compared.filter_map(|name| off(&name)).collect();
         assert!(wrong.is_empty(), "sample {row} at {end} s: {wrong:#?}");
-        assert!(single(&ends, row).telemetry.times.last().is_some_and(|last| *last <= end));
+        assert!(single(&ends, row as u64).telemetry.times.last().is_some_and(|last| *last <= end));
     }
     let fast = plan(&(shipped + &event("fast", "angular_rate_rad_s", 0.005, ENDS)));
     let fast_rows = rows(&fast, Isa::best(), 0, 8);

@@ -1,8 +1,10 @@
 //! The absence of a group changes no bit of the others.
 
-use crate::support::prelude::*;
-use crate::support::runs::{Bits, control_of};
-use crate::support::scenes::WHEELS;
+use crate::support::{
+    prelude::*,
+    runs::{Bits, control_of},
+    scenes::WHEELS,
+};
 use rayon::prelude::*;
 
 const HORIZON: f64 = 6.0;

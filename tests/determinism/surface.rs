@@ -1,6 +1,6 @@
 //! Runs that reach the surface of the central body, at the time of Kepler's equation.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use super::whole_rows::event;
 
@@ -22,8 +22,7 @@ fn braking(burn: f64, integrator: &str, points: usize, duration: f64) -> String 
 const TAYLOR: &str = "method = \"taylor\"";
 
 fn flown(text: &str) -> SingleRun {
-    let plan = planned(text);
-    SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).unwrap()
+    single(&planned(text), 0)
 }
 
 fn last(run: &SingleRun) -> [[f64; 3]; 2] {

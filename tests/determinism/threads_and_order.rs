@@ -1,9 +1,9 @@
 //! A row is a function of plan and sample, not of threads, parts or order.
 
-use crate::support::prelude::*;
-use std::sync::atomic::{AtomicU64, Ordering};
+use crate::prelude::*;
+use std::sync::atomic::AtomicU64;
 
-use crate::support::plans::{RowBits, SOMETIMES_IMPOSSIBLE, row_bits, seen, shipped_with};
+use crate::support::plans::{SOMETIMES_IMPOSSIBLE, seen, shipped_with};
 use spindrift::ensemble::RunError;
 
 fn plan(name: &str, samples: u64, with_failures: bool) -> Plan {

@@ -4,9 +4,8 @@
 //! A renamed column is renamed there by hand. Any other difference is a defect, unless CHANGELOG.md records its
 //! decision; then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
-use crate::support::plans::files;
 use arrow_schema::DataType;
 use rayon::prelude::*;
 

@@ -1,7 +1,6 @@
 //! Plans of a test, and their rows column by column.
 
-use crate::support::plans::{RowBits, row_bits};
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 pub const SPREAD: &str =
     "[[disperse]]\nparameter = \"initial.angular_velocity_rad_s\"\ndistribution = \"normal\"\nstd = 0.1\n";
@@ -49,10 +48,6 @@ pub fn bits(rows: &Rows) -> Vec<RowBits> {
     (0..rows.statuses().len()).map(|row| row_bits(rows, row)).collect()
 }
 
-pub fn single(plan: &Plan, sample: usize) -> SingleRun {
-    SingleRun::new(plan, SampleId(sample as u64), plan.grid.clone(), Isa::best()).unwrap()
-}
-
 pub fn own_rows(plan: &Plan, count: usize) -> Rows {
     let all = rows(plan, Isa::best(), 0, count);
     let expected = bits(&all);
@@ -64,7 +59,7 @@ pub fn own_rows(plan: &Plan, count: usize) -> Rows {
         assert!(part == expected[first..first + length], "{length} from sample {first} on");
     }
     for sample in (0..count).step_by(4) {
-        let single = single(plan, sample);
+        let single = single(plan, sample as u64);
         assert_eq!(single.outcome.status, all.statuses()[sample]);
         for (index, value) in single.row.iter().enumerate() {
             assert_eq!(value.to_bits(), all.observable(index)[sample].to_bits(), "sample {sample}, column {index}");
