@@ -1,10 +1,11 @@
 //! The tables that say what is made of the rows; no row depends on them.
 
-use crate::refusals::good;
-use crate::support::prelude::*;
-use spindrift::campaign::requirement::{BandSubject, Subject};
-use spindrift::campaign::stop::When;
-use spindrift::campaign::{Analysis, Display, Requirement, Statement};
+use crate::{refusals::good, support::prelude::*};
+use spindrift::campaign::{
+    Analysis, Display, Requirement, Statement,
+    requirement::{BandSubject, Subject},
+    stop::When,
+};
 
 fn plan(more: &str) -> Plan {
     planned(&(good() + more))

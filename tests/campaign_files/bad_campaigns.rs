@@ -1,5 +1,5 @@
+use crate::prelude::*;
 use crate::refusals::good;
-use crate::support::prelude::*;
 
 fn errors(text: &str) -> CampaignError {
     match parsed(text) {

@@ -1,9 +1,8 @@
 //! Numbers that look like a mistake are noted, not refused.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
-use spindrift::ensemble::plausibility::rules::RULES;
-use spindrift::ensemble::plausibility::{implausible, noted};
+use spindrift::ensemble::plausibility::{implausible, noted, rules::RULES};
 
 use super::loops::LOOP;
 
@@ -69,31 +68,28 @@ fn each_rule_has_a_file_that_breaks_it() {
 
 #[test]
 fn shipped_campaigns_have_the_notes_that_are_true() {
-    let (mut files, mut clean, mut false_notes) = (0, 0, Vec::new());
-    for entry in std::fs::read_dir(root().join("campaigns")).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            let found = implausible(&Plan::load(&path, Overrides::default()).unwrap());
-            (files, clean) = (files + 1, clean + usize::from(found.is_empty()));
-            // the shapes of one campaign make 63 tons and 80 m; what turns so fast turns between the points; Berdoz's
-            // thrusters have torque about s1 alone
-            let keys = [
-                "angular_velocity_rad_s: ",
-                "rate_rad_s: ",
-                "a mass of 63420 kg",
-                "body.center_of_mass_m, as dispersed, is off by so much in 1 draw of 100: 36.1 m",
-                "body.parts.fuselage.outer_radius_m, as dispersed, is off by so much in 1 draw of 100: 44.32 m",
-                "body.parts.fuselage.length_m, as dispersed, is off by so much in 1 draw of 100: 79.19 m",
-                "wheels.w1.density_kg_m3, as dispersed, is off by so much in 1 draw of 100: 984700 kg/m^3",
-                "observe.points = ",
-                "off s3",
-                "about one axis alone",
-            ];
-            let is_true = |note: &String| keys.iter().any(|key| note.contains(key));
-            let wrong = found.into_iter().filter(|note| !is_true(note));
-            false_notes.extend(wrong.map(|note| format!("{}: {note}", path.display())));
-        }
+    let (mut clean, mut false_notes) = (0, Vec::new());
+    for path in &files() {
+        let found = implausible(&Plan::load(path, Overrides::default()).unwrap());
+        clean += usize::from(found.is_empty());
+        // the shapes of one campaign make 63 tons and 80 m; what turns so fast turns between the points; Berdoz's
+        // thrusters have torque about s1 alone
+        let keys = [
+            "angular_velocity_rad_s: ",
+            "rate_rad_s: ",
+            "a mass of 63420 kg",
+            "body.center_of_mass_m, as dispersed, is off by so much in 1 draw of 100: 36.1 m",
+            "body.parts.fuselage.outer_radius_m, as dispersed, is off by so much in 1 draw of 100: 44.32 m",
+            "body.parts.fuselage.length_m, as dispersed, is off by so much in 1 draw of 100: 79.19 m",
+            "wheels.w1.density_kg_m3, as dispersed, is off by so much in 1 draw of 100: 984700 kg/m^3",
+            "observe.points = ",
+            "off s3",
+            "about one axis alone",
+        ];
+        let is_true = |note: &String| keys.iter().any(|key| note.contains(key));
+        let wrong = found.into_iter().filter(|note| !is_true(note));
+        false_notes.extend(wrong.map(|note| format!("{}: {note}", path.display())));
     }
     assert!(false_notes.is_empty(), "{}", false_notes.join("\n"));
-    assert!(files >= 20 && clean > 0, "{clean} of {files}");
+    assert!(clean > 0);
 }

@@ -1,13 +1,13 @@
 //! Each key of a file changes the plan, reads back, and changes the hash of the rows exactly where it changes rows. A
 //! key that no file here has fails the tests.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use spindrift::campaign::parameter::lacking;
 use spindrift::scene::parameter::Shape;
 use toml::Value;
 
-use crate::support::every_key::{distribution_tables, every_loop, every_scene, without_draws};
+use crate::support::every_key::every_loop;
 
 const NOTHING: &str = "qqzzqqzz";
 

@@ -1,4 +1,4 @@
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use super::loops::{LOOP, plan};
 

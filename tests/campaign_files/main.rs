@@ -20,3 +20,5 @@ mod shipped;
 mod spacecraft;
 mod units;
 mod variants;
+
+use support::prelude;

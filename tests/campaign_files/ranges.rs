@@ -1,19 +1,13 @@
 //! Each end of a range is accepted, and the next number beyond it refused by its key.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use spindrift::scene::schema::Limit;
 
-use crate::support::every_key::every_scene;
-
 const TINY: f64 = 5e-324;
 
-fn read(text: &str) -> Result<Plan, CampaignError> {
-    parsed(text)
-}
-
 fn is_refused(text: &str, key: &str) -> bool {
-    read(text).err().is_some_and(|error| error.problems.iter().any(|problem| problem.key == key))
+    parsed(text).err().is_some_and(|error| error.problems.iter().any(|problem| problem.key == key))
 }
 
 fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
@@ -66,7 +60,7 @@ fn ends(limit: Limit, width: usize) -> Vec<(Vec<f64>, bool)> {
 fn each_row_of_the_schema_holds_its_limit() {
     let (mut wrong, mut counts) = (Vec::new(), [0; 2]);
     for text in every_scene() {
-        let plan = read(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let plan = parsed(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         for parameter in Parameter::all(&plan.nominal) {
             let relative = ["debris_attitude", "debris_relative_angular_velocity_rad_s"];
             let is_inertial = plan.nominal.initial.debris_attitude_inertial.is_some();
@@ -154,12 +148,7 @@ fn ranges() -> Vec<Range> {
             format!("[[disperse]]\nparameter = \"initial.velocity_m_s.x\"\ndistribution = {distribution:?}\n{keys}\n");
         with("", &table)
     };
-    let rate = |distribution: &str, keys: &str| {
-        with(
-            "",
-            &format!("[[disperse]]\nparameter = \"initial.velocity_m_s\"\ndistribution = {distribution:?}\n{keys}\n"),
-        )
-    };
+    let rate = |distribution: &str, keys: &str| of(distribution, keys).replace("velocity_m_s.x", "velocity_m_s");
     let design = |samples: &str, keys: &str| {
         let dispersed = "[[disperse]]\nparameter = \"initial.velocity_m_s.x\"\ndistribution = \"normal\"\nstd = 0.1\n";
         with("", &format!("{dispersed}[design]\n{keys}\n")).replace("samples = 11\n", samples)
@@ -257,7 +246,7 @@ fn lists_and_names_have_their_lengths() {
     for (key, file, most) in cases {
         for (length, passes) in [(0, false), (1, true), (most, true), (most + 1, false)] {
             let text = file(length);
-            assert_eq!(read(&text).is_ok(), passes, "{key} of length {length}");
+            assert_eq!(parsed(&text).is_ok(), passes, "{key} of length {length}");
             assert_eq!(is_refused(&text, key), !passes, "{key} of length {length}");
         }
     }

@@ -1,9 +1,7 @@
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::campaign::Problem;
 
-use crate::loops::LOOP;
-use crate::spacecraft::NEWCOMER;
-use crate::support::campaigns::DEBRIS;
+use crate::{loops::LOOP, spacecraft::NEWCOMER, support::campaigns::DEBRIS};
 
 const CASES: &str = include_str!("refusals.txt");
 

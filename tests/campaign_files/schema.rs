@@ -1,10 +1,10 @@
 //! The JSON Schema of campaign files accepts what the program accepts, and refuses wrong names and types.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use serde_json::json;
 use spindrift::campaign::schema::schema;
 
-use crate::support::every_key::{distribution_tables, every_loop, every_scene, without_draws};
+use crate::support::every_key::every_loop;
 
 /// Whether `value` obeys `schema`, whose keywords must be of draft 4.
 fn obeys(schema: &Value, value: &Value) -> bool {

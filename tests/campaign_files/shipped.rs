@@ -1,22 +1,11 @@
 //! Campaign files: the shipped ones, defaults, and the plan as text.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::campaign::Retention;
-
-fn shipped() -> Vec<std::path::PathBuf> {
-    let folder = root().join("campaigns");
-    let mut files: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-        .collect();
-    files.sort();
-    files
-}
 
 #[test]
 fn shipped_campaigns_are_valid_and_say_what_they_ask() {
-    let files = shipped();
+    let files = files();
     assert!(files.len() >= 5);
     for file in files {
         let plan = Plan::load(&file, Overrides::default()).unwrap();
@@ -32,10 +21,9 @@ fn shipped_campaigns_are_valid_and_say_what_they_ask() {
 /// Law: what the header of `net_launch.toml` promises is a requirement with that limit.
 #[test]
 fn a_launch_is_judged_by_what_its_file_promises() {
-    let file = root().join("campaigns/net_launch.toml");
-    let text = std::fs::read_to_string(&file).unwrap();
+    let text = campaign_text("net_launch");
     let header = text.split("\n\n").next().unwrap().replace("\n#  ", "");
-    let plan = Plan::load(&file, Overrides::default()).unwrap();
+    let plan = planned(&text);
     let degree = std::f64::consts::PI / 180.0;
     for (said, column, limit) in [
         ("a lateral velocity below 5 cm/s", "relative_speed_launch_m_s", 0.05),
@@ -43,7 +31,7 @@ fn a_launch_is_judged_by_what_its_file_promises() {
         ("a rate below 0.2 deg/s", "body_rate_launch_rad_s", 0.2 * degree),
         ("an offset from the line below 1.5 m", "axis_offset_launch_m", 1.5),
     ] {
-        assert!(header.contains(said), "{said}: {header}");
+        assert_says(&header, [said]);
         let observed = format!("observable = \"{column}\"\n");
         let text = plan.text();
         let of_column = text.split("[[require]]\n").filter(|one| one.starts_with(&observed));
@@ -59,11 +47,10 @@ fn at_most(requirement: &str) -> f64 {
 
 #[test]
 fn a_plan_reads_back_from_its_text() {
-    for file in shipped() {
+    for file in files() {
         let plan = Plan::load(&file, Overrides { samples: Some(17), seed: Some(5), ..Overrides::default() }).unwrap();
         let folder = file.parent().unwrap();
-        let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default());
-        let again = again.unwrap();
+        let again = Plan::from_text_in(folder, "plan.toml", &plan.text(), Overrides::default()).unwrap();
         assert_eq!(again, plan);
         assert_eq!((again.text(), again.hash()), (plan.text(), plan.hash()));
     }
@@ -94,7 +81,7 @@ fn omitted_keys_have_defaults() {
     let scene = &plan.nominal;
     assert!(scene.wheels.is_empty() && scene.thrusters.is_empty() && scene.parts.is_empty() && scene.debris.is_none());
     assert_eq!((scene.body.center_of_mass_m, scene.body.includes_wheels), (None, false));
-    let mass = Scene::resolve(scene).unwrap().mass;
+    let mass = resolved(scene).mass;
     assert_eq!((mass.total, mass.center), (10.0, [0.0; 3]));
     assert!(plan.dispersions.columns().is_empty());
     assert_eq!((plan.band_points, &plan.retention), (33, &Retention::None));

@@ -1,4 +1,4 @@
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 /// By mass and tensor, one wheel, a thruster with an alignment error, a spin in degrees per second.
 pub const NEWCOMER: &str = r#"[campaign]
@@ -43,19 +43,16 @@ fn changed(from: &str, to: &str) -> String {
 fn the_newcomers_spacecraft_takes_25_lines_and_runs() {
     assert!(NEWCOMER.lines().count() <= 25, "{} lines", NEWCOMER.lines().count());
     let plan = plan(NEWCOMER);
-    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), Isa::best()).unwrap();
+    let run = single(&plan, 0);
     assert_eq!(run.outcome.status, Status::Done);
-    let columns = run.request.columns();
-    let value = |name: &str| {
-        run.row[columns.iter().position(|column| column.quantity.name() == name).unwrap_or_else(|| panic!("{name}"))]
-    };
     // measured: 3.6e-16 and 1.2e-14
     for (name, bound) in [("energy_error_max", 3e-15), ("angular_momentum_error_max", 1e-13)] {
-        assert!(value(name) < bound, "{name}: {:e}", value(name));
+        assert!(value(&run, name) < bound, "{name}: {:e}", value(&run, name));
     }
     // half of 1.66 kg m^2 times (100 pi rad/s)^2, and little more from the rotation of the body; measured: 4.0e-8
-    let energy = value("energy_w1_initial_j");
+    let energy = value(&run, "energy_w1_initial_j");
     assert!((energy / (0.5 * 1.66 * (100.0 * std::f64::consts::PI).powi(2)) - 1.0).abs() < 4e-7, "{energy}");
+    let columns = run.request.columns();
     let names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
     assert!(names.contains(&"exchange_w1_peak_to_peak_j") && !names.iter().any(|name| name.contains("_w2_")));
     assert!(!names.iter().any(|name| name.contains("_wheels_")), "one wheel is all wheels together");

@@ -1,6 +1,6 @@
 //! Units in values, against a table of their own.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 const FILE: &str = r#"[campaign]
 name = "units"

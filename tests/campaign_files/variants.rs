@@ -1,9 +1,9 @@
 //! Variants of a campaign without copies: `--set`, and `extends`.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 fn shipped() -> String {
-    std::fs::read_to_string("campaigns/spin_sweep.toml").unwrap()
+    campaign_text("spin_sweep")
 }
 
 fn set(text: &str, settings: &[(&str, &str)]) -> Result<Plan, CampaignError> {
@@ -49,8 +49,10 @@ fn wrong_settings_are_named() {
     let line = 1 + text.lines().position(|line| line.starts_with("duration_s")).unwrap();
     let text = text.replace("duration_s = ", "duration_s = -");
     let both = set(&text, &[("campaign.seed", "-1")]).unwrap_err().to_string();
-    assert!(both.contains(&format!("sweep.toml:{line}: campaign.duration_s = -")), "{both}");
-    assert!(both.contains("--set campaign.seed: campaign.seed = -1"), "{both}");
+    assert_says(
+        &both,
+        [&format!("sweep.toml:{line}: campaign.duration_s = -"), "--set campaign.seed: campaign.seed = -1"],
+    );
 }
 
 #[test]
@@ -74,15 +76,14 @@ fn a_file_extends_another() {
     let line = 1 + shipped().lines().position(|line| line.starts_with("seed")).unwrap();
     scratch.file("bases/wrong.toml", &shipped().replace("seed = ", "seed = -"));
     scratch.file("of_wrong.toml", &variant.replace("sweep", "wrong"));
-    let said = load("of_wrong.toml").unwrap_err().to_string();
-    assert!(said.contains(&format!("bases/wrong.toml:{line}: campaign.seed = -")), "{said}");
+    assert_says(
+        load("of_wrong.toml").unwrap_err().to_string(),
+        [&format!("bases/wrong.toml:{line}: campaign.seed = -")],
+    );
     scratch.file("own_error.toml", &variant.replace("33.0", "-33.0"));
-    let said = load("own_error.toml").unwrap_err().to_string();
-    assert!(said.contains("own_error.toml:4: campaign.duration_s = -33.0"), "{said}");
+    assert_says(load("own_error.toml").unwrap_err().to_string(), ["own_error.toml:4: campaign.duration_s = -33.0"]);
     scratch.file("gone.toml", "extends = \"none.toml\"\n");
-    let said = load("gone.toml").unwrap_err().to_string();
-    assert!(said.contains("gone.toml:1: extends = \"none.toml\": must be"), "{said}");
+    assert_says(load("gone.toml").unwrap_err().to_string(), ["gone.toml:1: extends = \"none.toml\": must be"]);
     scratch.file("circle.toml", "extends = \"circle.toml\"\n");
-    let said = load("circle.toml").unwrap_err().to_string();
-    assert!(said.contains("circle"), "{said}");
+    assert_says(load("circle.toml").unwrap_err().to_string(), ["circle"]);
 }

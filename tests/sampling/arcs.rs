@@ -1,6 +1,6 @@
 //! Errors of single arcs of the schedule do what another command would do, bit for bit, and to that arc only.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::scene::Arc;
 
 use crate::effect::{dispersed, plan_over};
@@ -24,7 +24,7 @@ fn scene(seed: u64) -> SceneInput {
 }
 
 fn schedule(input: &SceneInput) -> Vec<Arc> {
-    Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0])).schedule
+    resolved(input).schedule
 }
 
 fn bits(arc: &Arc) -> Vec<u64> {
@@ -38,7 +38,7 @@ fn all_bits(arcs: &[Arc]) -> Vec<Vec<u64>> {
 }
 
 fn runs(scenes: &[SceneInput]) -> Vec<Run> {
-    let scenes: Vec<Scene> = scenes.iter().map(|input| Scene::resolve(input).unwrap()).collect();
+    let scenes: Vec<Scene> = scenes.iter().map(resolved).collect();
     propagate(Method::Taylor, adaptive(1e-12), &Grid::uniform(HORIZON, 41), &scenes)
 }
 
@@ -139,43 +139,6 @@ const ARCS: &str = "[[actuation]]\nstart_s = 0.0\nend_s = 1.0\nthrust_n = { p1 =
 
 fn plan(text: &str) -> Result<Plan, String> {
     plan_over(6.0, text)
-}
-
-#[test]
-fn what_arcs_do_not_have_is_refused() {
-    for (refused, says) in [
-        ("actuation.5.thrust_scale", "numeric key"),
-        ("actuation.3.thrust_scale", "numeric key"),
-        ("actuation.0.start_s", "numeric key"),
-        ("actuation[0].thrust_scale", "actuation.0.thrust_scale"),
-    ] {
-        let error = plan(&format!("{ARCS}{}", dispersed(refused))).expect_err(refused);
-        assert!(error.contains("disperse[0].parameter") && error.contains(says), "{refused}: {error}");
-    }
-}
-
-#[test]
-fn wrong_names_and_numbers_are_refused() {
-    for (was, is, says) in [
-        ("name = \"late\"", "name = \"trim\"", "actuation[4].name = \"trim\": must be another name"),
-        (
-            "name = \"late\"",
-            "name = \"4th\"",
-            "actuation[4].name = \"4th\": must be a name of at most 23 lower-case letters",
-        ),
-        ("end_s = 4.0", "end_s = 4.0\nthrust_scale = -1", "actuation[2].thrust_scale = -1.0: must be zero or above"),
-        ("end_s = 4.0", "end_s = 4.0\ntorque_scale = inf", "actuation[2].torque_scale = inf: must be a finite number"),
-        (
-            "end_s = 4.0",
-            "end_s = 4.0\nswitch_on_delay_s = 1.5",
-            "actuation[2], commanded from 3.0 to 4.0, ends after it starts",
-        ),
-        ("end_s = 4.0", "end_s = 4.0\nswitch_off_delay_s = 0.6", "actuation[2].switch_off_delay_s = (0.0, 0.6)"),
-        ("end_s = 4.0", "end_s = 4.0\ntorqe_scale = 2", "did you mean torque_scale?"),
-    ] {
-        let error = plan(&ARCS.replace(was, is)).expect_err(is);
-        assert!(error.contains(says), "{is}: {error}");
-    }
 }
 
 /// Law: names and errors read back, and are not in a plan without them; what is recorded is applied.

@@ -1,6 +1,6 @@
 //! Rows of a file drawn together: every draw is a row, each as often as the others, in every design.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 const HEAD: &str = "[campaign]\nname = \"rows\"\nsamples = 4097\nseed = 11\nduration_s = 1.0\n";
 const INITIAL: &str = "[initial]\nangular_velocity_rad_s = [0, 3, 31]\n";

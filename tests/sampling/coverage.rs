@@ -1,13 +1,17 @@
 //! Intervals cover, gates err and sketches are off as stated: 10,000 small campaigns of known distributions. H0: the
 //! probability is what is stated; three standard errors, alpha = 0.0027 (0.0013 one-sided).
 
-use crate::support::prelude::*;
-use spindrift::math::normal;
-use spindrift::statistics::binomial::{self, Decision, POWER};
-use spindrift::statistics::gate::{Gate, failing_at, failing_together, fraction_gate, mean_gate};
-use spindrift::statistics::looks::{Goal, adjusted, decision, looks};
-use spindrift::statistics::quantile::{Ranks, coverage, interval_ranks};
-use spindrift::statistics::sketch::{RELATIVE_ERROR, Sketch};
+use crate::prelude::*;
+use spindrift::{
+    math::normal,
+    statistics::{
+        binomial::{self, Decision, POWER},
+        gate::{Gate, failing_at, failing_together, fraction_gate},
+        looks::{Goal, adjusted, decision, looks},
+        quantile::{Ranks, coverage, interval_ranks},
+        sketch::{RELATIVE_ERROR, Sketch},
+    },
+};
 
 const CAMPAIGNS: u32 = 10_000;
 const SIGMAS: f64 = 3.0;

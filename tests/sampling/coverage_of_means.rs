@@ -1,14 +1,16 @@
 //! Bounds of means, of standard deviations and of replicated designs miss as seldom as stated, and decide. One-sided,
 //! alpha = 1e-4. Counter-test: Student's bounds miss several times as often.
 
-use crate::support::prelude::*;
-use spindrift::math::normal;
-use spindrift::sampling::design::replicates::Sequence;
-use spindrift::sampling::design::sobol::Sobol;
-use spindrift::statistics::binomial::{self, Decision};
-use spindrift::statistics::gate::mean_gate;
-use spindrift::statistics::mean::{deviation_bounds, mean_bounds, one_sided};
-use spindrift::statistics::replicates::{self, Step, fraction_bounds, quantile_interval};
+use crate::prelude::*;
+use spindrift::{
+    math::normal,
+    sampling::design::{replicates::Sequence, sobol::Sobol},
+    statistics::{
+        binomial::{self, Decision},
+        mean::{deviation_bounds, mean_bounds, one_sided},
+        replicates::{self, Step, fraction_bounds, quantile_interval},
+    },
+};
 
 const ALPHA: f64 = 1e-4;
 

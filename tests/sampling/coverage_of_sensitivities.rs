@@ -4,15 +4,17 @@
 //! H0: a 95% interval covers in at least 0.93 of the campaigns, or as the lists say; alpha 1e-4 for each model.
 //! Intervals of half the width cover in 0.67 and less, which 300 campaigns find always.
 
-use crate::support::prelude::*;
-use spindrift::math::normal::quantile;
-use spindrift::sampling::design::replicates::Sequence;
-use spindrift::sampling::design::saltelli::Saltelli;
-use spindrift::sampling::design::sobol::Sobol;
-use spindrift::statistics::binomial;
-use spindrift::statistics::correlation::{Estimate, correlation, mid_ranks, standardised};
-use spindrift::statistics::regression::Regressors;
-use spindrift::statistics::sensitivity::{Block, saltelli_indices};
+use crate::prelude::*;
+use spindrift::{
+    math::normal::quantile,
+    sampling::design::{replicates::Sequence, saltelli::Saltelli, sobol::Sobol},
+    statistics::{
+        binomial,
+        correlation::{Estimate, correlation, mid_ranks, standardised},
+        regression::Regressors,
+        sensitivity::{Block, saltelli_indices},
+    },
+};
 
 const PI: f64 = core::f64::consts::PI;
 

@@ -1,10 +1,10 @@
 //! Correlated and derived parameters: the applied values have the dependence of the file.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::math::normal::probability;
 
 use crate::support::campaigns::WHEEL2_AT_REST;
-use crate::support::draws::{self, correlation};
+use crate::support::draws::correlation;
 
 const HEAD: &str = r#"
 [campaign]
@@ -127,11 +127,7 @@ fn rank_correlations_of_discrete_values_are_those_of_the_file() {
     }
     let text = campaign(&discrete(["body.parts.fuselage.density_kg_m3", "wheels.w2.radius_m"], 0.8));
     let refused = parsed(&text).expect_err("more than can be reached");
-    let said = refused.to_string();
-    assert!(
-        said.contains("correlate[0].rank_correlation = 0.8: must be from -0.6") && said.contains("discrete"),
-        "{said}"
-    );
+    assert_says(refused.to_string(), ["correlate[0].rank_correlation = 0.8: must be from -0.6", "discrete"]);
 }
 
 /// Law: one number, blocks of pairs of parameters, and the square matrix of all say the same.
@@ -210,8 +206,7 @@ fn a_singular_matrix_ties_values_and_an_impossible_one_is_repaired_on_request() 
     assert!((rank_correlation(&a, &b) - 1.0).abs() < 1e-15);
     let matrix = "[[correlate]]\nparameters = [\"initial.angular_velocity_rad_s\"]\ncorrelation = [[1, 1, 0], [1, 1, \
         1], [0, 1, 1]]\n";
-    let refused = parsed(&campaign(matrix)).expect_err("refused").to_string();
-    assert!(refused.contains("smallest eigenvalue") && refused.contains("-0.414214"), "{refused}");
+    assert_says(parsed(&campaign(matrix)).expect_err("refused").to_string(), ["smallest eigenvalue", "-0.414214"]);
     let repaired = plan(&format!("{matrix}nearest_psd = true\n"));
     let [x, y] = ["x", "y"].map(|c| column(&repaired, &format!("initial.angular_velocity_rad_s.{c}")));
     assert!(in_band(correlation(&x, &y), 0.7607), "the nearest matrix of Higham (2002)");

@@ -1,8 +1,6 @@
 //! Designs: evenness, what stays when samples or dispersions are added, golden bits.
 
-use crate::support::prelude::*;
-use spindrift::sampling::Written;
-use spindrift::sampling::design::Dimensions;
+use crate::prelude::*;
 
 const HEAD: &str = r#"
 [campaign]
@@ -92,7 +90,7 @@ fn samples_can_be_added() {
     let hypercube = format!("{}{RATE}", design("latin_hypercube"));
     let error =
         planned(&hypercube, Overrides { samples: Some(66), ..Overrides::default() }).expect_err("refused").to_string();
-    assert!(error.contains("--samples = 66") && error.contains("every row would be another"), "{error}");
+    assert_says(&error, ["--samples = 66", "every row would be another"]);
     assert!(
         planned(&hypercube, Overrides { samples: Some(65), ..Overrides::default() }).is_ok(),
         "the file's own number is no change"

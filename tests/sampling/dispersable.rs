@@ -1,12 +1,10 @@
 //! Every number that can be dispersed changes the motion, in both kernels alike, and is recorded as applied.
 
-use crate::support::prelude::*;
-use crate::support::scenes::misaligned;
-use spindrift::sampling::Written;
-use spindrift::sampling::dispersions::Draws;
-use spindrift::sampling::{Dispersion, DispersionError, Dispersions, DistributionKind, WrittenDistribution};
-use spindrift::scene::parameter::Shape as ParameterShape;
-use spindrift::scene::{PartInput, PartShape, PrincipalInertia, PrincipalMoments};
+use crate::support::{prelude::*, scenes::misaligned};
+use spindrift::{
+    sampling::{Dispersion, DispersionError, Dispersions, Written, WrittenDistribution, dispersions::Draws},
+    scene::{PartInput, PartShape, PrincipalInertia, PrincipalMoments, parameter::Shape as ParameterShape},
+};
 
 const HORIZON: f64 = 1.0;
 /// A step of Berdoz's form may add it a few hundred times.
@@ -104,7 +102,7 @@ struct Motion {
 }
 
 fn motion(method: Method, input: &SceneInput) -> Motion {
-    let scene = Scene::resolve(input).unwrap_or_else(|errors| panic!("{}", errors[0]));
+    let scene = resolved(input);
     let grid = Grid::uniform(HORIZON, 5);
     let tolerance = if method == Method::Taylor { 1e-16 } else { TOLERANCE };
     let run = propagate_one(method, adaptive(tolerance), &grid, &scene);

@@ -1,23 +1,27 @@
 //! Distributions of one number: quantiles against a published implementation, draws against distribution functions.
 
-use crate::support::draws::distance;
-use crate::support::prelude::*;
-use spindrift::sampling::distribution::beta::Beta;
-use spindrift::sampling::distribution::choice::Choice;
-use spindrift::sampling::distribution::empirical::{Empirical, Interpolation};
-use spindrift::sampling::distribution::exponential::Exponential;
-use spindrift::sampling::distribution::gamma::Gamma;
-use spindrift::sampling::distribution::log_normal::LogNormal;
-use spindrift::sampling::distribution::log_uniform::LogUniform;
-use spindrift::sampling::distribution::normal::Normal;
-use spindrift::sampling::distribution::pert::Pert;
-use spindrift::sampling::distribution::rayleigh::Rayleigh;
-use spindrift::sampling::distribution::student_t::StudentT;
-use spindrift::sampling::distribution::triangular::Triangular;
-use spindrift::sampling::distribution::truncated_normal::TruncatedNormal;
-use spindrift::sampling::distribution::uniform::Uniform;
-use spindrift::sampling::distribution::weibull::Weibull;
-use spindrift::sampling::{Distribution, Stream};
+use crate::support::{draws::distance, prelude::*};
+use spindrift::sampling::{
+    Distribution, Stream,
+    distribution::{
+        Quantile,
+        beta::Beta,
+        choice::Choice,
+        empirical::{Empirical, Interpolation},
+        exponential::Exponential,
+        gamma::Gamma,
+        log_normal::LogNormal,
+        log_uniform::LogUniform,
+        normal::Normal,
+        pert::Pert,
+        rayleigh::Rayleigh,
+        student_t::StudentT,
+        triangular::Triangular,
+        truncated_normal::TruncatedNormal,
+        uniform::Uniform,
+        weibull::Weibull,
+    },
+};
 
 fn law(name: &str, p: &[f64]) -> Distribution {
     match name {

@@ -1,15 +1,18 @@
 //! Tests of the rankings on runs whose causes are known.
 
-use crate::support::prelude::*;
-use spindrift::Plan;
-use spindrift::analysis::drivers::{Question, rankings};
-use spindrift::analysis::effects::{Dependence, Direction, TestedInput, on_event, on_spread};
-use spindrift::analysis::event::{Event, Occurs};
-use spindrift::analysis::input_sensitivity::InputSensitivity;
-use spindrift::analysis::observed::Observed;
-use spindrift::analysis::sensitivity::Prepared;
-use spindrift::statistics::contingency::Occurrence;
-use spindrift::statistics::correlation::ascending_order;
+use crate::prelude::*;
+use spindrift::{
+    Plan,
+    analysis::{
+        drivers::{Question, rankings},
+        effects::{Dependence, Direction, TestedInput, on_event, on_spread},
+        event::{Event, Occurs},
+        input_sensitivity::InputSensitivity,
+        observed::Observed,
+        sensitivity::Prepared,
+    },
+    statistics::{contingency::Occurrence, correlation::ascending_order},
+};
 
 const ALPHA: f64 = 0.05;
 const MISSED: Occurs = Occurs::Missed { requirement: 0, is_only: true };

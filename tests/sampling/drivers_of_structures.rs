@@ -4,16 +4,21 @@
 //! without a fourth moment, where it varies more than the rest.
 
 use crate::support::plans::planned;
-use spindrift::Plan;
-use spindrift::analysis::drivers::{Question, rankings};
-use spindrift::analysis::sensitivity::Prepared;
-use spindrift::findings::drivers as drivers_text;
-use spindrift::findings::names;
-use spindrift::math::normal::quantile;
-use spindrift::statistics::binomial;
+use spindrift::{
+    Plan,
+    analysis::{
+        drivers::{Question, rankings},
+        sensitivity::Prepared,
+    },
+    findings::{drivers as drivers_text, names},
+    math::normal::quantile,
+    statistics::binomial,
+};
 
-use crate::causal_structures::{Structure, structures};
-use crate::false_names::numbers;
+use crate::{
+    causal_structures::{Structure, structures},
+    false_names::numbers,
+};
 
 const OUTCOME: &str = "energy_body_max_j";
 const ALPHA: f64 = 1e-3;

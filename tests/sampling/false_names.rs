@@ -1,11 +1,11 @@
 //! How often an input that does nothing is named as a driver, design by design.
 
-use crate::support::prelude::*;
-use spindrift::analysis::effects::{TestedInput, on_spread};
-use spindrift::math::normal::quantile;
-use spindrift::sampling::Written;
-use spindrift::sampling::design::Dimensions;
-use spindrift::statistics::correlation::ascending_order;
+use crate::prelude::*;
+use spindrift::{
+    analysis::effects::{TestedInput, on_spread},
+    math::normal::quantile,
+    statistics::correlation::ascending_order,
+};
 
 const CAMPAIGNS: u64 = 300;
 

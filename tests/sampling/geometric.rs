@@ -1,9 +1,9 @@
 //! Distributions of directions, attitudes and inertias in campaign files; alpha = 1e-3.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use std::f64::consts::TAU;
 
-use crate::support::draws::{self, distance};
+use crate::support::draws::distance;
 
 const HEAD: &str = "[campaign]\nname = \"test\"\nsamples = 10\nseed = 11\nduration_s = 1.0\n";
 
@@ -267,7 +267,7 @@ fn usual_mistakes_are_caught() {
 
 fn impossible(text: &str, count: u64) -> usize {
     let plan = planned(text);
-    let mut scene = Scene::resolve(&plan.nominal).unwrap();
+    let mut scene = resolved(&plan.nominal);
     let refused = draws::seen(&plan, 1..=count, |input, _| scene.resolve_into(input).is_err());
     refused.into_iter().filter(|is_refused| *is_refused).count()
 }

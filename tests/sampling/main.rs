@@ -24,3 +24,5 @@ mod means_with_tails;
 mod replay;
 mod replicates;
 mod structure;
+
+use support::prelude;

@@ -1,11 +1,15 @@
 //! Requirements on means: what bounds of the values guarantee, what is assumed without them, and how often the number
 //! of runs that is named decides. H0: a bound misses with at most 5%; alpha = 1e-4. docs/results.md has the rates.
 
-use crate::support::prelude::*;
-use spindrift::math::normal;
-use spindrift::statistics::binomial::{Decision, at_least};
-use spindrift::statistics::gate::{bounded_mean_gate, fraction_gate, mean_gate};
-use spindrift::statistics::mean::{bounded_mean_bounds, mean_bounds};
+use crate::prelude::*;
+use spindrift::{
+    math::normal,
+    statistics::{
+        binomial::{Decision, at_least},
+        gate::{bounded_mean_gate, fraction_gate},
+        mean::{bounded_mean_bounds, mean_bounds},
+    },
+};
 
 const ALPHA: f64 = 1e-4;
 const RISK: f64 = 0.05;

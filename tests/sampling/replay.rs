@@ -1,7 +1,6 @@
 //! The recorded values of a sample, written into a campaign file, give the same scene and columns, bit for bit.
 
-use crate::support::plans::files;
-use crate::support::prelude::*;
+use crate::prelude::*;
 use spindrift::campaign::draw;
 
 const SAMPLES: u64 = 24;

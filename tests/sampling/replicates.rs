@@ -1,8 +1,7 @@
 //! Replicates of a design: each is a design of its kind, and independent of the others.
 
-use crate::support::prelude::*;
-use spindrift::sampling::Written;
-use spindrift::sampling::design::{BLOCK, Dimensions};
+use crate::prelude::*;
+use spindrift::sampling::design::BLOCK;
 
 const DIMENSIONS: usize = 4;
 
@@ -155,30 +154,4 @@ const DISPERSION: &str =
 
 fn read(text: &str) -> Result<Plan, CampaignError> {
     Plan::from_text("t.toml", text, Overrides::default())
-}
-
-#[test]
-fn what_cannot_be_replicated_is_refused() {
-    let refused = |design: &str, samples: u64| {
-        let text = format!("{HEAD}[design]\n{design}{DISPERSION}");
-        let overrides = Overrides { samples: Some(samples), ..Overrides::default() };
-        let error = Plan::from_text("t.toml", &text, overrides).expect_err("refused");
-        assert_eq!(error.problems.len(), 1, "{error}");
-        error.to_string()
-    };
-    let said = refused("kind = \"sobol\"\nreplicates = 16\n", 100);
-    assert!(said.contains("t.toml:4: campaign.samples = 100: must be 1 and a multiple of 16"), "{said}");
-    assert!(said.contains("write 97 or 113"), "{said}");
-    assert!(refused("kind = \"halton\"\nreplicates = 16\n", 7).contains("write 17, or other replicates"));
-    for wrong in ["0", "1025", "1.5", "[4, 4]", "\"many\""] {
-        let said = refused(&format!("kind = \"sobol\"\nreplicates = {wrong}\n"), 65);
-        assert!(said.contains(&format!("t.toml:15: design.replicates = {wrong}: must be ")), "{said}");
-    }
-    for kind in ["random", "saltelli"] {
-        let said = refused(&format!("kind = {kind:?}\nreplicates = 16\n"), 81);
-        assert!(
-            said.contains(&format!("t.toml:15: design.replicates = 16: must be left out with design {kind:?}")),
-            "{said}"
-        );
-    }
 }

@@ -1,10 +1,6 @@
 //! Which numbers a block of Saltelli's replaces together, and which digits Halton's have.
 
-use crate::support::prelude::*;
-
-use spindrift::sampling::DistributionKind;
-
-use crate::support::every_key::{distribution_tables, without_draws};
+use crate::prelude::*;
 
 fn draws(folder: &Path, text: &str) -> (Vec<Vec<f64>>, Vec<String>) {
     let plan = Plan::from_text_in(folder, "structure.toml", text, Overrides::default());
