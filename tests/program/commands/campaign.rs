@@ -1,7 +1,6 @@
 //! `spindrift campaign` from outside: files, exit codes, what it never overwrites.
 
 use crate::prelude::*;
-use std::fs;
 
 #[test]
 fn printed_commands_are_quoted() {
@@ -51,8 +50,7 @@ fn another_plan_never_replaces_a_result_without_being_told() {
     scratch.small_shows("--samples 300 --seed 9 --out half", 4, "unfinished result of another plan");
     scratch.small("--samples 300", 0);
     let before = scratch.parts("results/small");
-    let said = scratch.small("--samples 300 --seed 8", 4);
-    assert!(said.contains("another plan") && said.contains("--overwrite"), "{said}");
+    assert_says(scratch.small("--samples 300 --seed 8", 4), ["another plan", "--overwrite"]);
     assert_eq!(scratch.parts("results/small"), before);
     scratch.small("--samples 20 --seed 8 --overwrite", 0);
     assert_eq!(scratch.parts("results/small").len(), 1, "parts of the old result are gone");
@@ -118,7 +116,7 @@ fn addresses_need_a_build_with_stores() {
     for command in ["campaign small.toml --out", "campaign small.toml --only-failed-of", "finish", "report", "verify"] {
         let out = if command.contains("failed") { "--out r" } else { "" };
         let said = scratch.prints(&format!("{command} s3://bucket/x {out}"), 2);
-        assert!(said.contains("s3://bucket/x: this build") && said.contains("--features cloud"), "{said}");
+        assert_says(&said, ["s3://bucket/x: this build", "--features cloud"]);
     }
     assert!(scratch.small("--out gs://bucket/x", 2).contains("gs://bucket/x: must be a folder"));
     assert_eq!(scratch.0.read_dir().unwrap().count(), before);

@@ -20,15 +20,14 @@ fn every_column_is_shown() {
         let name = entry.split_whitespace().next().unwrap();
         let column = table::all().find(|column| column.quantity.name() == name).expect(name);
         assert_eq!(column.group.name(), group, "{name}");
-        assert!(entry.contains(column.quantity.meaning()) && entry.contains(column.quantity.unit()), "{entry}");
+        assert_says(&entry, [column.quantity.meaning(), column.quantity.unit()]);
         shown += 1;
     }
     assert_eq!(shown, table::all().count());
     let exchange = wide("columns exchange");
     let of_group = table::all().filter(|column| column.group == Group::Exchange).count();
     assert_eq!(exchange.lines().count(), 1 + of_group);
-    let refused = scratch.prints("columns exchagne", 2);
-    assert!(refused.contains("did you mean exchange?"), "{refused}");
+    assert_says(scratch.prints("columns exchagne", 2), ["did you mean exchange?"]);
     let word = wide("columns TILTS");
     let has = |text: &str| text.to_lowercase().contains("tilts");
     let meant = table::all().map(|column| column.quantity.clone());
@@ -74,12 +73,11 @@ fn a_new_file_runs() {
     let scratch = ScratchFolder::new("new-file");
     scratch.prints("new mine.toml", 0);
     let text = scratch.text("mine.toml");
-    assert!(text.contains("name = \"mine\""), "{text}");
+    assert_says(&text, ["name = \"mine\""]);
     scratch.shows("campaign mine.toml --out r", 0, "PASS");
     scratch.prints("new mine.toml", 4);
     assert_eq!(scratch.text("mine.toml"), text);
-    let again = scratch.prints("campaign mine.toml --out r --junit v.xml", 0);
-    assert!(again.contains("PASS") && again.contains("r/report.html"), "{again}");
+    assert_says(scratch.prints("campaign mine.toml --out r --junit v.xml", 0), ["PASS", "r/report.html"]);
     let verdicts = scratch.text("v.xml");
     assert!(verdicts.contains("testcase") && !verdicts.contains("<failure"), "{verdicts}");
     std::fs::remove_file(scratch.path("v.xml")).unwrap();
@@ -97,8 +95,7 @@ fn the_columns_of_a_campaign_are_those_of_its_rows() {
     let shown: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next()).collect();
     let without_audits: Vec<&String> = names.iter().filter(|name| !name.starts_with("audit_")).collect();
     assert_eq!(shown, without_audits);
-    let refused = scratch.prints("columns motion --campaign small.toml", 2);
-    assert!(refused.contains("motion: must be a group"), "{refused}");
+    assert_says(scratch.prints("columns motion --campaign small.toml", 2), ["motion: must be a group"]);
     assert!(scratch.prints("columns exchange --campaign small.toml", 0).contains("exchange_w1_peak_to_peak_j"));
 }
 

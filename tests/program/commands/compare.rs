@@ -10,7 +10,7 @@ fn results_are_compared() {
     scratch.small("--out b --threads 1", 0);
     let said = scratch.prints_wide("compare a b --tolerance 0", 0);
     for words in ["the plans are the same", "599 samples drawn alike", "have the same statistics", "PASS: no shift"] {
-        assert!(said.contains(words), "{words}: {said}");
+        assert_says(&said, [words]);
     }
 
     let other = campaign().replace("method = \"auto\"", "method = \"dop853\"");
@@ -18,7 +18,7 @@ fn results_are_compared() {
     scratch.prints("campaign other.toml --out c", 0);
     let said = scratch.prints_wide("compare a c --tolerance 0 --verbose", 3);
     assert!(says_key(&said, ["integrator.method", "\"auto\"", "\"dop853\""]), "{said}");
-    assert!(said.contains("599 samples drawn alike") && said.contains("FAIL: a shift is beyond 0.0"), "{said}");
+    assert_says(&said, ["599 samples drawn alike", "FAIL: a shift is beyond 0.0"]);
     assert!(said.contains("steps "), "other methods take other steps: {said}");
 
     scratch.small("--seed 8 --out d", 0);
@@ -192,7 +192,7 @@ fn planted_shifts_are_found_by_pairs() {
     ] {
         let said = scratch.prints(&format!("compare {results}{tolerance}"), code);
         let verdict = said.lines().find(|line| line.contains(mark)).unwrap();
-        assert!(verdict.contains("PASS") && verdict.contains("FAIL") && verdict.contains("rate"), "{verdict}");
+        assert_says(&verdict, ["PASS", "FAIL", "rate"]);
         assert_eq!(said.contains("FAIL: 1 verdict is worse than before"), code == 3, "{said}");
     }
     let worse = ended_with(&scratch, &base, &far, 3);
@@ -223,7 +223,7 @@ fn comparisons_are_files() {
     let (rows, table) = (compared["observables"].as_array().unwrap(), scratch.table("c.parquet"));
     let statistics = scratch.table(&format!("{base}/statistics.parquet")).num_rows();
     assert_eq!((rows.len(), table.num_rows()), (statistics, statistics));
-    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
+    let names = texts(&table, "observable");
     for name in
         ["adjusted_p_value", "mean_shift", "mean_first", "mean_second", "standard_deviation_second", "p95_first"]
     {
@@ -252,7 +252,7 @@ fn verdicts_and_scales_are_those_of_their_result() {
     scratch.prints("campaign wide.toml --out wide --no-report", 3);
     let deviation = |result: &str| {
         let table = scratch.table(&format!("{result}/statistics.parquet"));
-        let names = table.column_by_name("observable").unwrap().as_string::<i32>();
+        let names = texts(&table, "observable");
         let row = names.iter().position(|name| name == Some("exchange_w1_peak_to_peak_j")).unwrap();
         floats(&table, "standard_deviation")[row]
     };

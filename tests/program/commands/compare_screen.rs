@@ -17,61 +17,32 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 #[test]
 fn a_comparison_fits_a_screen() {
     let scratch = folder("compare-brief");
-    let limit = 2000.0;
-    let require = format!(
-        "\n[[require]]\nobservable = \"omega_se_s_z_final_rad_s\"\nfraction = 0.9\nat_most = \"{limit} deg/s\"\n"
-    );
-    let first = campaign_without_debris().replace(RADIANS, "") + &require;
+    let require =
+        "\n[[require]]\nobservable = \"omega_se_s_z_final_rad_s\"\nfraction = 0.9\nat_most = \"2000 deg/s\"\n";
+    let first = campaign_without_debris().replace(RADIANS, "") + require;
     let nominal = "31.41592653589793]";
     assert!(first.contains(nominal));
     scratch.file("slow.toml", &first);
     scratch.file("fast.toml", &first.replace(nominal, "36.0]"));
     scratch.prints("campaign slow.toml --out slow --no-report", 0);
     scratch.prints("campaign fast.toml --out fast --no-report", 3);
-    let rates = ["slow", "fast"].map(|name| column(&scratch.rows(name), "omega_se_s_z_final_rad_s").split_off(1));
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let share = |values: &[f64]| {
-        100.0 * values.iter().filter(|rate| **rate * DEGREES <= limit).count() as f64 / values.len() as f64
-    };
-    for (places, code, mark) in [([0, 1], 3, "WORSE"), ([1, 0], 0, "BETTER")] {
-        let [before, after] = places.map(|place| ["slow", "fast"][place]);
-        let of = places.map(|place| &rates[place][..]);
-        let said = scratch.prints_at(&format!("compare {before} {after} --out c.json"), code, 80);
+    for (sides, code, mark, last) in [
+        ("slow fast", 3, "WORSE", "FAIL: 1 verdict is worse than before"),
+        ("fast slow", 0, "BETTER", "PASS: 1 verdict is better, none is worse"),
+    ] {
+        let said = scratch.prints_at(&format!("compare {sides}"), code, 80);
         assert_fits(&said, 24, 80);
-        for (line, name) in said.lines().zip([before, after]) {
+        for (line, name) in said.lines().zip(sides.split(' ')) {
             assert!(line.ends_with(&format!(" {name}, 599 of 599 runs ok")), "{line}");
         }
-        let row = |begin: &str| said.lines().find(|line| line.trim_start().starts_with(begin)).expect(begin);
         let mut lines =
             said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end <= 2000 deg/s in 90%"));
         let verdict = lines.nth(1).unwrap();
         assert!(verdict.ends_with(mark) && verdict.contains("PASS") && verdict.contains("FAIL"), "{said}");
-        let (_, found) = template(verdict);
-        assert_eq!(found.len(), 2, "{verdict}");
-        for (found, values) in found.iter().zip(of) {
-            assert!((found - share(values)).abs() < 0.06, "{verdict}: {}", share(values));
-        }
-        let key = row("initial.angular_velocity_rad_s");
-        assert!(key.contains(" 1800] deg/s") && key.contains(" 2062.6] deg/s"), "{key}");
-        let mut outcome = said.lines().skip_while(|line| !line.contains("angular velocity about s3 at the end, deg/s"));
-        let outcome = &outcome.by_ref().take(2).collect::<Vec<_>>().join(" ");
-        let (_, found) = template(outcome.split_once("deg/s").unwrap().1);
-        let means = of.map(|values| mean(values) * DEGREES);
-        let known = [means[0], means[1], means[1] - means[0]];
-        let [first, second, shift, low, high, ..] = found[..] else { panic!("{outcome}") };
-        for (found, known) in [first, second, shift].into_iter().zip(known) {
-            assert!((found - known).abs() <= 6e-3 * known.abs(), "{outcome}: {known:?}");
-        }
-        assert!(low <= known[2] && known[2] <= high, "{outcome}");
-        let file: Value = serde_json::from_str(&scratch.text("c.json")).unwrap();
-        let observables = file["observables"].as_array().unwrap();
-        let shifted = observables.iter().filter(|one| one["is_shifted"] == 1).count() as f64;
+        assert_says(&said, [" 1800] deg/s", " 2062.6] deg/s"]);
         let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert_eq!(numbers(&words, "# of # columns are shifted"), [shifted, observables.len() as f64], "{said}");
         assert!(words.contains("compared sample by sample: 599 samples drawn alike"), "{said}");
-        let last = said.lines().last().unwrap();
-        let verdict = ["PASS: 1 verdict is better, none is worse", "FAIL: 1 verdict is worse than before"];
-        assert_eq!(last, verdict[usize::from(code == 3)]);
+        assert_eq!(said.lines().last(), Some(last));
     }
 }
 
@@ -131,10 +102,10 @@ fn the_screen_is_the_file() {
             };
             assert_eq!(found.len(), known.len(), "{line}: {known:?}");
             assert!(found.iter().zip(&known).enumerate().all(is_same), "{line}: {known:?}");
-            assert!(line.contains(&format!(" {} by ", one["largest_shift_of"].as_str().unwrap())), "{line}");
+            assert_says(&line, [&format!(" {} by ", one["largest_shift_of"].as_str().unwrap())]);
             assert_eq!(line.contains("(beyond)"), known.last() > Some(&0.01), "{line}");
             let word = if one["is_shifted"] == 1 { "shifted," } else { "within chance," };
-            assert!(line.contains(if is_moved { "moved," } else { word }), "{line}");
+            assert_says(&line, [if is_moved { "moved," } else { word }]);
         }
         assert!(rows.len() > 10, "{said}");
         assert_fits(&scratch.prints_at(&format!("compare {first} {second} --verbose"), 0, 80), usize::MAX, 80);
@@ -149,7 +120,7 @@ fn a_result_without_numbers_is_not_compared() {
     scratch.prints("campaign c.toml --samples 20 --set integrator.max_steps=1 --out none --no-report", 1);
     for sides in ["some none", "none some"] {
         let said = scratch.prints_wide(&format!("compare {sides}"), 0);
-        assert!(said.contains("no column is compared: a result has no dispersed run with numbers"), "{said}");
+        assert_says(&said, ["no column is compared: a result has no dispersed run with numbers"]);
         assert!(!said.contains("the same statistics"), "{said}");
     }
 }
@@ -165,7 +136,9 @@ fn different_campaigns_are_named() {
     }
     let said = scratch.prints_wide("compare one two", 0);
     assert!(said.starts_with("different campaigns: one and two\nbefore: one"), "{said}");
-    let row = said.lines().find(|line| line.contains("initial.angular_velocity_rad_s")).unwrap();
-    assert!(row.contains("10] deg/s") && row.contains("14.324] deg/s"), "{row}");
+    assert_says(
+        said.lines().find(|line| line.contains("initial.angular_velocity_rad_s")).unwrap(),
+        ["10] deg/s", "14.324] deg/s"],
+    );
     assert!(scratch.prints_wide("compare one one", 0).starts_with("before: one"));
 }

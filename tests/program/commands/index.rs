@@ -46,8 +46,10 @@ fn every_result_has_a_row() {
     }
     assert!(page.contains("Is &lt;other&gt; slow enough?") && !page.contains("<other>"), "markup of a question");
     assert!(page.contains("default-src 'none'") && !page.contains("http://") && !page.contains("https://"));
-    assert!(page.contains("<span class=\"fail\">1 FAIL</span></td><td data-head=\"Runs computed\">20</td>"), "{page}");
-    assert!(page.contains("<li>half: not finished"), "{page}");
+    assert_says(
+        &page,
+        ["<span class=\"fail\">1 FAIL</span></td><td data-head=\"Runs computed\">20</td>", "<li>half: not finished"],
+    );
     assert_eq!(scratch.parts("all/a new"), before);
 
     scratch.prints("campaign c.toml --samples 20 --set display.units=[\"deg\"] --out all/shown", 3);

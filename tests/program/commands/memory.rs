@@ -55,7 +55,7 @@ fn sample_holds_no_draws() {
 #[test]
 fn a_campaign_holds_no_rows() {
     let scratch = ScratchFolder::new("flat");
-    let text = fs::read_to_string(root().join("campaigns/spin_sweep.toml")).unwrap();
+    let text = campaign_text("spin_sweep");
     assert!(text.contains("points = ") && !text.contains("[bands]"));
     fs::write(scratch.0.join("flat.toml"), text).unwrap();
     let of = |samples: u64| {
@@ -108,7 +108,7 @@ const LIMIT_KB: u64 = 150_000;
 #[test]
 fn small_files_take_little_memory() {
     let scratch = ScratchFolder::new("bombs");
-    let text = fs::read_to_string(root().join("campaigns/spin_sweep.toml")).unwrap();
+    let text = campaign_text("spin_sweep");
     let at = text.find("[[disperse]]").unwrap();
     let says = |file: &str, column: &str, code: i32| {
         let draw = format!(
@@ -140,7 +140,7 @@ const POINT: [u64; 2] = [8500, 7500];
 #[test]
 fn memory_of_points_is_what_is_estimated() {
     let scratch = ScratchFolder::new("points");
-    let burn = fs::read_to_string(root().join("campaigns/burn.toml")).unwrap();
+    let burn = campaign_text("burn");
     let of = |method: &str, groups: &[Group], more: &str| {
         let mut text = String::new();
         let nominal = burn.lines().take_while(|line| !line.starts_with("[[disperse]]"));

@@ -124,7 +124,7 @@ fn plots_and_tables_are_made() {
     let titles = |page: &str| Found::shown_on(page).into_iter().map(|(title, _)| title).collect::<Vec<_>>().join("; ");
     let shown = titles(&page);
     for title in ["wheel w1", "debris", "Angular velocity", "quaternion", "Drift of energy"] {
-        assert!(shown.contains(title), "{title}: {shown}");
+        assert_says(&shown, [title]);
     }
     assert!(shown.contains("Energy transfer"), "its wheels turn");
     let rigid = scratch.text("small.toml");
@@ -180,7 +180,7 @@ fn a_table_with_many_wheels_fits() {
         let shown = (0..8).filter(|k| headers.contains(&format!("rate...r_{k}"))).count();
         assert_eq!(headers.matches("rate").count(), shown, "{headers}");
         let left_out = format!("rates of wheels wheel_number_{shown} to wheel_number_7, {} of 8", 8 - shown);
-        assert!(notes.contains(&format!("too wide for {width} columns")) && notes.contains(&left_out), "{notes}");
+        assert_says(&notes, [&format!("too wide for {width} columns"), &left_out]);
         counts.push(shown);
     }
     assert!(counts[0] >= 1 && counts[1] < counts[2] && counts[0] < counts[2] && counts[0] == counts[3], "{counts:?}");

@@ -1,8 +1,6 @@
 //! Loops whose law or allocation decides the outcome.
 
-use crate::loops::closed_loops::run;
 use crate::prelude::*;
-use crate::support::campaigns::SMALL_BODY;
 
 fn stop(count: usize, more: &str) -> String {
     let names: Vec<String> = (0..count).map(|index| format!("\"t{index}\"")).collect();
@@ -33,7 +31,7 @@ fn stop(count: usize, more: &str) -> String {
 fn canted_thrusters_stop_a_body() {
     for (count, more) in [(4, ""), (5, ""), (4, "hold_force = true\n"), (3, "")] {
         let text = stop(count, more);
-        let found = run(&plan(&text), 0);
+        let found = single(&plan(&text), 0);
         let last = found.grid.points() - 1;
         let rate =
             [0, 1, 2].map(|i| found.table.column(StateField::Rate, i)[last].abs()).into_iter().fold(0.0, f64::max);

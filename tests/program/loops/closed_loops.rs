@@ -5,20 +5,10 @@ use std::fmt::Write as _;
 
 use spindrift::scene::Arc;
 
-use crate::support::campaigns::{SMALL_BODY, small_wheel};
+use crate::support::campaigns::small_wheel;
 
 pub(crate) fn plan(text: &str) -> Plan {
     planned(text)
-}
-
-pub(crate) fn run(plan: &Plan, sample: u64) -> SingleRun {
-    SingleRun::new(plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
-}
-
-pub(crate) fn value(run: &SingleRun, name: &str) -> f64 {
-    let columns = run.request.columns();
-    let place = columns.iter().position(|column| column.quantity.name() == name);
-    run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
 }
 
 /// A spacecraft at rest with one wheel about each axis and the inertia diag(30, 36, 24) kg m^2.
@@ -64,7 +54,7 @@ fn the_arcs_flown_are_the_run() {
     {
         let plan_of_loop = plan(text);
         for sample in [0, 3] {
-            let flown = run(&plan_of_loop, sample);
+            let flown = single(&plan_of_loop, sample);
             assert!(flown.arcs.len() > 500, "{} arcs", flown.arcs.len());
             let audit = flown.audit(&plan_of_loop, Isa::best()).unwrap();
             assert!(audit.state() < 1e-12, "sample {sample}: {:e}", audit.state());
@@ -79,7 +69,7 @@ fn the_arcs_flown_are_the_run() {
             for key in ["torque_limit_n_m", "speed_limit_rad_s", "max_thrust_n", "min_on_time_s"] {
                 open = open.replace(key, "# ");
             }
-            let replayed = run(&plan(&(open + &schedule(&flown.arcs, wheels, thrusters))), 0);
+            let replayed = single(&plan(&(open + &schedule(&flown.arcs, wheels, thrusters))), 0);
             for field in [StateField::Rate, StateField::Attitude, StateField::WheelRates, StateField::ComVelocity] {
                 for component in 0..2 {
                     let [a, b] = [&flown, &replayed].map(|run| run.table.column(field, component));
@@ -111,7 +101,7 @@ fn a_small_angle_loop_is_its_discrete_solution() {
     let initial = format!("attitude = [{:?}, 0, {:?}, 0]", (0.5 * start).cos(), (0.5 * start).sin());
     for delay in [false, true] {
         let more = if delay { "delay_s = 0.25\n" } else { "" };
-        let found = angles(&run(&plan(&small_craft(&hold(w, z, period, more), &initial)), 0));
+        let found = angles(&single(&plan(&small_craft(&hold(w, z, period, more), &initial)), 0));
         let (mut angle, mut rate, mut last) = (start, 0.0_f64, 0.0_f64);
         for (tick, found) in found.iter().enumerate() {
             assert!((angle - found).abs() < 1e-9 * start, "tick {tick}, delay {delay}: {angle:e} for {found:e}");
@@ -147,7 +137,7 @@ fn hostile_loops_end() {
         text = text.replace("tolerance = 1e-12", "tolerance = 1e-12\nmax_steps = 100000");
         let plan = plan(&text);
         for sample in [0, 1] {
-            let run = SingleRun::new(&plan, SampleId(sample), Grid::uniform(100.0, 11), Isa::best()).unwrap();
+            let run = single_on(&plan, sample, Grid::uniform(100.0, 11));
             assert!(run.outcome.status == Status::Done || !run.reason.is_empty(), "{to}: {:?}", run.outcome);
         }
     }
@@ -166,7 +156,7 @@ fn what_acts_in_a_loop_alone_is_refused() {
 fn debris_at_rest_can_be_pointed_at() {
     let text = include_str!("../../../campaigns/point_at_debris.toml")
         .replace("debris_velocity_m_s = [0.2, 0.0, 0.0]", "debris_velocity_m_s = [0, 0, 0]");
-    let run = run(&plan(&text), 0);
+    let run = single(&plan(&text), 0);
     assert_eq!(value(&run, "failure"), 0.0);
     assert!(value(&run, "pointing_error_final_rad") < 0.02, "{}", value(&run, "pointing_error_final_rad"));
 }

@@ -2,14 +2,17 @@
 
 use crate::prelude::*;
 
-use spindrift::control::guidance::phase::Maneuver;
-use spindrift::control::guidance::target::Target;
-use spindrift::dynamics::environment::sun::sun;
-use spindrift::math::vector::quaternion_from_dcm;
+use spindrift::{
+    control::guidance::{phase::Maneuver, target::Target},
+    dynamics::environment::sun::sun,
+    math::vector::quaternion_from_dcm,
+};
 
-use crate::loops::actuators::driven_wheels;
-use crate::loops::cases::{Case, cases};
-use crate::loops::flown_loop::{State, angle_between};
+use crate::loops::{
+    actuators::driven_wheels,
+    cases::{Case, cases},
+    flown_loop::{State, angle_between},
+};
 
 const AGREED: f64 = 1e-11;
 

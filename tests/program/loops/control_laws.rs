@@ -1,12 +1,14 @@
 //! A stored campaign under a control law of a program's own.
 
 use crate::prelude::*;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
-use spindrift::control::{ControlLaw, LawContext};
-use spindrift::dynamics::actuation::{Actuation, BodyState, WheelState};
-use spindrift::storage::claim::Shard;
-use spindrift::workflow::{CampaignOutcome, Finished, Outputs, Verification, Watch, WorkflowError, finish, verify};
+use spindrift::{
+    control::{ControlLaw, LawContext},
+    dynamics::actuation::Actuation,
+    storage::claim::Shard,
+    workflow::{CampaignOutcome, Finished, Outputs, Verification, Watch, WorkflowError, finish, verify},
+};
 
 #[path = "../../../examples/control_campaign.rs"]
 #[expect(dead_code, reason = "the example runs in tests/project")]
@@ -151,19 +153,18 @@ fn the_law_is_part_of_the_plan() {
         Err(WorkflowError::Files(reason)) => reason,
         _ => panic!("refused"),
     };
-    let without = reason(session);
-    assert!(without.contains("control") && without.contains("plan.toml"), "{without}");
+    assert_says(reason(session), ["control", "plan.toml"]);
     let idle = |_: &LawContext<'_>| |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY);
     let other = ControlLaw::new("idle", Actuated::NONE, law.parameters, idle);
     let refused = reason(session.under(&other));
-    assert!(refused.contains("wheel_hold") && refused.contains("idle"), "{refused}");
+    assert_says(&refused, ["wheel_hold", "idle"]);
     scratch.shows("report r", 4, "control");
     let text = fs::read_to_string(root.join("plan.toml")).unwrap();
     let hash = |text: &str| {
         let prepared = Campaign::from_text("p.toml", text, session.under(&law)).prepare().unwrap().unwrap();
         prepared.plan().row_hash()
     };
-    assert!(text.contains("law = \"wheel_hold\"") && text.contains("damping_n_m_s = 6.0"), "{text}");
+    assert_says(&text, ["law = \"wheel_hold\"", "damping_n_m_s = 6.0"]);
     assert_ne!(hash(&text), hash(&text.replace("damping_n_m_s = 6.0", "damping_n_m_s = 6.5")));
     let negative = Campaign::from_text(
         "p.toml",
@@ -171,7 +172,7 @@ fn the_law_is_part_of_the_plan() {
         session.under(&law),
     );
     let Err(WorkflowError::Input(reason)) = negative.prepare() else { panic!("refused") };
-    assert!(reason.contains("control.damping_n_m_s = -6.0"), "{reason}");
+    assert_says(&reason, ["control.damping_n_m_s = -6.0"]);
 }
 
 #[test]
@@ -187,10 +188,7 @@ fn a_law_has_the_nominal_and_the_drawn_scene() {
             1.5\n";
     let scheduled = text.clone() + "[[actuation]]\nstart_s = 0.25\nend_s = 0.5\ntorque_n_m = { w1 = 3.0 }\n";
     let plan = |text: &str| Plan::from_text("scenes.toml", text, overrides.clone()).unwrap();
-    let run = |text: &str, sample: u64| {
-        let plan = plan(text);
-        SingleRun::new(&plan, SampleId(sample), plan.grid.clone(), Isa::best()).unwrap()
-    };
+    let run = |text: &str, sample: u64| single(&plan(text), sample);
     let nominal = run(&text, 0).scene.mass.total;
     for sample in [0, 3, 9] {
         let run = run(&text, sample);

@@ -1,9 +1,9 @@
 //! Unstable loops end early, with their gains and the limit.
 
 use crate::prelude::*;
-use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, PhaseLaw};
+use spindrift::control::laws::{AttitudeLaw, LawKind, PhaseLaw};
 
-use crate::loops::closed_loops::{run, small_craft};
+use crate::loops::closed_loops::small_craft;
 
 const PERIOD: f64 = 0.25;
 
@@ -44,7 +44,7 @@ fn unstable_loops_end_early_and_others_do_not() {
     for method in ["auto", "dop853"] {
         let flown = |law: &str, initial: &str| {
             let text = with_law(law, initial).replace("method = \"auto\"", &format!("method = \"{method}\""));
-            run(&plan(&text), 0)
+            single(&plan(&text), 0)
         };
         for (index, (stable, _)) in laws(0.8).iter().enumerate() {
             let healthy = flown(stable, SLOW);

@@ -1,11 +1,15 @@
 //! Filters in their steady state, against the Riccati equation solved in another form.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
-use spindrift::control::estimators::attitude_filter::AttitudeObservation;
-use spindrift::control::estimators::delayed::Filter;
-use spindrift::control::estimators::rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter};
-use spindrift::control::estimators::translation_filter::{MotionObservation, TranslationFilter, TranslationStep};
-use spindrift::control::measurement::PointMotion;
+use spindrift::control::{
+    estimators::{
+        attitude_filter::AttitudeObservation,
+        delayed::Filter,
+        rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter},
+        translation_filter::{MotionObservation, TranslationFilter, TranslationStep},
+    },
+    measurement::PointMotion,
+};
 
 const AGREED: f64 = 1e-12;
 

@@ -4,7 +4,7 @@ use crate::prelude::*;
 use spindrift::control::spec::LoopSpec;
 use spindrift::scene::Arc;
 
-use crate::loops::closed_loops::{run, without};
+use crate::loops::closed_loops::without;
 
 pub const SAME_TIME: f64 = 1e-9;
 
@@ -56,7 +56,7 @@ pub struct FlownLoop {
 impl FlownLoop {
     pub fn new(text: &str, sample: u64) -> Self {
         let plan = plan(&without(text, &["[[require]]"]));
-        let first = run(&plan, sample);
+        let first = single(&plan, sample);
         let period = plan.law.as_ref().and_then(|law| law.spec()).unwrap().period;
         let duration = plan.grid.duration();
         let end = first.arcs.last().filter(|arc| arc.applied.ends_run).map(|arc| arc.start);
@@ -69,7 +69,7 @@ impl FlownLoop {
         times.sort_by(f64::total_cmp);
         times.dedup_by(|later, earlier| *later - *earlier < SAME_TIME);
         *times.last_mut().unwrap() = duration;
-        let run = SingleRun::new(&plan, SampleId(sample), Grid::at(times), Isa::best()).unwrap();
+        let run = single_on(&plan, sample, Grid::at(times));
         assert!(run.arcs == first.arcs, "the arcs do not depend on what is observed");
         let state = |time: f64| state_at(&run, time);
         let arcs = run.arcs.iter().filter(|arc| !arc.applied.ends_run).map(|arc| (*arc, state(arc.start))).collect();

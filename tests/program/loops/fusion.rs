@@ -1,7 +1,6 @@
 //! Several attitude sensors in one loop lower the error of the filter by the sum of their informations.
 
 use crate::prelude::*;
-use spindrift::dynamics::magnetic_field::MagneticField;
 use spindrift::dynamics::orbit::KeplerOrbit;
 
 const AT_REST: &str = r#"
@@ -122,7 +121,7 @@ fn directions_of_an_orbit_lower_the_error_as_theory_says() {
         (format!("{horizon}{field}"), [1.0; 2]),
     ] {
         let plan = plan(&on_orbit(&sensors));
-        let nominal = Scene::resolve(&plan.nominal).unwrap();
+        let nominal = resolved(&plan.nominal);
         let orbit = KeplerOrbit::new(nominal.orbit.as_ref().unwrap());
         let magnetic = MagneticField::of(&nominal).unwrap();
         let mut all = [[0.0; 3]; 3];

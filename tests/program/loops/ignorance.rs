@@ -36,7 +36,7 @@ fn first_commands(text: &str) -> (Vec<f64>, bool) {
         "commanded_thrust_p2_n",
         "commanded_thrust_p3_n",
     ];
-    let nominal = Scene::resolve(&flown.plan.nominal).unwrap();
+    let nominal = resolved(&flown.plan.nominal);
     let (drawn, nominal) = (&flown.run.scene, &nominal);
     let is_drawn =
         drawn.mass != nominal.mass || drawn.thrusters != nominal.thrusters || drawn.actuators != nominal.actuators;
@@ -119,7 +119,7 @@ fn filters_predict_with_commands_and_nominal_numbers() {
             text += &offset(parameter, by);
         }
         let flown = FlownLoop::new(&text, 1);
-        let nominal = Scene::resolve(&flown.plan.nominal).unwrap();
+        let nominal = resolved(&flown.plan.nominal);
         assert!(flown.run.scene.mass.total > 1.1 * nominal.mass.total);
         let period = flown.spec().period;
         let thrusts = ["p1", "p2", "p3"]

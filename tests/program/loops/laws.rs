@@ -4,7 +4,6 @@ use crate::prelude::*;
 use std::fmt::Write as _;
 
 use spindrift::control::laws::KINDS;
-use spindrift::math::vector::transposed_product;
 
 use crate::loops::flown_loop::angle_between;
 

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 
-use crate::loops::closed_loops::value;
-
 const PERIOD: f64 = 0.5;
 const GAIN: f64 = 0.1;
 const LIMIT: f64 = 0.002;
@@ -93,7 +91,7 @@ fn motors_give_what_schedules_and_failures_leave() {
     ] {
         let instants = case.instants();
         let plan = plan(&case.text());
-        let run = SingleRun::new(&plan, SampleId(0), Grid::at(instants.clone()), Isa::best()).unwrap();
+        let run = single_on(&plan, 0, Grid::at(instants.clone()));
         let torques = &run.series.iter().find(|(series, _)| *series == Series::MotorTorque.of_wheel(0)).unwrap().1;
         let mut saturated = 0.0;
         assert_eq!(run.arcs.len(), instants.len() - 1, "{case:?}: {:?}", run.arcs);

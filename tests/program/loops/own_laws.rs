@@ -1,11 +1,14 @@
 //! A program's own attitude law in the phases of a control loop.
 
 use crate::prelude::*;
-use spindrift::control::laws::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
-use spindrift::control::vector::{cross, difference, product, scaled, sum};
-use spindrift::scene::LawParameter;
-use spindrift::scene::schema::Limit;
-use spindrift::workflow::WorkflowError;
+use spindrift::{
+    control::{
+        laws::{AttitudeLaw, LawKind, LawSettings, PhaseLaw},
+        vector::{cross, difference, product, scaled, sum},
+    },
+    scene::{LawParameter, schema::Limit},
+    workflow::WorkflowError,
+};
 
 /// B. Wie's quaternion feedback: u = -K (2 w^2 e + 2 zeta w omega_st) + omega x H - K (omega x omega_te).
 #[derive(Clone, Debug)]
@@ -90,8 +93,8 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
 
     let root = scratch.path("own");
     let Err(WorkflowError::Files(reason)) = Results::open(&root, session) else { panic!("refused") };
-    assert!(reason.contains("own_feedback") && reason.contains("quaternion_feedback"), "{reason}");
+    assert_says(&reason, ["own_feedback", "quaternion_feedback"]);
     let negative = Campaign::from_text("slew_closed.toml", &text.replacen("own_damping = ", "own_damping = -", 1), own);
     let Err(WorkflowError::Input(reason)) = negative.prepare() else { panic!("refused") };
-    assert!(reason.contains("own_damping = -"), "{reason}");
+    assert_says(&reason, ["own_damping = -"]);
 }

@@ -2,8 +2,6 @@
 
 use crate::prelude::*;
 use spindrift::control::sensors::KINDS;
-use spindrift::dynamics::magnetic_field::MagneticField;
-use spindrift::math::vector::transposed_product;
 
 use crate::loops::flown_loop::State;
 
@@ -273,7 +271,7 @@ fn every_sensor_measures_the_true_state() {
 fn raw_estimates_are_the_last_measurements() {
     let text = without_filters(&file().replace(&sun_sensor(), ""), "raw");
     let flown = FlownLoop::new(&text, 2);
-    let nominal = Scene::resolve(&flown.plan.nominal).unwrap();
+    let nominal = resolved(&flown.plan.nominal);
     let (attitudes, rates) =
         (flown.told_vector::<4>("measured_q_es_#"), flown.told_vector::<3>("measured_rate_s_#_rad_s"));
     let [own, own_velocity, debris, debris_velocity] =

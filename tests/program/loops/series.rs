@@ -12,7 +12,7 @@ fn rotation(a: [f64; 4], b: [f64; 4]) -> [f64; 3] {
 }
 fn at_ticks(text: &str, sample: u64) -> SingleRun {
     let grid = Grid::uniform(TICKS as f64 * PERIOD, TICKS + 1);
-    SingleRun::new(&plan(text), SampleId(sample), grid, Isa::best()).unwrap()
+    single_on(&plan(text), sample, grid)
 }
 
 fn series(run: &SingleRun, of: Series) -> &[f64] {
@@ -58,7 +58,7 @@ fn quantities_over_time_are_those_of_the_run() {
         assert_ne!(series(&run, Series::PointingError)[TICKS], series(&run, Series::PointingError)[TICKS - 1]);
     }
     let text = SLEW_CLOSED;
-    let between = SingleRun::new(&plan(text), SampleId(3), Grid::uniform(180.0, 1801), Isa::best()).unwrap();
+    let between = single_on(&plan(text), 3, Grid::uniform(180.0, 1801));
     let ticks = at_ticks(text, 3);
     for (point, found) in series(&between, Series::PointingError).iter().enumerate() {
         assert_eq!(*found, series(&ticks, Series::PointingError)[2 * point / 5], "{point}");
@@ -72,7 +72,7 @@ fn the_way_to_the_debris_is_that_of_the_run() {
     const TICKS: usize = 600;
     for sample in [0, 5] {
         let grid = Grid::uniform(TICKS as f64 * PERIOD, TICKS + 1);
-        let run = SingleRun::new(&plan(NET_LAUNCH), SampleId(sample), grid, Isa::best()).unwrap();
+        let run = single_on(&plan(NET_LAUNCH), sample, grid);
         let apart = |tick: usize, debris: StateField, own: StateField| {
             let [a, b]: [[f64; 3]; 2] = [debris, own].map(|field| run.table.at(field, tick));
             norm(from_fn(|i| a[i] - b[i]))

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 use std::fmt::Write as _;
 
-use crate::loops::closed_loops::{run, small_craft, value};
+use crate::loops::closed_loops::small_craft;
 
 fn shown(run: &SingleRun, name: &str) -> Vec<f64> {
     let place = run.telemetry.quantities.iter().position(|quantity| quantity.name() == name);
@@ -27,7 +27,7 @@ fn a_row_shows_the_tick_of_its_time() {
     let text = small_craft(control, "angular_velocity_rad_s = [0.01, 0.02, -0.01]")
         .replace("duration_s = 100", "duration_s = 60")
         .replace("points = 401", "points = 601");
-    let run = run(&plan(&text), 0);
+    let run = single(&plan(&text), 0);
     assert_eq!((run.grid.points(), run.telemetry.times.len()), (601, 601));
     let off = estimation_errors(&run);
     let worst = off.iter().copied().fold(0.0, f64::max);
@@ -40,8 +40,7 @@ fn a_row_shows_the_tick_of_its_time() {
 fn the_last_tick_is_that_of_a_longer_run() {
     let plan = plan(SLEW_CLOSED);
     for duration in [10.0, 12.25, 20.0] {
-        let flown =
-            |duration: f64| SingleRun::new(&plan, SampleId(3), Grid::uniform(duration, 11), Isa::best()).unwrap();
+        let flown = |duration: f64| single_on(&plan, 3, Grid::uniform(duration, 11));
         let (short, long) = (flown(duration), flown(2.0 * duration));
         let ticks = short.telemetry.times.len();
         assert!((short.telemetry.times[ticks - 1] - duration).abs() < 1e-9, "{:?}", short.telemetry.times.last());
@@ -69,13 +68,13 @@ fn holding(duration: f64, hold: f64, more: &str) -> String {
 fn what_ends_with_the_run_counts() {
     for ticks in [1, 3, 6, 7, 11, 23, 100] {
         let duration = f64::from(ticks) / 10.0;
-        let complete = run(&plan(&holding(duration, duration, "")), 0);
+        let complete = single(&plan(&holding(duration, duration, "")), 0);
         let after = (value(&complete, "phase_final"), value(&complete, "phase_after_begin_s"));
         assert_eq!(after, (1.0, duration));
-        let short = run(&plan(&holding(duration, duration + 0.1, "")), 0);
+        let short = single(&plan(&holding(duration, duration + 0.1, "")), 0);
         assert_eq!(value(&short, "phase_final"), 0.0, "{duration}");
         assert!(value(&short, "phase_after_begin_s").is_nan());
-        let timeout = |time: f64| run(&plan(&holding(duration, 1e3, &format!("timeout_s = {time:?}\n"))), 0);
+        let timeout = |time: f64| single(&plan(&holding(duration, 1e3, &format!("timeout_s = {time:?}\n"))), 0);
         let failed = timeout(duration);
         assert_eq!((value(&failed, "failure"), value(&failed, "end_time_s")), (1.0, duration), "{duration}");
         assert_eq!(value(&timeout(duration + 0.1), "failure"), 0.0, "{duration}");
@@ -100,7 +99,7 @@ fn phases_last_whole_ticks() {
             let text = small_craft(&control, "angular_velocity_rad_s = [0.01, 0, 0]")
                 .replace("duration_s = 100", &format!("duration_s = {duration:?}"))
                 .replace("points = 401", "points = 2");
-            let run = run(&plan(&text), 0);
+            let run = single(&plan(&text), 0);
             let phases: Vec<f64> = run.telemetry.rows.iter().map(|row| row[0]).collect();
             assert_eq!(run.telemetry.quantities[0].name(), "phase");
             let changes: Vec<usize> = (1..phases.len()).filter(|tick| phases[*tick] != phases[tick - 1]).collect();
@@ -129,7 +128,7 @@ fn the_end_of_a_run_is_observed_on_every_grid() {
         let grid = Grid::uniform(duration, intervals + 1);
         let time = grid.times()[place];
         assert!((time - 3.1).abs() < 1e-14);
-        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).unwrap();
+        let run = single_on(&plan, 0, grid);
         assert_eq!(value(&run, "end_time_s"), 31.0 * 0.1);
         assert_eq!(run.outcome.points, place + 1, "{duration} s in {intervals} intervals");
         beside[if time < 31.0 * 0.1 { 0 } else { 1 + usize::from(time > 31.0 * 0.1) }] += 1;

@@ -1,9 +1,7 @@
 //! Torque rods in a loop: dipoles of the laws within their limits, and the motion under m x B.
 
 use crate::prelude::*;
-use spindrift::dynamics::magnetic_field::MagneticField;
 
-use super::closed_loops::value;
 use super::flown_loop::{FlownLoop, State};
 
 const MOMENTS: [f64; 3] = [0.12, 0.14, 0.09];

@@ -1,13 +1,12 @@
 //! Columns of a row: skipped groups, padding and the instruction set change no bit of others.
 
-use crate::observables::observed_tables::{
-    Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
+use crate::{
+    observables::observed_tables::{
+        Motion, done, free_row, golden_table, motion_table, observation, request, rotation, row, table1,
+    },
+    prelude::*,
 };
-use crate::prelude::*;
-use spindrift::dynamics::effects::Effect;
-use spindrift::observables::Column;
-use spindrift::run::StepStatistics;
-use spindrift::scene::Orbit;
+use spindrift::{observables::Column, scene::Orbit};
 
 #[test]
 fn padding_leaves_no_trace() {

@@ -66,7 +66,7 @@ fn nominal(tables: &str) -> MassProperties {
     let head = "[campaign]\nname = \"mass\"\nsamples = 1\nseed = 1\nduration_s = 1.0\n\
         [initial]\nangular_velocity_rad_s = [0.1, 0.2, 0.3]\n";
     let text = format!("{head}{tables}");
-    let plan = Plan::from_text("mass", &text, Overrides::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let plan = planned(&text);
     draw(&plan, SampleId(0)).unwrap().mass
 }
 

@@ -47,7 +47,7 @@ fn row(scene: &Scene, nominal: Option<&NominalAttitude>, motion: &dyn Fn(f64) ->
 }
 
 fn scene() -> Scene {
-    Scene::resolve(&Golden::load("table1").scene).unwrap()
+    resolved(&Golden::load("table1").scene)
 }
 
 #[track_caller]

@@ -3,7 +3,6 @@
 use crate::prelude::*;
 
 use crate::support::observed;
-use spindrift::run::{LocalErrors, StepStatistics};
 
 /// A few roundings of a state, doubled by squares, and dozens of operations. Measured: 3.5e-16.
 pub const ROUNDING: f64 = 3e-15;
@@ -13,7 +12,7 @@ pub type Motion<'a> = &'a dyn Fn(f64) -> ([f64; 4], [f64; 3], [f64; 2], [f64; 3]
 
 pub fn table1() -> (Golden, Scene) {
     let golden = Golden::load("table1");
-    let scene = Scene::resolve(&golden.scene).unwrap();
+    let scene = resolved(&golden.scene);
     (golden, scene)
 }
 

@@ -12,7 +12,7 @@ fn row(more: &str, duration: f64, points: usize, of_body: &str) -> HashMap<Strin
          [body]\nmass_kg = 300.0\n{of_body}\n\
          [orbit]\nsemi_major_axis_m = {AXIS:?}\n{more}"
     );
-    let plan = Plan::from_text("orbit", &text, Overrides::default()).unwrap();
+    let plan = planned(&text);
     rows(&plan).columns().map(|(name, column)| (name.to_owned(), column[0])).collect()
 }
 
@@ -91,6 +91,6 @@ fn the_group_is_of_scenes_on_an_orbit() {
     let text = "[campaign]\nname = \"none\"\nsamples = 1\nseed = 1\nduration_s = 1.0\n[observe]\ngroups = [\"orbit\", \
         \"effort\"]\n\
                 [body]\nmass_kg = 1.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n";
-    let plan = Plan::from_text("none", text, Overrides::default()).unwrap();
+    let plan = planned(text);
     assert!(plan.request().columns().iter().all(|column| column.group != Group::Orbit));
 }

@@ -217,7 +217,7 @@ fn listed_runs_have_their_ranks() {
         let (mut first, mut later) = (0, 0);
         for row in between(&page, "id=\"worst\"", "</section>").split("<tr>").skip(2) {
             let sample = between(row, "<th scope=\"row\">", "</th>");
-            assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
+            assert_says(&row, [&format!("--sample {sample}</code>")]);
             let why = between(row, "<td class=\"text\">", "</td>").split("<p").next().unwrap().to_lowercase();
             for why in why.split("; ") {
                 if let Some((what, value)) = why.split_once(" (") {

@@ -19,8 +19,7 @@ fn figures_are_files_too() {
     let scratch = folder("page-figures");
     scratch.small("--samples 40 --out plain --no-report", 0);
     assert!(!scratch.path("plain/report.html").exists());
-    let said = scratch.prints("report plain --figures figures", 0);
-    assert!(said.contains("figures.html") && said.contains("spindrift-figures"), "{said}");
+    assert_says(scratch.prints("report plain --figures figures", 0), ["figures.html", "spindrift-figures"]);
     let data = |page: &str| Found::data_of(&scratch.text(page))["figures"].clone();
     let name = |one: &Value| one["name"].as_str().unwrap_or_default().to_owned();
     let names = |figures: &Value| figures.as_array().unwrap().iter().map(name).collect::<Vec<_>>();

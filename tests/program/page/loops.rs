@@ -1,12 +1,12 @@
 //! The figures over time on the page of a control loop, against file, rows and telemetry.
 
 use crate::prelude::*;
-use arrow_array::cast::AsArray as _;
 
-use crate::commands::screen_numbers;
-use crate::page::answers::between;
-use crate::page::numbers;
-use crate::small_campaign::RADIANS;
+use crate::{
+    commands::screen_numbers,
+    page::{answers::between, numbers},
+    small_campaign::RADIANS,
+};
 
 const SAMPLES: usize = 60;
 const WHEEL_FAILURE: &str = include_str!("../../../campaigns/wheel_failure.toml");
@@ -21,7 +21,7 @@ fn page(name: &str, text: &str) -> Found {
 }
 
 fn over_time(found: &Found) -> Vec<&Value> {
-    let figures = found.data["figures"].as_array().unwrap();
+    let figures = found.figures();
     figures.iter().filter(|figure| figure["section"] == "time").collect()
 }
 
@@ -189,7 +189,7 @@ fn bands_end_with_their_runs() {
 #[test]
 fn bounds_are_of_the_filter() {
     let found = page("bounds", NET_LAUNCH);
-    let plan = Plan::from_text("net_launch", NET_LAUNCH, Overrides::default()).unwrap();
+    let plan = planned(NET_LAUNCH);
     let start = 3.0 * 3.0_f64.sqrt();
     for (figure, column, expected) in [
         ("attitude_estimate_error_rad", "attitude_expected_error_rad", start * 2.0_f64.to_radians()),
@@ -200,7 +200,7 @@ fn bounds_are_of_the_filter() {
         let [x, y] = ["x", "y"].map(|key| found.array(&mark[key]));
         assert!((y[0] / expected - 1.0).abs() < 1e-6, "{figure}: {} {expected}", y[0]);
         let grid = Grid::at(x.clone());
-        let run = SingleRun::new(&plan, SampleId(0), grid, Isa::best()).unwrap();
+        let run = single_on(&plan, 0, grid);
         let place = run.telemetry.quantities.iter().position(|one| one.name() == column).unwrap();
         let held = &run.telemetry.held_at(&x)[place];
         for (point, (bound, known)) in y.iter().zip(held).enumerate() {
@@ -288,7 +288,7 @@ fn failed_missions_are_missed() {
 fn bands_of_wheels_are_those_of_the_file() {
     let found = page("wheel-bands", SLEW_CLOSED);
     let bands = found.scratch.table("r/bands.parquet");
-    let series = bands.column_by_name("series").unwrap().as_string::<i32>().clone();
+    let series = texts(&bands, "series").clone();
     let [times, p05, p50, p95] = ["time_s", "p05", "p50", "p95"].map(|name| floats(&bands, name));
     let mut seen = 0;
     for (figure, column) in [("wheel_speed", "speed_{}_rad_s"), ("wheel_torque", "torque_{}_n_m")] {
@@ -337,5 +337,5 @@ fn a_quantile_without_a_number_is_a_share() {
     let row = page.split("<details class=\"answer ").nth(1).unwrap();
     let shown = numbers::read_number(between(row, "<span class=\"number\"><b>", "%</b>"));
     assert!((shown - share).abs() < 0.051 && row.contains("runs within the limit</span>"), "{share}: {row}");
-    assert!(row.contains(">95%</text>"), "{row}");
+    assert_says(&row, [">95%</text>"]);
 }

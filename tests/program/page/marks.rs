@@ -2,16 +2,12 @@
 
 use crate::prelude::*;
 
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let mut ranks = vec![0.0; values.len()];
-    order.iter().enumerate().for_each(|(rank, place)| ranks[*place] = rank as f64);
-    ranks
-}
-
 /// Spearman's coefficient of values without ties: 1 - 6 sum d^2 / (n (n^2 - 1)).
 fn spearman(x: &[f64], y: &[f64]) -> f64 {
+    let ranks = |values: &[f64]| -> Vec<f64> {
+        let rank = |value: &f64| values.iter().filter(|other| *other < value).count() as f64;
+        values.iter().map(rank).collect()
+    };
     let n = x.len() as f64;
     let squares: f64 = ranks(x).iter().zip(ranks(y)).map(|(a, b)| (a - b).powi(2)).sum();
     1.0 - 6.0 * squares / (n * (n * n - 1.0))
@@ -30,7 +26,7 @@ fn the_replay_moves_as_the_run() {
     let (rates, attitudes) = (found.all(&names), found.all(&quaternion));
     let wheels = found.all(&["rate_w1_final_rad_s", "rate_w2_final_rad_s"]);
     let momentum = found.all(&["angular_momentum_initial_n_m_s"]);
-    for run in found.data["replay"]["runs"].as_array().unwrap() {
+    for run in found.shown_runs() {
         let row = run["sample"].as_u64().unwrap() as usize;
         let [omega, attitude, angles, times, h] =
             ["omega", "attitude", "angles", "times", "momentum"].map(|key| found.array(&run[key]));

@@ -44,13 +44,8 @@ fn names_of(figure: &Value) -> Vec<String> {
 #[test]
 fn shown_names_are_words_and_unique() {
     let scratch = ScratchFolder::new("page-names");
-    let folder = root().join("campaigns");
     let mut seen = 0;
-    for entry in fs::read_dir(&folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|extension| extension != "toml") {
-            continue;
-        }
+    for path in files() {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let command = format!("campaign {} --samples 12 --out {name}", path.display());
         let output = scratch.command(&command).output().unwrap();

@@ -65,8 +65,8 @@ fn apart(a: f64, b: f64) -> f64 {
     (a - b + 180.0).rem_euclid(360.0) - 180.0
 }
 
-fn runs(found: &Found) -> &Vec<Value> {
-    found.data["replay"]["runs"].as_array().unwrap()
+fn runs(found: &Found) -> &[Value] {
+    found.shown_runs()
 }
 
 /// Law: the arrows are nadir, velocity, Sun and the field of a tilted dipole at the states of `simulate`, no farther

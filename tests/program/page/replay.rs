@@ -4,7 +4,7 @@ use crate::prelude::*;
 use std::sync::LazyLock;
 
 static MISSIONS: LazyLock<Found> = LazyLock::new(|| {
-    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/campaigns/net_launch.toml")).unwrap();
+    let text = campaign_text("net_launch");
     let scratch = ScratchFolder::new("page-missions");
     scratch.file("c.toml", &text.replace("samples = 1024 ", "samples = 40 "));
     scratch.command("campaign c.toml --out r").output().unwrap();
@@ -20,7 +20,7 @@ fn near(found: f64, expected: f64, scale: f64, what: &str) {
 #[test]
 fn live_numbers_are_those_of_simulate() {
     let found = &*MISSIONS;
-    let runs = found.data["replay"]["runs"].as_array().unwrap();
+    let runs = found.shown_runs();
     let [propellants, ends] = ["propellant_kg", "end_time_s"].map(|name| found.all(&[name]).remove(0));
     for run in runs.iter().take(3) {
         let sample = run["sample"].as_u64().unwrap();
@@ -106,7 +106,7 @@ fn pointing_errors_are_those_of_the_run() {
 #[test]
 fn phase_marks_are_at_the_times_of_the_rows() {
     let found = &*MISSIONS;
-    let runs = found.data["replay"]["runs"].as_array().unwrap();
+    let runs = found.shown_runs();
     let phases = runs[0]["loop"]["phases"].as_array().unwrap();
     let (mut failed, mut ended) = (0, 0);
     for run in runs {
@@ -142,7 +142,7 @@ fn the_goal_of_an_approach_is_that_of_the_file() {
     let watch = Quiet::default();
     let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
     assert_eq!(found.data["replay"]["scene"]["keep_out"], 5.0);
-    for run in found.data["replay"]["runs"].as_array().unwrap() {
+    for run in found.shown_runs() {
         let table = results.replay(SampleId(run["sample"].as_u64().unwrap())).unwrap().table;
         let velocity: [f64; 3] = table.at(StateField::DebrisVelocity, 0);
         let speed = velocity.map(|v| v * v).iter().sum::<f64>().sqrt();
@@ -159,7 +159,7 @@ fn the_drawn_path_is_the_recorded_one() {
     let found = found("debris", &campaign());
     let watch = Quiet::default();
     let results = Results::open(found.scratch.path("r"), Session::new(&watch).unwrap()).unwrap();
-    for run in found.data["replay"]["runs"].as_array().unwrap() {
+    for run in found.shown_runs() {
         let sample = SampleId(run["sample"].as_u64().unwrap());
         let recorded = results.replay(sample).unwrap();
         let (times, shown) = (found.array(&run["times"]), found.array(&run["debris"]["relative"]));

@@ -22,7 +22,7 @@ fn numbers_beside_the_replay_are_of_the_row() {
     let found = found("replay", &motion());
     let names = ["angular_rate_final_rad_s", "nutation_angle_min_rad", "omega_se_s_z_final_rad_s"];
     let columns = found.all(&names);
-    let runs = found.data["replay"]["runs"].as_array().unwrap();
+    let runs = found.shown_runs();
     assert_eq!(runs.len(), 11, "the nominal run and ten");
     let sizes = |list: &str, key: &str| -> Vec<Value> {
         let list = found.data["replay"]["scene"][list].as_array().unwrap().iter();
@@ -152,7 +152,7 @@ fn two_statuses_are_told_apart() {
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().unwrap()).min().unwrap();
         let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).unwrap();
-        assert!(row.contains(&format!("<b>{status}</b>: ")), "{row}");
+        assert_says(&row, [&format!("<b>{status}</b>: ")]);
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
         let counts = reasons.iter().filter(|one| one["status"] == status);
         for (count, first) in counts.map(|one| (&one["count"], &one["sample"])) {
@@ -161,7 +161,7 @@ fn two_statuses_are_told_apart() {
             };
             assert!(visible.split("<p class=\"reason\">").any(|said| is_of_it(&said)), "{count} {status}, {first}");
         }
-        assert!(row.contains(&format!("--sample {sample}</code>")), "{row}");
+        assert_says(&row, [&format!("--sample {sample}</code>")]);
     }
     let is_ok = |row: &&&str| row.contains("<td class=\"text\">") && !row.contains("class=\"ended\"");
     assert!(rows.iter().filter(is_ok).count() >= 5, "{worst}");

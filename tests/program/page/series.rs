@@ -244,7 +244,7 @@ fn thinned_points_are_of_their_samples() {
     const SAMPLES: usize = 17_000;
     let campaign = crate::small_campaign::campaign().replace("samples = 600", &format!("samples = {SAMPLES}"));
     let found = found("series-thinned", &campaign);
-    let figures = found.data["figures"].as_array().unwrap();
+    let figures = found.figures();
     let mut points = 0;
     for figure in figures.iter().filter(|figure| text_of_scatter(figure).is_some()) {
         let (outcome, input) = text_of_scatter(figure).unwrap();
@@ -309,7 +309,7 @@ fn every_series_is_of_its_label() {
         let summary = found.scratch.summary("r");
         let outcomes: Vec<&str> =
             summary["observables"].as_array().unwrap().iter().map(|one| text(one, "name")).collect();
-        for figure in found.data["figures"].as_array().unwrap() {
+        for figure in found.figures() {
             let name = text(figure, "name");
             let marks = figure["marks"].as_array().unwrap();
             if marks.iter().any(|mark| text(mark, "label").ends_with("5 to 95%")) {

@@ -3,8 +3,7 @@
 
 use crate::prelude::*;
 
-use crate::reliability::failing_store::contents;
-use crate::reliability::false_rows::alter;
+use crate::reliability::{failing_store::contents, false_rows::alter};
 
 /// A campaign with every kind of file, an incomplete last part, and a requirement that fails.
 pub fn everything(scratch: &ScratchFolder, result: &str, seed: u64) {
@@ -149,7 +148,7 @@ fn what_is_not_made_yet_is_no_damage() {
         let said = scratch.prints_wide("verify r --fraction 1", 5);
         let left = parts - made;
         let left = if left == 1 { "1 part".to_owned() } else { format!("{left} parts") };
-        assert!(said.contains(&format!("{left} not made yet; the campaign's command makes the rest")), "{said}");
+        assert_says(&said, [&format!("{left} not made yet; the campaign's command makes the rest")]);
         if made == 1 {
             fs::remove_file(scratch.path("r/bands/part-000000.parquet")).unwrap();
             assert!(scratch.prints("verify r", 4).contains("bands/part-000000.parquet: missing"));

@@ -77,8 +77,7 @@ fn slurm_task(scratch: &ScratchFolder, task: u32, restarts: u32) -> Child {
 #[test]
 fn the_slurm_array_makes_the_bytes_of_one_process() {
     let scratch = folder("slurm-recipe");
-    let script = slurm_script(&scratch, 9000);
-    assert!(script.contains("--signal=B:USR1@60 --requeue"), "{script}");
+    assert_says(slurm_script(&scratch, 9000), ["--signal=B:USR1@60 --requeue"]);
     scratch.small("--samples 9000 --out one", 0);
     for task in [2, 1, 1] {
         assert_eq!(slurm_task(&scratch, task, 0).wait().unwrap().code(), Some(0), "task {task}");

@@ -2,9 +2,11 @@
 
 use crate::prelude::*;
 
-use crate::reliability::altered_results::everything;
-use crate::reliability::failing_store::contents;
-use crate::reliability::interrupted::{is_ignored, send, start};
+use crate::reliability::{
+    altered_results::everything,
+    failing_store::contents,
+    interrupted::{is_ignored, send, start},
+};
 
 /// Law: any changed file is named by `verify` and refused by readers; each repair makes the same bytes.
 #[test]
@@ -198,8 +200,7 @@ fn shards_change_no_finished_result() {
     scratch.file("strict.toml", &require("1e-30"));
     scratch.file("loose.toml", &require("1.0"));
     scratch.prints("campaign strict.toml --no-report --shard 1/2 --out r", 0);
-    let said = scratch.prints("campaign loose.toml --no-report --shard 2/2 --out r", 4);
-    assert!(said.contains("require") && said.contains("1e-30") && said.contains("1.0"), "{said}");
+    assert_says(scratch.prints("campaign loose.toml --no-report --shard 2/2 --out r", 4), ["require", "1e-30", "1.0"]);
     scratch.prints("campaign strict.toml --no-report --out r", 3);
     let whole = contents(&scratch.path("r"));
     scratch.prints("campaign strict.toml --no-report --shard 1/2 --out r", 0);

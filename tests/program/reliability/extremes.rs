@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 
-use crate::support::plans::files;
 use arrow_array::Array as _;
-use arrow_array::cast::AsArray as _;
 use spindrift::findings::loss::readable;
 const SPIN: &str = "[0, 3.141592653589793, 31.41592653589793]";
 
@@ -75,10 +73,10 @@ fn extremes_are_refused_or_answered() {
             Some(0 | 1) => {
                 answered += 1;
                 let rows = &scratch.table("r/runs/part-000000.parquet");
-                let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();
+                let statuses = texts(rows, "status");
                 assert_eq!(statuses.len(), 5, "{to}");
                 assert!(statuses.iter().flatten().all(|status| status != "internal_error"), "{to}");
-                let reasons = rows.column_by_name("reason").unwrap().as_string::<i32>();
+                let reasons = texts(rows, "reason");
                 let is_reason = |row| (statuses.value(row) == "ok") == reasons.is_null(row);
                 assert!((0..5).all(is_reason), "{to}");
                 scratch.prints("verify r --fraction 1", 0);
@@ -119,7 +117,7 @@ fn what_is_out_of_reach_ends_at_once() {
         );
         scratch.prints("campaign long.toml --out r --overwrite", 1);
         let rows = &scratch.table("r/runs/part-000000.parquet");
-        let statuses = rows.column_by_name("status").unwrap().as_string::<i32>();
+        let statuses = texts(rows, "status");
         assert!(statuses.iter().all(|status| status == Some("step_limit")), "{to}: {statuses:?}");
     }
     let fast = campaign().replace(SPIN, "[1e9, 1e9, 0]");
@@ -144,12 +142,10 @@ fn outliers_end_alone() {
         \"radii.csv\"\ncolumn = \"x\"\n";
     scratch.file("outliers.toml", &format!("{}{radius}", &text[..at]));
     scratch.file("radii.csv", &format!("x\n{}1e9\n1e7\n", "0.25\n0.26\n".repeat(3)));
-    let said = scratch.prints_wide("check outliers.toml", 0);
-    assert!(said.contains("cannot be estimated: sample "), "{said}");
+    assert_says(scratch.prints_wide("check outliers.toml", 0), ["cannot be estimated: sample "]);
     scratch.prints("campaign outliers.toml --out r", 1);
     let rows = &scratch.table("r/runs/part-000000.parquet");
-    let [statuses, reasons] =
-        ["status", "reason"].map(|name| rows.column_by_name(name).unwrap().as_string::<i32>().clone());
+    let [statuses, reasons] = ["status", "reason"].map(|name| texts(rows, name).clone());
     let limited: Vec<usize> = (0..40).filter(|row| statuses.value(*row) == "step_limit").collect();
     assert!((5..20).contains(&limited.len()), "{limited:?}");
     assert_eq!(limited.len() + statuses.iter().filter(|status| *status == Some("ok")).count(), 40, "{statuses:?}");
@@ -182,6 +178,8 @@ fn masses_that_overflow_are_refused() {
 /// Law: a campaign of the nominal sample alone is checked, without draws and percentiles.
 #[test]
 fn a_campaign_of_one_sample_is_checked() {
-    let said = folder("one-sample").says("check", "slew.toml", "--set campaign.samples=1 --verbose", 0);
-    assert!(said.contains("of 0 draws (sample 0 is nominal)"), "{said}");
+    assert_says(
+        folder("one-sample").says("check", "slew.toml", "--set campaign.samples=1 --verbose", 0),
+        ["of 0 draws (sample 0 is nominal)"],
+    );
 }

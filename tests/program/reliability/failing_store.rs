@@ -1,14 +1,16 @@
 //! [`Failing`]: a folder in which the k-th operation fails, and a small dataset made in it.
 
 use crate::prelude::*;
-use std::fs::{self, TryLockError};
-use std::io;
-use std::sync::Arc;
+use std::{fs::TryLockError, io, sync::Arc};
 
-use spindrift::storage::disk::folder;
-use spindrift::storage::identity::{RowsMetadata, sealed, sha256};
-use spindrift::storage::store::{Entry, Store};
-use spindrift::workflow::{Outputs, WorkflowError as Failure};
+use spindrift::{
+    storage::{
+        disk::folder,
+        identity::{RowsMetadata, sealed, sha256},
+        store::{Entry, Store},
+    },
+    workflow::{Outputs, WorkflowError as Failure},
+};
 
 pub use crate::support::scratch_folder::contents;
 

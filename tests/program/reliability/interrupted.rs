@@ -88,8 +88,7 @@ fn other_questions_of_the_same_rows_run_nothing() {
     let before = scratch.parts("r");
     let require = "\n[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.9\nat_most = 1e-30\n";
     scratch.file("strict.toml", &format!("{}{require}", campaign().replace("\"small\"", "\"strict\"")));
-    let said = scratch.prints("campaign strict.toml --out r", 3);
-    assert!(said.contains("600 samples already there, 0 to run") && said.contains("FAIL"), "{said}");
+    assert_says(scratch.prints("campaign strict.toml --out r", 3), ["600 samples already there, 0 to run", "FAIL"]);
     assert_eq!(scratch.parts("r"), before);
     assert!(scratch.text("r/plan.toml").contains("strict"));
     scratch.prints("campaign strict.toml --out r", 3);

@@ -3,10 +3,10 @@
 use crate::prelude::*;
 use std::sync::Arc;
 
-use spindrift::workflow::compared::compared;
-use spindrift::workflow::finishing::finish as finished;
-use spindrift::workflow::page::remade;
-use spindrift::workflow::{Outputs, Verification, WorkflowError as Failure, verify as verified};
+use spindrift::workflow::{
+    Outputs, Verification, WorkflowError as Failure, compared::compared, finishing::finish as finished, page::remade,
+    verify as verified,
+};
 
 use crate::reliability::failing_store::{Fault, Making, Operation, Plot, contents, made, on, reason};
 

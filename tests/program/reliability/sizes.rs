@@ -98,15 +98,13 @@ fn what_is_replaced_is_asked_for() {
     let before = contents(&scratch.path("r"));
     assert!(before.contains_key("summary.json"));
 
-    let said = scratch.prints("campaign long.toml --out r --overwrite", 2);
-    assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
+    assert_says(scratch.prints("campaign long.toml --out r --overwrite", 2), [asks, "2 runs of small"]);
     assert!(contents(&scratch.path("r")) == before, "refused, and the result is another");
     scratch.shows("campaign long.toml --out r", 1, "already complete");
     assert!(contents(&scratch.path("r")) == before);
     let entries = fs::read_dir(&scratch.0).unwrap().count();
     assert_eq!(entries, 4, "a folder of a replacement is left");
 
-    let said = scratch.prints("campaign long.toml --out r --samples 4", 2);
-    assert!(said.contains(asks) && said.contains("2 runs of small"), "{said}");
+    assert_says(scratch.prints("campaign long.toml --out r --samples 4", 2), [asks, "2 runs of small"]);
     scratch.prints("campaign long.toml --out r --overwrite --yes", 1);
 }

@@ -22,8 +22,7 @@ fn threads_and_shards_change_no_byte() {
             } else {
                 for shard in (1..=shards).rev() {
                     if shard == 1 {
-                        let said = scratch.prints("finish r", 4);
-                        assert!(said.contains("missing") && said.contains("spindrift campaign"), "{said}");
+                        assert_says(scratch.prints("finish r", 4), ["missing", "spindrift campaign"]);
                     }
                     scratch
                         .prints(&format!("campaign all.toml --threads {threads} --shard {shard}/{shards} --out r"), 0);
@@ -53,8 +52,7 @@ fn a_shard_reads_its_own_parts() {
     fs::write(part(1), b"x").unwrap();
     let said = scratch.prints(&shard(1), 0);
     assert!(!said.contains("damaged") && said.contains("768 samples already there, 0 to run"), "{said}");
-    let said = scratch.prints("finish r", 4);
-    assert!(said.contains("part-000001") && said.contains("missing"), "{said}");
+    assert_says(scratch.prints("finish r", 4), ["part-000001", "missing"]);
     scratch.shows(&shard(2), 0, "464 samples already there, 256 to run");
     assert!(fs::read(part(1)).unwrap() == whole);
     scratch.prints("finish r", 0);

@@ -16,8 +16,8 @@ fn an_audit_has_a_limit() {
     let scratch = folder("audit-limit");
     // the limit is of the debris alone, and below it nothing is refused
     for (rate, is_within) in [(8000.0, true), (40_000.0, false)] {
-        let plan = Plan::from_text("fast", &with_debris_rate(rate), Overrides::default()).unwrap();
-        let scene = Scene::resolve(&plan.nominal).unwrap();
+        let plan = planned(&with_debris_rate(rate));
+        let scene = resolved(&plan.nominal);
         let found = Auditor::new(&plan, Isa::best(), &plan.grid).audit(&scene);
         assert_eq!(found.is_ok(), is_within, "{rate}: {found:?}");
         assert!(is_within || matches!(found, Err(NoAudit::Limit { units, body: "debris", .. }) if units > 16_384.0));
@@ -26,7 +26,7 @@ fn an_audit_has_a_limit() {
         scratch.file("fast.toml", &with_debris_rate(rate));
         scratch.prints("campaign fast.toml --out r --overwrite", 0);
         let rows = &scratch.table("r/runs/part-000000.parquet");
-        let reasons = rows.column_by_name(AUDIT_REASON).unwrap().as_string::<i32>();
+        let reasons = texts(rows, AUDIT_REASON);
         let errors = rows.column_by_name("audit_state_error").unwrap().as_primitive::<Float64Type>();
         for row in 0..6 {
             assert_eq!((errors.is_valid(row), reasons.is_null(row)), (is_audited, is_audited), "{rate}, row {row}");
@@ -44,7 +44,7 @@ fn nowhere(_: &Rows) -> Result<(), String> {
 }
 
 fn told(text: &str) -> Vec<u64> {
-    let plan = Plan::from_text("long", text, Overrides::default()).unwrap();
+    let plan = planned(text);
     let told = Mutex::new(Vec::new());
     let progress = |samples| told.lock().unwrap().push(samples);
     let ensemble = Ensemble::new(&plan, Isa::best());

@@ -30,8 +30,7 @@ fn a_dead_thruster_is_named() {
     // four events give no shares of a variance: the picture has the share of the runs by the levels of the driver
     let chart = found.figure("shares_phase_rest_begin_s_thrusters_p2_thrust_scale");
     assert!(chart["title"].as_str().unwrap().contains("thruster p2 thrust scale"), "{chart}");
-    let names: Vec<&str> =
-        found.data["figures"].as_array().unwrap().iter().filter_map(|figure| figure["name"].as_str()).collect();
+    let names: Vec<&str> = found.figures().iter().filter_map(|figure| figure["name"].as_str()).collect();
     assert!(!names.contains(&"influence_twice_event") && names.contains(&"influence_propellant_kg"), "{names:?}");
     let is_said = |line: &str| {
         line.trim_start().starts_with("propellant")

@@ -5,8 +5,8 @@ use crate::prelude::*;
 use crate::commands::screen_numbers::junit_counts;
 
 fn ends(batch: &RecordBatch) -> Vec<(String, Option<String>)> {
-    let statuses = batch.column_by_name("status").unwrap().as_string::<i32>();
-    let reasons = batch.column_by_name("reason").unwrap().as_string::<i32>();
+    let statuses = texts(batch, "status");
+    let reasons = texts(batch, "reason");
     let text = |row: usize| (!reasons.is_null(row)).then(|| reasons.value(row).to_owned());
     (0..batch.num_rows()).map(|row| (statuses.value(row).to_owned(), text(row))).collect()
 }

@@ -46,8 +46,7 @@ fn a_loss_is_said_first_and_is_not_random() {
     assert!(warning < said.find("requirement,").unwrap(), "{said}");
     let summary = scratch.summary("lost");
     let warnings = summary["warnings"].as_array().unwrap();
-    let first = warnings[0].as_str().unwrap();
-    assert!(first.contains("What decides it: initial"), "{first}");
+    assert_says(warnings[0].as_str().unwrap(), ["What decides it: initial"]);
     let page = scratch.text("lost/report.html");
     let place = |anchor: &str| page.find(&format!("<section id=\"{anchor}\"")).unwrap_or_else(|| panic!("{anchor}"));
     assert!(place("warnings") < place("status") && page.contains("<b>NOT COMPUTED:</b>"));

@@ -5,7 +5,6 @@ pub mod audit;
 pub mod audit_limit;
 pub mod band_requirements;
 pub mod drivers;
-pub mod ended_runs;
 pub mod failed_again;
 pub mod failed_runs;
 pub mod lost_runs;

@@ -1,6 +1,6 @@
 //! How many runs would decide a requirement that is undecided, and at which confidence one that fails alone would.
 
-use crate::prelude::*;
+use crate::{commands::screen_numbers::junit_counts, prelude::*};
 
 /// Law: half the distance between estimate and limit takes four times as many runs.
 #[test]
@@ -57,7 +57,10 @@ fn a_requirement_may_fail_alone() {
     assert_eq!((&one["verdict"], &one["violations"]), (&"UNDECIDED".into(), &166.into()));
     let known = ["confidence_of_pass_and_bounds", "confidence_of_fail"].map(|key| 100.0 * one[key].as_f64().unwrap());
     assert!((known[0] - 95.0).abs() < 1e-9 && (known[1] - 97.5).abs() < 1e-9, "{known:?}");
-    for said in [said, scratch.text("junit.xml")] {
+    let junit = scratch.text("junit.xml");
+    assert!(said.contains("UNDECIDED  ") && junit_counts(&junit)[1..] == [0, 1], "{said}{junit}");
+    assert_says(&junit, ["<error type=\"undecided\""]);
+    for said in [said, junit] {
         says(&said, "missed at #%, not at the #% that all requirements together ask for", &known);
     }
 }

@@ -3,28 +3,8 @@
 use crate::prelude::*;
 
 use parquet::basic::{Compression, ZstdLevel};
-use parquet::file::reader::{FileReader, SerializedFileReader};
-use sha2::{Digest, Sha256};
 
-use crate::support::parquet_tables::schema;
-
-const HEAD: &str = r#"
-[campaign]
-name = "limited"
-samples = 1500
-seed = 7
-duration_s = 1.0
-[integrator]
-method = "dop853"
-tolerance = 1e-9
-max_steps = 40
-[observe]
-points = 11
-"#;
-
-fn campaign() -> String {
-    [HEAD, FUSELAGE, WHEEL1, WHEEL2, SPACECRAFT_STATE, SPIN_DISPERSION].concat()
-}
+use crate::{results::failed_again::limited, support::parquet_tables::schema};
 
 fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String {
     folder.file("own.toml", text);
@@ -34,18 +14,18 @@ fn run(folder: &ScratchFolder, text: &str, arguments: &str, code: i32) -> String
 #[test]
 fn the_summary_is_that_of_the_files() {
     let folder = ScratchFolder::new("statistics");
-    let said = run(&folder, &campaign(), "--out r --verbose", 1);
-    assert!(said.contains(" of 1500 runs (1 nominal) computed in "), "{said}");
+    let said = run(&folder, &limited(40), "--samples 1500 --out r --verbose", 1);
+    assert_says(&said, [" of 1500 runs (1 nominal) computed in "]);
     let (summary, rows) = (folder.summary("r"), folder.rows("r"));
     let ended = ended(&rows);
     let failed: Vec<u64> = ended.iter().filter(|(_, status)| status == "step_limit").map(|(id, _)| *id).collect();
     assert!(failed.len() > 20 && failed.len() < 750, "{} runs hit the limit", failed.len());
     assert_eq!(summary["statuses"]["step_limit"], failed.len());
     assert_eq!(summary["first_failed"]["step_limit"], Value::from(failed[..3].to_vec()));
-    assert!(said.contains(&format!("--sample {}", failed[0])), "{said}");
+    assert_says(&said, [&format!("--sample {}", failed[0])]);
 
     let table = folder.table("r/statistics.parquet");
-    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
+    let names = texts(&table, "observable");
     let lines = summary["observables"].as_array().unwrap();
     assert!(lines.len() > 5);
     for line in lines {
@@ -78,8 +58,8 @@ fn files_say_what_they_contain() {
     let zstd = Compression::ZSTD(ZstdLevel::default());
     for (name, codec) in [("lz4", Compression::LZ4_RAW), ("zstd", zstd), ("none", Compression::UNCOMPRESSED)] {
         let folder = ScratchFolder::new(&format!("codec-{name}"));
-        let text = format!("{}[output]\ncompression = \"{name}\"\n", campaign());
-        run(&folder, &text, "--samples 600 --out r", 1);
+        let text = format!("{}[output]\ncompression = \"{name}\"\n", limited(40));
+        run(&folder, &text, "--out r", 1);
         let mut next = 0.0;
         for (part, file) in folder.part_files("r").iter().enumerate() {
             let reader = SerializedFileReader::new(File::open(file).unwrap()).unwrap();

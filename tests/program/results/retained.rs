@@ -2,7 +2,6 @@
 
 use crate::prelude::*;
 
-use parquet::file::reader::{FileReader, SerializedFileReader};
 use spindrift::analysis::accumulator::of_files;
 use spindrift::analysis::trajectories::{Retained, file_name};
 use spindrift::storage::rows_reader::{RowsError, RowsReader};
@@ -15,7 +14,7 @@ fn file(retain: &str) -> String {
 }
 
 fn plan(retain: &str) -> Plan {
-    Plan::from_text("small.toml", &file(retain), Overrides::default()).unwrap()
+    planned(&file(retain))
 }
 
 fn rows(scratch: &ScratchFolder) -> RowsReader {

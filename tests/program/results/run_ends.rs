@@ -70,7 +70,7 @@ fn everything_ends_where_the_row_does() {
         let before = (0..121).filter(|point| f64::from(*point) * 0.5 < reached[sample]).count();
         assert_eq!((times.last(), times.len()), (Some(&reached[sample]), before + 1), "sample {sample}");
     }
-    for run in found.data["replay"]["runs"].as_array().unwrap() {
+    for run in found.shown_runs() {
         let sample = run["sample"].as_u64().unwrap() as usize;
         let last = *found.array(&run["times"]).last().unwrap();
         assert!((last - reached[sample]).abs() < 1e-5 * reached[sample], "sample {sample}: {last}");
@@ -91,4 +91,12 @@ fn everything_ends_where_the_row_does() {
         let left = (1..600).filter(|row| reached[*row] >= time).count() as f64;
         assert_eq!(count, left, "{time} s");
     }
+}
+
+#[test]
+fn audits_know_where_a_run_has_ended() {
+    let audit = &campaign("audits", "--samples 200 --audit 1 --no-report").summary("r")["audit"];
+    assert_eq!((audit["audited"].as_u64(), audit["failed"].as_u64()), (Some(199), Some(0)));
+    assert!(audit["estimate"]["coverage"].as_f64().unwrap() >= 0.95, "{audit}");
+    assert!(audit["state_error"]["max"].as_f64().unwrap() < 5e-14, "{audit}");
 }

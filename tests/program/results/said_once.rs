@@ -81,7 +81,7 @@ fn of_page(name: &str, (rows, screen): (&[OutcomeRow], &str), page: &str, found:
         let is_it = |row: &OutcomeRow| near(&row.median, median) && near(&row.max, max) && is_unit(&row.unit);
         assert!(rows.iter().any(is_it), "{name}: {said}");
     }
-    for figure in found.data["figures"].as_array().unwrap() {
+    for figure in found.figures() {
         let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
         let is_of_it = |row: &&OutcomeRow| {
             text(&figure["name"]).starts_with("histogram_") && text(&figure["title"]).to_lowercase() == row.title

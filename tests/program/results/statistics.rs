@@ -45,7 +45,7 @@ fn statistics_are_those_of_the_files() {
     let rows = scratch.rows("r");
     let ok = ended(&rows).iter().filter(|(sample, status)| *sample > 0 && status == "ok").count();
     let table = scratch.table("r/statistics.parquet");
-    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
+    let names = texts(&table, "observable");
     assert!(table.num_rows() > 100);
     let mut checked = 0;
     for row in 0..table.num_rows() {
@@ -94,7 +94,7 @@ fn statistics_are_those_of_the_files() {
         // some 400 runs bound the median, and p99.9 from below only
         assert!(of("p50_lower") <= of("p50") && of("p50") <= of("p50_upper"), "{name}");
         assert!(of("p99_9_lower").is_some() && of("p99_9_upper").is_none() && of("p0_1_lower").is_none(), "{name}");
-        let notes = table.column_by_name("p99_9_note").unwrap().as_string::<i32>();
+        let notes = texts(&table, "p99_9_note");
         // ln 0.025 / ln 0.999 = 3687.04, ln 0.05 / ln 0.999 = 2994.2
         assert_eq!(notes.value(row), "p99.9 with 95% confidence needs 3688 runs (2995 for a bound on one side)");
         checked += 1;
@@ -126,7 +126,7 @@ fn designs_without_independent_samples_have_no_intervals() {
             String::from_utf8(command.env("COLUMNS", "1000").output().unwrap().stdout).unwrap()
         });
         let table = scratch.table("r/statistics.parquet");
-        let intervals = table.column_by_name("intervals").unwrap().as_string::<i32>();
+        let intervals = texts(&table, "intervals");
         assert!(
             intervals.value(0).starts_with("none: ") && intervals.value(0).contains(says),
             "{}",
@@ -174,9 +174,7 @@ quantile = 0.9
     let mut command = scratch.command("campaign spin.toml --out r --verbose");
     let screen = scratch.outputs(command.env("COLUMNS", "200"), 0);
     let inputs = scratch.table("r/sensitivity.parquet");
-    let name = |column: &str, row: usize| {
-        inputs.column_by_name(column).expect(column).as_string::<i32>().value(row).to_owned()
-    };
+    let name = |column: &str, row: usize| texts(&inputs, column).value(row).to_owned();
     let rows: Vec<usize> = (0..inputs.num_rows()).filter(|row| name("observable", *row) == "cross_spin").collect();
     let drives = |row: usize| number(&inputs, "first_order_lower", row).unwrap() > 0.0;
     let mut drivers: Vec<usize> = rows.into_iter().filter(|row| drives(*row)).collect();
@@ -209,7 +207,7 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
     scratch.prints("campaign many.toml --out r --no-report", 0);
     let rows = scratch.rows("r");
     let table = scratch.table("r/statistics.parquet");
-    let names = table.column_by_name("observable").unwrap().as_string::<i32>();
+    let names = texts(&table, "observable");
     let mut checked = 0;
     for row in 0..table.num_rows() {
         let name = names.value(row);
@@ -254,8 +252,7 @@ fn a_negative_correlation_is_one_too() {
         scratch.file("partners.toml", &(campaign() + &correlate));
         scratch.prints("campaign partners.toml --out r --overwrite --no-report", 0);
         let table = scratch.table("r/sensitivity.parquet");
-        let text =
-            |name: &str, row: usize| table.column_by_name(name).expect(name).as_string::<i32>().value(row).to_owned();
+        let text = |name: &str, row: usize| texts(&table, name).value(row).to_owned();
         let input = |axis: &str| format!("initial_angular_velocity_{axis}_rad_s");
         assert!(table.num_rows() >= 3);
         for row in 0..table.num_rows() {

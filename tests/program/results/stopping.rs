@@ -36,7 +36,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     scratch.file("never.toml", &stopping("1e-30"));
     let mut command = scratch.command("campaign never.toml --out never --junit never.xml");
     let said = scratch.outputs(command.env("COLUMNS", "250"), 5);
-    assert!(said.contains("not precise enough"), "{said}");
+    assert_says(&said, ["not precise enough"]);
     let junit = |name: &str| fs::read_to_string(scratch.path(name)).unwrap();
     let missed = junit("never.xml");
     assert!(junit_counts(&missed) == [2, 0, 1] && missed.contains("<error type=\"stop\""), "{missed}");
@@ -81,8 +81,7 @@ fn a_campaign_stops_when_it_is_precise_enough() {
     assert!(checked.contains(&format!(" {samples} rows: checksums compared")), "the manifest: {checked}");
     let manifest = scratch.text("stopped/manifest.json");
     fs::remove_file(scratch.path("stopped/manifest.json")).unwrap();
-    let refused = scratch.prints("finish stopped", 4);
-    assert!(refused.contains("spindrift campaign"), "{refused}");
+    assert_says(scratch.prints("finish stopped", 4), ["spindrift campaign"]);
     scratch.prints("campaign stop.toml --out stopped", 0);
     assert_eq!(scratch.text("stopped/manifest.json"), manifest);
     assert!(scratch.prints("campaign never.toml --out never", 5).contains("already complete"));
