@@ -1,7 +1,7 @@
 //! The layers of the architecture, checked on the source line by line; the compiler, clippy and `cargo deny` hold
 //! others.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 const LAYERS: [(&str, u32); 20] = [
     ("math", 0),

@@ -1,6 +1,6 @@
 //! README and `docs/`: every name is documented, every campaign file is valid, and every command exists.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use clap::{CommandFactory, Parser};
 use spindrift::campaign::find;
@@ -13,10 +13,6 @@ const README_LINES: usize = 200;
 const FRAGMENT: &str = "<!-- fragment -->";
 
 const OTHER_PROGRAMS: [&str; 8] = ["sha256sum", "git", "cd", "rustup", "cp", "pip", "clang", "rustc"];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
-}
 
 fn text(file: &Path) -> String {
     std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))

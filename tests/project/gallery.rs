@@ -1,10 +1,6 @@
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 const LARGEST: u64 = 600_000;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
-}
 
 fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<String> {
     let Some((_, entry)) = gallery.split_once(&format!("\n### {name}.toml\n\n")) else {
@@ -38,8 +34,7 @@ fn problem(gallery: &str, name: &str, question: &str, samples: u64) -> Option<St
 #[test]
 fn every_campaign_is_in_the_gallery() {
     let gallery = fs::read_to_string(root().join("docs/gallery.md")).unwrap();
-    let files = fs::read_dir(root().join("campaigns")).unwrap().map(|entry| entry.unwrap().path());
-    let files: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    let files = files();
     for file in &files {
         let text = fs::read_to_string(file).unwrap();
         let plan = Plan::from_text_in(&root().join("campaigns"), "c.toml", &text, Overrides::default()).unwrap();

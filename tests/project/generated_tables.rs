@@ -2,31 +2,30 @@
 //!
 //! `SPINDRIFT_WRITE_DOCS=1 cargo test --release --test project` writes them again.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use std::fmt::Write as _;
 
-use spindrift::campaign::scene::TABLES;
-use spindrift::campaign::{draws, failure_tables, settings};
-use spindrift::dynamics::effects::Effect;
-use spindrift::ensemble::plausibility::looked::digits;
-use spindrift::ensemble::plausibility::{rule::Limit, rules::RULES};
-use spindrift::observables::band_series::band_series;
-use spindrift::observables::request::wheel_names;
-use spindrift::observables::{LawColumns, LawSeries, table};
-use spindrift::sampling::DistributionKind;
-use spindrift::sampling::keys::{Kind, Presence, Rule};
-use spindrift::scene::LawParameter;
-use spindrift::scene::table::Table;
-use spindrift::storage::rows_file::{columns, parameter_columns};
-use spindrift::storage::timeseries::time_series;
-use spindrift::table::Column;
+use spindrift::{
+    Quantity,
+    campaign::{draws, failure_tables, scene::TABLES, settings},
+    control::guidance::condition::{GuidanceQuantity, QUANTITIES},
+    ensemble::plausibility::{
+        looked::digits,
+        rule::{Limit, Rule as PlausibilityRule},
+        rules::RULES,
+    },
+    observables::{LawColumns, LawSeries, band_series::band_series, request::wheel_names, table},
+    sampling::keys::{Kind, Presence, Rule},
+    scene::{LawParameter, table::Table},
+    storage::{
+        rows_file::{columns, parameter_columns},
+        timeseries::time_series,
+    },
+    table::Column,
+};
 
 /// If this variable is set, the tables are written and not compared.
 const WRITE: &str = "SPINDRIFT_WRITE_DOCS";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
-}
 
 fn text(file: &str) -> String {
     std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
@@ -36,38 +35,41 @@ fn plan(name: &str) -> Plan {
     Plan::load(&root().join("campaigns").join(name), Overrides::default()).unwrap()
 }
 
-fn cell(text: &str) -> String {
-    text.replace('|', "\\|")
+/// A table of Markdown.
+fn markdown<const N: usize>(heads: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    let line = |cells: [String; N]| format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "));
+    let head = line(heads.map(str::to_owned)) + &line(from_fn(|_| "---".to_owned()));
+    rows.into_iter().fold(head, |table, row| table + &line(row))
+}
+
+fn code(text: &str) -> String {
+    format!("`{text}`")
+}
+
+fn unit_and_meaning(quantity: &Quantity) -> [String; 3] {
+    [code(quantity.name()), quantity.unit().to_owned(), quantity.meaning().to_owned()]
 }
 
 fn columns_of_rows() -> String {
     let mut table = String::new();
     let mut section = |title: &str, rows: &[[String; 4]]| {
-        let _ = writeln!(table, "<details><summary>{title} ({})</summary>\n", rows.len());
-        let _ = writeln!(table, "| column | unit | what it is | only |\n| --- | --- | --- | --- |");
-        for [name, unit, meaning, only] in rows {
-            let _ = writeln!(table, "| `{name}` | {unit} | {} | {only} |", cell(meaning));
-        }
-        let _ = writeln!(table, "\n</details>\n");
+        let columns = markdown(["column", "unit", "what it is", "only"], rows.iter().cloned());
+        let _ = writeln!(table, "<details><summary>{title} ({})</summary>\n\n{columns}\n</details>\n", rows.len());
     };
     let plan = plan("spin_sweep.toml");
     let all = columns(&Ensemble::new(&plan, Isa::best()));
-    let row = |column: &Column| {
-        let quantity = &column.quantity;
-        [quantity.name(), quantity.unit(), quantity.meaning(), ""].map(str::to_owned)
+    let only = |quantity: &Quantity, scenes: &str| {
+        let [name, unit, meaning] = unit_and_meaning(quantity);
+        [name, unit, meaning, scenes.to_owned()]
     };
+    let row = |column: &Column| only(&column.quantity, "");
     let dispersed: Vec<[String; 4]> = parameter_columns(&plan).map(|column| row(&column)).collect();
     let own: Vec<[String; 4]> = all.iter().map(row).take_while(|row| dispersed.first() != Some(row)).collect();
     section("the sample", &own);
     section("dispersed values, here those of <code>spin_sweep.toml</code>", &dispersed);
     for group in Group::ALL {
         let of_group = table::all().filter(|column| column.group == group);
-        let rows: Vec<_> = of_group
-            .map(|column| {
-                let quantity = &column.quantity;
-                [quantity.name(), quantity.unit(), quantity.meaning(), column.scenes()].map(str::to_owned)
-            })
-            .collect();
+        let rows: Vec<_> = of_group.map(|column| only(&column.quantity, column.scenes())).collect();
         section(&format!("group <code>{}</code>", group.name()), &rows);
     }
     table
@@ -75,10 +77,8 @@ fn columns_of_rows() -> String {
 
 fn columns_of_series() -> String {
     let plan = plan("burn.toml");
-    let isa = Isa::best();
-    let run = SingleRun::new(&plan, SampleId(0), plan.grid.clone(), isa).unwrap();
-    let series = time_series(SampleId(0), &run, |_| true);
-    let names: Vec<String> = series.columns.iter().map(|column| format!("`{}`", column.quantity.name())).collect();
+    let series = time_series(SampleId(0), &single(&plan, 0), |_| true);
+    let names: Vec<String> = series.columns.iter().map(|column| code(column.quantity.name())).collect();
     format!("{}.\n", names.join(", "))
 }
 
@@ -94,17 +94,12 @@ fn quantities_over_time() -> String {
         of_law: LawColumns { over_time: LawSeries::ALL, ..LawColumns::NONE },
         windows: spindrift::observables::window::NO_WINDOWS,
     };
-    let mut table = String::from("| series | unit | what it is |\n| --- | --- | --- |\n");
-    for band in band_series(&request) {
-        let quantity = &band.quantity;
-        let _ = writeln!(table, "| `{}` | {} | {} |", quantity.name(), quantity.unit(), cell(quantity.meaning()));
-    }
-    table
+    let bands = band_series(&request);
+    markdown(["series", "unit", "what it is"], bands.iter().map(|band| unit_and_meaning(&band.quantity)))
 }
 
 fn rules() -> String {
-    let mut table = String::from("| looked at | noted | because | usual |\n| --- | --- | --- | --- |\n");
-    for rule in RULES {
+    let row = |rule: &PlausibilityRule| {
         let (sign, limit) = match rule.limit {
             Limit::From(limit) => (">=", limit),
             Limit::Below(limit) => ("<", limit),
@@ -113,15 +108,14 @@ fn rules() -> String {
         let unit = if unit == "1" { "" } else { unit };
         let noted =
             if limit == 0.0 { "always".to_owned() } else { format!("{sign} {} {unit}", digits(limit * factor)) };
-        let cells = [rule.subject, noted.trim_end(), rule.source, rule.usual].map(cell);
-        let _ = writeln!(table, "| {} |", cells.join(" | "));
-    }
-    table
+        [rule.subject, noted.trim_end(), rule.source, rule.usual].map(str::to_owned)
+    };
+    markdown(["looked at", "noted", "because", "usual"], RULES.iter().map(row))
 }
 
 /// Dependencies with their comments in the list of all packages.
 fn dependencies() -> String {
-    let mut table = String::from("| crate | version | why | where |\n| --- | --- | --- | --- |\n");
+    let mut rows = Vec::new();
     let listed = listed_dependencies();
     let [program, kernels, figures, python, benches] = [
         "Cargo.toml",
@@ -148,13 +142,13 @@ fn dependencies() -> String {
         for name in dependencies.as_table().unwrap().keys().filter(|name| !own(name)) {
             if named.insert(name) {
                 let (version, why) = &listed[name];
-                let _ = writeln!(table, "| {name} | {version} | {} | {place} |", cell(why));
+                rows.push([name, version, why, place].map(str::to_owned));
             }
         }
     }
     let unused: Vec<&String> = listed.keys().filter(|name| !named.contains(name) && !own(name)).collect();
     assert!(unused.is_empty(), "no package uses {unused:?}");
-    table
+    markdown(["crate", "version", "why", "where"], rows)
 }
 
 fn listed_dependencies() -> BTreeMap<String, (String, String)> {
@@ -199,7 +193,8 @@ fn parameters() -> String {
                 Some(_) => "required".to_owned(),
                 None => key.default_text().map_or("none".to_owned(), |text| format!("`{text}`")),
             };
-            let (components, limit, meaning) = (facts.components.join(", "), facts.limit.words(), cell(facts.meaning));
+            let (components, limit, meaning) =
+                (facts.components.join(", "), facts.limit.words(), facts.meaning.replace('|', "\\|"));
             let _ =
                 writeln!(text, "| `{}` | {} | {components} | {default} | {limit} | {meaning} |", facts.key, facts.unit);
         }
@@ -227,26 +222,21 @@ fn keys_of_loops() -> String {
     }
     lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &net_launch::parameters::TRANSFER));
     lists.push(("`[[guidance]]`, `target = \"attitude\"`".into(), &parameters::ATTITUDE));
-    let mut text = String::from("| table | key | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n");
-    for (table, list) in lists {
-        for parameter in list {
-            let facts = &parameter.facts;
-            let default = match parameter.default {
-                None => "required".to_owned(),
-                Some([number]) => format!("`{number:?}`"),
-                Some(numbers) => format!("`{numbers:?}`"),
-            };
-            let _ =
-                writeln!(text, "| {table} | `{}` | {} | {default} | {} |", facts.key, facts.unit, cell(facts.meaning));
-        }
-    }
-    text
+    let row = |(table, parameter): (&String, &LawParameter)| {
+        let facts = &parameter.facts;
+        let default = match parameter.default {
+            None => "required".to_owned(),
+            Some([number]) => format!("`{number:?}`"),
+            Some(numbers) => format!("`{numbers:?}`"),
+        };
+        [table.clone(), code(facts.key), facts.unit.to_owned(), default, facts.meaning.to_owned()]
+    };
+    let rows = lists.iter().flat_map(|(table, list)| list.iter().map(move |parameter| row((table, parameter))));
+    markdown(["table", "key", "unit", "default", "meaning"], rows)
 }
 
 fn keys_of_tables() -> String {
-    let mut text = String::from(
-        "| table | key | value | unit | default | limit | meaning |\n| --- | --- | --- | --- | --- | --- | --- |\n",
-    );
+    let mut all = Vec::new();
     let kinds = DistributionKind::ALL.iter().map(|kind| {
         (format!("`[[disperse]]`, `distribution = \"{}\"`", kind.name()), kind.keys().to_vec(), kind.rules())
     });
@@ -285,67 +275,63 @@ fn keys_of_tables() -> String {
                 (Presence::Optional, one) => one.unwrap_or_default(),
             };
             let (value, unit) = match row.kind {
-                Kind::Amounts => ("one number, or one for each component".to_owned(), "of the parameter"),
-                Kind::Values => ("one number, or one for each component".to_owned(), ""),
-                Kind::AmountList => ("an array of numbers".to_owned(), "of the parameter"),
-                Kind::List => ("an array of numbers".to_owned(), ""),
-                Kind::Number => ("a number".to_owned(), ""),
-                Kind::Amount => ("a number".to_owned(), "of the observable or quantity"),
+                Kind::Amounts => ("one number, or one for each component".into(), "of the parameter"),
+                Kind::Values => ("one number, or one for each component".into(), ""),
+                Kind::AmountList => ("an array of numbers".into(), "of the parameter"),
+                Kind::List => ("an array of numbers".into(), ""),
+                Kind::Number => ("a number".into(), ""),
+                Kind::Amount => ("a number".into(), "of the observable or quantity"),
                 Kind::Numbers(limit) => (limit.allowed.to_owned(), ""),
-                Kind::Observable => ("the name of an observable".to_owned(), ""),
-                Kind::Observables => ("an array of names of observables".to_owned(), ""),
-                Kind::Band => ("the name of a quantity over time".to_owned(), ""),
-                Kind::Expression => ("an expression".to_owned(), ""),
-                Kind::Flag => ("`true` or `false`".to_owned(), ""),
-                Kind::Yes => ("`true`".to_owned(), ""),
-                Kind::Units => ("an array of units".to_owned(), ""),
-                Kind::UnitsByName => ("a table of units by name".to_owned(), ""),
-                Kind::Vector => ("three numbers".to_owned(), ""),
-                Kind::Matrix => ("three rows of three numbers".to_owned(), ""),
+                Kind::Observable => ("the name of an observable".into(), ""),
+                Kind::Observables => ("an array of names of observables".into(), ""),
+                Kind::Band => ("the name of a quantity over time".into(), ""),
+                Kind::Expression => ("an expression".into(), ""),
+                Kind::Flag => ("`true` or `false`".into(), ""),
+                Kind::Yes => ("`true`".into(), ""),
+                Kind::Units => ("an array of units".into(), ""),
+                Kind::UnitsByName => ("a table of units by name".into(), ""),
+                Kind::Vector => ("three numbers".into(), ""),
+                Kind::Matrix => ("three rows of three numbers".into(), ""),
                 Kind::Count([least, most]) => (format!("a whole number from {least} to {most}"), ""),
-                Kind::Samples(_) => ("ascending whole numbers".to_owned(), ""),
+                Kind::Samples(_) => ("ascending whole numbers".into(), ""),
                 Kind::Text(limit) => (limit.allowed.to_owned(), ""),
                 Kind::Words(words, _) => (format!("an array of `\"{}\"`", words.join("\"`, `\"")), ""),
-                Kind::Counts(_) => ("whole numbers above zero".to_owned(), ""),
+                Kind::Counts(_) => ("whole numbers above zero".into(), ""),
                 Kind::Word(words) | Kind::WordOrDirection(words) => {
                     let is_required = matches!(row.presence, Presence::Required { .. });
                     let mark = if is_required { "\"`" } else { "\"` (default)" };
                     (format!("`\"{}\"`", words.join("\"`, `\"")).replacen("\"`", mark, 1), "")
                 }
-                Kind::Correlations => ("a number, or a row of numbers for each parameter".to_owned(), ""),
-                Kind::ByName => ("a table of numbers by name".to_owned(), ""),
-                Kind::Name => ("a name of this file".to_owned(), ""),
-                Kind::Parameter => ("text".to_owned(), ""),
-                Kind::Names | Kind::Parameters => ("an array of names of this file".to_owned(), ""),
+                Kind::Correlations => ("a number, or a row of numbers for each parameter".into(), ""),
+                Kind::ByName => ("a table of numbers by name".into(), ""),
+                Kind::Name => ("a name of this file".into(), ""),
+                Kind::Parameter => ("text".into(), ""),
+                Kind::Names | Kind::Parameters => ("an array of names of this file".into(), ""),
                 Kind::OneOf(words) => (format!("`\"{}\"`", words().join("\"`, `\"")), ""),
-                Kind::Distribution => ("a table with a distribution of one number".to_owned(), ""),
-                Kind::Column | Kind::Columns => ("the path of a file".to_owned(), ""),
+                Kind::Distribution => ("a table with a distribution of one number".into(), ""),
+                Kind::Column | Kind::Columns => ("the path of a file".into(), ""),
             };
             let limit = row.limit.map_or("", |limit| limit.allowed);
-            let meaning = cell(row.meaning);
-            let _ = writeln!(text, "| {table} | `{}` | {value} | {unit} | {default} | {limit} | {meaning} |", row.key);
+            let [unit, limit, meaning] = [unit, limit, row.meaning].map(str::to_owned);
+            all.push([table.clone(), code(row.key), value, unit, default, limit, meaning]);
         }
     }
-    text
+    markdown(["table", "key", "value", "unit", "default", "limit", "meaning"], all)
 }
 
 fn quantities_of_conditions() -> String {
-    let mut text = String::from("| name | meaning | only |\n| --- | --- | --- |\n");
-    for quantity in &spindrift::control::guidance::condition::QUANTITIES {
+    let row = |quantity: &GuidanceQuantity| {
         let only = if quantity.needs_debris { "with debris" } else { "" };
-        let _ = writeln!(text, "| `{}` | {} | {only} |", quantity.name, cell(quantity.meaning));
-    }
-    text
+        [code(quantity.name), quantity.meaning.to_owned(), only.to_owned()]
+    };
+    markdown(["name", "meaning", "only"], QUANTITIES.iter().map(row))
 }
 
 fn columns_of_loops() -> String {
     let plan = plan("net_launch.toml");
-    let mut text = String::from("| column | unit | what it is |\n| --- | --- | --- |\n");
-    for column in plan.request().columns().iter().filter(|column| column.group == Group::Control) {
-        let quantity = &column.quantity;
-        let _ = writeln!(text, "| `{}` | {} | {} |", quantity.name(), quantity.unit(), cell(quantity.meaning()));
-    }
-    text
+    let columns = plan.request().columns();
+    let of_loops = columns.iter().filter(|column| column.group == Group::Control);
+    markdown(["column", "unit", "what it is"], of_loops.map(|column| unit_and_meaning(&column.quantity)))
 }
 
 fn header(table: Table) -> String {

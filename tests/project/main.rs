@@ -13,3 +13,5 @@ mod gallery;
 mod generated_tables;
 mod weight;
 mod words;
+
+use support::prelude;

@@ -1,6 +1,6 @@
 //! The bytes of Rust in each crate and in the tests stay below the numbers in ARCHITECTURE.md.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 /// By how much a folder may be lighter than its number says, as a share: more, and the number is lowered.
 const SLACK: f64 = 0.05;

@@ -1,10 +1,6 @@
 //! The words of the glossary in ARCHITECTURE.md: what they replace is nowhere where a user reads.
 
-use crate::support::prelude::*;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
-}
+use crate::prelude::*;
 
 fn words(architecture: &str) -> Vec<(String, String)> {
     let table = architecture.split_once("| say | not |").unwrap().1;
