@@ -10,7 +10,7 @@ const TEXTS: [i32; 3] = [8192, 28_672, 32_768];
 pub const NOTHING: &[u8] = &[0x0b];
 
 /// A module that is flown without a torque, but for the changes of a test.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Assembled {
     /// Answers of `spindrift_interface`, `_input`, `_output`, `_measurements` and `_telemetry`.
     pub places: [i32; 5],
@@ -77,23 +77,14 @@ pub fn copied(from: i32, to: i32, count: i32) -> Vec<u8> {
 impl Assembled {
     pub fn with_step(step: &[u8]) -> Self {
         let places = [1, INPUT, OUTPUT, MEASURED, REPORTED];
-        let (start, table, tables, misnamed) = (None, None, [None; 2], "");
-        let (imports, is_mistyped, is_init_mistyped, locals, functions) = (false, false, false, 0, 0);
-        let step = step.to_vec();
-        Assembled {
-            places,
-            pages: 1,
-            step,
-            start,
-            table,
-            tables,
-            misnamed,
-            imports,
-            is_mistyped,
-            is_init_mistyped,
-            locals,
-            functions,
-        }
+        Assembled { places, pages: 1, step: step.to_vec(), ..Assembled::default() }
+    }
+
+    /// The bytes after `change`.
+    pub fn changed(&self, change: impl FnOnce(&mut Self)) -> Vec<u8> {
+        let mut module = self.clone();
+        change(&mut module);
+        module.bytes()
     }
 
     pub fn bytes(&self) -> Vec<u8> {

@@ -1,7 +1,7 @@
 //! Results in an object store: the bytes of a folder, whatever stops a process; nothing is replaced, and nothing that
 //! is not whole looks whole. `.ci/cloud` starts the server ([`super::store_proxy`]).
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use super::store_bench::{Bench, HEAD, HEAD_OBJECT, KEY, SECRET, SUCCESS, assert_whole, direct};
 use super::store_proxy::{Fate, Message, Proxy};
@@ -51,8 +51,10 @@ fn a_store_has_the_files_of_a_folder() {
 fn shards_meet_in_a_store() {
     let bench = Bench::new("shards");
     let whole = bench.whole("");
-    let said = bench.prints("campaign stored.toml --shard 1/2 --out s3:x", 0);
-    assert!(said.contains(&format!("spindrift finish s3://{}/x", bench.bucket)), "{said}");
+    assert_says(
+        bench.prints("campaign stored.toml --shard 1/2 --out s3:x", 0),
+        [&format!("spindrift finish s3://{}/x", bench.bucket)],
+    );
     assert!(bench.prints("finish s3:x", 4).contains("1 part missing"));
     assert!(bench.prints("verify s3:x", 5).contains("1 part not made yet"));
     assert!(bench.prints("report s3:x", 2).contains("is not finished"));
@@ -167,8 +169,10 @@ fn the_first_content_stays() {
     let said = bench.prints("campaign stored.toml --seed 8 --set campaign.duration_s=2 --out s3:x", 4);
     let named = ["another plan", "campaign.seed: 7 there, 8 here", "campaign.duration_s", "choose another --out"];
     assert!(named.iter().all(|part| said.contains(part)), "{said}");
-    let said = bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", 4);
-    assert!(said.contains("campaign.description"), "{said}");
+    assert_says(
+        bench.prints("campaign stored.toml --set campaign.description=why --out s3:x", 4),
+        ["campaign.description"],
+    );
     assert!(bench.objects("x") == found);
 
     for object in ["runs/part-000001.parquet", "summary.json", "manifest.json"] {
@@ -176,7 +180,7 @@ fn the_first_content_stays() {
         bench.put(&format!("{prefix}/{object}"), b"of somebody else");
         let said = bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), 4);
         let there = bench.objects(&prefix);
-        assert!(said.contains(object), "{said}");
+        assert_says(&said, [object]);
         assert!(there[object] == b"of somebody else" && !there.contains_key(SUCCESS), "{object}");
         bench.remove(&format!("{prefix}/{object}"));
         bench.prints(&format!("campaign stored.toml --out s3:{prefix}"), 0);
@@ -247,8 +251,7 @@ fn what_a_store_refuses_for_a_moment_is_tried_again() {
         if is_refused { Fate::Answered(409, "<Code>ConditionalRequestConflict</Code>") } else { Fate::Passed }
     });
     let mut command = bench.command("campaign stored.toml --no-report --out s3:never", never.port);
-    let said = bench.scratch.outputs(&mut command, 4);
-    assert!(said.contains("/runs/part-00000") && said.contains("ConditionalRequestConflict"), "{said}");
+    assert_says(bench.scratch.outputs(&mut command, 4), ["/runs/part-00000", "ConditionalRequestConflict"]);
     assert!(!bench.objects("never").keys().any(|name| name.starts_with("runs/") || name == SUCCESS));
     bench.prints("campaign stored.toml --no-report --out s3:never", 0);
     assert_whole(&bench.objects("never"), &whole, "never");

@@ -1,6 +1,6 @@
 //! The campaign of the tests of object stores, and its machines.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 
 use super::store_proxy::{Proxy, asked, objects, server};
 

@@ -1,6 +1,6 @@
 //! The S3 server of the tests, and a proxy that counts requests, answers itself, loses answers, or kills a process.
 
-use crate::support::prelude::*;
+use crate::prelude::*;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::sync::{Arc, MutexGuard, PoisonError};
@@ -75,7 +75,7 @@ pub fn objects(bucket: &str, prefix: &str) -> BTreeMap<String, Vec<u8>> {
     let (status, listed) = asked("GET", &format!("/{bucket}?list-type=2&prefix={prefix}%2F"), b"");
     assert_eq!(status, 200);
     let listed = String::from_utf8(listed).unwrap();
-    assert!(listed.contains("<IsTruncated>false"), "{listed}");
+    assert_says(&listed, ["<IsTruncated>false"]);
     let names = listed.split("<Key>").skip(1).map(|rest| rest.split("</Key>").next().unwrap().to_owned());
     let read = |name: String| {
         let (status, bytes) = asked("GET", &format!("/{bucket}/{name}"), b"");
