@@ -4,7 +4,6 @@ use crate::support::{draws::distance, prelude::*};
 use spindrift::sampling::{
     Distribution, Stream,
     distribution::{
-        Quantile,
         beta::Beta,
         choice::Choice,
         empirical::{Empirical, Interpolation},

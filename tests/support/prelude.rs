@@ -54,8 +54,8 @@ pub use spindrift::{
     },
     run::{Grid, LocalErrors, Outcome, StateField, StateFields, StateTable, Status, StepStatistics},
     sampling::{
-        Design, DistributionKind, SampleId,
-        design::{Dimensions, PointSource, Points, replicates::Replicates},
+        Design, DistributionKind, SampleId, Written,
+        design::{Dimensions, PointSource},
     },
     scene::{
         Actuated, Actuation, ActuationInput, DebrisInput, EnvironmentInput, Epoch, FieldModel, Name, OrbitInput,
