@@ -105,9 +105,12 @@ function nameBeside(mark, x, box) {
   return fittedName(mark.label, isInside ? Math.max(x - box.x, box.x + box.width - x) : box.width);
 }
 
-// Whether the name of a vertical limit at `x`, so many pixels wide, is left of it: where it has no room on the right.
-function isNamedLeft(x, width, box) {
-  return x > box.x + 0.7 * box.width || (x + width > box.x + box.width && x - width >= box.x);
+// Where the name of a vertical limit at `x`, so many pixels wide, begins: right of its line, or left of it, or within the axes where it has room on
+// neither side.
+function nameStart(x, width, box) {
+  const right = box.x + box.width;
+  if (x - width >= box.x && (x > box.x + 0.7 * box.width || x + width > right)) return Math.min(x, right) - width;
+  return Math.max(box.x, Math.min(x, right - width));
 }
 
 // The rows of the names of vertical limits, which stand above the axes, where they cover no bar, no line crosses them and they cover each other neither: for each mark its row from below.
@@ -117,7 +120,7 @@ function labelRows(figure, place, box) {
   const open = figure.marks.filter((mark) => mark.kind === "limit" && mark.vertical && mark.label).map((mark) => {
     const x = place(mark.at);
     const width = LETTER * (nameBeside(mark, x, box).length + 3);
-    const start = !(x >= box.x - 1) ? box.x : isNamedLeft(x, width, box) ? Math.min(x, box.x + box.width) - width : x;
+    const start = nameStart(x, width, box);
     return { mark, x, start, end: start + width };
   });
   const covers = (name, { x }) => name.start < x && x < name.end;
@@ -168,10 +171,13 @@ function limitSeries(mark, palette, [xs, ys], row, across) {
       return [{ type: "text", x: isRight ? box.x + box.width - 4 : box.x + 4, y: mark.vertical ? above : isBottom ? box.y + box.height - 4 : box.y + 4, style: { ...named, align: isRight ? "right" : "left", verticalAlign: mark.vertical || isBottom ? "bottom" : "top" } }];
     }
     if (mark.vertical) {
-      const isRight = isNamedLeft(x, LETTER * (name.length + 3), box);
+      const width = LETTER * (name.length + 3);
+      const start = nameStart(x, width, box);
+      // its end is at the line, or at the edge of the axes
+      const end = start + width <= x + 1 ? x - 4 : start < x - 1 ? box.x + box.width : null;
       return [
         { type: "line", shape: { x1: x, y1: above - (mark.label ? 10 : 0), x2: x, y2: box.y + box.height }, style: dash },
-        { type: "text", x: x + (isRight ? -4 : 4), y: above, style: { ...text, align: isRight ? "right" : "left", verticalAlign: "bottom" } },
+        { type: "text", x: end ?? x + 4, y: above, style: { ...text, align: end === null ? "left" : "right", verticalAlign: "bottom" } },
       ];
     }
     // lines that have no room for a name between them have theirs above all of them, or below, in their order
@@ -244,7 +250,10 @@ function flightOf(figure) {
 
 // The height of a figure that is `width` pixels wide.
 export function heightOf(figure, width) {
-  if (isOnPaper() && !figure.x.names) return figure.y.names ? 62 + 17 * figure.y.names.length + flightOf(figure) : width < 300 ? 168 : width < 600 ? 190 : 260;
+  // on paper, too, the names of limits leave room for the plot
+  const limits = figure.marks.filter((mark) => mark.kind === "limit" && mark.vertical && mark.label).length;
+  const plot = (width < 300 ? 168 : width < 600 ? 190 : 260) + LABEL * Math.max(0, limits - 1);
+  if (isOnPaper() && !figure.x.names) return figure.y.names ? 62 + 17 * figure.y.names.length + flightOf(figure) : plot;
   if (figure.x.names) return Math.min(640, 60 + Math.max(18, Math.min(34, (width - 260) / figure.y.names.length)) * figure.y.names.length);
   if (figure.y.names) return 70 + 26 * figure.y.names.length + flightOf(figure);
   return Math.round(Math.max(210, Math.min(320, 0.56 * width)));

@@ -204,9 +204,9 @@ export function showFigures(figures, echarts) {
   const before = new Map();
   for (const figure of figures) {
     const view = new FigureView(figure, echarts);
-    // what a section has said of bands need not be said at each of its figures, unless they mislead
+    // what a section has said of bands need not be said at each of its figures
     const caption = `${figure.section} ${figure.caption}`;
-    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption) && !figure.caption.includes("[bands]");
+    view.box.querySelector("figcaption").hidden = figure.time && said.has(caption);
     said.add(caption);
     const place = document.querySelector(`[data-figure~="${figure.name}"]`) ?? document.querySelector(`#${figure.section} .figures`);
     const key = legendKey(figure);

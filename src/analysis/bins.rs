@@ -63,6 +63,13 @@ fn part(k: usize, bars: usize) -> f64 {
 /// Edges of equally wide bars. Values on a lattice, such as counts and times of control periods, get bars of whole
 /// steps, each with equally many places.
 pub fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
+    let mut edges = equal_bins(values, limits);
+    // bars of magnitudes begin at zero
+    edges.first_mut().filter(|_| ends(values).0 >= 0.0).into_iter().for_each(|first| *first = first.max(0.0));
+    edges
+}
+
+fn equal_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let (low, high) = ends(values);
     if let Some(step) = lattice(values) {
         let steps = libm::round((high - low) / step) as usize;
@@ -133,6 +140,7 @@ mod tests {
                 let values: Vec<f64> = (0..5 * places).map(|k| offset + step * f64::from(k % places)).collect();
                 let limit = offset + step * libm::floor(0.4 * f64::from(places));
                 let edges = linear_bins(&values, &[limit]);
+                assert_eq!(edges[0] < 0.0, offset < 0.0, "{edges:?}");
                 let heights = counts(&values, &edges);
                 let inner = &heights[1..heights.len() - 1];
                 assert!(inner.windows(2).all(|pair| pair[0] == pair[1]), "{step}, {places}: {heights:?}");
@@ -166,7 +174,7 @@ mod tests {
                     let limit = if is_log { low * libm::pow(high / low, share) } else { low + share * (high - low) };
                     let (edges, _) = bins(&values, &[low - 1.0, limit]);
                     assert!(edges.contains(&limit) && edges.is_sorted() && edges.len() == bars + 2, "{edges:?}");
-                    assert!(edges[0] <= low && edges[bars + 1] >= high, "{limit}: {edges:?}");
+                    assert!((0.0..=low).contains(&edges[0]) && edges[bars + 1] >= high, "{limit}: {edges:?}");
                     assert_eq!(counts(&values, &edges).iter().sum::<f64>(), f64::from(count), "{limit}");
                 }
                 assert_eq!(bins(&values, &[high + 1.0]).0, edges);

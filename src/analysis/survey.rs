@@ -13,8 +13,8 @@ use crate::analysis::part_columns::PartColumns;
 use crate::analysis::population::Population;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::statuses::Statuses;
-use crate::analysis::worst_runs::WorstRuns;
-use crate::campaign::Plan;
+use crate::analysis::worst_runs::{WorstRuns, shortfall};
+use crate::campaign::{Plan, Requirement};
 use crate::ensemble::Ensemble;
 use crate::ensemble::audit::AuditValue;
 use crate::observables::Group;
@@ -79,6 +79,8 @@ pub struct Survey {
     pub audits: Vec<[f64; 3]>,
     /// Number of audited runs.
     pub audited: u64,
+    /// Runs farthest from their requirements, by [`shortfall`]; empty without a requirement on single runs.
+    pub against: WorstRuns,
 }
 
 /// Column with the failure code of a mission, or 0.
@@ -137,6 +139,8 @@ fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
 #[derive(Clone, Debug)]
 pub struct Surveyor {
     observed: Vec<Observed>,
+    /// Requirements on single runs, with the place of their observable.
+    judged: Vec<(Requirement, usize)>,
     /// Columns of all dispersed values.
     inputs: Vec<String>,
     nothing: Survey,
@@ -179,6 +183,8 @@ impl Surveyor {
             lost: 0,
         };
         let estimate = STATE_ERROR_ESTIMATE.name();
+        let place = |name: &str| observed.iter().position(|one| one.quantity.name() == name);
+        let judged = |one: &Requirement| Some((one.clone(), place(one.of_runs()?)?));
         let has_estimate = observed.iter().any(|column| column.quantity.name() == estimate);
         Surveyor {
             nothing: Survey {
@@ -191,7 +197,9 @@ impl Surveyor {
                 },
                 audits: Vec::new(),
                 audited: 0,
+                against: WorstRuns::new(KEPT, false),
             },
+            judged: plan.analysis.requirements.iter().filter_map(judged).collect(),
             audited: (plan.audit_fraction > 0.0 && has_estimate)
                 .then(|| [estimate, AuditValue::State.quantity().name()]),
             observed,
@@ -248,6 +256,10 @@ impl Accumulator for Surveyor {
         }
         for (outcome, values) in whole.outcomes.iter_mut().zip(&part.outcomes) {
             part.counted.iter().zip(values).for_each(|(sample, value)| outcome.worst.add(*sample, *value));
+        }
+        for (row, sample) in part.counted.iter().enumerate() {
+            let values = self.judged.iter().map(|(requirement, place)| (requirement, part.outcomes[*place][row]));
+            whole.against.add(*sample, shortfall(values));
         }
         whole.thinned.extend(part.thinned);
         whole.audited += part.audits.len() as u64;

@@ -1,6 +1,27 @@
-//! [`WorstRuns`]: the runs with the worst values of a quantity.
+//! [`WorstRuns`]: the runs with the worst values of a quantity; [`shortfall`]: how far a run is from its requirements.
 
+use crate::campaign::Requirement;
 use crate::sampling::SampleId;
+use crate::statistics::gate::GateLimit;
+
+/// The number of requirements that a run with these values misses, plus a part below one that grows with its excess
+/// over the limits, relative to them: of the missed ones together, else of the nearest. NaN without a requirement.
+pub fn shortfall<'r>(judged: impl Iterator<Item = (&'r Requirement, f64)>) -> f64 {
+    let (mut missed, mut excess, mut nearest) = (0.0, 0.0, f64::NAN);
+    for (requirement, value) in judged {
+        let limit = requirement.limit.value();
+        let over = if matches!(requirement.limit, GateLimit::AtMost(_)) { value - limit } else { limit - value };
+        let over = over / if limit == 0.0 { 1.0 } else { limit.abs() };
+        if !requirement.is_met(value) {
+            missed += 1.0;
+            excess += if over.is_finite() { over } else { 0.0 };
+        }
+        // yes or no has no distance from its limit
+        nearest = f64::max(nearest, if over < 0.0 { over } else { f64::MIN });
+    }
+    let over = if missed > 0.0 { excess } else { nearest };
+    missed + 0.5 + 0.5 * over / (1.0 + over.abs())
+}
 
 /// Largest magnitudes, descending, or smallest values, ascending, if `is_low`; ties by ascending number.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +58,23 @@ impl WorstRuns {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::{Overrides, Plan};
+
+    /// Law: a run that misses more requirements is worse, whatever its values; of runs that miss as many, the one with
+    /// the greater excess; of runs that miss none, the one nearer to a limit. A missing value exceeds nothing.
+    #[test]
+    fn runs_are_ordered_by_their_shortfall() {
+        let text = include_str!("../../campaigns/net_launch.toml");
+        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let [launched, .., impulse] = &plan.analysis.requirements[..] else { panic!("several requirements") };
+        let of = |values: [f64; 2]| shortfall([launched, impulse].into_iter().zip(values));
+        let ascending =
+            [[1.0, 10.0], [1.0, 3999.0], [1.0, 4001.0], [1.0, 1e9], [0.0, f64::NAN], [0.0, 9e3], [-1.0, 9e3]];
+        let found = ascending.map(of);
+        assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
+        assert_eq!(found.map(|worst| worst as u64), [0, 0, 1, 1, 2, 2, 2]);
+        assert!(shortfall(core::iter::empty()).is_nan());
+    }
 
     /// Law: the worst runs are listed in any order of arrival, ties by number; NaN is ignored.
     #[test]

@@ -177,6 +177,12 @@ impl Requirement {
         }
     }
 
+    /// The observable whose value decides whether a single run meets it; `None` for a mean or for a quantity at each
+    /// time.
+    pub fn of_runs(&self) -> Option<&str> {
+        self.observable().filter(|_| self.statement != Statement::Mean)
+    }
+
     /// The extreme over time that only this requirement adds to the rows.
     pub fn window(&self) -> Option<Window> {
         match &self.subject {

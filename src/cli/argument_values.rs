@@ -6,7 +6,6 @@ use crate::propagation::Method;
 use crate::storage::claim::Shard;
 use crate::workflow::threads::usable;
 
-/// Maximum number of shards.
 const MOST_SHARDS: u64 = 1_000_000;
 
 pub fn method(name: &str) -> Result<Method, String> {
@@ -44,7 +43,6 @@ pub fn shard(text: &str) -> Result<Shard, String> {
     shard.filter(|shard| (1..=shard.of).contains(&shard.number) && shard.of <= MOST_SHARDS).ok_or_else(allowed)
 }
 
-/// A number of threads that this machine supports.
 pub fn threads(text: &str) -> Result<NonZeroUsize, String> {
     usable(text.parse().unwrap_or(0))
 }
@@ -53,7 +51,6 @@ pub fn shift(text: &str) -> Result<f64, String> {
     number(text, |value| value >= 0.0, "of at least 0")
 }
 
-/// A whole number.
 pub fn count(text: &str) -> Result<u64, String> {
     let whole = |number: &f64| (0.0..=9e15).contains(number) && libm::floor(*number) == *number;
     text.parse().map_err(|_| match text.parse().ok().filter(whole) {

@@ -22,7 +22,6 @@ const BOLD: &str = "\x1b[1m";
 const DIM: &str = "\x1b[2m";
 const RESET: &str = "\x1b[0m";
 
-/// Coloured words.
 const VERDICTS: [(&str, &str); 7] = [
     ("PASS", GREEN),
     ("FAIL", RED),
@@ -33,7 +32,6 @@ const VERDICTS: [(&str, &str); 7] = [
     ("UNDECIDED", YELLOW),
 ];
 
-/// Headings of help texts.
 const HEADINGS: [&str; 6] = ["Usage:", "Arguments:", "Options:", "Commands:", "Examples:", "Exit codes:"];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,7 +102,6 @@ fn of_line(line: &str, kind: Kind) -> String {
     words(content) + end
 }
 
-/// Colours the verdicts in `text`.
 fn words(text: &str) -> String {
     let mut painted = String::with_capacity(text.len());
     let mut rest = text;

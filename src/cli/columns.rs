@@ -60,7 +60,6 @@ fn groups(all: &[ListedColumn], campaign: Option<&Path>) -> String {
     format!("{}{} columns in all\n\n{}", table.text(screen::width()), all.len(), examples.text(screen::width()))
 }
 
-/// Subject and prerequisite of a section.
 fn about(title: &str) -> (&'static str, &'static str) {
     let Some(group) = Group::from_name(title) else {
         return match title {

@@ -41,7 +41,6 @@ pub fn of_end(end: &SummaryEnd, root: &Path) -> String {
     screen::end(end, &place(root), width())
 }
 
-/// Number and speed of the runs.
 fn headline(completed: &Completed) -> String {
     let (name, end, seed) = (&completed.plan.name, &completed.end, completed.plan.seed);
     let ok = if end.failed > 0 { format!("{} of ", end.rows - end.failed) } else { String::new() };

@@ -21,7 +21,6 @@ pub fn print(text: &str) -> io::Result<()> {
     }
 }
 
-/// Fallback width, characters.
 const UNKNOWN_WIDTH: usize = 100;
 
 /// Line width of standard output: COLUMNS (POSIX.1-2017, section 8.3), else the terminal's, else 100.

@@ -23,7 +23,6 @@ static ASKED: Signals =
     Signals { stop: AtomicBool::new(false), abandon: AtomicBool::new(false), signal: AtomicI32::new(0) };
 
 impl Signals {
-    /// The first signal received.
     pub fn first(&self) -> Option<i32> {
         Some(self.signal.load(Ordering::SeqCst)).filter(|signal| *signal != 0)
     }
@@ -40,12 +39,10 @@ pub fn name(signal: i32) -> &'static str {
     }
 }
 
-/// Exit code by shell convention.
 pub fn exit_code(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
 
-/// The requests so far.
 pub fn asked() -> &'static Signals {
     &ASKED
 }
@@ -57,7 +54,6 @@ pub fn report_file_limit() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
-/// There is no such limit here.
 #[cfg(not(unix))]
 pub fn report_file_limit() {}
 
@@ -98,7 +94,6 @@ pub fn watch() -> &'static Signals {
     &ASKED
 }
 
-/// There are no signals here.
 #[cfg(not(unix))]
 pub fn watch() -> &'static Signals {
     &ASKED

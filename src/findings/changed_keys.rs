@@ -8,7 +8,6 @@ use crate::table::Table;
 use crate::table::text::Align;
 use crate::table::wrapped::fitted;
 
-/// Maximum characters per value.
 const LONGEST_VALUE: usize = 40;
 /// Stands for the value of a key that the plan lacks.
 const ABSENT: &str = "-";
@@ -49,7 +48,6 @@ pub fn phrases(keys: &[KeyDifference], plans: Option<[&Plan; 2]>, most: usize) -
     all.iter().take(most).map(phrase).chain(more).collect()
 }
 
-/// The lines in key order.
 fn lines(keys: &[KeyDifference], plans: Option<[&Plan; 2]>) -> Vec<Line> {
     let mut lines: Vec<Line> = Vec::new();
     for one in keys {

@@ -16,7 +16,6 @@ use crate::scene::{Scene, WheelMode};
 #[derive(Debug)]
 pub struct Probed<'p> {
     pub ensemble: &'p Ensemble<'p>,
-    /// Nominal scene.
     pub scene: Scene,
     /// Probe of the first runs.
     pub runs: RunProbe,
@@ -31,12 +30,10 @@ pub struct Probed<'p> {
     pub cores: usize,
 }
 
-/// Maximum number of failure reasons listed.
 const MOST_REASONS: usize = 8;
 /// Points to the details that a screen omits.
 const MORE: &str = "--verbose: percentiles, masses, momenta, what is integrated; --plan: every key";
 
-/// A sentence in the section `title`.
 fn about(title: &str, sentence: String) -> Finding {
     Finding::new(Kind::Note, "check", title, sentence)
 }
@@ -85,7 +82,6 @@ fn summary(plan: &Plan) -> String {
     format!("{}: {rows} of {seconds} s, method {}, {steps}, {requirements}", plan.name, plan.method.name())
 }
 
-/// How many of the probed runs failed, and why.
 fn failures(title: &str, plan: &Plan, probe: &RunProbe) -> Vec<Finding> {
     let (failed, count) = (probe.failed(), probe.count());
     let lost = match plan.analysis.requirements.len() {

@@ -94,13 +94,11 @@ impl ComparedVerdict {
         (place, word.to_owned())
     }
 
-    /// The requirement in a few words.
     pub fn statement(&self) -> &str {
         self.verdicts.iter().flatten().next().map_or(&self.requirement, |one| &one.statement)
     }
 }
 
-/// Two results compared.
 #[derive(Clone, Debug)]
 pub struct Compared<'c> {
     pub names: [String; 2],
@@ -163,7 +161,6 @@ mod tests {
         limits.into_iter().enumerate().map(verdict).collect()
     }
 
-    /// Verdicts on 200 runs each before and after a change.
     fn changed(seeds: [u64; 2], noise: f64, change: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<ComparedVerdict> {
         let of = |which: usize| rows(200, [seeds[which], 7000 + 2 * seeds[0] + which as u64], noise, 0.02);
         let (first, second) = (of(0), of(1).into_iter().map(change).collect::<Vec<[f64; 3]>>());

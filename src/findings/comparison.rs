@@ -72,12 +72,10 @@ fn said(kind: Kind, id: &str, sentence: String) -> Finding {
     Finding::new(kind, id, "", sentence)
 }
 
-/// A finding whose rows are called `things`.
 fn with_table(kind: Kind, id: &str, things: &str, table: Table<'static>) -> Finding {
     Finding { table: Some(table), ..Finding::new(kind, id, things, "") }
 }
 
-/// The verdicts, changed ones first.
 fn requirements(compared: &Compared<'_>) -> Option<Finding> {
     let mut all: Vec<&ComparedVerdict> = compared.verdicts.iter().collect();
     all.sort_by_key(|one| one.mark().0);
@@ -99,7 +97,6 @@ fn without_interval(found: &str) -> String {
     parts.map_or_else(|| found.to_owned(), |(value, unit)| format!("{value}{unit}"))
 }
 
-/// Whether an observable is 0 or 1 in all runs of both results.
 fn is_yes_or_no(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     let is_of = |end: Option<f64>| end == Some(0.0) || end == Some(1.0);
     let mut of = compared.comparison.statistics.iter().map(|of| of.column(column.quantity.name()));
@@ -107,7 +104,6 @@ fn is_yes_or_no(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     column.quantity.unit().is_empty() && is_so
 }
 
-/// Whether an observable describes the integration or the final state, or is a code.
 fn is_account(compared: &Compared<'_>, column: &ColumnComparison) -> bool {
     let name = column.quantity.name();
     let columns = compared.plans[0].request().columns();
@@ -160,7 +156,6 @@ fn shifted(compared: &Compared<'_>) -> Option<Finding> {
     (!found.is_empty()).then(|| with_table(Kind::Outcome, "shifted", "outcomes", table))
 }
 
-/// Name with unit, both values, and the shift with its interval.
 fn cells(compared: &Compared<'_>, column: &ColumnComparison, shift: &Shift) -> [String; 4] {
     let shown = shown(compared, column);
     let name = names::of_quantity(&column.quantity);
@@ -182,7 +177,6 @@ fn cells(compared: &Compared<'_>, column: &ColumnComparison, shift: &Shift) -> [
     [with_unit(&of, &shown), before, after, by]
 }
 
-/// "1.04 [0.97, 1.11]".
 fn by(shift: crate::statistics::correlation::Estimate, in_shown: impl Fn(f64) -> f64) -> String {
     with_interval(in_shown(shift.value), [shift.lower, shift.upper].map(in_shown))
 }
@@ -195,7 +189,6 @@ fn shown(compared: &Compared<'_>, column: &ColumnComparison) -> ShownUnit {
     compared.plans[0].analysis.display.of(column.quantity.name(), column.quantity.unit())
 }
 
-/// How many columns differ, and how they were compared.
 fn counts(compared: &Compared<'_>) -> String {
     let Compared { comparison, .. } = compared;
     let all = &comparison.columns;

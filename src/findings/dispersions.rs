@@ -141,7 +141,6 @@ fn order(plan: &Plan, magnitudes: &[Magnitude]) -> Vec<usize> {
     rows
 }
 
-/// Digits of an applied number.
 const SHOWN_DIGITS: usize = 6;
 
 /// The dispersed numbers of `sample` with their nominal values. If `is_exact`, in SI units with all digits, followed by
@@ -165,7 +164,6 @@ pub fn applied(plan: &Plan, sample: SampleId, is_exact: bool) -> Table<'static> 
     table
 }
 
-/// The matrix that replaces an impossible one.
 fn nearest(replaced: &Replaced) -> Finding {
     let change = replaced.written.iter().flatten().zip(replaced.used.iter().flatten());
     let largest = change.fold(0.0f64, |most, (asked, used)| most.max((asked - used).abs()));

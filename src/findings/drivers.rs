@@ -45,7 +45,6 @@ pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
     Some(format!("no driver was tested: {rows} runs of design {design} bind inputs to each other, random ones do not"))
 }
 
-/// The rankings of an outcome at the plan's confidence; empty if refused ([`refused`]).
 pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Vec<Ranking<'a>> {
     if refused(plan, all).is_some() {
         return Vec::new();
@@ -102,7 +101,6 @@ pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
     said + &correlations(plan, ranking)
 }
 
-/// Correlated inputs of the named drivers, and whether the rows separate them.
 fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let mut pairs: Vec<[&str; 2]> = Vec::new();
     let mut said = String::new();
@@ -213,7 +211,10 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
         None => "",
     };
     let rest = rest(plan, ranking).map_or_else(String::new, |rest| format!("; {rest}"));
-    let drivers: Vec<&Ranked<'_>> = ranking.drivers().take(NAMED).collect();
+    let is_small = |ranked: &&Ranked<'_>| ranked.share.filter(is_known).is_some_and(|share| share.value < LEAST_SHARE);
+    let (small, large): (Vec<&Ranked<'_>>, Vec<&Ranked<'_>>) = ranking.drivers().take(NAMED).partition(is_small);
+    // next to large shares negligible ones are not listed
+    let drivers = if large.is_empty() { small } else { large };
     if drivers.is_empty() {
         let most = ranking.inputs.iter().map(|ranked| ranked.share.filter(is_known).map(|share| share.upper));
         return match most.collect::<Option<Vec<f64>>>() {
@@ -226,15 +227,16 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     }
     if first.input.total.is_some() {
         let of = |driver: &&Ranked<'_>| {
-            let share = driver.share.map_or(f64::NAN, |share| share.value);
-            format!("{} {share:.2}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
+            let share = driver.share.filter(|share| share.value >= LEAST_SHARE);
+            let share = share.map_or_else(|| format!("below {LEAST_SHARE}"), |share| format!("{:.2}", share.value));
+            format!("{} {share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
         };
         return format!("total Sobol indices: {}", drivers.iter().map(of).collect::<Vec<_>>().join(", "));
     }
     let mut is_said = false;
     let of = |driver: &&Ranked<'_>| {
-        // an estimate at or below zero contradicts the test that found the input
-        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value > 0.0);
+        // a negligible estimate contradicts the test that found the input
+        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value >= LEAST_SHARE);
         let within = |end: f64| end.clamp(0.0, 1.0);
         let share = share.map(|share| number::share([within(share.value); 2], [share.lower, share.upper].map(within)));
         let share = match share {
@@ -315,7 +317,6 @@ pub(super) fn found(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec
     known.map(|ranking| sentence(plan, outcome, ranking)).collect()
 }
 
-/// Outcomes with drivers on a screen if nothing is required.
 const DRIVEN: usize = 3;
 
 /// A finding for each ranking, with its drivers as children: rankings with drivers first, then unmet outcomes, then
@@ -420,9 +421,13 @@ fn finding(plan: &Plan, analysed: &Analysed, outcome: &str, ranking: &Ranking<'_
         Question::Spread => (name, String::new()),
         Question::Event(event) => (format!("{name}: which runs {}", verb(plan, outcome, event, u64::MAX)), part(event)),
     };
+    let row = match &ranking.question {
+        Question::Event(event) => row(event),
+        Question::Spread => String::new(),
+    };
     let driver = |ranked: &Ranked<'_>| {
         let input = &ranked.input.input;
-        let figures = Figures { small: Some(format!("scatter_{outcome}_{input}")), large: None };
+        let figures = Figures { small: Some(format!("scatter_{outcome}{row}_{input}")), large: None };
         let share = ranked.share.filter(is_known).map(|share| {
             Number::share("share of the variance", share.value, [share.lower, share.upper], ranked.input.rows)
         });
@@ -432,6 +437,14 @@ fn finding(plan: &Plan, analysed: &Analysed, outcome: &str, ranking: &Ranking<'_
     let figures = Figures { small: None, large: Some(format!("influence_{outcome}{part}")) };
     let found = Finding::new(Kind::Driver, format!("drivers_{outcome}{part}"), title, sentence(plan, outcome, ranking));
     Finding { children: ranking.drivers().map(driver).collect(), figures, ..found }
+}
+
+/// Suffix of the names of figures of single runs, for one of several requirements on an outcome.
+pub fn row(event: &Event) -> String {
+    match event.occurs {
+        Occurs::Missed { is_only: false, .. } => part(event),
+        _ => String::new(),
+    }
 }
 
 /// Suffix of figure names for an event.
@@ -452,7 +465,6 @@ fn noise_finding(plan: &Plan, one: &NoiseShare) -> Finding {
     Finding { numbers: shares.into_iter().collect(), rank: 1, ..found }
 }
 
-/// The share of noise in one outcome.
 pub fn noise_sentence(one: &NoiseShare) -> String {
     let scenes = one.scenes;
     match one.share {
@@ -510,6 +522,30 @@ mod tests {
                 let said = sentence(&plan, "y", &alone);
                 assert_eq!(said.contains('%'), is_known, "{said}");
             }
+        }
+    }
+
+    /// Law: a negligible share is not listed, alone or next to a large one.
+    #[test]
+    fn negligible_shares_are_not_listed() {
+        let text = include_str!("../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let inputs = ["first_one", "second_one"].map(|name| InputSensitivity {
+            input: name.to_owned(),
+            rows: 400,
+            ..Default::default()
+        });
+        let estimate = |value: f64| Some(Estimate { value, lower: 0.5 * value, upper: (2.0 * value).min(1.0) });
+        for (shares, names) in [([0.4, 1e-4], [true, false]), ([0.4, 0.3], [true; 2]), ([1e-4, 1e-4], [true; 2])] {
+            let of = |place: usize| Ranked {
+                input: &inputs[place],
+                effect: None,
+                share: estimate(shares[place]),
+                is_driver: true,
+            };
+            let said = sentence(&plan, "y", &Ranking { question: Question::Spread, inputs: vec![of(0), of(1)] });
+            assert_eq!(["first", "second"].map(|name| said.contains(name)), names, "{said}");
+            assert!(!said.contains("0.0"), "{said}");
         }
     }
 

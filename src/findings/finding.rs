@@ -8,7 +8,6 @@ use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 
-/// The verdict on a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     Pass,
@@ -35,7 +34,6 @@ impl Verdict {
     }
 }
 
-/// A number with its uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     /// "p95", "mean", "runs within the limit".
@@ -48,7 +46,6 @@ pub struct Number {
     pub interval: [f64; 2],
     /// Required limit, in `unit`.
     pub limit: Option<GateLimit>,
-    /// Number of runs.
     pub of: u64,
     /// Unit on screens and pages.
     pub shown: ShownUnit,
@@ -116,10 +113,8 @@ impl Number {
     }
 }
 
-/// The unit of shares.
 const SHARE: &str = "%";
 
-/// Names of the figures of a finding.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Figures {
     /// A few lines high.
@@ -133,21 +128,15 @@ pub enum Kind {
     /// Precedes all numbers; its title is in capitals.
     Warning,
     Requirement,
-    /// All verdicts together.
     Verdicts,
-    /// Progress of `[stop]`.
     Stop,
     /// Why runs have no numbers.
     Loss,
-    /// How missions of a control loop ended.
     Mission,
     #[default]
     Note,
-    /// Distribution of an outcome.
     Outcome,
-    /// Drivers of an outcome or an event.
     Driver,
-    /// Accuracy of the runs.
     Numerics,
     /// Runs worth a look.
     Runs,
@@ -194,7 +183,6 @@ impl Finding {
     }
 }
 
-/// All findings of a campaign, in order of importance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
     pub list: Vec<Finding>,

@@ -17,7 +17,6 @@ use crate::findings::number::{brief, share, trimmed, written};
 use crate::run::Status;
 use crate::statistics::quantile::percent as exactly;
 
-/// Maximum number of samples listed without a reason.
 const LISTED: usize = 3;
 
 /// The remedy for a status; `None` if the reason contains it.

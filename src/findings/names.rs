@@ -47,7 +47,6 @@ pub fn of_quantity(quantity: &Quantity) -> String {
     of_column(quantity.name(), quantity.unit())
 }
 
-/// [`of_quantity`] with a capital.
 pub fn title(quantity: &Quantity) -> String {
     sentence(&of_quantity(quantity))
 }
@@ -199,7 +198,6 @@ pub fn unit_of_input(plan: &Plan, place: usize) -> ShownUnit {
     plan.analysis.display.of(&parameter.name(), own_unit(parameter))
 }
 
-/// The unit of a parameter; empty for a pure number.
 pub fn own_unit(parameter: Parameter) -> &'static str {
     if parameter.unit() == "1" { "" } else { parameter.unit() }
 }

@@ -115,7 +115,6 @@ fn at_place(value: f64, place: i32, largest: f64) -> String {
     }
 }
 
-/// Digits of an `f64`.
 const MOST_DIGITS: i32 = 15;
 /// Extra digits for an estimate that would otherwise show as zero.
 const MOST_MORE: i32 = 2;

@@ -12,7 +12,7 @@ use crate::findings::finding::{Finding, Kind, Number};
 use crate::findings::names;
 use crate::findings::number::{self, counted, short};
 use crate::findings::outcome::shown;
-use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED};
+use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED, against};
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
@@ -22,7 +22,6 @@ use crate::statistics::spread::Spread;
 pub struct Numerics {
     /// Number of audited runs that have it.
     pub count: u64,
-    /// Of |observed - true|.
     #[serde(flatten)]
     pub error: Quantiles,
     /// Difference of the 95% and 5% quantiles of the observable.
@@ -47,7 +46,6 @@ impl Quantiles {
     }
 }
 
-/// An error estimate compared with the true error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Audited runs with this error.
@@ -58,7 +56,6 @@ pub struct Estimate {
     pub coverage: Option<f64>,
     /// Median of estimate over true error.
     pub median_ratio: Option<f64>,
-    /// Promised coverage.
     pub promised: f64,
     /// Probability of at most this coverage if the promise holds.
     pub chance: f64,
@@ -66,7 +63,6 @@ pub struct Estimate {
     pub excess: u64,
 }
 
-/// Statistics of the audits of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AuditSummary {
     /// Fraction of samples selected for audits.
@@ -183,8 +179,8 @@ const ERRORS: [(&str, &str); 5] = [
     ("debris_state_error_estimate", "estimated state error of the debris"),
 ];
 
-/// Largest errors, audits and runs to look at: the worst of each observable, those in `required` first, those with the
-/// largest errors, and the first with each failure.
+/// Largest errors, audits and runs to look at: the worst against the requirements, the worst of each observable, those
+/// in `required` first, those with the largest errors, and the first with each failure.
 pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) -> Vec<Finding> {
     let statistics = &analysed.statistics;
     let largest = |(name, of): &(&str, &str)| {
@@ -203,7 +199,12 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
         found.push(audit.finding());
         found.extend(observed(plan, analysed));
     }
-    let (mut is_first, outcomes) = (true, outcomes(plan));
+    let worst = analysed.survey.against.runs.first();
+    found.extend(worst.map(|(sample, shortfall)| {
+        let title = format!("worst run ({})", against(plan, *shortfall));
+        Finding { sample: Some(*sample), ..Finding::new(Kind::Runs, WORST_RUN, title, "") }
+    }));
+    let (mut is_first, outcomes) = (worst.is_none(), outcomes(plan));
     let named: Vec<&String> = required.iter().chain(&outcomes).collect();
     let order = |worst: &&Worst| named.iter().position(|name| **name == worst.name).unwrap_or(usize::MAX);
     let mut all: Vec<&Worst> = analysed.tally.worst.iter().collect();
@@ -224,7 +225,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
             }
         };
         let numbers = vec![number(&worst.name, Some(*value), 1, unit)];
-        let run = Finding::new(Kind::Runs, "worst", title, "");
+        let run = Finding::new(Kind::Runs, WORST_RUN, title, "");
         let rank = u8::from(column.is_none() || !core::mem::take(&mut is_first));
         found.push(Finding { rank, numbers, sample: Some(*sample), ..run });
     }
@@ -236,6 +237,8 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
     found
 }
 
+/// Id of the runs with the worst values; the first is the run to look at.
+pub const WORST_RUN: &str = "worst";
 /// Id of the note on errors beyond the tolerance.
 pub const BEYOND_TOLERANCE: &str = "beyond_tolerance";
 
@@ -267,7 +270,6 @@ pub(super) fn beyond_tolerance(plan: &Plan, analysed: &Analysed) -> Option<Findi
     })
 }
 
-/// The coverage of an estimate.
 fn coverage(name: &str, one: &Estimate) -> Finding {
     let share = one.coverage.unwrap_or(0.0);
     let said = format!(

@@ -13,7 +13,6 @@ use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::statistics::quantile::percent;
 
-/// Observables shown in addition to those named in the file.
 const MOST_MAIN: usize = 6;
 /// Shown after the observables of the motion.
 const MAIN: [&str; 4] =
@@ -158,7 +157,6 @@ fn finding(plan: &Plan, statistics: &Statistics, column: &ColumnStatistics, is_d
     Finding { numbers, notes, sentence, ..found }
 }
 
-/// Significant digits before the power of ten.
 fn digits(text: &str) -> usize {
     text.split('e').next().map_or(0, |text| text.chars().filter(char::is_ascii_digit).count())
 }

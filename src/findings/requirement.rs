@@ -19,7 +19,6 @@ const DIGITS: i32 = 12;
 // the documents quote this power
 const _: () = assert!(POWER == 0.9);
 
-/// A requirement with its verdict.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct EndVerdict {
     /// The requirement as a sentence.
@@ -89,10 +88,20 @@ pub fn required<'f>(plan: &Plan, found: impl IntoIterator<Item = &'f Finding>) -
     names
 }
 
+/// A run with this [`shortfall`](crate::analysis::worst_runs::shortfall) in words that follow "the run".
+pub fn against(plan: &Plan, shortfall: f64) -> String {
+    let all = plan.analysis.requirements.iter().filter(|one| one.of_runs().is_some()).count();
+    match (shortfall as usize, all) {
+        (0, 1) => "nearest to the limit".to_owned(),
+        (0, _) => "nearest to a limit".to_owned(),
+        (_, 1) => "misses the requirement".to_owned(),
+        (missed, all) => format!("misses {missed} of {all} requirements"),
+    }
+}
+
 pub const LAUNCHED: &str = "launched";
 pub const NOT_LAUNCHED: &str = "mission did not launch";
 
-/// The common confidence of all verdicts, if any.
 pub fn common_confidence(verdicts: &Verdicts) -> Option<f64> {
     let mut all = verdicts.list.iter().map(|one| one.requirement.confidence);
     let first = all.next()?;
@@ -178,7 +187,6 @@ pub fn limit_text(limit: GateLimit, shown: &ShownUnit) -> String {
     format!("{word} {} {}", written(shown.written(limit.value())), shown.unit).trim_end().to_owned()
 }
 
-/// When the limit applies, for a requirement over time.
 fn times(one: &Assessment) -> String {
     let Some(band) = one.requirement.band() else { return String::new() };
     let which = if one.requirement.window().is_some() { "at all times" } else { "at each time" };

@@ -7,7 +7,6 @@ use crate::findings::finding::{Finding, Kind};
 use crate::table::Table;
 use crate::table::text::Align;
 
-/// A finished result.
 #[derive(Clone, Debug)]
 pub struct IndexEntry {
     /// Its folder, relative to the index.
@@ -15,7 +14,6 @@ pub struct IndexEntry {
     pub campaign: String,
     pub question: Option<String>,
     pub end: SummaryEnd,
-    /// Version of the program.
     pub version: String,
     /// Date of its summary, UTC.
     pub day: String,
@@ -34,7 +32,6 @@ pub struct Unreadable {
 }
 
 impl IndexEntry {
-    /// Counts of verdicts, each as `text(count, word)`, or "-" without requirements.
     pub fn verdicts(&self, text: impl Fn(usize, &str) -> String) -> String {
         let counts = self.end.verdicts(text);
         if counts.is_empty() { "-".to_owned() } else { counts.join(", ") }

@@ -22,7 +22,6 @@ fn vector(v: [f64; 3]) -> String {
     format!("[{}]", v.map(six).join(", "))
 }
 
-/// Mass and principal moments of the spacecraft.
 pub fn in_short(scene: &Scene) -> String {
     let (moments, _) = principal_axes(scene.mass.inertia);
     format!("spacecraft: {} kg, principal moments {} kg m^2", six(scene.mass.total), vector(moments))

@@ -7,7 +7,6 @@ use crate::campaign::difference::KeyDifference;
 use crate::findings::compared::{Compared, ComparedVerdict};
 use crate::table::json::objects;
 
-/// The text of the file.
 pub fn text(compared: &Compared<'_>) -> String {
     let Compared { comparison, keys, verdicts, tolerance, .. } = compared;
     let result = |name: String, which: usize| {

@@ -40,7 +40,6 @@ impl Hue {
     }
 }
 
-/// The dash pattern of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     Solid,
@@ -147,7 +146,6 @@ pub enum Mark {
         label: String,
         hue: Hue,
         dash: Dash,
-        /// Ascending.
         x: Vec<f64>,
         y: Vec<f64>,
     },
@@ -156,7 +154,6 @@ pub enum Mark {
         label: String,
         hue: Hue,
         opacity: f64,
-        /// Ascending.
         x: Vec<f64>,
         low: Vec<f64>,
         high: Vec<f64>,
@@ -180,16 +177,24 @@ pub enum Mark {
         heights: Vec<f64>,
     },
     /// Values with intervals, one per name of the vertical axis; NaN if unknown.
-    Whiskers { label: String, hue: Hue, x: Vec<f64>, low: Vec<f64>, high: Vec<f64> },
+    Whiskers {
+        label: String,
+        hue: Hue,
+        x: Vec<f64>,
+        low: Vec<f64>,
+        high: Vec<f64>,
+    },
     /// A straight line across the figure.
-    Limit { label: String, at: f64, vertical: bool },
+    Limit {
+        label: String,
+        at: f64,
+        vertical: bool,
+    },
     /// Number of runs still in flight: a strip under the horizontal axis.
     Flight {
         label: String,
-        /// Times, ascending, s.
         x: Vec<f64>,
         counts: Vec<f64>,
-        /// Total number of runs.
         runs: f64,
     },
     /// A square matrix of correlations, names on the vertical axis.
@@ -279,10 +284,8 @@ impl Mark {
     }
 }
 
-/// The sections of the page with figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureSection {
-    /// Outcomes of the campaign.
     Outcome,
     Time,
     Numerics,

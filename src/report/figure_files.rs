@@ -11,12 +11,12 @@ use serde_json::{Value, json};
 use thiserror::Error;
 
 use crate::campaign::Display;
-use crate::report::escaped::escaped;
 use crate::report::figure::{Figure, FigureSection};
 use crate::report::page::document::{ECHARTS, PageSection, document, script_of};
 use crate::report::page::figure_json::json_of;
 use crate::report::page::payload::Payload;
 use crate::storage::atomic;
+use crate::table::html::escaped;
 
 /// Turns a JSON list of figures into one SVG each.
 pub type Draw = fn(&str) -> Result<Vec<String>, String>;

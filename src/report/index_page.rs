@@ -3,25 +3,27 @@
 use crate::findings::names::sentence;
 use crate::findings::number::counted;
 use crate::findings::results_index::{IndexEntry, Unreadable};
-use crate::report::escaped::escaped;
 use crate::report::page::document::head;
+use crate::table::Table;
+use crate::table::html::{self, escaped};
+use crate::table::text::Align;
 
 /// The page; `title` is the name of the folder.
 pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> String {
-    let row = |one: &IndexEntry| {
-        // break long names between words
-        let words = |name: &str| escaped(name).replace('/', "/<wbr>").replace('_', "_<wbr>");
+    // break long names between words
+    let words = |name: &str| escaped(name).replace('/', "/<wbr>").replace('_', "_<wbr>");
+    let mut table = Table::with(HEADS.map(|head| (head, Align::Left)));
+    for one in entries {
         let folder = words(&one.folder.display().to_string());
         let name = match &one.page {
             Some(page) => format!("<a href=\"{}\">{folder}</a>", link(&page.display().to_string())),
             None => folder,
         };
-        let question = one
-            .question
-            .as_deref()
+        let question = one.question.as_deref();
+        let question = question
             .map_or(String::new(), |text| format!("<br><span class=\"quiet\">{}</span>", escaped(&sentence(text))));
         let word = |count, word: &str| format!("<span class=\"{}\">{count} {word}</span>", word.to_lowercase());
-        let cells = [
+        table.row([
             name + &question,
             if one.is_named() { String::new() } else { words(&one.campaign) },
             one.verdicts(word),
@@ -29,12 +31,12 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
             escaped(&one.day),
             escaped(&one.version),
             escaped(one.changed.as_deref().unwrap_or("first run")),
-        ];
-        let cells = HEADS.iter().zip(cells).map(|(head, cell)| format!("<td data-head=\"{head}\">{cell}</td>"));
-        format!("<tr>{}</tr>\n", cells.collect::<String>())
-    };
-    let heads: String = HEADS.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
-    let rows: String = entries.iter().map(row).collect();
+        ]);
+    }
+    let table = html::html(&table, "", |[_, column], cell| {
+        // narrow screens show the heads beside the cells
+        [format!(" data-head=\"{}\"", HEADS[column]), html::markup(cell)]
+    });
     let left_out: String = unreadable
         .iter()
         .map(|one| format!("<li>{}: {}</li>", escaped(&one.folder.display().to_string()), escaped(&one.reason)))
@@ -48,17 +50,15 @@ pub fn html(title: &str, entries: &[IndexEntry], unreadable: &[Unreadable]) -> S
     format!(
         "{}<body>\n<header><h1>{name}</h1><p \
         class=\"facts\">{count}, by campaign, the latest run first</p></header>\n<main>\n<section \
-        id=\"results\"><table><thead><tr>{heads}</tr></thead><tbody>\n{rows}</tbody></table></section>\n\
+        id=\"results\">{table}</section>\n\
          {left_out}</main>\n</body>\n</html>\n",
         head(title, POLICY, OWN_STYLE)
     )
 }
 
-/// The page has no scripts.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'";
 
-/// Column heads. Only the last column breaks within words.
 const HEADS: [&str; 7] =
     ["Result", "Campaign", "Verdicts", "Runs computed", "Day", "Version", "Changed since the last run"];
 

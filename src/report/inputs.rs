@@ -13,9 +13,7 @@ use crate::sampling::Values;
 use crate::sampling::correlation::Measure;
 use crate::statistics::correlation::{matrix, mid_ranks, standardised};
 
-/// Maximum number of input histograms.
 const MOST_INPUTS: usize = 36;
-/// Maximum size of a correlation matrix.
 const MOST_CORRELATED: usize = 24;
 /// If the nominal value is farther from the samples than this fraction of their span, it is named at the edge: the
 /// samples keep two thirds of the axis.
@@ -31,7 +29,6 @@ pub struct DrawnInputs {
 }
 
 impl DrawnInputs {
-    /// Histograms of the inputs, and their requested and achieved correlations.
     pub fn figures(&self, plan: &Plan) -> Vec<Figure> {
         let shown = self.columns.len().min(MOST_INPUTS);
         let mut figures: Vec<Figure> = (0..shown).map(|column| self.histogram(plan, column)).collect();
@@ -146,7 +143,6 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
     found
 }
 
-/// The histogram of an input; ignores non-finite samples.
 fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option<&Expected>) -> Figure {
     let values: Vec<f64> = samples.iter().copied().filter(|value| value.is_finite()).collect();
     let count = values.len();

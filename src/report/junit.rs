@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::analysis::analysed::Analysed;
 use crate::campaign::Plan;
 use crate::findings::{Finding, Findings, Kind, Verdict};
-use crate::report::escaped::escaped;
+use crate::table::html::escaped;
 
 /// One test case per requirement (undecided: an error), and one each for: all runs `ok`, estimates cover their errors
 /// as promised (if audited), `[stop]` reached its goal.

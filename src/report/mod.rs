@@ -1,7 +1,6 @@
 //! Layer 10: text and figures for people, from [`crate::findings`].
 
 pub mod comparison_json;
-mod escaped;
 pub mod figure;
 pub mod figure_files;
 pub mod index_page;

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::ensemble::precision::Measurement;
 use crate::findings::end::SummaryEnd;
 use crate::findings::names::sentence;
+use crate::findings::numerics::WORST_RUN;
 use crate::findings::precision;
 use crate::findings::requirement::EndVerdict;
 use crate::findings::{Finding, Findings, Kind, Number};
@@ -19,10 +20,11 @@ const MOST_REASONS: [usize; 2] = [3, 12];
 /// Rows on a screen: compared requirements, differing keys.
 const MOST_REQUIREMENTS: usize = 6;
 const MOST_KEYS: usize = 4;
-/// Outcomes shown regardless of the space.
+/// Outcomes shown regardless of the space, without requirements.
 const LEAST_OUTCOMES: usize = 1;
 
-/// Fits into `most` lines of `width` characters by omitting outcomes. `file` is the campaign, quoted for a shell.
+/// Fits into `most` lines of `width` characters by omitting outcomes, then remarks, with a count of what is left out.
+/// `file` is the campaign, quoted for a shell.
 pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> String {
     let of = |kind: Kind| findings.of(kind).filter(|one| one.rank == 0).collect::<Vec<_>>();
     let mut text = lines(&of(Kind::Warning), width);
@@ -30,29 +32,38 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
     text += &sentences(&[of(Kind::Verdicts), of(Kind::Stop)].concat(), width);
     text += &reasons(findings, MOST_REASONS[0], width);
     text += &sentences(&[of(Kind::Mission), of(Kind::Note)].concat(), width);
-    let mut end = sentences(&of(Kind::Driver), width);
+    let (drivers, remarks): (Vec<&Finding>, Vec<&Finding>) =
+        of(Kind::Driver).into_iter().partition(|one| !one.children.is_empty());
+    // without drivers a remark says why
+    let (drivers, remarks) = if drivers.is_empty() { (remarks, drivers) } else { (drivers, remarks) };
     let others = findings.of(Kind::Driver).filter(|one| one.rank == 1 && !one.children.is_empty()).count();
-    end += &left_out(others, ["outcome with drivers", "outcomes with drivers"], width);
-    end += &sentences(&of(Kind::Numerics), width);
-    let (worst, others): (Vec<&Finding>, Vec<&Finding>) = of(Kind::Runs).into_iter().partition(|one| one.id == "worst");
-    end += &commands(&others, file, width);
-    let gap = if text.is_empty() { "" } else { "\n" };
-    let room = most.saturating_sub([&text, gap, &end].map(|part| part.matches('\n').count()).iter().sum::<usize>());
+    let (worst, lost): (Vec<&Finding>, Vec<&Finding>) = of(Kind::Runs).into_iter().partition(|one| one.id == WORST_RUN);
     let all = of(Kind::Outcome);
-    let mut outcomes = self::outcomes(&all, width, false);
-    let lines = outcomes.lines().count();
-    if lines > room {
-        // one line counts the rest
+    let with = |(outcomes, is_full): (usize, bool)| {
         let (numbers, about): (Vec<&Finding>, Vec<&Finding>) = all.iter().partition(|one| !one.numbers.is_empty());
-        let most = room.saturating_sub(lines.saturating_sub(numbers.len()) + 1).max(LEAST_OUTCOMES).min(numbers.len());
-        outcomes = self::outcomes(&numbers[..most], width, false);
-        outcomes += &left_out(numbers.len() - most, ["outcome", "outcomes"], width);
-        outcomes += &self::outcomes(&about, width, false);
-    }
-    let said = if outcomes.is_empty() { text + &end } else { text + gap + &outcomes + &end };
-    // the worst run only if lines are left
-    let worst = commands(&worst, file, width);
-    if said.lines().count() + worst.lines().count() <= most { said + &worst } else { said }
+        let gap = if text.is_empty() || outcomes == 0 { "" } else { "\n" };
+        let mut said = format!("{text}{gap}");
+        if outcomes < numbers.len() {
+            said += &self::outcomes(&numbers[..outcomes], width, false);
+            said += &left_out(numbers.len() - outcomes, ["outcome", "outcomes"], width);
+            said += &self::outcomes(&about, width, false);
+        } else {
+            said += &self::outcomes(&all, width, false);
+        }
+        said += &sentences(&drivers, width);
+        if is_full || remarks.is_empty() {
+            said += &sentences(&remarks, width);
+            said += &left_out(others, ["outcome with drivers", "outcomes with drivers"], width);
+        } else {
+            said += &left_out(others + remarks.len(), ["finding on drivers", "findings on drivers"], width);
+        }
+        said += &sentences(&of(Kind::Numerics), width);
+        let runs = if is_full || worst.is_empty() { [&lost[..], &worst[..]].concat() } else { worst.clone() };
+        said + &commands(&runs, file, width)
+    };
+    let least = if findings.verdict.is_none() { LEAST_OUTCOMES } else { 0 };
+    let choices = (least..=all.len()).rev().map(|outcomes| (outcomes, true)).chain([(least, false)]);
+    choices.map(with).find(|said| said.lines().count() <= most).unwrap_or_else(|| with((least, false)))
 }
 
 /// All findings except those for files only.
@@ -116,7 +127,6 @@ pub fn list(findings: &[Finding], is_verbose: bool, [most, width]: [usize; 2]) -
     text((LEAST_OUTCOMES..most).rev().find(fits).unwrap_or(LEAST_OUTCOMES))
 }
 
-/// Findings in titled sections.
 pub fn sections(findings: &[Finding], width: usize) -> String {
     let (mut text, mut title) = (String::new(), "");
     for one in findings {
@@ -139,14 +149,12 @@ pub fn paragraphs(findings: &[Finding], width: usize) -> String {
     findings.iter().map(paragraph).collect()
 }
 
-/// A row of `precision`, or its heads.
 pub fn measurement(found: Option<&Measurement>, width: usize) -> String {
     let table = precision::table(found);
     let text = Text::of(&table).at_least(&precision::COLUMNS.map(|(.., width)| width)).spaced(0, 1);
     if found.is_none() { text.head(width) } else { text.body(width) }
 }
 
-/// The question of a campaign.
 pub fn question(question: Option<&str>, width: usize) -> String {
     question
         .filter(|text| !text.is_empty())
@@ -161,7 +169,6 @@ pub fn end(end: &SummaryEnd, place: &Path, width: usize) -> String {
     wrapped(&warnings, width) + &verdict_table(["", ""], &rows, width) + &end.verdict_line(place) + "\n"
 }
 
-/// A line for each requirement.
 fn requirements(findings: &Findings, width: usize) -> String {
     let of = |one: &Finding| {
         let word = one.verdict.map_or("", |verdict| verdict.word());
@@ -195,7 +202,6 @@ fn verdict_table([required, found]: [&str; 2], rows: &[[String; 4]], width: usiz
     if Text::of(&table).width_of(3) > width { lines } else { table.text(width) }
 }
 
-/// Titled paragraphs.
 fn lines(list: &[&Finding], width: usize) -> String {
     let line = |one: &&Finding| wrapped(&format!("  {}: {}\n", one.title, one.sentence), width);
     list.iter().map(line).collect::<Vec<_>>().join("\n")

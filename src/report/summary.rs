@@ -22,7 +22,6 @@ use crate::statistics::binomial::Decision;
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
 
-/// Listed samples per failure status.
 const LISTED: usize = 3;
 
 /// The text of `summary.json`, independent of machine and clock.

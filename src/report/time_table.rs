@@ -12,17 +12,13 @@ use crate::table::text::{Align, Text};
 use crate::table::wrapped::fitted;
 use crate::table::{Column, Content, Table, Values};
 
-/// Maximum number of points, including the ends.
 const MOST_LINES: usize = 21;
 
-/// Maximum characters of a phase name.
 const LONGEST_PHASE: usize = 10;
 /// Vector components below this share of the largest in the run are rounding errors.
 const ROUNDING: f64 = 1e-14;
-/// Minimum characters of a shortened head.
 const SHORTEST_HEADER: usize = 10;
 
-/// Number format of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
     Short,
@@ -49,7 +45,6 @@ const COLUMNS: [Listed; 10] = [
     ("angular_momentum_error", "ang.mom. error", Digits::Magnitude),
 ];
 
-/// Columns of a control loop.
 const OF_LOOPS: [Listed; 5] = [
     ("pointing_error_rad", "pointing", Digits::Short),
     ("attitude_estimate_error_rad", "att.err.", Digits::Magnitude),

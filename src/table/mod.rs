@@ -1,8 +1,9 @@
-//! Layer 2: tables of columns with name, unit, meaning and values. Writers: [`csv`], [`json`], aligned [`text`] of
-//! [`mod@wrapped`] lines, Parquet in `storage::columnar`, Arrow in the Python package. Rows of a campaign bypass
-//! tables: their block (`ensemble::Rows`) passes slices to the writers as [`Values`].
+//! Layer 2: tables of columns with name, unit, meaning and values. Writers: [`csv`], [`html`], [`json`], aligned
+//! [`text`] of [`mod@wrapped`] lines, Parquet in `storage::columnar`, Arrow in the Python package. Rows of a campaign
+//! bypass tables: their block (`ensemble::Rows`) passes slices to the writers as [`Values`].
 
 pub mod csv;
+pub mod html;
 pub mod json;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -24,7 +25,6 @@ pub enum Content {
     Word,
 }
 
-/// The description of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name, unit and meaning.
@@ -61,7 +61,6 @@ pub enum Values<'a> {
     Text(Vec<Option<Cow<'a, str>>>),
 }
 
-/// One value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {
     Null,
@@ -108,7 +107,6 @@ impl<'a> Values<'a> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table<'a> {
     pub columns: Vec<Column>,
-    /// One per column.
     pub values: Vec<Values<'a>>,
     /// Notes for the file, in addition to those of the plan.
     pub notes: BTreeMap<String, String>,

@@ -39,7 +39,6 @@ const CONTINUED: usize = 4;
 /// Minimum width of a shortened name.
 const LEAST_NAME: usize = 12;
 
-/// A table as text.
 #[derive(Clone, Debug)]
 pub struct Text<'t> {
     aligns: Vec<Align>,
@@ -47,7 +46,6 @@ pub struct Text<'t> {
     rows: Vec<Vec<Cow<'t, str>>>,
     /// Number of lines of heads.
     heads: usize,
-    /// Minimum width of each column.
     least: Vec<usize>,
     /// Spaces before each line, and between columns.
     gaps: [usize; 2],
@@ -104,7 +102,6 @@ impl<'t> Text<'t> {
         before + widths.iter().sum::<usize>() + between * widths.len().saturating_sub(1)
     }
 
-    /// Full line width.
     pub fn width(&self) -> usize {
         self.width_of(self.aligns.len())
     }
@@ -209,7 +206,6 @@ impl<'t> Text<'t> {
     }
 }
 
-/// Adds a line without trailing spaces.
 fn push_line(text: &mut String, line: &str) {
     *text += line.trim_end();
     text.push('\n');

@@ -48,7 +48,7 @@ fn a_panic_ends_one_run() {
         if is_failed {
             failed += 1;
             let (_, reason) = fragile.reasons().iter().find(|(at, _)| *at == row).unwrap();
-            assert_says(&reason, ["34.5 rad/s"]);
+            assert_says(reason, ["34.5 rad/s"]);
         }
     }
     assert!((2..40).contains(&failed), "{failed} of {RUNS}");

@@ -44,7 +44,6 @@ impl Curves<'_> {
         Some(figure)
     }
 
-    /// The phases of the run.
     pub(super) fn phases(&self, listed: &ListedFigure) -> Option<Figure> {
         let spec = self.plan.law.as_ref()?.spec()?;
         let (times, phase) = (self.times(), self.recorded("phase")?);
@@ -71,7 +70,6 @@ impl Curves<'_> {
         Some(over_time("phases", listed.title, caption, Axis::names(names), marks))
     }
 
-    /// A series of all wheels with the limits of the driven ones.
     pub(super) fn all_wheels(&self, listed: &ListedFigure, series: Series, limit: WheelLimit) -> Figure {
         let mut marks = Vec::new();
         for (index, wheel) in self.wheels.iter().enumerate() {
@@ -105,7 +103,6 @@ impl Curves<'_> {
         Figure { name: file, ..figure }
     }
 
-    /// Accumulated impulse of each thruster at the points of the run, N s.
     fn impulses(&self) -> Option<Vec<(String, Vec<f64>)>> {
         let (run, spec) = (self.run?, self.plan.law.as_ref()?.spec()?);
         let of = |place: &usize| {
@@ -141,7 +138,6 @@ impl Curves<'_> {
         Some(self.judged(listed, ("thrust", "N"), (listed.title, caption), marks))
     }
 
-    /// The impulse of each thruster and their sum.
     pub(super) fn impulse(&self, listed: &ListedFigure) -> Option<Figure> {
         let impulses = self.impulses()?;
         let (name, unit) = self.name(Series::Impulse);
@@ -177,7 +173,6 @@ impl Curves<'_> {
         Some(self.judged(listed, ("propellant", "kg"), (listed.title, caption), marks))
     }
 
-    /// The number `key` of `[control]`.
     fn constant(&self, key: &str) -> Option<f64> {
         self.plan.nominal.control.law.named(key).and_then(|numbers| numbers.first().copied())
     }
@@ -216,7 +211,6 @@ fn named(name: &str, values: &[f64]) -> String {
     if values.iter().all(|value| *value == 0.0) { format!("{name}: none") } else { name.to_owned() }
 }
 
-/// The sum over all thrusters.
 fn total(impulses: &[(String, Vec<f64>)]) -> Vec<f64> {
     let points = impulses.first().map_or(0, |(_, sum)| sum.len());
     (0..points).map(|point| impulses.iter().map(|(_, sum)| sum[point]).sum()).collect()

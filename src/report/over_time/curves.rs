@@ -17,11 +17,9 @@ use crate::scene::Name;
 pub struct TimeBands {
     /// Column name in a time series.
     pub name: String,
-    /// Times, s.
     pub times: Vec<f64>,
     /// The 5, 25, 50, 75 and 95% quantiles at these times.
     pub quantiles: [Vec<f64>; 5],
-    /// Number of runs.
     pub runs: u64,
     /// Number of runs behind the quantiles: all, or the first ones.
     pub counted: u64,
@@ -69,13 +67,11 @@ impl<'a> Curves<'a> {
         Curves { order: asked.to_vec(), ..self }
     }
 
-    /// Adds the replayed runs.
     #[must_use]
     pub fn among(self, flown: Vec<&'a SingleRun>) -> Self {
         Curves { flown, ..self }
     }
 
-    /// For a plot of `run`.
     pub fn of_plot(plan: &'a Plan, run: &'a SingleRun) -> Self {
         Curves { place: Place::Plot, ..Curves::of_page(plan, Some(run), &[], &run.request.wheels) }
     }
@@ -124,7 +120,7 @@ impl<'a> Curves<'a> {
     }
 
     /// Whether the nominal run oscillates visibly, but too fast for the times of the bands.
-    fn is_aliased(&self, bands: &TimeBands, nominal: &[f64]) -> bool {
+    pub(super) fn is_aliased(&self, bands: &TimeBands, nominal: &[f64]) -> bool {
         let ends = bands.quantiles[0].iter().zip(&bands.quantiles[4]);
         let width = ends.map(|(low, high)| high - low).fold(0.0, f64::max);
         let is_seen = is_coarse(turns(nominal), bands.times.len()) && swing(nominal) > SEEN_SWING * width;
@@ -142,25 +138,34 @@ impl<'a> Curves<'a> {
         label: &dyn Fn(&str) -> String,
     ) -> Vec<Mark> {
         let times = self.times();
-        let is_of_it = |(series, _): &&(Series, Vec<f64>)| {
-            series.quantity(self.wheels).is_some_and(|quantity| quantity.name() == name)
-        };
-        let of_run = |run: &&'a SingleRun| {
-            let (_, values) = run.series.iter().find(is_of_it)?;
-            Some(&values[..values.len().min(run.outcome.points)])
-        };
-        let all: Vec<&[f64]> = self.flown.iter().filter_map(of_run).collect();
+        let ends = whole_swings(&bands.times, nominal);
         let last = times.partition_point(|time| *time <= bands.times.last().copied().unwrap_or(0.0));
         let area = |curves: &[&[f64]], label: String, opacity: f64, hue: Hue| {
-            let [x, low, high] = within(&times[..last], curves, &bands.times);
+            let [x, low, high] = within(&times[..last], curves, &ends);
             Mark::area(label, (hue, opacity), x, [low, high])
         };
+        let all = self.flown_values(name);
         let mut marks = Vec::new();
         if all.len() > 1 {
-            marks.push(area(&all, label(&format!("envelope of {} runs", all.len())), 0.2, hue));
+            let curves: Vec<&[f64]> = all.iter().map(Vec::as_slice).collect();
+            marks.push(area(&curves, label(&format!("envelope of {} runs", all.len())), 0.2, hue));
         }
         marks.push(area(&[nominal], label("envelope of the nominal run"), 0.4, Hue::Nominal));
         marks
+    }
+
+    /// The series `name`, or the change of an energy, of each replayed run.
+    fn flown_values(&self, name: &str) -> Vec<Vec<f64>> {
+        let energy = name.replace("exchange_", "energy_com_");
+        let is_of_it = |(series, _): &&(Series, Vec<f64>)| {
+            series.quantity(self.wheels).is_some_and(|quantity| quantity.name() == energy)
+        };
+        let of_run = |run: &&'a SingleRun| {
+            let (_, values) = run.series.iter().find(is_of_it)?;
+            let values = &values[..values.len().min(run.outcome.points)];
+            Some(if energy == name { values.to_vec() } else { changes(values) })
+        };
+        self.flown.iter().filter_map(of_run).collect()
     }
 
     /// The values of the run; on the page, dense oscillations become their envelope.
@@ -176,7 +181,6 @@ impl<'a> Curves<'a> {
         pieces(times.len().min(values.len()), |point| values[point].is_finite()).into_iter().map(piece).collect()
     }
 
-    /// Explains the bands of a quantity.
     pub(super) fn caption(&self, name: &str) -> String {
         let of = |series: &&(Series, Vec<f64>)| {
             series.0.quantity(self.wheels).is_some_and(|quantity| quantity.name() == name)
@@ -190,11 +194,10 @@ impl<'a> Curves<'a> {
         let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
         if self.is_aliased(bands, nominal) {
             return format!(
-                "Envelopes: from the smallest to the largest value in each of {} intervals of time, of the nominal run \
-                and of \
-                 the {} runs that were flown for this page, the worst ones. Quantiles at these instants, fewer than \
-                 {PER_TURN} in an oscillation, would miss it: raise [bands] points.",
-                bands.times.len().saturating_sub(1),
+                "Envelopes: smallest to largest value in each of {} intervals, of the nominal run and of the {} runs \
+                 flown for this page, the worst ones. Quantiles at fewer than {PER_TURN} instants in an oscillation \
+                 would miss it: raise [bands] points.",
+                whole_swings(&bands.times, nominal).len().saturating_sub(1),
                 self.flown.len(),
             );
         }
@@ -221,13 +224,11 @@ impl<'a> Curves<'a> {
         format!("Bands: 5 to 95% and 25 to 75% of {of}, at each of {} times.{left}", bands.times.len())
     }
 
-    /// Name and unit of a series.
     pub(super) fn name(&self, series: Series) -> (String, String) {
         let quantity = series.quantity(self.wheels);
         quantity.map_or_else(Default::default, |quantity| (quantity.name().to_owned(), quantity.unit().to_owned()))
     }
 
-    /// The telemetry `name` at the points of the run.
     pub(super) fn recorded(&self, name: &str) -> Option<Vec<f64>> {
         let telemetry = &self.run?.telemetry;
         let place = telemetry.quantities.iter().position(|quantity| quantity.name() == name)?;
@@ -362,7 +363,6 @@ impl<'a> Curves<'a> {
         bodies.map(figure).collect()
     }
 
-    /// Each wheel's series, name and colour.
     pub(super) fn each_wheel(&self, series: Series) -> impl Iterator<Item = (Series, String, Hue)> {
         let wheels = self.wheels.iter().enumerate();
         wheels.map(move |(index, name)| (series.of_wheel(index), format!("wheel {name}"), Hue::Wheel(index)))
@@ -372,6 +372,20 @@ impl<'a> Curves<'a> {
 /// Whether `times` samples give fewer than [`PER_TURN`] per oscillation (two turns).
 fn is_coarse(turns: usize, times: usize) -> bool {
     PER_TURN * turns > 2 * times.saturating_sub(1)
+}
+
+/// Those of `times` between which `values` swing at least once: shorter intervals would have parts of a swing in turns.
+fn whole_swings(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let intervals = times.len().saturating_sub(1);
+    // three turns are one and a half oscillations
+    let each = intervals.div_ceil((turns(values) / 3).max(1)).max(1);
+    let last = times.last().filter(|_| !intervals.is_multiple_of(each));
+    times.iter().step_by(each).chain(last).copied().collect()
+}
+
+/// Changes since the start.
+pub(super) fn changes(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| value - values[0]).collect()
 }
 
 /// Runs of consecutive points that have values.
@@ -433,6 +447,21 @@ mod tests {
             );
         }
         assert!(!is_coarse(0, 2));
+    }
+
+    /// Law: an envelope of a steady oscillation is as steady, whatever its period is to the times of the bands.
+    #[test]
+    fn an_envelope_has_whole_swings() {
+        let times: Vec<f64> = (0..=2000).map(|k| f64::from(k) / 200.0).collect();
+        let bands: Vec<f64> = (0..=32).map(|k| f64::from(k) / 3.2).collect();
+        for period in [0.06, 0.3, 0.45, 0.7, 1.1] {
+            let wave: Vec<f64> = times.iter().map(|time| libm::sin(core::f64::consts::TAU * time / period)).collect();
+            let ends = whole_swings(&bands, &wave);
+            assert!(ends.len() > 4 && ends[0] == 0.0 && ends.last() == Some(&10.0), "{period}: {ends:?}");
+            let [_, low, high] = within(&times, &[&wave], &ends[..ends.len() - 1]);
+            let is_whole = low.iter().chain(&high).all(|end| end.abs() > 0.9);
+            assert!(is_whole, "{period}: {low:?} {high:?}");
+        }
     }
 
     /// Law: if the nominal run oscillates faster than the bands' times, envelopes replace the bands and contain all

@@ -15,7 +15,6 @@ impl Curves<'_> {
         (!self.plan.method.has_fixed_step()).then_some(self.plan.tolerance.relative)
     }
 
-    /// Relative errors of the balances with the tolerance and the rounding error of a double.
     pub fn drift(&self) -> Vec<Figure> {
         let tolerance = self.tolerance();
         let energy = [(Series::EnergyError, "", Hue::Body)];

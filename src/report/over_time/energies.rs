@@ -4,7 +4,7 @@ use crate::analysis::spectrum::{amplitudes, dominant};
 use crate::findings::number::short;
 use crate::observables::Series;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
-use crate::report::over_time::curves::{Curves, over_time};
+use crate::report::over_time::curves::{Curves, changes, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 
 /// Relative changes below this are the rounding errors of thousands of operations.
@@ -40,7 +40,6 @@ impl Curves<'_> {
         self.bodies([Series::ComBody, Series::ComWheel]).filter_map(figure).collect()
     }
 
-    /// Energy transfer between body and wheels in the nominal run, and its spectrum.
     pub(super) fn transfer(&self, listed: &ListedFigure) -> Vec<Figure> {
         let (times, body) = (self.times(), changes(&self.nominal(Series::ComBody)));
         let wheels: Vec<Vec<f64>> =
@@ -50,8 +49,8 @@ impl Curves<'_> {
         let named = || self.wheels.iter().enumerate().zip(&wheels);
         let bodies = named().map(|((index, name), y)| (format!("wheel {name}"), Hue::Wheel(index), y));
         let mut marks = stacked(&times, bodies.chain([("body".to_owned(), Hue::Body, &body)]));
-        // spread of the other runs
-        if let Some(bands) = self.band("exchange_body_j") {
+        // the spread of the other runs, unless its times are too few for the motion
+        if let Some(bands) = self.band("exchange_body_j").filter(|bands| !self.is_aliased(bands, &body)) {
             for (label, quantile) in [("body, 5% of runs", 0), ("body, 95% of runs", 4)] {
                 let (x, y) = (bands.times.clone(), bands.quantiles[quantile].clone());
                 marks.push(Mark::line(label, Hue::Body, Dash::Dashed, x, y));
@@ -86,11 +85,6 @@ fn stacked<'v>(times: &[f64], bodies: impl Iterator<Item = (String, Hue, &'v Vec
     bodies.map(&mut mark).collect()
 }
 
-fn changes(values: &[f64]) -> Vec<f64> {
-    values.iter().map(|value| value - values[0]).collect()
-}
-
-/// The spectrum of the body's energy, with its dominant frequency.
 fn spectrum(times: &[f64], body: &[f64]) -> Option<Figure> {
     let (frequencies, amplitudes) = amplitudes(times, body)?;
     let peak = dominant(&frequencies, &amplitudes)?;

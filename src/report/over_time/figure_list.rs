@@ -10,25 +10,17 @@ use crate::scene::{Name, WheelModel};
 #[derive(Clone, Debug)]
 pub struct Traits {
     pub has_loop: bool,
-    /// The loop has several phases.
     pub changes_phase: bool,
-    /// A phase controls the attitude.
     pub points: bool,
-    /// An estimator is in the loop.
     pub estimates: bool,
-    /// The loop approaches debris.
     pub approaches: bool,
     pub debris: bool,
     pub orbit: bool,
-    /// The orbit has a date.
     pub dated_orbit: bool,
     pub wheels: bool,
-    /// The loop drives wheels.
     pub drives: bool,
     pub fires: bool,
-    /// Required observables.
     asked: Vec<String>,
-    /// Turning wheels.
     wheel_names: Vec<Name>,
 }
 
@@ -73,7 +65,6 @@ impl Traits {
 pub enum Place {
     /// The nominal run and bands.
     Page,
-    /// A single run.
     Plot,
 }
 
@@ -110,20 +101,17 @@ pub enum Shows {
     Estimated(Series, &'static str),
     /// A series of wheels: with a loop one figure with limits, else a figure per wheel.
     Wheels(Series, WheelLimit),
-    /// Components of a state; for wheels all.
     State(StateField, &'static [&'static str]),
     GroundTrack,
     Phases,
     Thrust,
     Impulse,
     Propellant,
-    /// A figure per body.
     Energies,
     /// A figure per body with bands.
     Changes,
     /// Over time and as a spectrum.
     Transfer,
-    /// Several figures.
     Drift,
 }
 
@@ -132,7 +120,6 @@ pub struct ListedFigure {
     pub shows: Shows,
     /// Title, or its beginning if there is one per wheel or body.
     pub title: &'static str,
-    /// Quantity of the vertical axis.
     pub quantity: &'static str,
     pub hue: Hue,
     /// Whether a scene calls for it.
@@ -142,7 +129,6 @@ pub struct ListedFigure {
 }
 
 impl ListedFigure {
-    /// Whether a requirement is on it.
     pub fn is_asked(&self, traits: &Traits) -> bool {
         traits.asked(self.judged_by)
     }
@@ -189,7 +175,6 @@ const fn figure(
     ListedFigure { shows, title, quantity, hue, called, judged_by }
 }
 
-/// All figures, in page order.
 #[rustfmt::skip]
 pub const FIGURES: &[ListedFigure] = {
     use Shows::*;

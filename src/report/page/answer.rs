@@ -5,16 +5,15 @@ use crate::analysis::survey::Survey;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::findings::names::sentence;
 use crate::findings::number::{time, trimmed, typeset, unbroken};
+use crate::findings::numerics::WORST_RUN;
 use crate::findings::requirement::limit_text;
 use crate::findings::{Finding, Findings, Kind, Verdict};
-use crate::report::escaped::escaped;
 use crate::report::figure::Figure;
 use crate::report::page::pictures::{self, HATCH};
 use crate::statistics::gate::GateLimit;
+use crate::table::html::escaped;
 
-/// Example for files without requirements.
 const EXAMPLE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9";
-/// Maximum number of outcomes without requirements.
 const MOST_OUTCOMES: usize = 8;
 
 /// A text of a finding as HTML.
@@ -24,7 +23,21 @@ pub fn text(said: &str) -> String {
 
 /// A sentence of a finding as HTML with its full stop; keys become code.
 pub fn full(said: &str) -> String {
-    let said = text(sentence(said).trim_end_matches('.'));
+    coded(sentence(said).trim_end_matches('.')) + "."
+}
+
+/// A text as HTML, in which keys, and what stands in backticks, become code.
+fn coded(said: &str) -> String {
+    let quoted: Vec<&str> = said.split('`').collect();
+    let code = |(place, part): (usize, &&str)| match place % 2 {
+        1 if place + 1 < quoted.len() => format!("<code>{}</code>", escaped(part)),
+        _ => with_keys(part),
+    };
+    quoted.iter().enumerate().map(code).collect()
+}
+
+fn with_keys(said: &str) -> String {
+    let said = text(said);
     let word = |word: &str| {
         let key = word.trim_matches(|letter: char| !letter.is_ascii_alphanumeric());
         // frames such as F_e are no keys
@@ -33,7 +46,7 @@ pub fn full(said: &str) -> String {
             false => word.to_owned(),
         }
     };
-    format!("{}.", said.split(' ').map(word).collect::<Vec<_>>().join(" "))
+    said.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
 /// The shape of a verdict: a disc with a tick, a square with a cross, a diamond with a question mark.
@@ -52,7 +65,6 @@ const fn shape(verdict: Verdict) -> &'static str {
     }
 }
 
-/// CSS class.
 const fn class(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "pass",
@@ -98,7 +110,7 @@ pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
     });
     let question = plan.description.as_deref();
     let question =
-        question.map_or_else(String::new, |said| format!("<p class=\"question\">{}</p>", escaped(&sentence(said))));
+        question.map_or_else(String::new, |said| format!("<p class=\"question\">{}</p>", coded(&sentence(said))));
     let hash = plan.hash();
     let duration = time(plan.grid.duration());
     let facts = [
@@ -111,11 +123,20 @@ pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
     let brackets = found.brackets().map_or_else(String::new, |said| format!(" \u{b7} in brackets: {}", text(&said)));
     format!(
         "<h1>{}{verdict}</h1>{question}\n<p class=\"facts\">{} \u{b7} plan <button type=\"button\" class=\"hash\" \
-         data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button>{brackets}</p>\n",
+         data-copy=\"{hash}\" title=\"Copy the whole hash\">{}</button>{brackets}</p>{}\n",
         escaped(&plan.name),
         facts.map(|fact| text(&fact)).join(" \u{b7} "),
         &hash[..8],
+        look(found),
     )
+}
+
+/// The run to look at, with a link to its replay.
+fn look(found: &Findings) -> String {
+    let worst = found.of(Kind::Runs).find(|one| one.rank == 0 && one.id == WORST_RUN);
+    worst.and_then(|one| one.sample.map(|sample| (one, sample))).map_or_else(String::new, |(one, sample)| {
+        format!("<p class=\"look\"><a href=\"#replay\">{}: sample {sample}</a></p>", text(&sentence(&one.title)))
+    })
 }
 
 /// Warnings, and the lost runs with reasons and replay commands.
@@ -137,7 +158,6 @@ fn reason(one: &Finding) -> String {
     format!("<b>{}</b>: {}.{notes}{command}", text(&one.title), text(one.sentence.trim_end_matches('.')))
 }
 
-/// A row of the table.
 struct Row<'f> {
     finding: &'f Finding,
     outcome: Option<&'f Finding>,
@@ -197,7 +217,6 @@ impl<'f> Row<'f> {
         format!("<b>{}</b> <span class=\"quiet\">{}</span>{below}", text(value), text(&rest))
     }
 
-    /// The outcome as a small picture with its numbers.
     fn picture(&self) -> String {
         let yes = self.outcome.and_then(|one| one.number("yes"));
         let picture = match (yes, self.figure) {
@@ -225,8 +244,8 @@ impl<'f> Row<'f> {
         }
         format!(
             "<details class=\"answer {}\" id=\"answer_{}\"><summary><span class=\"judged\">{}</span><span \
-            class=\"asked\">{}</span>\
-             <span class=\"number\">{}</span><span>{scale}</span><span>{}</span></summary>{details}</details>\n",
+            class=\"asked\">{}</span><span \
+            class=\"number\">{}</span><span>{scale}</span><span>{}</span></summary>{details}</details>\n",
             finding.verdict.map_or("finding", class),
             escaped(&finding.id),
             self.judged(),
@@ -248,7 +267,6 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     };
     let rows: Vec<Row<'_>> = shown.iter().map(|one| Row::of(plan, found, one, figures)).collect();
     let scales = pictures::scales(&shown);
-    let body: String = rows.iter().zip(&scales).map(|(row, scale)| row.html(scale)).collect();
     let (title, heads, example) = match has_verdicts {
         true => (
             "Requirements, by verdict, then nearest to their limit first",
@@ -266,6 +284,7 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
             ),
         ),
     };
+    let body: String = rows.iter().zip(&scales).map(|(row, scale)| row.html(scale)).collect();
     let heads = heads.map(|head| format!("<span>{head}</span>")).concat();
     let body = match body.is_empty() {
         true => "<p>No results: no dispersed run produced a value for any outcome.</p>".to_owned(),

@@ -3,12 +3,11 @@
 
 use serde_json::Value;
 
-use crate::report::escaped::escaped;
 use crate::report::page::payload::{encoded, packed};
+use crate::table::html::escaped;
 
 const STYLE: &str = include_str!("../../../assets/report/page.css");
 const LICENCES: &str = include_str!("../../../assets/report/vendor/licences.txt");
-/// The chart library, compressed.
 pub(in crate::report) static ECHARTS: &[u8] = include_bytes!("../../../assets/report/vendor/echarts.js.gz");
 static THREE: &[u8] = include_bytes!("../../../assets/report/vendor/three.js.gz");
 
@@ -38,7 +37,6 @@ const MODULES: [(&str, &str); 18] = [
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
     base-uri 'none'; form-action 'none'";
 
-/// A section of the page.
 pub struct PageSection {
     pub anchor: &'static str,
     pub title: &'static str,

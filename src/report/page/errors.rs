@@ -11,11 +11,8 @@ use crate::statistics::sketch::{Sketch, middle};
 
 /// Replaces the interval's description if there is none.
 pub const NO_INTERVAL: &str = "No interval: these runs are no random part of all.";
-/// Fewest runs for a distribution.
 const FEWEST_RUNS: u64 = 8;
-/// Maximum number of errors with figures.
 const MOST_ERRORS: usize = 8;
-/// Points per decade of rank in an exceedance plot.
 const RANKS_PER_DECADE: f64 = 12.0;
 
 /// Dynamic range of an exceedance plot: exact runs would add three hundred decades.

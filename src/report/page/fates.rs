@@ -1,7 +1,7 @@
 //! [`Fate`]: success of a run, for the colours of figures.
 
 use crate::analysis::survey::{FAILURE, Survey};
-use crate::campaign::{Plan, Requirement, Statement};
+use crate::campaign::{Plan, Requirement};
 use crate::run::Status;
 
 /// The fate of a run with regard to the limits of a figure.
@@ -28,12 +28,19 @@ impl Fate {
 /// The fate of each run of the thinned table by all requirements.
 pub fn fates(plan: &Plan, survey: &Survey) -> Vec<Fate> {
     let failure = survey.outcome(FAILURE).map(|(index, _)| &survey.thinned.outcomes[index][..]);
-    judged(survey, &limits(plan, survey, |_| true), failure)
+    judged(survey, plan.analysis.requirements.iter(), failure)
 }
 
-/// As [`fates`], by the limits on the outcome `name` only.
-pub fn of_outcome(plan: &Plan, survey: &Survey, name: &str) -> Vec<Fate> {
-    judged(survey, &limits(plan, survey, |one| one.observable() == Some(name)), None)
+/// As [`fates`], by one requirement, or none.
+pub fn of_one(survey: &Survey, requirement: Option<&Requirement>) -> Vec<Fate> {
+    judged(survey, requirement.into_iter(), None)
+}
+
+/// The requirement with the limit of the outcome `name`; `None` without one, or with several limits.
+pub fn only_limit<'p>(plan: &'p Plan, name: &str) -> Option<&'p Requirement> {
+    let mut all = plan.analysis.requirements.iter().filter(|one| one.of_runs() == Some(name));
+    let first = all.next()?;
+    all.all(|other| other.limit == first.limit && other.never_meets == first.never_meets).then_some(first)
 }
 
 /// Labels of the fates in order; without requirements they describe missions.
@@ -44,37 +51,18 @@ pub fn words(plan: &Plan) -> [&'static str; 3] {
     }
 }
 
-/// The violated limit on the outcome `name` in words.
-pub fn limit_word(plan: &Plan, name: &str) -> &'static str {
-    let all = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
-    let limits = all.map(|one| (one.limit, one.never_meets));
-    let mut other = limits.clone().skip(1);
-    let is_one = limits.take(1).all(|first| other.all(|limit| limit == first));
-    if is_one { "its limit" } else { "a limit" }
-}
-
-/// The selected requirements, each with the values of its observable.
-fn limits<'s, 'p>(
-    plan: &'p Plan,
-    survey: &'s Survey,
-    is_wanted: impl Fn(&Requirement) -> bool,
-) -> Vec<(&'s [f64], &'p Requirement)> {
-    // neither a mean nor a band limits single runs
-    let is_of_runs = |one: &&Requirement| one.statement != Statement::Mean && one.band().is_none() && is_wanted(one);
-    let of_column = |one: &'p Requirement| {
-        let (index, _) = survey.outcome(one.observable()?)?;
-        Some((&survey.thinned.outcomes[index][..], one))
-    };
-    plan.analysis.requirements.iter().filter(is_of_runs).filter_map(of_column).collect()
-}
-
-fn judged(survey: &Survey, limits: &[(&[f64], &Requirement)], failure: Option<&[f64]>) -> Vec<Fate> {
+fn judged<'p>(survey: &Survey, all: impl Iterator<Item = &'p Requirement>, failure: Option<&[f64]>) -> Vec<Fate> {
     let thinned = &survey.thinned;
+    let values = |one: &'p Requirement| {
+        let (index, _) = survey.outcome(one.of_runs()?)?;
+        Some((one, &thinned.outcomes[index]))
+    };
+    let limits: Vec<(&Requirement, &Vec<f64>)> = all.filter_map(values).collect();
     let fate = |row: usize| {
         if thinned.statuses[row] != Status::Done {
             return Fate::NotComputed;
         }
-        let is_missed = limits.iter().any(|(values, one)| !one.is_met(values[row]));
+        let is_missed = limits.iter().any(|(one, values)| !one.is_met(values[row]));
         if is_missed || failure.is_some_and(|codes| codes[row] >= 1.0) { Fate::Missed } else { Fate::Met }
     };
     (0..thinned.samples.len()).map(fate).collect()

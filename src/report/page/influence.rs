@@ -1,16 +1,17 @@
 //! Figures of drivers: shares of the variance, outcomes against drivers, conditional probabilities of events.
 
 use crate::analysis::drivers::{Question, Ranking};
-use crate::analysis::event::{Event, distinct};
+use crate::analysis::event::{Event, Occurs, distinct};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::order_statistics::share_interval;
 use crate::analysis::survey::{SCATTER, Survey, SurveyedOutcome, chosen};
-use crate::campaign::Plan;
-use crate::findings::drivers::{outcomes, part, ranked, verb};
+use crate::campaign::{Plan, Requirement};
+use crate::findings::drivers::{outcomes, part, ranked, row, verb};
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::findings::names::unit_of_input;
 use crate::findings::number::{significant, typeset};
+use crate::findings::requirement::limit_text;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark, PointShape};
 use crate::report::page::errors::{computed, having, interval_label, magnitude, of_runs, shown_rows};
 use crate::report::page::fates::{self, Fate};
@@ -20,11 +21,9 @@ use crate::statistics::correlation::ascending_order;
 /// Maximum and minimum number of inputs in a chart; the strongest others fill it up.
 const MOST_INPUTS: usize = 12;
 const FEWEST_INPUTS: usize = 6;
-/// Plotted drivers per ranking.
 const PLOTTED: usize = 2;
 /// Classes of equally many runs for an input with more values.
 const CLASSES: usize = 6;
-/// Maximum number of digits of the ends of a class.
 const MOST_DIGITS: usize = 8;
 
 /// For each ranking with drivers: the outcome against the strongest ones, and the shares of all inputs. Identical
@@ -46,13 +45,22 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
             }
             let drivers = ranking.drivers().take(PLOTTED);
             for input in drivers.filter_map(|driver| names::place_of(plan, &driver.input.input)) {
-                let against = match &ranking.question {
-                    Question::Event(event) => conditional(plan, survey, input, (index, outcome), event, has_intervals),
-                    Question::Spread => None,
+                let (against, row) = match &ranking.question {
+                    Question::Event(event) => {
+                        (conditional(plan, survey, input, (index, outcome), event, has_intervals), row(event))
+                    }
+                    Question::Spread => (None, String::new()),
+                };
+                let judge = match &ranking.question {
+                    Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {
+                        plan.analysis.requirements.get(*requirement)
+                    }
+                    _ => fates::only_limit(plan, name),
                 };
                 // a scatter plot of yes or no adds nothing
                 let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
-                let scatter = is_plotted.then(|| scatter(plan, survey, input, index, outcome)).filter(is_spread);
+                let scatter = || scatter(plan, survey, input, (index, outcome), (judge, &row));
+                let scatter = is_plotted.then(scatter).filter(is_spread);
                 for figure in against.into_iter().chain(scatter) {
                     if !figures.iter().any(|other| other.name == figure.name) {
                         figures.push(figure);
@@ -194,7 +202,7 @@ fn conditional(
         Figure::of(
             FigureSection::Influence,
             [
-                format!("shares_{name}_{}", column.parameter.column_name(column.component)),
+                format!("shares_{name}{}_{}", row(event), column.parameter.column_name(column.component)),
                 format!("{} by {of_input}", names::title(&outcome.quantity)),
                 format!("{}, in classes of {of_input}{unit}.", of_runs(rows.len(), computed(survey))),
             ],
@@ -208,8 +216,14 @@ fn conditional(
     )
 }
 
-/// An outcome against an input.
-fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &SurveyedOutcome) -> Figure {
+/// An outcome against an input; crosses miss the requirement `judge` of the ranking whose figures end with `row`.
+fn scatter(
+    plan: &Plan,
+    survey: &Survey,
+    input: usize,
+    (index, outcome): (usize, &SurveyedOutcome),
+    (judge, row): (Option<&Requirement>, &str),
+) -> Figure {
     let column = &plan.dispersions.columns()[input];
     let name = names::of_input(plan, input);
     let unit = names::own_unit(column.parameter);
@@ -231,15 +245,18 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
         y,
         samples: rows.iter().map(|row| thinned.samples[*row] as f64).collect(),
     };
-    let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
+    let fates = fates::of_one(survey, judge);
     let (missed, met): (Vec<usize>, Vec<usize>) = kept.iter().partition(|row| fates[**row] == Fate::Missed);
     let value = |rows: &[usize]| rows.iter().map(|row| ordinates[*row]).collect::<Vec<f64>>();
-    let limit = fates::limit_word(plan, outcome.quantity.name());
-    let all_limits = if limit == "its limit" { limit } else { "all limits" };
-    let word = if missed.is_empty() { "computed".to_owned() } else { format!("meets {all_limits}") };
+    let shown = plan.analysis.display.of(outcome.quantity.name(), outcome.quantity.unit());
+    // of several limits the one that is meant
+    let limit = judge.filter(|_| !row.is_empty()).map(|one| typeset(&limit_text(one.limit, &shown)));
+    let limit = limit.map_or_else(|| "its limit".to_owned(), |limit| format!("the limit, {limit}"));
+    let word = if missed.is_empty() { "computed".to_owned() } else { format!("meets {limit}") };
     let mut marks = vec![points(&met, &word, Hue::Total, PointShape::Disc, value(&met))];
     if !missed.is_empty() {
-        marks.push(points(&missed, &format!("misses {limit}"), Hue::Failed, PointShape::Cross, value(&missed)));
+        let label = format!("misses {limit}");
+        marks.push(points(&missed, &label, Hue::Failed, PointShape::Cross, value(&missed)));
     }
     let failed: Vec<usize> =
         (0..thinned.samples.len()).filter(|row| fates[*row] == Fate::NotComputed).take(SCATTER).collect();
@@ -254,7 +271,7 @@ fn scatter(plan: &Plan, survey: &Survey, input: usize, index: usize, outcome: &S
     Figure::of(
         FigureSection::Influence,
         [
-            format!("scatter_{}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
+            format!("scatter_{}{row}_{}", outcome.quantity.name(), column.parameter.column_name(column.component)),
             format!("{} against {name}", names::title(&outcome.quantity)),
             format!("{}.", having(survey, &outcome.sketch, kept.len())),
         ],

@@ -3,10 +3,10 @@
 use crate::campaign::Plan;
 use crate::findings::names::{self, sentence, unit_of_input};
 use crate::findings::origin::origin;
-use crate::report::escaped::escaped;
 use crate::report::figure::Figure;
 use crate::report::page::pictures::histogram;
 use crate::report::page::readable::with_unit;
+use crate::table::html::escaped;
 
 /// A line, which opens its figure, for each input with a figure among `figures`.
 pub fn rows(plan: &Plan, figures: &[Figure]) -> String {

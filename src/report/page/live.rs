@@ -112,7 +112,6 @@ fn propellant((run, row): (&SingleRun, &[(String, f64)]), points: usize) -> Opti
     Some(LiveNumber::new(name, column, unit, used))
 }
 
-/// Distance and speed between the centres of mass.
 fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     let apart = |[a, b]: [StateField; 2]| -> Vec<f64> {
         (0..points).map(|point| norm(difference(run.table.at::<3>(a, point), run.table.at::<3>(b, point)))).collect()
@@ -127,7 +126,6 @@ fn approach(run: &SingleRun, points: usize) -> Vec<LiveNumber> {
     list.into_iter().filter(|_| run.request.debris).map(number).collect()
 }
 
-/// The share of the Sun hidden by the Earth.
 fn sunlight(run: &SingleRun, points: usize) -> Option<LiveNumber> {
     let number = LiveNumber::new("Sunlight", "sun_hidden_fraction", "", surroundings::hidden(run, points)?);
     Some(LiveNumber { is_held: true, words: Some(["full", "part shadow", "in shadow"]), ..number })

@@ -30,6 +30,7 @@ use self::figure_json::json_of;
 use self::payload::Payload;
 use self::runs::{KnownRow, ShownRun};
 use crate::analysis::analysed::Analysed;
+use crate::analysis::outcomes::unique;
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{self, Survey};
 use crate::campaign::Plan;
@@ -44,7 +45,6 @@ use crate::report::inputs::DrawnInputs;
 use crate::report::over_time::curves::{Curves, TimeBands};
 use crate::sampling::{Design, SampleId};
 
-/// The contents of the page.
 #[derive(Clone, Debug)]
 pub struct Contents<'a> {
     pub analysed: &'a Analysed,
@@ -67,7 +67,6 @@ impl Contents<'_> {
 #[derive(Clone, Debug)]
 pub struct Page {
     pub html: String,
-    /// In page order.
     pub figures: Vec<Figure>,
     /// Listed runs that are not replayed, with the command to replay them.
     pub left_out: Option<String>,
@@ -122,7 +121,6 @@ impl Page {
     }
 }
 
-/// The figures in page order, in display units.
 fn figures(
     ensemble: &Ensemble<'_>,
     (analysed, found): (&Analysed, &Findings),
@@ -183,7 +181,9 @@ fn sections(
         has(section).then(|| PageSection { has_figures: true, ..of(section.anchor(), title, lead.to_owned(), html) })
     };
     let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>".to_owned();
-    let worst = if shown.len() > 1 { tables::worst_runs(plan, survey, shown) } else { String::new() };
+    let drivers: Vec<&str> = found.of(Kind::Driver).flat_map(|one| &one.children).map(|one| one.id.as_str()).collect();
+    let drivers = unique(drivers.into_iter());
+    let worst = if shown.len() > 1 { tables::worst_runs(plan, survey, &drivers, shown) } else { String::new() };
     let left_out = runs::left_out(shown).map_or_else(String::new, |text| format!(" {}", full(&text)));
     let one = if plan.rows() == 1 {
         "The run in three dimensions."

@@ -15,16 +15,12 @@ use crate::report::page::fates::{self, Fate};
 use crate::report::page::readable::number;
 use crate::statistics::gate::GateLimit;
 
-/// Maximum number of points of a cumulative curve.
 const MOST_POINTS: u64 = 400;
-/// Maximum number of distinct values for a stepped curve.
 const MOST_STEPS: usize = 100;
-/// Fewest runs for a distribution.
 const FEWEST_RUNS: u64 = 8;
 /// Up to this many outcomes have curves next to their histograms.
 const BESIDE: usize = 2;
 
-/// Histogram and cumulative curve of each outcome.
 pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], has_intervals: bool) -> Vec<Figure> {
     let outcomes = survey.outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_outcome);
     let shown = outcomes.filter(|(_, outcome)| outcome.sketch.count() >= FEWEST_RUNS);
@@ -53,7 +49,6 @@ pub fn figures(plan: &Plan, survey: &Survey, statistics: &[ColumnStatistics], ha
     laid_out(distributions, curves)
 }
 
-/// Prefix of figure names.
 const CUMULATIVE: &str = "cumulative_";
 
 /// A folded place for the cumulative curves of many outcomes; empty if they stand next to their histograms.
@@ -81,15 +76,15 @@ fn laid_out(distributions: Vec<Figure>, curves: Vec<Figure>) -> Vec<Figure> {
     all.into_iter().map(|figure| Figure { columns, ..figure }).collect()
 }
 
-/// The violating runs as bars in front of the others, if any.
+/// The violating runs as bars in front of the others, if any; with several limits each row of the answers has its own.
 fn missed(plan: &Plan, survey: &Survey, index: usize, outcome: &SurveyedOutcome, marks: &[Mark]) -> Option<Mark> {
-    let fates = fates::of_outcome(plan, survey, outcome.quantity.name());
+    let fates = fates::of_one(survey, Some(fates::only_limit(plan, outcome.quantity.name())?));
     let edges = marks.iter().find_map(|mark| if let Mark::Bars { edges, .. } = mark { Some(edges) } else { None })?;
     let rows = shown_rows(survey).into_iter().filter(|row| fates[*row] == Fate::Missed);
     let values = rows.map(|row| survey.thinned.outcomes[index][row]);
     let values: Vec<f64> = values.map(|value| if outcome.is_error { value.abs() } else { value }).collect();
     let heights = counts(&values, edges);
-    let label = format!("of these, miss {}", fates::limit_word(plan, outcome.quantity.name()));
+    let label = "of these, miss its limit".to_owned();
     let any = heights.iter().any(|height| *height > 0.0);
     any.then(|| Mark::Bars { label, hue: Hue::Failed, heights, edges: edges.clone() })
 }
@@ -131,7 +126,6 @@ fn share(plan: &Plan, outcome: &SurveyedOutcome, has_intervals: bool) -> Figure 
     .wide(4)
 }
 
-/// The lowest ordinate.
 fn lowest(mark: &Mark) -> f64 {
     match mark {
         Mark::Line { y: values, .. } | Mark::Band { low: values, .. } => values.iter().copied().fold(1.0, f64::min),

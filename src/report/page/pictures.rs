@@ -2,11 +2,10 @@
 
 use crate::findings::number::{trimmed, typeset};
 use crate::findings::{Finding, Number};
-use crate::report::escaped::escaped;
 use crate::report::figure::{Axis, Figure, Mark, Scale};
 use crate::statistics::gate::GateLimit;
+use crate::table::html::escaped;
 
-/// Width, pixels.
 pub const WIDTH: f64 = 220.0;
 /// Height of bars, and of the labels below.
 const HEIGHT: f64 = 26.0;

@@ -19,7 +19,6 @@ use crate::run::StateField;
 use crate::scene::unit_quaternion::unit_quaternion;
 use crate::scene::{DebrisInput, PartInput, PartShape, Plate, Scene, SceneInput, WheelMode};
 
-/// A drawn part of the body.
 #[derive(Clone, Debug)]
 pub struct ShownPart {
     pub name: String,
@@ -33,7 +32,6 @@ pub struct ShownPart {
     pub turn: [[f64; 3]; 3],
 }
 
-/// The parts of the nominal body, or its equivalent box.
 pub fn shown_parts(plan: &Plan) -> Vec<ShownPart> {
     let input = &plan.nominal;
     if input.parts.is_empty() {
@@ -184,7 +182,6 @@ pub fn motion(plan: &Plan, shown: &ShownRun, payload: &mut Payload) -> Option<Va
     Some(motion)
 }
 
-/// Phase and mean commanded thrusts at each point; `None` without a loop.
 fn control(plan: &Plan, run: &SingleRun, points: usize, payload: &mut Payload) -> Option<Value> {
     let spec = plan.law.as_ref()?.spec()?;
     let held = run.telemetry.held_at(&run.grid.times()[..points]);

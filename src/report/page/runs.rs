@@ -7,21 +7,20 @@ use crate::ensemble::replays::replayed;
 use crate::ensemble::{DrawnScenes, SingleRun};
 use crate::findings::loss::{readable, status_words};
 use crate::findings::names;
-use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED};
+use crate::findings::requirement::{LAUNCHED, against};
 use crate::math::Isa;
 use crate::report::page::readable::with_unit;
 use crate::run::Status;
 use crate::sampling::SampleId;
 
-/// Ordinals after the first.
 const PLACES: [&str; 9] = ["second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
 
-/// Number of runs in the table of the worst.
 pub const WORST: usize = 10;
 /// Maximum number of failed runs among them.
 const MOST_FAILED: usize = 5;
+/// Maximum number of runs that miss requirements: the worst of each outcome have room, too.
+const MOST_MISSING: usize = 3;
 
-/// The row of a run.
 #[derive(Clone, Debug)]
 pub struct KnownRow {
     pub sample: SampleId,
@@ -32,7 +31,6 @@ pub struct KnownRow {
     pub numbers: Vec<(String, f64)>,
 }
 
-/// A run on the page.
 #[derive(Clone, Debug)]
 pub struct ShownRun {
     pub sample: SampleId,
@@ -116,14 +114,13 @@ pub fn left_out(runs: &[ShownRun]) -> Option<String> {
     ))
 }
 
-/// Applied inputs of a sample.
 fn inputs(plan: &Plan, sample: SampleId) -> Vec<f64> {
     let drawn = DrawnScenes::new(plan, sample, 1);
     drawn.columns.iter().filter_map(|column| column.first().copied()).collect()
 }
 
-/// The first failures of each kind, then the worst values of each outcome in turn, or of the errors if there are no
-/// outcomes.
+/// The worst run against the requirements, the first failures of each kind, the next worst runs, then the worst values
+/// of each outcome in turn, or of the errors if there are no outcomes.
 fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, String)> {
     let mut first: Vec<(usize, SampleId, String)> = Vec::new();
     for ended in survey.statuses.failed() {
@@ -139,15 +136,13 @@ fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, Strin
     let errors: Vec<_> = survey.outcomes.iter().filter(|outcome| outcome.is_error && !outcome.is_outcome).collect();
     let outcomes = if outcomes.is_empty() { errors } else { outcomes };
     let lost = list.len();
-    let launched = outcomes.iter().filter(|outcome| outcome.quantity.name() == LAUNCHED);
-    let not_launched = launched.flat_map(|outcome| &outcome.worst.runs).filter(|(_, value)| *value == 0.0);
-    list.extend(not_launched.take(MOST_FAILED).map(|(sample, _)| (*sample, NOT_LAUNCHED.to_owned())));
+    let missing = survey.against.runs.iter().enumerate().filter(|(place, (_, missed))| *place == 0 || *missed >= 1.0);
+    list.extend(missing.take(MOST_MISSING).map(|(_, (sample, missed))| (*sample, against(plan, *missed))));
     let deepest = outcomes.iter().map(|outcome| outcome.worst.runs.len()).max().unwrap_or(0);
     for place in 0..deepest {
         for outcome in &outcomes {
             let is_low = outcome.worst.is_low;
             if let Some((sample, value)) = outcome.worst.runs.get(place).filter(|(_, value)| is_low || *value != 0.0) {
-                // handled above: no order among missions that did not launch
                 if outcome.quantity.name() == LAUNCHED {
                     continue;
                 }
@@ -164,7 +159,7 @@ fn worst(plan: &Plan, survey: &Survey, asked: &[String]) -> Vec<(SampleId, Strin
         }
     }
     if !asked.is_empty() && list.len() > lost {
-        // the first requirement precedes lost runs
+        // the run to look at precedes lost runs
         list[..=lost].rotate_right(1);
     }
     list

@@ -22,7 +22,6 @@ fn vectors(around: &Surroundings, time: f64, [position, velocity]: [[f64; 3]; 2]
     [Some(Surroundings::nadir(position)), Some(velocity), sun, around.field(time, position)]
 }
 
-/// Position and velocity of the centre of mass.
 fn state(run: &SingleRun, point: usize) -> [[f64; 3]; 2] {
     [StateField::ComPosition, StateField::ComVelocity].map(|field| run.table.at::<3>(field, point))
 }

@@ -1,6 +1,5 @@
 //! Tables of the page as static HTML: worst runs, statistics, provenance; a script sorts and searches them.
 
-use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::statistic::{STATISTICS, Statistic};
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::Survey;
@@ -11,74 +10,71 @@ use crate::findings::loss;
 use crate::findings::names;
 use crate::findings::names::sentence;
 use crate::findings::names::unit_of_input;
-use crate::report::escaped::escaped;
 use crate::report::page::readable::{in_brackets, number, with_unit};
 use crate::report::page::runs::ShownRun;
-use crate::run::Status;
+use crate::run::{Quantity, Status};
 use crate::sampling::Transform;
+use crate::table::html::{self, escaped};
+use crate::table::text::Align;
+use crate::table::{Cell, Column, Content, Table, Values};
 
-/// Listed inputs of a run: the farthest from nominal in units of their spread.
 const MOST_INPUTS: usize = 3;
 
-/// A sortable cell.
-fn cell(value: f64) -> String {
-    if value.is_finite() {
-        format!("<td data-value=\"{value:e}\">{}</td>", number(value))
-    } else {
-        "<td>-</td>".to_owned()
-    }
-}
+/// The head of a column, and its value in the row of an observable.
+type Heading<'v> = (String, Box<dyn Fn(&ColumnStatistics) -> f64 + 'v>);
 
 /// The statistics of every observable, with intervals if the design has them.
 pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
-    let quantiles: String = first.quantiles.iter().map(|one| format!("<th>{}%</th>", number(100.0 * one.p))).collect();
-    // quantiles precede the last statistic
-    let of_list = |quantiles: String, text: &dyn Fn(&Statistic, &str) -> String| {
-        let shown: Vec<String> = STATISTICS.iter().filter_map(|one| Some(text(one, one.head?))).collect();
-        shown.split_last().map_or(String::new(), |(last, before)| before.concat() + &quantiles + last)
-    };
-    let heads = of_list(quantiles, &|_, head| format!("<th>{head}</th>"));
-    let caption = if !has_intervals {
-        "The design has no intervals".to_owned()
-    } else {
-        "These runs do not bound this quantile from both sides; the interval of others appears on hover".to_owned()
-    };
-    let mut body = String::new();
+    let shown = |row: &ColumnStatistics| display.of(row.quantity.name(), row.quantity.unit());
+    let mut table = Table::with([("observable", Align::Title), ("unit", Align::Left)]);
     for row in rows {
-        let quantity = &row.quantity;
-        let shown = display.of(quantity.name(), quantity.unit());
-        let cell = |value: Option<f64>| cell(shown.value(value.unwrap_or(f64::NAN)));
-        let quantile = |one: &QuantileStatistic| {
-            let [_, value, low, high] = one.numbers();
-            if !value.is_finite() {
-                return "<td>-</td>".to_owned();
-            }
-            let value = shown.value(value);
-            let ends = [low, high].map(|end| shown.value(end));
-            let interval = match ends.iter().any(|end| end.is_finite()) {
-                true => format!(" title=\"{}\"", in_brackets(value, ends)),
-                false => String::new(),
-            };
-            let mark = if low.is_finite() && high.is_finite() { "" } else { "<sup>*</sup>" };
-            format!("<td data-value=\"{value:e}\"{interval}>{}{mark}</td>", number(value))
-        };
-        let quantiles: String = row.quantiles.iter().map(quantile).collect();
-        let cells = of_list(quantiles, &|one, _| cell((one.value)(row)));
-        body += &format!(
-            "<tr><th scope=\"row\" title=\"{}: {}\">{}</th><td class=\"unit\">{}</td>{}{cells}</tr>\n",
-            escaped(quantity.name()),
-            escaped(quantity.meaning()),
-            escaped(&names::of_quantity(quantity)),
-            escaped(&shown.unit),
-            self::cell(row.moments.count() as f64),
-        );
+        table.row([names::of_quantity(&row.quantity), shown(row).unit]);
     }
+    let of_list = |one: &'static Statistic| -> Heading<'_> {
+        let value = move |row: &ColumnStatistics| shown(row).value((one.value)(row).unwrap_or(f64::NAN));
+        (one.head.unwrap_or_default().to_owned(), Box::new(value))
+    };
+    let mut columns: Vec<Heading<'_>> = Vec::new();
+    columns.extend(STATISTICS.iter().filter(|one| one.head.is_some()).map(of_list));
+    // quantiles precede the last statistic
+    let last = columns.pop();
+    columns.insert(0, ("runs".to_owned(), Box::new(|row: &ColumnStatistics| row.moments.count() as f64)));
+    let start = table.columns.len() + columns.len();
+    for (place, one) in first.quantiles.iter().enumerate() {
+        let value = move |row: &ColumnStatistics| shown(row).value(row.quantiles[place].numbers()[1]);
+        columns.push((format!("{}%", number(100.0 * one.p)), Box::new(value)));
+    }
+    for (head, value) in columns.into_iter().chain(last) {
+        let quantity = Quantity::named(head, String::new(), String::new());
+        let values: Vec<f64> = rows.iter().map(value).collect();
+        table.push(Column::new(quantity, Content::Real), Values::Real(values.into()));
+    }
+    let cell = |[row, column]: [usize; 2], cell: Cell<'_>| {
+        let row = &rows[row];
+        let Cell::Real(value) = cell else {
+            let [_, content] = html::plain(cell);
+            let meaning = format!(" title=\"{}: {}\"", escaped(row.quantity.name()), escaped(row.quantity.meaning()));
+            return [[meaning, " class=\"unit\"".to_owned(), String::new()][column.min(2)].clone(), content];
+        };
+        let mut shown_value = [format!(" data-value=\"{value:e}\""), number(value)];
+        if let Some(quantile) = column.checked_sub(start).and_then(|place| row.quantiles.get(place)) {
+            let [_, _, low, high] = quantile.numbers().map(|number| shown(row).value(number));
+            if low.is_finite() || high.is_finite() {
+                shown_value[0] += &format!(" title=\"{}\"", in_brackets(value, [low, high]));
+            }
+            shown_value[1] += if low.is_finite() && high.is_finite() { "" } else { "<sup>*</sup>" };
+        }
+        shown_value
+    };
+    let caption = match has_intervals {
+        false => "The design has no intervals",
+        true => "These runs do not bound this quantile from both sides; the interval of others appears on hover",
+    };
     format!(
-        "<div class=\"table\" tabindex=\"0\"><table class=\"sortable \
-        searchable\"><thead><tr><th>observable</th><th>unit</th><th>runs</th>{heads}</tr></thead><tbody>\n\
-        {body}</tbody></table></div>\
-        <p class=\"caption\">Of the dispersed runs that were computed. <sup>*</sup> {caption}.</p>\n"
+        "<div class=\"table\" tabindex=\"0\">{}</div><p class=\"caption\">Of the dispersed runs that were computed. \
+        <sup>*</sup> {caption}.</p>\n",
+        html::html(&table, "sortable searchable", cell)
     )
 }
 
@@ -104,79 +100,88 @@ fn drawn([value, nominal]: [f64; 2], unit: &str) -> String {
     format!("{} (nominal {}, ", with_unit(value, unit), with_unit(nominal, unit))
 }
 
-/// The nominal and the worst runs with inputs, reason, and replay command.
-pub fn worst_runs(plan: &Plan, survey: &Survey, runs: &[ShownRun]) -> String {
+/// The nominal and the worst runs with reason, inputs and replay command: first the `drivers`, by column, then the
+/// inputs farthest from nominal.
+pub fn worst_runs(plan: &Plan, survey: &Survey, drivers: &[&str], runs: &[ShownRun]) -> String {
     let columns = plan.dispersions.columns();
     let spreads: Vec<f64> =
         columns.iter().zip(&survey.thinned.inputs).map(|(column, values)| spread(values, column.nominal)).collect();
-    let mut body = String::new();
-    for shown in runs {
-        let mut inputs: Vec<(f64, String)> = columns
-            .iter()
-            .zip(&shown.inputs)
-            .enumerate()
-            .map(|(index, (column, value))| {
-                let shown = unit_of_input(plan, index);
-                let name = names::of_component(column.parameter, column.component);
+    let name = |index: usize| columns[index].parameter.column_name(columns[index].component);
+    let decide: Vec<usize> =
+        drivers.iter().filter_map(|driver| (0..columns.len()).find(|index| name(*index) == *driver)).collect();
+    let input = |run: &ShownRun, index: usize| {
+        let (column, value) = (&columns[index], run.inputs[index]);
+        let shown = unit_of_input(plan, index);
+        let name = names::of_component(column.parameter, column.component);
+        let values = drawn([value, column.nominal].map(|value| shown.value(value)), &shown.unit);
+        let text = match plan.dispersions.distribution_of(index) {
+            // deviations of a discrete distribution have no sigma
+            Some(Transform::Scalar(distribution)) if distribution.steps().is_some() => {
+                values.strip_suffix(", ").map_or(values.trim_end_matches(" (").to_owned(), |of| format!("{of})"))
+            }
+            _ => {
                 let sigmas = (value - column.nominal).abs() / spreads[index];
-                let values = drawn([*value, column.nominal].map(|value| shown.value(value)), &shown.unit);
-                let text = match plan.dispersions.distribution_of(index) {
-                    // deviations of a discrete distribution have no sigma
-                    Some(Transform::Scalar(distribution)) if distribution.steps().is_some() => values
-                        .strip_suffix(", ")
-                        .map_or(values.trim_end_matches(" (").to_owned(), |of| format!("{of})")),
-                    _ => format!("{values}{}\u{a0}\u{3c3})", number(libm::round(10.0 * sigmas) / 10.0)),
-                };
-                (sigmas, format!("{name} {text}"))
-            })
-            .collect();
-        inputs.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let listed: Vec<String> = inputs.into_iter().take(MOST_INPUTS).map(|(_, text)| escaped(&text)).collect();
-        let listed = if shown.sample.0 == 0 { "nominal values".to_owned() } else { listed.join("<br>") };
-        let reached = shown.run.as_ref().is_some_and(|run| run.outcome.points.min(run.grid.points()) > 1);
-        let why = if shown.sample.0 == 0 { "nominal run" } else { &shown.why };
+                format!("{values}{}\u{a0}\u{3c3})", number(libm::round(10.0 * sigmas) / 10.0))
+            }
+        };
+        escaped(&format!("{name} {text}"))
+    };
+    let inputs = |run: &ShownRun| {
+        let mut order: Vec<usize> = (0..columns.len().min(run.inputs.len())).collect();
+        let sigmas = |index: &usize| (run.inputs[*index] - columns[*index].nominal).abs() / spreads[*index];
+        order.sort_by(|a, b| sigmas(b).total_cmp(&sigmas(a)));
+        let others = order.iter().filter(|index| !decide.contains(index));
+        let listed = decide.iter().chain(others).take(MOST_INPUTS).map(|index| input(run, *index));
+        if run.sample.0 == 0 { "nominal values".to_owned() } else { listed.collect::<Vec<_>>().join("<br>") }
+    };
+    let why = |run: &ShownRun| {
+        let why = if run.sample.0 == 0 { "nominal run" } else { &run.why };
         // a computed run without an end has nothing to add
-        let ended = if shown.status == Status::Done {
-            loss::of_row(&shown.row).map(|end| escaped(&sentence(&end)))
-        } else {
-            Some(format!("<b>{}</b>: {}", shown.status.name(), escaped(&shown.reason)))
+        let ended = match run.status {
+            Status::Done => loss::of_row(&run.row).map(|end| escaped(&sentence(&end))),
+            status => Some(format!("<b>{}</b>: {}", status.name(), escaped(&run.reason))),
         };
-        let status = ended.map_or_else(String::new, |ended| format!("<p class=\"ended\">{ended}</p>"));
-        let load = if reached {
-            format!("<button type=\"button\" class=\"load\" data-sample=\"{}\">show</button>", shown.sample)
-        } else {
-            "not run".to_owned()
-        };
-        body += &format!(
-            "<tr><th scope=\"row\">{}</th><td class=\"text\">{}{status}</td><td class=\"text \
-            small\">{listed}</td><td><code>spindrift simulate plan.toml --sample {}</code></td><td>{load}</td></tr>\n",
-            shown.sample,
-            escaped(&sentence(why)),
-            shown.sample,
-        );
+        let ended = ended.map_or_else(String::new, |ended| format!("<p class=\"ended\">{ended}</p>"));
+        escaped(&sentence(why)) + &ended
+    };
+    let replay = |run: &ShownRun| match &run.run {
+        Some(flown) if flown.outcome.points.min(flown.grid.points()) > 1 => {
+            format!("<button type=\"button\" class=\"load\" data-sample=\"{}\">show</button>", run.sample)
+        }
+        _ => "not run".to_owned(),
+    };
+    let which = if decide.is_empty() {
+        "inputs farthest from nominal"
+    } else {
+        "inputs that decide, then farthest from nominal"
+    };
+    let mut table = Table::with(
+        ["sample", "why it is listed", which, "command", "3D"]
+            .map(|head| (head, if head == "sample" { Align::Title } else { Align::Left })),
+    );
+    for run in runs {
+        let command = format!("<code>spindrift simulate plan.toml --sample {}</code>", run.sample);
+        table.row([run.sample.to_string(), why(run), inputs(run), command, replay(run)]);
     }
-    format!(
-        "<div class=\"table\" id=\"worst\" tabindex=\"0\"><table><thead><tr><th>sample</th><th>why it is listed</th>\
-        <th>inputs farthest from nominal</th><th>command</th><th>3D</th></tr></thead><tbody>\n{body}</tbody></table>\
-        </div>\n"
-    )
+    let attributes = ["", " class=\"text\"", " class=\"text small\"", "", ""];
+    let cell = |[_, column]: [usize; 2], cell: Cell<'_>| [attributes[column].to_owned(), html::markup(cell)];
+    format!("<div class=\"table\" id=\"worst\" tabindex=\"0\">{}</div>\n", html::html(&table, "", cell))
 }
 
 /// Plan, files, reproduction, glossary, licences.
 pub fn provenance(plan: &Plan, survey: &Survey, files: &[(String, String)]) -> String {
-    let listed: String = files
-        .iter()
-        .map(|(name, hash)| {
-            format!("<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>", escaped(name), escaped(hash))
-        })
-        .collect();
-    let files = if files.is_empty() {
-        String::new()
-    } else {
-        format!(
-            "<details><summary>Files and their SHA-256</summary><div \
-            class=\"table\"><table><tbody>{listed}</tbody></table></div></details>"
-        )
+    let mut table = Table::with([("", Align::Title), ("", Align::Left)]);
+    files.iter().for_each(|(name, hash)| table.row([name.as_str(), hash]));
+    let cell = |[_, column]: [usize; 2], cell: Cell<'_>| {
+        let [attributes, content] = html::plain(cell);
+        [attributes, if column == 0 { content } else { format!("<code>{content}</code>") }]
+    };
+    let files = match files.is_empty() {
+        true => String::new(),
+        false => format!(
+            "<details><summary>Files and their SHA-256</summary><div class=\"table\">{}</div></details>",
+            html::html(&table, "", cell)
+        ),
     };
     let glossary: String = survey
         .outcomes

@@ -3,7 +3,11 @@
 use crate::prelude::*;
 
 fn said(scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, String) {
-    let output = command.current_dir(&scratch.0).env("COLUMNS", "80").output().unwrap();
+    said_at(80, scratch, command, code)
+}
+
+fn said_at(width: usize, scratch: &ScratchFolder, command: &mut Command, code: i32) -> (String, String) {
+    let output = command.current_dir(&scratch.0).env("COLUMNS", width.to_string()).output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     assert_eq!(output.status.code(), Some(code), "{command:?}\n{out}{err}");
     (out.clone(), out + &err)
@@ -28,6 +32,7 @@ fn a_campaign_fits_a_screen() {
         let (out, all) = run(&[]);
         assert_fits(&all, 24, 80);
         assert!(out.starts_with(question), "{name}:\n{out}");
+        answers_all(&scratch, name, code);
 
         let summary = scratch.summary(&format!("results/{name}"));
         let list = summary["requirements"]["list"].as_array().unwrap();
@@ -55,6 +60,35 @@ fn a_campaign_fits_a_screen() {
         assert_eq!((verbose.lines().next(), verbose.lines().last()), (out.lines().next(), out.lines().last()));
         assert!(verbose.lines().count() > 2 * out.lines().count() || name == "spin_sweep", "{verbose}");
         assert_says(&verbose, ["maximum energy error", "worst conservation error"]);
+    }
+}
+
+/// Law: at every width the screen says what was asked, whether it is met and how sure that is, what decides it, and the
+/// run to look at with the command that replays it; runs that were lost or failed are counted.
+fn answers_all(scratch: &ScratchFolder, name: &str, code: i32) {
+    let result = format!("results/{name}");
+    let summary = scratch.summary(&result);
+    for width in [80, 120] {
+        let mut command = scratch.command("show");
+        let (_, out) = said_at(width, scratch, command.arg(&result), code);
+        assert_fits(&out, 24, width);
+        let words = out.split_whitespace().collect::<Vec<_>>().join(" ");
+        for one in summary["requirements"]["list"].as_array().unwrap() {
+            let [short, found] = ["in_short", "found"].map(|key| one[key].as_str().unwrap());
+            assert!(words.contains(short) && words.contains(found), "{width}: {short}, {found}\n{out}");
+        }
+        let drivers = summary["drivers"].as_array().unwrap();
+        let has_driver = drivers.iter().any(|one| !one["inputs"].as_array().unwrap().is_empty());
+        let is_said = |one: &Value| words.contains(one["says"].as_str().unwrap());
+        assert!(drivers.iter().any(is_said) || !has_driver, "{width}: no driver\n{out}");
+        for one in summary["missions"].as_array().into_iter().flatten() {
+            let is_counted = words.contains(&format!("{} ", one["count"]));
+            let is_good = ["launched", "not_failed"].iter().any(|end| one["end"] == *end) || one["count"] == 0;
+            assert!(is_counted || is_good, "{width}: {one}\n{out}");
+        }
+        let replay = words.split_once(": spindrift simulate ").expect(&out).1;
+        let sample = replay.split_once("--sample ").expect(&out).1.split(' ').next().unwrap();
+        scratch.prints(&format!("simulate {result}/plan.toml --sample {sample}"), 0);
     }
 }
 

@@ -20,7 +20,7 @@ fn every_column_is_shown() {
         let name = entry.split_whitespace().next().unwrap();
         let column = table::all().find(|column| column.quantity.name() == name).expect(name);
         assert_eq!(column.group.name(), group, "{name}");
-        assert_says(&entry, [column.quantity.meaning(), column.quantity.unit()]);
+        assert_says(entry, [column.quantity.meaning(), column.quantity.unit()]);
         shown += 1;
     }
     assert_eq!(shown, table::all().count());

@@ -192,7 +192,7 @@ fn planted_shifts_are_found_by_pairs() {
     ] {
         let said = scratch.prints(&format!("compare {results}{tolerance}"), code);
         let verdict = said.lines().find(|line| line.contains(mark)).unwrap();
-        assert_says(&verdict, ["PASS", "FAIL", "rate"]);
+        assert_says(verdict, ["PASS", "FAIL", "rate"]);
         assert_eq!(said.contains("FAIL: 1 verdict is worse than before"), code == 3, "{said}");
     }
     let worse = ended_with(&scratch, &base, &far, 3);

@@ -102,10 +102,10 @@ fn the_screen_is_the_file() {
             };
             assert_eq!(found.len(), known.len(), "{line}: {known:?}");
             assert!(found.iter().zip(&known).enumerate().all(is_same), "{line}: {known:?}");
-            assert_says(&line, [&format!(" {} by ", one["largest_shift_of"].as_str().unwrap())]);
+            assert_says(line, [&format!(" {} by ", one["largest_shift_of"].as_str().unwrap())]);
             assert_eq!(line.contains("(beyond)"), known.last() > Some(&0.01), "{line}");
             let word = if one["is_shifted"] == 1 { "shifted," } else { "within chance," };
-            assert_says(&line, [if is_moved { "moved," } else { word }]);
+            assert_says(line, [if is_moved { "moved," } else { word }]);
         }
         assert!(rows.len() > 10, "{said}");
         assert_fits(&scratch.prints_at(&format!("compare {first} {second} --verbose"), 0, 80), usize::MAX, 80);

@@ -337,5 +337,5 @@ fn a_quantile_without_a_number_is_a_share() {
     let row = page.split("<details class=\"answer ").nth(1).unwrap();
     let shown = numbers::read_number(between(row, "<span class=\"number\"><b>", "%</b>"));
     assert!((shown - share).abs() < 0.051 && row.contains("runs within the limit</span>"), "{share}: {row}");
-    assert_says(&row, [">95%</text>"]);
+    assert_says(row, [">95%</text>"]);
 }

@@ -257,7 +257,7 @@ fn screen_and_junit_say_what_the_summary_has() {
         let (_, expected) = expected.iter().find(|(word, _)| *word == verdict).unwrap();
         assert_eq!([case.contains("<failure"), case.contains("<error")], *expected, "{case}");
         if sentence.contains("p95") {
-            assert_says(&sentence, ["<= 2100 deg/s"]);
+            assert_says(sentence, ["<= 2100 deg/s"]);
         }
     }
 }
@@ -287,7 +287,7 @@ fn static_numbers_are_those_of_the_rows() {
     assert!((shown / largest - 1.0).abs() < 0.02, "{shown} for {largest}");
     let rates: Vec<f64> = found.column("angular_rate_final_rad_s").into_iter().map(degrees).collect();
     let row = visible.split("<tr>").find(|row| row.contains("title=\"angular_rate_final_rad_s: ")).unwrap();
-    assert_says(&row, ["<td class=\"unit\">deg/s</td>"]);
+    assert_says(row, ["<td class=\"unit\">deg/s</td>"]);
     let cells: Vec<f64> =
         row.split("data-value=\"").skip(1).map(|cell| cell.split('"').next().unwrap().parse().unwrap()).collect();
     let mean = rates.iter().sum::<f64>() / rates.len() as f64;

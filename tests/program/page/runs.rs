@@ -152,7 +152,7 @@ fn two_statuses_are_told_apart() {
         let of = reasons.iter().filter(|one| one["status"] == status);
         let sample = of.map(|one| one["sample"].as_u64().unwrap()).min().unwrap();
         let row = rows.iter().find(|row| row.contains(&format!("<td class=\"text\">{said}<"))).unwrap();
-        assert_says(&row, [&format!("<b>{status}</b>: ")]);
+        assert_says(row, [&format!("<b>{status}</b>: ")]);
         assert!(row.starts_with(&format!("<th scope=\"row\">{sample}</th>")), "{sample}: {row}");
         let counts = reasons.iter().filter(|one| one["status"] == status);
         for (count, first) in counts.map(|one| (&one["count"], &one["sample"])) {
@@ -161,7 +161,7 @@ fn two_statuses_are_told_apart() {
             };
             assert!(visible.split("<p class=\"reason\">").any(|said| is_of_it(&said)), "{count} {status}, {first}");
         }
-        assert_says(&row, [&format!("--sample {sample}</code>")]);
+        assert_says(row, [&format!("--sample {sample}</code>")]);
     }
     let is_ok = |row: &&&str| row.contains("<td class=\"text\">") && !row.contains("class=\"ended\"");
     assert!(rows.iter().filter(is_ok).count() >= 5, "{worst}");

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 use crate::page::answers::same;
-use crate::page::numbers::{failing, quantile};
+use crate::page::numbers::{failing, quantile, read_number};
 
 fn scale(axis: &Value) -> f64 {
     if axis["unit"].as_str().unwrap().starts_with("deg") { degrees(1.0) } else { 1.0 }
@@ -236,6 +236,33 @@ fn scatter_is(found: &Found, figure: &Value, outcomes: &[&str]) {
         all.extend(samples);
     }
     assert_eq!(all.len(), columns[0].len() - 1, "every dispersed run once");
+}
+
+/// Law: of an outcome with several limits, crosses are the runs beyond the one that their label names, and discs are
+/// all others; without a named limit there are none.
+#[test]
+fn crosses_mean_the_limit_of_their_row() {
+    let scratch = ScratchFolder::new("series-crosses");
+    let file = root().join("campaigns/acceptance.toml");
+    scratch.prints(&format!("campaign {} --samples 400 --out r", file.display()), 3);
+    let found = Found::read(scratch, String::new());
+    let columns = found.all(&["energy_error_max"]);
+    let mut seen = 0;
+    for figure in found.figures().iter().filter(|figure| text(figure, "name").starts_with("scatter_")) {
+        for mark in figure["marks"].as_array().unwrap() {
+            let label = text(mark, "label");
+            let Some((verb, limit)) = label.split_once(" the limit, at most ") else {
+                assert_eq!(label, "computed", "{figure}");
+                continue;
+            };
+            let limit = read_number(limit);
+            for sample in found.array(&mark["samples"]) {
+                assert_eq!(columns[0][sample as usize] > limit, verb == "misses", "sample {sample}: {label}");
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen >= 399, "{seen} points");
 }
 
 /// Law: where a page has not all runs, the points of its scatter plots are those of the samples that they name.
