@@ -7,16 +7,15 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
     pub bucket: String,
-    /// What the names of its objects begin with, without a slash at the end.
+    /// Prefix of the names of its objects, without a final slash.
     pub prefix: String,
 }
 
 impl Address {
-    /// The address that `path` is; `None` of the path of a folder. `has_client`: whether this process can connect to a
-    /// store.
+    /// The address `path`, or `None` for a folder. `has_client`: this process can connect to a store.
     ///
     /// # Errors
-    /// What is wrong with it; in a build without object stores, how to get one with them.
+    /// An invalid address, or a build without object stores.
     pub fn of(path: &Path, has_client: bool) -> Result<Option<Address>, String> {
         let Some((scheme, rest)) = path.to_str().and_then(|text| text.split_once(':')) else { return Ok(None) };
         // a letter is a disk of Windows

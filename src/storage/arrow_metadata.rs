@@ -1,9 +1,8 @@
-//! Arrow's schema within the metadata of a Parquet file, where readers find the unit and the meaning of a column.
+//! Arrow's schema in the metadata of a Parquet file, from which readers take the units and meanings of columns.
 //!
-//! The format: the message "Schema" of Arrow's IPC format with its length before it, in base64, under the key
-//! `ARROW:schema` (Apache Arrow, *Columnar Format*, "Serialization and Interprocess Communication", and its files
-//! `Message.fbs` and `Schema.fbs`; Arrow's C++ library defines the key). The message is a FlatBuffer and is written by
-//! hand: the crate that encodes it is a sixth of a cold build.
+//! The message "Schema" of Arrow's IPC format, preceded by its length, in base64 under the key `ARROW:schema` (Apache
+//! Arrow, *Columnar Format*, "Serialization and Interprocess Communication", `Message.fbs`, `Schema.fbs`). The
+//! FlatBuffer is written by hand: the crate that encodes it takes a sixth of a cold build.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -13,16 +12,13 @@ use crate::table::{Column, Content};
 
 const KEY: &str = "ARROW:schema";
 
-/// What comes before the length of a message.
 const CONTINUATION: [u8; 4] = [0xff; 4];
 
-/// `MetadataVersion.V5`.
 const VERSION: i16 = 4;
 
-/// `MessageHeader.Schema`.
 const SCHEMA: u8 = 1;
 
-/// The entry of the metadata that contains the columns, each with its unit and meaning.
+/// The metadata entry with the columns, their units and meanings.
 pub fn of(columns: &[Column]) -> KeyValue {
     let mut message = message(columns);
     message.resize(message.len().next_multiple_of(8), 0);
@@ -31,11 +27,9 @@ pub fn of(columns: &[Column]) -> KeyValue {
     KeyValue::new(KEY.to_owned(), STANDARD.encode(bytes))
 }
 
-/// The tables `Message` and `Schema`.
 fn message(columns: &[Column]) -> Vec<u8> {
     let mut buffer = FlatBuffer(vec![0; 4]);
     let message = buffer.table(0, &[Slot::Short(VERSION), Slot::Byte(SCHEMA), Slot::Reference]);
-    // Schema: endianness (little by default), fields
     let schema = buffer.table(message[2], &[Slot::Default, Slot::Reference]);
     for (place, column) in buffer.vector(schema[1], columns.len()).into_iter().zip(columns) {
         buffer.field(place, column);
@@ -43,28 +37,25 @@ fn message(columns: &[Column]) -> Vec<u8> {
     buffer.0
 }
 
-/// A field of a table.
 #[derive(Clone, Copy)]
 enum Slot {
-    /// Not stored: the default of the format.
     Default,
     Byte(u8),
     Short(i16),
     Int(i32),
-    /// The place of a table, a vector or a text, which is written later.
+    /// Place of a table, vector or text written later.
     Reference,
 }
 
-/// A FlatBuffer that is written front to back: what refers to something comes before it. Every field of a table takes
-/// four bytes, so that all is aligned (no field that is stored here needs more).
+/// A FlatBuffer written front to back, references first. Every field takes four bytes, so that all are aligned.
 struct FlatBuffer(Vec<u8>);
 
 impl FlatBuffer {
-    /// Writes a table, to which the four bytes at `referring` refer. Returns the place of each field.
+    /// Writes a table referred to at `referring`; returns the place of each field.
     fn table(&mut self, referring: usize, slots: &[Slot]) -> Vec<usize> {
         let size = |count: usize| u16::try_from(4 + count).expect("tables of the format have few fields");
         let stored = slots.iter().filter(|slot| !matches!(slot, Slot::Default)).count();
-        // so that the table is aligned, which comes directly behind its list of fields
+        // the table, directly behind its list of fields, is aligned
         self.0.resize((self.0.len() + 2 * slots.len()).next_multiple_of(4) - 2 * slots.len(), 0);
         let list = self.0.len();
         self.0.extend(size(2 * slots.len()).to_le_bytes());
@@ -93,7 +84,7 @@ impl FlatBuffer {
         places
     }
 
-    /// Writes a vector of `length` references. Returns their places.
+    /// Writes a vector of `length` references; returns their places.
     fn vector(&mut self, referring: usize, length: usize) -> Vec<usize> {
         self.refer(referring, self.0.len());
         self.0.extend(distance(0, length).to_le_bytes());
@@ -102,7 +93,7 @@ impl FlatBuffer {
         (start..start + 4 * length).step_by(4).collect()
     }
 
-    /// Writes a text: its length, its bytes and a zero.
+    /// Writes length, bytes and a zero.
     fn text(&mut self, referring: usize, text: &str) {
         self.refer(referring, self.0.len());
         self.0.extend(distance(0, text.len()).to_le_bytes());
@@ -110,7 +101,7 @@ impl FlatBuffer {
         self.0.resize((self.0.len() + 1).next_multiple_of(4), 0);
     }
 
-    /// The tables `Field`, its type and its `KeyValue`s.
+    /// The table `Field`, its type and its `KeyValue`s.
     fn field(&mut self, referring: usize, column: &Column) {
         // members of the union `Type`: Int (bits, signed), FloatingPoint (precision: 2 is double), Utf8
         let (member, slots): (u8, &[Slot]) = match column.content {
@@ -135,13 +126,13 @@ impl FlatBuffer {
         }
     }
 
-    /// Makes the four bytes at `referring` say how far behind them `place` is.
+    /// Points the four bytes at `referring` to `place`.
     fn refer(&mut self, referring: usize, place: usize) {
         self.0[referring..referring + 4].copy_from_slice(&distance(referring, place).to_le_bytes());
     }
 }
 
-/// The distance between two places, or a length, as FlatBuffers store it.
+/// The distance between two places, or a length.
 fn distance(from: usize, to: usize) -> u32 {
     u32::try_from(to - from).expect("a schema is smaller than 4 GB")
 }
@@ -154,8 +145,8 @@ mod tests {
     use arrow_schema::{DataType, Field, Schema};
     use std::collections::HashMap;
 
-    /// Law: Arrow's own reader, which verifies a buffer, finds every column with its type and metadata; texts of all
-    /// lengths, so that every alignment occurs.
+    /// Law: Arrow's own reader, which verifies a buffer, finds every column with its type and metadata, at every
+    /// alignment.
     #[test]
     fn arrow_reads_the_schema() {
         let types =

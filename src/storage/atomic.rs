@@ -1,8 +1,7 @@
-//! [`write()`]: files that are either whole or absent, outside of datasets: tables, plots and reports that a command is
-//! told to write. The files of a dataset are written by `storage::disk`.
+//! [`write()`]: files outside of datasets that are either whole or absent. Datasets: `storage::disk`.
 //!
-//! A file is written under a temporary name in its own folder (a rename cannot cross file systems), flushed to the
-//! disk, and then renamed. Its temporary name is one that nothing else has; what a crash leaves is recognised by it.
+//! A file is written under a unique temporary name in its own folder (a rename cannot cross file systems), flushed, and
+//! renamed. The name identifies leftovers of a crash.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -10,7 +9,7 @@ use std::path::Path;
 
 use crate::storage::names::unfinished;
 
-/// That `path` is free, or a file or a link that a rename replaces: not a device, and not a pipe.
+/// Refuses a `path` that a rename must not replace: a device or a pipe.
 fn check_replaceable(path: &Path) -> io::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if !(found.is_file() || found.is_symlink()) => Err(io::Error::new(
@@ -21,8 +20,7 @@ fn check_replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The error of making `path`, in words: what is in the way, and what to do about it; as it is where the system says
-/// that itself.
+/// An error of creating `path` in words: the obstacle and the remedy.
 pub fn explained(path: &Path, error: io::Error) -> io::Error {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let text = match error.kind() {
@@ -42,10 +40,10 @@ pub fn explained(path: &Path, error: io::Error) -> io::Error {
     io::Error::new(error.kind(), text)
 }
 
-/// Makes the folder `path`, which may be there, with all folders above it, for files that a command is told to write.
+/// Creates the folder `path` and all above it, unless they exist.
 ///
 /// # Errors
-/// Where it cannot be made, in words with the path.
+/// A failure, in words with the path.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path).map_err(|error| {
         let why = explained(path, error);
@@ -53,11 +51,11 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     })
 }
 
-/// Writes the file `path` with `content` and renames it; an older file of that name is replaced only then, and so is a
-/// link, not what it leads to.
+/// Writes the file `path` with `content` under a temporary name and renames it, replacing an older file, or a link but
+/// not its target.
 ///
 /// # Errors
-/// What `content` returns, or the first failing operation on the file; the unfinished file is removed.
+/// The error of `content`, or of the first failed operation; the unfinished file is removed.
 pub fn write<E: From<io::Error>>(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
@@ -75,16 +73,13 @@ pub fn write<E: From<io::Error>>(
         Ok(())
     })();
     if written.is_err() {
-        // The first error is reported; a file that cannot be removed is recognised by its name.
         let _ = fs::remove_file(&temporary);
     }
     written
 }
 
-/// Writes bytes as a whole file.
-///
 /// # Errors
-/// The first failing operation on the file.
+/// The first failed operation on the file.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write(path, |file| file.write_all(bytes))
 }
@@ -100,8 +95,7 @@ mod tests {
         folder
     }
 
-    /// Law: what is in the way of a file is said in words, without the numbers of the system, with what to do: a file,
-    /// a folder, a folder that is not there.
+    /// Law: obstacles are named in words, with the remedy and without numbers of the system.
     #[test]
     fn what_is_in_the_way_is_said() {
         let folder = folder("words");
@@ -131,8 +125,7 @@ mod tests {
         fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// Law: while it is written, a file does not exist under its final name; after an error in the middle the old
-    /// content is kept and no unfinished file is left.
+    /// Law: an unfinished file has no final name; after an error the old content stays and no temporary file is left.
     #[test]
     fn the_name_appears_when_the_file_is_whole() {
         let folder = folder("whole");
@@ -150,8 +143,8 @@ mod tests {
         fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// Law: a link that somebody put under the temporary or the final name is not followed, a file of the temporary
-    /// name is kept, and a pipe of the final name is refused without waiting.
+    /// Law: links under the temporary or final name are not followed, an existing temporary file is kept, and a pipe is
+    /// refused without waiting.
     #[cfg(unix)]
     #[test]
     fn links_are_not_followed() {

@@ -1,7 +1,6 @@
-//! Files of the bands of a part, `bands/part-000000.parquet`: what [`PartBands`] counted, one row for each bucket that
-//! is not empty.
+//! Files of the bands of a part, `bands/part-000000.parquet`: the counts of [`PartBands`], a row per non-empty bucket.
 //!
-//! The metadata have what the bands are of, so that a file says by itself what its buckets mean.
+//! The metadata describe the bands, so that a file explains its own buckets.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -20,20 +19,18 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 use crate::storage::store::Store;
 use crate::table::{Column, Content, Values};
 
-/// Key of the metadata: what the bands are of.
+/// Metadata key of the description of the bands.
 const LAYOUT_KEY: &str = "spindrift.bands";
 const RUNS_KEY: &str = "spindrift.bands.runs";
-/// How many of them are counted.
+/// Number of counted runs.
 const COUNTED_KEY: &str = "spindrift.bands.counted";
-/// Of every place, which is a point of a series, series by series: the smallest and the largest kept number, NaN where
-/// no run has one.
+/// By place (series by series, then points): smallest and largest kept number, NaN for none.
 const EXTREMES_KEYS: [&str; 2] = ["spindrift.bands.min", "spindrift.bands.max"];
-/// How many runs have no number there.
+/// Number of runs without a number there.
 const WITHOUT_KEY: &str = "spindrift.bands.without";
-/// And the number of its rows.
+/// Number of rows of each place.
 const ROWS_KEY: &str = "spindrift.bands.rows";
 
-/// The columns, each with its meaning.
 const BUCKET: (&str, &str) = (
     "bucket",
     "The bucket of the deviations from the nominal run: twice the leading bits of the magnitude (32 to an octave, 1 at \
@@ -41,7 +38,7 @@ const BUCKET: (&str, &str) = (
 );
 const COUNT: (&str, &str) = ("count", "Number of runs in it.");
 
-/// What bands are of, as text; numbers are written so that they are read back bit for bit.
+/// [`BandLayout`] as text; numbers are read back bit for bit.
 #[derive(Deserialize, Serialize)]
 struct LayoutText {
     series: Vec<SeriesText>,
@@ -54,11 +51,9 @@ struct SeriesText {
     name: String,
     unit: String,
     meaning: String,
-    /// Whether tangents of half the angle are kept.
     is_half_tangent: bool,
 }
 
-/// Numbers as text, and back.
 fn text(numbers: &[f64]) -> String {
     numbers.iter().map(|number| format!("{number:?}")).collect::<Vec<_>>().join(" ")
 }
@@ -93,15 +88,12 @@ fn layout_of(text: &str) -> Option<BandLayout> {
     (layout.series.len().checked_mul(layout.times.len()) == Some(layout.nominal.len())).then_some(layout)
 }
 
-/// Layout of the files of bands of one campaign.
 #[derive(Clone, Debug)]
 pub struct BandsFile(Layout);
 
 impl BandsFile {
-    /// The files of bands of `layout`.
-    ///
     /// # Errors
-    /// None: its columns have different names.
+    /// Never, since its columns have different names.
     pub fn new(layout: &BandLayout) -> Result<Self, EncodingError> {
         let columns =
             [BUCKET, COUNT].map(|(name, meaning)| Column::new(Quantity::new(name, "", meaning), Content::Count));
@@ -109,7 +101,7 @@ impl BandsFile {
         Ok(BandsFile(Layout::new(&columns, metadata, Packing::Lz4)?.without_statistics()))
     }
 
-    /// Appends to `out` the file of the `bands` of `part`: a function of the part alone.
+    /// Appends the file of the `bands` of `part` to `out`; it depends on the part alone.
     pub fn write(&self, part: Part, bands: &PartBands, out: &mut Vec<u8>) -> Result<(), EncodingError> {
         let (mut buckets, mut counts) = (Vec::new(), Vec::new());
         let (mut lengths, mut without, mut ends) = (Vec::new(), Vec::new(), [const { Vec::new() }; 2]);
@@ -133,17 +125,14 @@ impl BandsFile {
     }
 }
 
-/// What the file of a part has.
 struct StoredBands {
     part: u64,
     layout: BandLayout,
-    /// All, and those that are counted.
+    /// All runs, and counted ones.
     runs: [u64; 2],
-    /// Bucket and count, row by row.
+    /// Bucket and count by row.
     rows: Vec<(Code, u64)>,
-    /// The number of rows of each place.
     lengths: Vec<usize>,
-    /// What is known of all runs, place by place.
     all: Vec<RunsOfColumn>,
 }
 
@@ -202,11 +191,10 @@ impl StoredBands {
     }
 }
 
-/// The bands of several parts together; memory does not grow with their number.
+/// The joint bands of several parts; memory does not grow with their number.
 ///
 /// # Errors
-/// The first file that cannot be read, is damaged or of another campaign, or whose part does not follow those before
-/// it.
+/// The first file that is unreadable, damaged, of another campaign, or out of order.
 pub fn read(store: &dyn Store, files: &[String], threads: Option<NonZeroUsize>) -> Result<Option<Bands>, RowsError> {
     let mut merged: Option<(u64, Bands)> = None;
     in_order(
@@ -248,7 +236,7 @@ mod tests {
         BandLayout { series, times: vec![0.0, 1.5], nominal: vec![nominal, -2.0, f64::NAN, 1e300] }
     }
 
-    /// Law: what bands are of is read back bit for bit; what is no such text is refused.
+    /// Law: a layout is read back bit for bit; other texts are refused.
     #[test]
     fn layouts_come_back() {
         let layout = layout(0.1 + 0.2);
@@ -258,7 +246,6 @@ mod tests {
         }
     }
 
-    /// A file of runs of part `part` with these rows and extremes.
     fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> String {
         let column = |index: usize| Values::Count(rows.iter().map(|row| row[index]).collect());
         let part = Part { id: PartId(part), first: crate::sampling::SampleId(0), count: 9 };
@@ -273,8 +260,7 @@ mod tests {
         name
     }
 
-    /// Law: files are merged in their order; one that makes no sense, is damaged, of another campaign or there twice is
-    /// refused by its name.
+    /// Law: files are merged in their order; invalid, damaged, foreign and repeated ones are refused by name.
     #[test]
     fn files_are_merged_or_refused_by_name() {
         let folder = std::env::temp_dir().join(format!("spindrift-bands-file-{}", std::process::id()));

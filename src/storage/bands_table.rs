@@ -1,4 +1,4 @@
-//! `bands.parquet`: quantiles over a campaign of quantities over time, one row for each series and point.
+//! `bands.parquet`: quantiles of quantities over time, a row per series and point.
 
 use crate::campaign::Plan;
 use crate::ensemble::Bands;
@@ -7,14 +7,13 @@ use crate::storage::columnar::{EncodingError, Packing, encoded};
 use crate::storage::identity::provenance;
 use crate::table::Table;
 
-/// The quantiles: name of the column, and fraction of the runs.
+/// Column name and fraction of the runs.
 pub const QUANTILES: [(&str, f64); 7] =
     [("p01", 0.01), ("p05", 0.05), ("p25", 0.25), ("p50", 0.5), ("p75", 0.75), ("p95", 0.95), ("p99", 0.99)];
 
-/// A row: series, point, and the quantiles there.
+/// Series, point, and the quantiles there.
 type Place = (usize, usize, [Option<f64>; QUANTILES.len()]);
 
-/// `bands` of `plan` as a Parquet file.
 pub fn file(plan: &Plan, bands: &Bands) -> Result<Vec<u8>, EncodingError> {
     let (series, points) = (bands.layout().series.len(), bands.times().len());
     let quantiles = |series, point| bands.quantiles(series, point, QUANTILES.map(|(_, p)| p));

@@ -18,7 +18,7 @@ use crate::storage::replacement::{self, remove_replaced, replace};
 use crate::storage::rows_file::identity;
 use crate::storage::store::{OpenFolder, Store, StoreError, at};
 
-/// One of several processes that make the parts of a campaign.
+/// One of several processes of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Its number, from 1.
@@ -27,7 +27,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Whether it makes the part.
+    /// Whether it computes the part.
     pub fn has(self, part: PartId) -> bool {
         part.0 % self.of == self.number - 1
     }
@@ -40,53 +40,50 @@ fn shown(store: &dyn Store) -> String {
 /// The state of the place of a result.
 #[derive(Debug)]
 pub enum Claim {
-    /// Parts can be added to it.
     Ready(Box<Ready>),
-    /// Everything of the same plan is there.
+    /// The result of the same plan is complete.
     Finished(Finished),
 }
 
-/// A dataset in which everything is there, locked against other processes until this is dropped.
+/// A complete dataset, locked while held.
 #[derive(Debug)]
 pub struct Finished {
     pub store: Arc<dyn Store>,
-    /// The text of its summary.
     pub summary: String,
-    /// Its parts, whose checksums were compared.
+    /// Its parts, with verified checksums.
     pub parts: Vec<PartRecord>,
-    /// What is not part of it, and was left alone.
+    /// Foreign entries, left alone.
     pub notes: Vec<String>,
     _lock: Lock,
 }
 
-/// A dataset that is ready for parts, locked against other processes until it is dropped.
+/// A dataset ready for parts, locked while held.
 #[derive(Debug)]
 pub struct Ready {
     pub dataset: Dataset,
     /// Its final folder, if it replaces another result.
     pub replaces: Option<PathBuf>,
-    /// Rows that were there already.
+    /// Existing rows.
     pub rows: u64,
-    /// Files that are damaged and are made again, with what is wrong with them.
+    /// Damaged files, computed again, with their damage.
     pub damaged: Vec<String>,
-    /// What is not part of it, and is left alone.
+    /// Foreign entries, left alone.
     pub notes: Vec<String>,
     _locks: Vec<Lock>,
 }
 
-/// How a campaign wants its place.
+/// Options of a claim.
 #[derive(Clone, Copy)]
 pub struct ClaimOptions<'a> {
     /// Opens folders beside the result.
     pub folders: &'a OpenFolder<'a>,
     pub overwrite: bool,
-    /// The part of the work that this process does.
+    /// The share of this process.
     pub shard: Option<Shard>,
-    /// How many threads read files.
     pub threads: usize,
 }
 
-/// Most samples that `plan` comes to have.
+/// Largest number of samples of `plan`.
 fn most(plan: &Plan) -> u64 {
     plan.looks().last().copied().unwrap_or(plan.samples)
 }
@@ -94,11 +91,10 @@ fn most(plan: &Plan) -> u64 {
 /// Prepares `store` for the rows of `ensemble`.
 ///
 /// # Errors
-/// Where something is there that must not be replaced, or a file operation fails.
+/// A result that must not be replaced, or a failed file operation.
 pub fn claim(store: &Arc<dyn Store>, ensemble: &Ensemble<'_>, options: ClaimOptions<'_>) -> Result<Claim, FolderError> {
     let root = store.root();
     if root.ancestors().any(Path::is_file) {
-        // what the system says of it has no remedy
         return Err(at(root)(explained(root, ErrorKind::NotADirectory.into())).into());
     }
     if store.replaces() {
@@ -118,7 +114,7 @@ pub fn claim(store: &Arc<dyn Store>, ensemble: &Ensemble<'_>, options: ClaimOpti
     let head = Head::of(ensemble, found.largest_part.filter(|_| is_same));
     let new = replacement::begin(options.folders, root, &head)?;
     let (mut lock, mut found) = locked(&*new, options)?;
-    // what an interrupted replacement by more samples has left is no result of anybody
+    // an interrupted extension by more samples left no result
     let (plan, head) = (ensemble.plan(), Head::of(ensemble, found.largest_part));
     if found.examine(&*new, (plan, &head), &|_| true, options.threads)?.extent() > most(plan) {
         drop(lock);
@@ -127,7 +123,7 @@ pub fn claim(store: &Arc<dyn Store>, ensemble: &Ensemble<'_>, options: ClaimOpti
     }
     match fill(&new, ensemble, options, (found, vec![own, lock]))? {
         Claim::Ready(ready) => Ok(Claim::Ready(Box::new(Ready { replaces: Some(root.to_owned()), ..*ready }))),
-        // it was complete and only not yet in its place
+        // complete, but not yet in its place
         Claim::Finished(finished) => {
             replace(options.folders, &new, root)?;
             Ok(Claim::Finished(Finished { store: (options.folders)(root), ..finished }))
@@ -135,14 +131,14 @@ pub fn claim(store: &Arc<dyn Store>, ensemble: &Ensemble<'_>, options: ClaimOpti
     }
 }
 
-/// Creates the folder, if there is none, and locks it; what is in it.
+/// Creates the folder if absent, and locks it; returns its contents.
 fn locked(store: &dyn Store, options: ClaimOptions<'_>) -> Result<(Lock, Found), FolderError> {
     if store.replaces() {
         crate::storage::disk::new_folder(store.root()).map_err(store.at(""))?;
     }
     let lock = lock(store, options.shard.is_some())?;
     let found = match contents(store) {
-        // a shard that begins at the same time has put files since the folder was listed
+        // a shard that started at the same time has added files since
         Err(FolderError::Foreign { .. }) => contents(store)?,
         found => found?,
     };
@@ -152,7 +148,6 @@ fn locked(store: &dyn Store, options: ClaimOptions<'_>) -> Result<(Lock, Found),
     }
 }
 
-/// Prepares `store`, where `found` is.
 fn fill(
     store: &Arc<dyn Store>,
     ensemble: &Ensemble<'_>,
@@ -163,7 +158,7 @@ fn fill(
     if let Some(there) = found.identity.as_ref().filter(|there| **there != identity) {
         return Err(occupied(&**store, &found, there, (plan, &identity)));
     }
-    // a shard reads its own parts only: each of many that start would read everything; `finish` reads all
+    // a shard reads only its own parts, since many start at once; `finish` reads all
     let is_mine = |part: PartId| options.shard.is_none_or(|shard| shard.has(part));
     let head = Head::of(ensemble, found.largest_part);
     let examined = found.examine(&**store, (plan, &head), &is_mine, options.threads)?;
@@ -172,7 +167,7 @@ fn fill(
         return Err(FolderError::Larger { folder, found: extent, asked: most });
     }
     let mut damaged = found.problems(&**store, &examined)?;
-    // of a plan with [stop] the finished number of rows is that of one of its looks
+    // with [stop] a finished campaign ends at one of its looks
     let is_whole = found.is_finished && damaged.is_empty() && plan.looks().contains(&found.rows(head.parts(most)));
     let is_same = found.plan.is_empty() || found.plan == plan.text();
     if is_whole && is_same {
@@ -186,7 +181,6 @@ fn fill(
         }
     }
     if options.shard.is_some() && !is_same {
-        // with more samples than before, the plan is that of all shards
         if is_whole {
             return Err(FolderError::Answered { folder });
         }
@@ -203,7 +197,7 @@ fn fill(
             return Err(FolderError::Changed { folder, damaged: damaged.join("\n  ") });
         }
     }
-    // what no manifest lists could not be told from what an interruption leaves
+    // unlisted files could not be told from leftovers
     if let Some(entry) = found.unlisted().next() {
         return Err(FolderError::Foreign { folder, entry: entry.to_owned() });
     }
@@ -223,8 +217,8 @@ fn fill(
     Ok(Claim::Ready(Box::new(Ready { dataset, replaces: None, rows, damaged, notes, _locks: locks })))
 }
 
-/// Puts the head of a dataset, unless it is there; which one is there. Of several processes that begin at the same time
-/// one makes it, with locks and without.
+/// Puts the head of a dataset unless present; returns the present one. One of several simultaneous processes creates
+/// it, with or without locks.
 fn begin(store: &dyn Store, found: &Found, plan: &Plan, head: Head) -> Result<Head, FolderError> {
     let bytes = head.bytes();
     if found.damage.iter().any(|what| what.starts_with(HEAD)) {
@@ -241,8 +235,7 @@ fn begin(store: &dyn Store, found: &Found, plan: &Plan, head: Head) -> Result<He
     }
 }
 
-/// The error that `store`, where `found` was found, has the rows `there`, and not those of `plan`, which are
-/// `identity`.
+/// The refusal of `store`, which has the rows `there` instead of those of `plan`, `identity`.
 fn occupied(store: &dyn Store, found: &Found, there: &Identity, (plan, identity): (&Plan, &Identity)) -> FolderError {
     let text = store.read(PLAN).ok().and_then(|read| String::from_utf8(read.ok()?).ok());
     let text = if found.plan.is_empty() { text.unwrap_or_default() } else { found.plan.clone() };
@@ -250,7 +243,7 @@ fn occupied(store: &dyn Store, found: &Found, there: &Identity, (plan, identity)
     if !store.replaces() {
         return FolderError::Kept { folder, differences: all_differences((&text, there), (plan, identity)) };
     }
-    // keys that do not change rows are no reason
+    // keys that change no row are no reason
     let is_reason = |one: &KeyDifference| !Plan::OUTSIDE_ROWS.iter().any(|key| one.key.starts_with(key));
     let keys = text_differences(&text, &plan.text()).into_iter().filter(|one| !text.is_empty() && is_reason(one));
     let differences = reasons(keys.map(folder_error::shown).collect(), there, identity);
@@ -258,7 +251,6 @@ fn occupied(store: &dyn Store, found: &Found, there: &Identity, (plan, identity)
     FolderError::Occupied { folder, what, differences }
 }
 
-/// The text of the summary; `None` where it cannot be one.
 fn summary(store: &dyn Store) -> Result<Option<String>, StoreError> {
     let text = store.read(SUMMARY)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let is_summary = |text: &String| {
@@ -267,11 +259,10 @@ fn summary(store: &dyn Store) -> Result<Option<String>, StoreError> {
     Ok(text.filter(is_summary))
 }
 
-/// Opens the dataset in `store` as it is, for commands that add no samples; locked against writers, and against readers
-/// unless `is_shared`.
+/// Opens an existing dataset, locked against writers, and against readers unless `is_shared`.
 ///
 /// # Errors
-/// Where there is none, or a file operation fails.
+/// A missing dataset, or a failed file operation.
 pub fn open(store: &dyn Store, is_shared: bool) -> Result<(Found, Lock), FolderError> {
     let folder = shown(store);
     let nothing = |why: &str| FolderError::Nothing { folder: folder.clone(), why: why.to_owned() };

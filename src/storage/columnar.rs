@@ -1,9 +1,8 @@
-//! Tables as Parquet: [`Layout`] is that of all files of one kind.
+//! Tables as Parquet; files of one kind share a [`Layout`].
 //!
-//! Arrow's schema (which carries unit and meaning as field metadata) beside Parquet's, with Parquet's typed column
-//! writer: columns are passed from the memory of the rows to the encoder without a copy. The Arrow writer was rejected:
-//! it writes a third slower. Floats have no dictionary (with one the file is a quarter larger and takes five times as
-//! long). The encoding BYTE_STREAM_SPLIT makes their exponents compress.
+//! Arrow's schema (with units and meanings) is stored besides Parquet's; the typed column writer encodes rows from
+//! their memory without a copy. The Arrow writer is a third slower. Floats have no dictionary (a file would be a
+//! quarter larger and take five times as long); BYTE_STREAM_SPLIT lets their exponents compress.
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;
@@ -24,7 +23,6 @@ use crate::table::{Column, Content, Table, Values};
 /// Why columns could not be encoded.
 pub use parquet::errors::ParquetError as EncodingError;
 
-/// How a file is packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
     /// BYTE_STREAM_SPLIT and LZ4: nearly as small as zstd at twice the speed.
@@ -35,29 +33,25 @@ pub enum Packing {
     Plain,
 }
 
-/// The name of the root of a schema; readers take no notice of it.
 const ROOT: &str = "arrow_schema";
 
-/// What all files of one kind have in common.
+/// The common part of all files of one kind.
 #[derive(Clone, Debug)]
 pub struct Layout {
     columns: Vec<Column>,
-    /// What every file says of itself, in order of the keys: that of a hash map changes from run to run, and files must
-    /// not.
+    /// Metadata of every file, in order of the keys: files must not vary with a hash map.
     metadata: BTreeMap<String, String>,
     root: TypePtr,
-    /// Properties of every file, without its metadata.
     properties: WriterProperties,
-    /// The schema as Arrow's readers look for it. It is encoded once: for a small part that costs as much as tens of
-    /// runs.
+    /// Arrow's schema, encoded once: for a small part that costs as much as tens of runs.
     arrow_schema: KeyValue,
 }
 
 impl Layout {
-    /// Files with these columns. `metadata` is written to every file.
+    /// Files with these columns and `metadata`.
     ///
     /// # Errors
-    /// Where two columns have the same name.
+    /// Two columns of one name.
     pub fn new(columns: &[Column], metadata: BTreeMap<String, String>, packing: Packing) -> Result<Self> {
         let mut names: Vec<&str> = columns.iter().map(|column| column.quantity.name()).collect();
         names.sort_unstable();
@@ -70,7 +64,7 @@ impl Layout {
         Ok(Layout { columns: columns.to_vec(), metadata, root, properties, arrow_schema })
     }
 
-    /// The same without the extremes of columns, which readers of the whole file need not know.
+    /// Omits the extremes of columns, which readers of whole files do not need.
     #[must_use]
     pub fn without_statistics(self) -> Self {
         let properties = self.properties.into_builder().set_statistics_enabled(EnabledStatistics::None).build();
@@ -81,14 +75,14 @@ impl Layout {
         &self.columns
     }
 
-    /// Writes one file: a row group of `values`, column by column, all of the same length.
-    /// `own` is the metadata of this file only.
+    /// Writes a file with one row group of `values`, column by column, all of the same length. `own` is its own
+    /// metadata.
     ///
     /// # Errors
-    /// Where writing fails.
+    /// A failure of writing.
     ///
     /// # Panics
-    /// Where the type of the values differs from the column's.
+    /// If values and column differ in type.
     pub fn write<'a, W: Write + Send>(
         &self,
         out: W,
@@ -106,7 +100,6 @@ impl Layout {
         Ok(GroupWriter { layout: self, writer, scratch: ColumnBuffers::default() })
     }
 
-    /// The properties of a file with the metadata `own`.
     fn properties(&self, own: &[(&str, String)]) -> WriterProperties {
         let pairs = self.metadata.iter().map(|(key, value)| (key.as_str(), value));
         let mut pairs: Vec<(&str, &String)> = pairs.chain(own.iter().map(|(key, value)| (*key, value))).collect();
@@ -117,7 +110,6 @@ impl Layout {
     }
 }
 
-/// A file that is written row group by row group.
 pub struct GroupWriter<'l, W: Write + Send> {
     layout: &'l Layout,
     writer: SerializedFileWriter<W>,
@@ -125,13 +117,13 @@ pub struct GroupWriter<'l, W: Write + Send> {
 }
 
 impl<W: Write + Send> GroupWriter<'_, W> {
-    /// Writes a row group: `values`, column by column, all of the same length.
+    /// Writes a row group of `values`, column by column, all of the same length.
     ///
     /// # Errors
-    /// Where writing fails.
+    /// A failure of writing.
     ///
     /// # Panics
-    /// Where the type of the values differs from the column's.
+    /// If values and column differ in type.
     pub fn group<'a>(&mut self, values: impl Iterator<Item = impl Borrow<Values<'a>>>) -> Result<()> {
         let mut group = self.writer.next_row_group()?;
         for (column, values) in self.layout.columns.iter().zip(values) {
@@ -150,10 +142,10 @@ impl<W: Write + Send> GroupWriter<'_, W> {
     }
 }
 
-/// `table`, with its notes and `metadata`, as a file.
+/// Encodes `table` with its notes and `metadata`.
 ///
 /// # Errors
-/// Where two columns have the same name, or encoding fails.
+/// Two columns of one name, or a failed encoding.
 pub fn encoded(table: &Table<'_>, mut metadata: BTreeMap<String, String>, packing: Packing) -> Result<Vec<u8>> {
     metadata.extend(table.notes.clone());
     let mut bytes = Vec::new();
@@ -161,11 +153,10 @@ pub fn encoded(table: &Table<'_>, mut metadata: BTreeMap<String, String>, packin
     Ok(bytes)
 }
 
-/// A column in Parquet's schema.
 fn field(column: &Column) -> Result<TypePtr> {
     let (physical, logical) = match column.content {
         Content::Real => (Physical::DOUBLE, None),
-        // table engines have no unsigned integers (Spark, Trino); no count comes near 2^63
+        // table engines have no unsigned integers (Spark, Trino), and no count is near 2^63
         Content::Count => (Physical::INT64, None),
         Content::Word => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };
@@ -174,14 +165,13 @@ fn field(column: &Column) -> Result<TypePtr> {
     field.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
 }
 
-/// Encodings and compression of the columns.
 fn properties(columns: &[Column], packing: Packing) -> WriterProperties {
     let (compression, reals) = match packing {
         Packing::Lz4 => (Compression::LZ4_RAW, Encoding::BYTE_STREAM_SPLIT),
         Packing::Zstd => (Compression::ZSTD(ZstdLevel::default()), Encoding::BYTE_STREAM_SPLIT),
         Packing::Plain => (Compression::UNCOMPRESSED, Encoding::PLAIN),
     };
-    // most columns are real numbers: theirs is the encoding of columns without one of their own
+    // real numbers, in most columns, have the default encoding
     let mut properties = WriterProperties::builder().set_dictionary_enabled(false).set_encoding(reals);
     properties = properties.set_compression(compression);
     for column in columns {
@@ -197,7 +187,7 @@ fn properties(columns: &[Column], packing: Packing) -> WriterProperties {
     properties.build()
 }
 
-/// Buffers for what Parquet takes separately: which values are present, and those values without gaps.
+/// Presence, and the present values without gaps, which Parquet takes separately.
 #[derive(Default)]
 struct ColumnBuffers {
     levels: Vec<i16>,
@@ -258,7 +248,6 @@ impl ColumnBuffers {
         Ok(())
     }
 
-    /// Sets the definition levels (1 = present) of a nullable column.
     fn set_levels(&mut self, nullable: bool, present: impl Iterator<Item = bool>) {
         self.levels.clear();
         if nullable {
@@ -284,8 +273,8 @@ mod tests {
         SerializedFileReader::new(bytes::Bytes::from(bytes)).unwrap()
     }
 
-    /// Law: the cells of a table with every kind of value come back from Parquet bit for bit, in every packing; those
-    /// that are absent or not finite are null.
+    /// Law: cells of every kind come back from Parquet bit for bit, in every packing; absent and non-finite ones are
+    /// null.
     #[test]
     fn parquet_comes_back() {
         let table = every_kind();
@@ -308,7 +297,7 @@ mod tests {
         }
     }
 
-    /// Law: the file has the notes of its table and its metadata, and floats have no dictionary.
+    /// Law: a file has its notes and metadata, and floats have no dictionary.
     #[test]
     fn a_file_explains_itself() {
         let file = read(written(Packing::Zstd));
@@ -321,7 +310,6 @@ mod tests {
         assert!(matches!(floats.compression(), Compression::ZSTD(_)));
     }
 
-    /// Law: the same table gives the same bytes.
     #[test]
     fn files_are_reproducible() {
         assert_eq!(written(Packing::Zstd), written(Packing::Zstd));

@@ -1,4 +1,4 @@
-//! [`Dataset`]: the files of a result, and the one rule by which parts are added.
+//! [`Dataset`]: the files of a result, and the rule by which parts are added.
 //!
 //! ```text
 //! dataset.json             identity of the rows and size of parts, put whole and only if absent
@@ -29,36 +29,35 @@ use crate::storage::store::{Store, StoreError};
 /// A file with its checksum.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
-    /// Its name below the folder of the dataset, with `/`.
+    /// Name below the folder of the dataset, with `/`.
     pub name: String,
-    /// Its size, bytes.
+    /// Bytes.
     pub bytes: u64,
-    /// SHA-256 of its content, in hexadecimal.
+    /// Of its content, hexadecimal.
     pub sha256: String,
 }
 
 impl FileRecord {
-    /// The record of the file `name` with the content `bytes`.
     pub fn of(name: &str, bytes: &[u8]) -> Self {
         FileRecord { name: name.to_owned(), bytes: bytes.len() as u64, sha256: sha256(bytes) }
     }
 }
 
-/// A part that is whole: its file of rows, then its file of bands, if it has one.
+/// A whole part: its file of rows, then its file of bands, if any.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartRecord {
     pub part: Part,
     pub files: Vec<FileRecord>,
 }
 
-/// A file of a part: its record and its content.
+/// Record and content of a file of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartFile {
     pub record: FileRecord,
     pub bytes: Vec<u8>,
 }
 
-/// `dataset.json`: whose rows these are, and how they are divided.
+/// `dataset.json`: identity of the rows, and sizes of parts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Head {
     #[serde(flatten)]
@@ -68,18 +67,16 @@ pub struct Head {
 }
 
 impl Head {
-    /// Of the rows of `ensemble`, in parts of a size that may be known; else by counted work.
+    /// For `ensemble`, with parts of `largest_part` samples, else sized by counted work.
     pub fn of(ensemble: &Ensemble<'_>, largest_part: Option<u64>) -> Self {
         let largest_part = largest_part.unwrap_or_else(|| parts(ensemble.plan(), ensemble.isa()).largest());
         Head { identity: identity(ensemble), largest_part }
     }
 
-    /// The file.
     pub fn bytes(&self) -> Vec<u8> {
         sealed_json(&serde_json::to_string_pretty(self).unwrap_or_default())
     }
 
-    /// The parts of the first `samples` samples.
     pub fn parts(&self, samples: u64) -> Parts {
         Parts::up_to(samples, self.largest_part)
     }
@@ -91,14 +88,13 @@ pub struct Manifest {
     #[serde(flatten)]
     pub head: Head,
     pub rows: u64,
-    /// The text of `plan.toml`.
     pub plan: String,
-    /// Every other file but the mark, ascending by name.
+    /// All files but the mark, ascending by name.
     pub files: Vec<FileRecord>,
 }
 
 impl Manifest {
-    /// The file, with a line for each file of the dataset.
+    /// The file, with a line per file of the dataset.
     pub fn bytes(&self) -> Vec<u8> {
         let line = |file: &FileRecord| format!("    {}", serde_json::to_string(file).unwrap_or_default());
         let head = serde_json::to_string_pretty(&Manifest { files: Vec::new(), ..self.clone() }).unwrap_or_default();
@@ -106,7 +102,7 @@ impl Manifest {
         sealed_json(&head.replace("\"files\": []", &format!("\"files\": [\n{}\n  ]", files.join(",\n"))))
     }
 
-    /// Reads a file; `None` where it is not sealed, or no manifest.
+    /// Reads a file; `None` if it is not a sealed manifest.
     pub fn of(bytes: &[u8]) -> Option<Manifest> {
         sealed(bytes)?;
         let manifest: Manifest = serde_json::from_slice(bytes).ok()?;
@@ -114,7 +110,6 @@ impl Manifest {
         (is_whole && manifest.files.iter().all(|file| is_ours(&file.name))).then_some(manifest)
     }
 
-    /// The parts, in order.
     pub fn parts(&self) -> impl Iterator<Item = PartRecord> + '_ {
         let file = |name: &str| {
             let found = self.files.binary_search_by(|file| file.name.as_str().cmp(name));
@@ -126,13 +121,13 @@ impl Manifest {
         })
     }
 
-    /// The files that are of no part.
+    /// The files outside of parts.
     pub fn derived(&self) -> impl Iterator<Item = &FileRecord> {
         self.files.iter().filter(|file| !is_of_part(&file.name))
     }
 }
 
-/// A JSON object with a seal behind its last key.
+/// A JSON object with a seal as its last key.
 fn sealed_json(object: &str) -> Vec<u8> {
     let body = object.trim_end_matches(['}', '\n']);
     let mut bytes = format!("{body},\n  \"{SEAL_KEY}\": \"{UNSEALED}\"\n}}\n").into_bytes();
@@ -140,30 +135,28 @@ fn sealed_json(object: &str) -> Vec<u8> {
     bytes
 }
 
-/// A dataset that is written.
+/// A dataset being written.
 #[derive(Debug)]
 pub struct Dataset {
     store: Arc<dyn Store>,
     head: Head,
-    /// The text of the plan.
     plan: String,
-    /// Whether the last part gets further rows while the campaign runs.
+    /// Whether the last part may still grow.
     grows: bool,
     state: Mutex<Files>,
 }
 
-/// What is there.
 #[derive(Debug, Default)]
 struct Files {
     parts: BTreeMap<u64, PartRecord>,
-    /// Files of parts that may get further rows.
+    /// Files of growing parts.
     for_now: BTreeSet<String>,
-    /// The files that are of no part, by name.
+    /// Files outside of parts, by name.
     derived: BTreeMap<String, FileRecord>,
 }
 
 impl Dataset {
-    /// The dataset with these parts in `store`, whose `dataset.json` is there.
+    /// The dataset with these parts in `store`, which has a `dataset.json`.
     pub(super) fn new(
         store: Arc<dyn Store>,
         head: Head,
@@ -190,17 +183,17 @@ impl Dataset {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The parts that are whole, in order.
+    /// The whole parts, in order.
     pub fn parts(&self) -> Vec<PartRecord> {
         self.files().parts.values().cloned().collect()
     }
 
-    /// The rows that are there, with their bands.
+    /// The present rows and bands.
     pub fn rows(&self) -> RowsReader {
         rows(&self.store, &self.parts())
     }
 
-    /// Those of `parts` that are not there yet.
+    /// The missing ones of `parts`.
     pub fn missing(&self, parts: impl IntoIterator<Item = Part>) -> Vec<Part> {
         let files = self.files();
         parts.into_iter().filter(|part| files.parts.get(&part.id.0).is_none_or(|there| there.part != *part)).collect()
@@ -215,7 +208,7 @@ impl Dataset {
         self.files().derived.insert(file.name.clone(), file);
     }
 
-    /// Puts a file that follows from plan and rows.
+    /// Puts a file derived from plan and rows.
     pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         self.store.put(name, bytes).map_err(self.store.at(name))?;
         self.list(FileRecord::of(name, bytes));
@@ -225,7 +218,7 @@ impl Dataset {
     /// Adds a part: its bands, then its rows.
     ///
     /// # Errors
-    /// Where a file operation fails; the part is then not there.
+    /// A failed file operation, after which the part is absent.
     pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<(), StoreError> {
         let is_final = !self.grows || self.head.parts(u64::MAX).part(part.id) == Some(part);
         for PartFile { record, bytes } in files.iter().rev() {
@@ -246,7 +239,7 @@ impl Dataset {
         Ok(())
     }
 
-    /// Takes parts out of the dataset, so that they are made again.
+    /// Removes parts, which are then computed again.
     pub fn drop_parts(&self, parts: impl IntoIterator<Item = PartId>) -> Result<(), StoreError> {
         for part in parts {
             self.remove(&rows_of(part))?;
@@ -255,7 +248,7 @@ impl Dataset {
         Ok(())
     }
 
-    /// Puts the `copies` of files of numbers, and then the plan, which names them, unless they are there.
+    /// Puts `copies` of data files, then the plan that names them, unless present.
     pub fn keep(&self, copies: &[(String, Vec<u8>)]) -> Result<(), StoreError> {
         let copies = copies.iter().map(|(name, bytes)| (format!("{DATA}/{name}"), &**bytes));
         for (name, bytes) in copies.chain([(PLAN.to_owned(), self.plan.as_bytes())]) {
@@ -267,13 +260,13 @@ impl Dataset {
         Ok(())
     }
 
-    /// Removes a file, if there is one.
+    /// Removes a file, if present.
     pub fn remove(&self, name: &str) -> Result<(), StoreError> {
         self.files().derived.remove(name);
         self.store.remove(name).map_err(self.store.at(name))
     }
 
-    /// Removes the files of a dataset in the folder `folder`, and the folder where nothing else is in it.
+    /// Removes the files of a dataset in `folder`, and the folder if then empty.
     pub fn clear(&self, folder: &str) -> Result<(), StoreError> {
         let entries = self.store.entries(folder)?;
         for entry in &entries {
@@ -285,7 +278,7 @@ impl Dataset {
         if !entries.is_empty() && self.store.entries(folder)?.is_empty() { self.remove(folder) } else { Ok(()) }
     }
 
-    /// Puts the manifest of the dataset, and the mark.
+    /// Puts the manifest and the mark.
     pub fn finish(&self) -> Result<(), StoreError> {
         let (manifest, for_now) = {
             let all = self.files();
@@ -308,13 +301,12 @@ impl Dataset {
     }
 }
 
-/// The rows of `parts` in `store`, with their bands.
 pub fn rows(store: &Arc<dyn Store>, parts: &[PartRecord]) -> RowsReader {
     let names = |index: usize| parts.iter().filter_map(|part| Some(part.files.get(index)?.name.clone())).collect();
     RowsReader::new(store.clone(), names(0), names(1))
 }
 
-/// Removes the mark of a finished dataset, its manifest and its summary, before anything that it lists changes.
+/// Removes mark, manifest and summary before anything listed changes.
 pub fn unfinish(store: &dyn Store) -> Result<(), StoreError> {
     [SUCCESS, MANIFEST, SUMMARY].into_iter().try_for_each(|name| store.remove(name).map_err(store.at(name)))
 }
@@ -324,7 +316,7 @@ fn put_end(store: &dyn Store, manifest: &Manifest) -> Result<(), StoreError> {
     store.put(SUCCESS, b"").map_err(store.at(SUCCESS))
 }
 
-/// Replaces one file of a finished dataset, and lists it. A file with the bytes that are listed leaves it finished.
+/// Replaces and lists one file of a finished dataset, unless its bytes are unchanged.
 pub fn replace_file(store: &dyn Store, manifest: &Manifest, (name, bytes): (&str, &[u8])) -> Result<(), StoreError> {
     let mut files: BTreeMap<&str, FileRecord> = manifest.files.iter().map(|file| (&*file.name, file.clone())).collect();
     let put = || store.put(name, bytes).map_err(store.at(name));
@@ -345,8 +337,7 @@ mod tests {
     use super::*;
     use crate::storage::identity::{ARITHMETIC, FORMAT};
 
-    /// Law: a manifest is read as it was written; one in which any bit has changed, which lists a file elsewhere, or
-    /// not all parts, is none.
+    /// Law: a manifest is read back; one with any changed bit, a file elsewhere, or a missing part is refused.
     #[test]
     fn only_a_whole_manifest_is_read() {
         let spindrift = "dataset".to_owned();

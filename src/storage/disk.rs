@@ -1,10 +1,10 @@
 //! [`Disk`]: a dataset in a folder of a disk.
 //!
-//! A file is written under a temporary name of its own (created new, links are not followed), flushed, read back and
+//! A file is written under its own temporary name (created new, links are not followed), flushed, read back and
 //! compared, and renamed; then its folder is flushed. So a file under a final name is whole, whatever stops a process.
 //!
-//! Not here: files that a command writes elsewhere ([`super::atomic`]), and the files that a campaign file names
-//! ([`crate::campaign::input_file`]).
+//! Files that a command writes elsewhere are in [`super::atomic`], data files of a campaign in
+//! [`crate::campaign::input_file`].
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Write};
@@ -14,7 +14,6 @@ use std::sync::Arc;
 use crate::storage::names::unfinished;
 use crate::storage::store::{Entry, Store, Unfit, content};
 
-/// The folder of a dataset.
 #[derive(Clone, Debug)]
 pub struct Disk(PathBuf);
 
@@ -23,11 +22,11 @@ pub fn folder(root: &Path) -> Arc<dyn Store> {
     Arc::new(Disk(root.to_owned()))
 }
 
-/// How often a temporary file that another process has cleared away is written again.
+/// Rewrites of a temporary file that other processes clear away.
 const MOST_CLEARED: usize = 8;
 
 impl Disk {
-    /// The path of the file `name`, which is about to change: in this folder, and not through a link in its place.
+    /// The path of the file `name`, not through a link.
     fn own(&self, name: &str) -> io::Result<PathBuf> {
         let path = self.0.join(name);
         no_link(&self.0)?;
@@ -35,21 +34,21 @@ impl Disk {
         Ok(path)
     }
 
-    /// Writes a file under a temporary name and checks it, then lets `place` give it its name.
+    /// Writes and checks a file under a temporary name, then lets `place` name it.
     fn place(&self, name: &str, bytes: &[u8], place: impl Fn(&Path, &Path) -> io::Result<()>) -> io::Result<()> {
         let path = self.own(name)?;
         new_folder(above(&path))?;
-        // through a link that has come meanwhile nothing is written
+        // nothing is written through a new link
         no_link(above(&path))?;
         let put = || {
             let temporary = written(&path, bytes, &create)?;
             place(&temporary, &path).inspect_err(|_| {
-                // the first error is reported; a file that cannot be removed is recognised by its name
+                // the name of a file that cannot be removed identifies it
                 let _ = fs::remove_file(&temporary);
             })
         };
         let mut placed = put();
-        // without locks, each process that begins clears the temporary files of the others away
+        // without locks, starting processes clear each other's temporary files away
         for _ in 0..MOST_CLEARED {
             match &placed {
                 Err(error) if error.kind() == ErrorKind::NotFound => placed = put(),
@@ -72,7 +71,7 @@ impl Store for Disk {
 
     fn put_if_absent(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         self.place(name, bytes, |temporary, path| match fs::hard_link(temporary, path) {
-            // a file system where a file has one name
+            // a file system without hard links
             Err(_) if !path.exists() => fs::rename(temporary, path),
             _ => fs::remove_file(temporary).or_else(unless_absent),
         })
@@ -92,9 +91,7 @@ impl Store for Disk {
         let mut list = Vec::new();
         for entry in fs::read_dir(self.0.join(folder))? {
             let entry = entry?;
-            // of a link: the link's own
             let metadata = match entry.metadata() {
-                // removed or renamed since
                 Err(error) if error.kind() == ErrorKind::NotFound => continue,
                 metadata => metadata?,
             };
@@ -141,7 +138,7 @@ fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.sync_all()
 }
 
-/// Writes a file under a temporary name for `path`, which is returned, and compares what is read back.
+/// Writes a temporary file for `path`, returned, and compares what is read back.
 fn written(path: &Path, bytes: &[u8], create: &dyn Fn(&Path, &[u8]) -> io::Result<()>) -> io::Result<PathBuf> {
     let temporary = unfinished(path);
     let write = || {
@@ -152,7 +149,7 @@ fn written(path: &Path, bytes: &[u8], create: &dyn Fn(&Path, &[u8]) -> io::Resul
         Err(io::Error::other("what was read back is not what was written"))
     };
     let Err(first) = write() else { return Ok(temporary) };
-    // after a failed flush the state of the file is unknown: it is written again, once
+    // after a failed flush the state of the file is unknown: one rewrite
     fs::remove_file(&temporary).and_then(|()| write()).map_err(|_| {
         let _ = fs::remove_file(&temporary);
         first
@@ -160,10 +157,10 @@ fn written(path: &Path, bytes: &[u8], create: &dyn Fn(&Path, &[u8]) -> io::Resul
     Ok(temporary)
 }
 
-/// Bytes that are compared at a time: they stay in the second-level cache.
+/// Bytes compared at a time, in the second-level cache.
 const PIECE: usize = 1 << 16;
 
-/// Whether the content of a file is `bytes`, read piece by piece: a part is not in memory twice.
+/// Whether a file has the content `bytes`, read in pieces: a part is not in memory twice.
 fn has(mut file: &File, bytes: &[u8]) -> io::Result<bool> {
     if file.metadata()?.len() != bytes.len() as u64 {
         return Ok(false);
@@ -182,7 +179,7 @@ fn unless_absent(error: io::Error) -> io::Result<()> {
     if error.kind() == ErrorKind::NotFound { Ok(()) } else { Err(error) }
 }
 
-/// Whether `error` is that a file system has no locks: any other one says nothing about them.
+/// Whether `error` means that a file system has no locks.
 fn has_no_locks(error: &io::Error) -> bool {
     #[cfg(unix)]
     {
@@ -211,7 +208,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Refuses a link or a file in the place of a folder of a dataset: through a link files elsewhere would change.
+/// Refuses a link or file in place of a folder of a dataset, which would lead elsewhere.
 fn no_link(folder: &Path) -> io::Result<()> {
     match fs::symlink_metadata(folder) {
         Ok(found) if !found.is_dir() => {
@@ -223,7 +220,6 @@ fn no_link(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// The folder above `path`.
 pub fn above(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
@@ -234,10 +230,10 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) }
 }
 
-/// Creates a folder with all folders above it, durably; no error where it exists.
+/// Creates a folder and all above it durably, unless they exist.
 ///
 /// # Errors
-/// Where it fails, or something else of that name exists.
+/// A failure, or something else of that name.
 pub fn new_folder(path: &Path) -> io::Result<()> {
     let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
     let missing: Vec<&Path> = path.ancestors().take_while(is_missing).map(above).collect();
@@ -245,15 +241,15 @@ pub fn new_folder(path: &Path) -> io::Result<()> {
     missing.into_iter().try_for_each(sync_folder)
 }
 
-/// The folder that `path` means: the target of a link, whether that exists or not, so that a link which changes later
-/// changes nothing; and a folder with a name where `path` is `.` or `..`.
+/// The folder meant by `path`: the target of a link, so that later changes of the link have no effect, with a name
+/// instead of `.` or `..`.
 ///
 /// # Errors
-/// Where a link cannot be read, or leads to itself.
+/// An unreadable link, or a loop of links.
 pub fn meant(path: &Path) -> io::Result<PathBuf> {
-    // without a slash at the end, and without `.` within
+    // without a final slash and inner `.`
     let mut folder: PathBuf = path.components().collect();
-    // as many links as Linux follows
+    // the limit of Linux
     for _ in 0..40 {
         if folder.file_name().is_none() {
             return folder.canonicalize();
@@ -270,8 +266,7 @@ pub fn meant(path: &Path) -> io::Result<PathBuf> {
 mod tests {
     use super::*;
 
-    /// Law: what was put is read, and what a disk alters gets no name; what is there is not put again where it has to
-    /// be absent; a folder is removed only where it is empty; what is no regular file is not read.
+    /// Law: a file is read as put; altered, occupied and irregular ones are refused; only empty folders are removed.
     #[test]
     fn a_file_is_whole_or_absent() {
         let root = std::env::temp_dir().join(format!("spindrift-disk-{}", std::process::id()));
@@ -284,7 +279,7 @@ mod tests {
         let altering = |path: &Path, bytes: &[u8]| create(path, &[bytes, b"x"].concat());
         assert!(written(&root.join("b"), b"12", &altering).is_err());
         assert_eq!(disk.list("").unwrap().len(), 1, "nothing is left of it");
-        // of two temporary files that another process clears away, both are written again
+        // two cleared temporary files are written again
         let cleared = std::cell::Cell::new(0);
         let place = |temporary: &Path, path: &Path| {
             if cleared.replace(cleared.get() + 1) < 2 {

@@ -1,4 +1,4 @@
-//! Sampled parameters as a table, Parquet or CSV, written as they are drawn.
+//! Sampled parameters as a table, Parquet or CSV, written while drawn.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::storage::store::Failure;
 use crate::storage::table_file::TableFormat;
 use crate::table::{Column, Content, Values, csv};
 
-/// Status of a sample that is physical; one that is not has the status of its row.
+/// Status of a physical sample; others have the status of their row.
 pub const PHYSICAL: &str = "drawn";
 
 /// The columns: number, status, dispersed values, mass properties.
@@ -27,7 +27,7 @@ pub fn columns(plan: &Plan) -> Vec<Column> {
     fixed.into_iter().chain(parameter_columns(plan)).chain(mass).collect()
 }
 
-/// The values of the columns in `drawn`, whose mass properties were asked for.
+/// The values of the columns in `drawn`, which has mass properties.
 pub fn values(drawn: &DrawnScenes) -> Vec<Values<'_>> {
     let first = drawn.first.0;
     let fixed = [
@@ -39,10 +39,10 @@ pub fn values(drawn: &DrawnScenes) -> Vec<Values<'_>> {
 }
 
 /// Writes the sampled parameters of `plan` to `path`, in the format of its extension; the file is whole or absent.
-/// Samples are drawn as they are written; `seen` is shown each part of them.
+/// `seen` receives each part.
 ///
 /// # Errors
-/// Where the extension has no format, or writing fails.
+/// An unknown extension, or a failure of writing.
 pub fn save(plan: &Plan, path: &Path, mut seen: impl FnMut(&DrawnScenes)) -> Result<(), Failure> {
     match TableFormat::of(path)? {
         TableFormat::Csv => atomic::write(path, |file| {

@@ -7,10 +7,9 @@ use crate::campaign::difference::{KeyDifference, text_differences};
 use crate::storage::identity::Identity;
 use crate::storage::store::StoreError;
 
-/// Most keys that a refusal lists.
+/// Most keys in a refusal.
 const LISTED: usize = 12;
 
-/// Why a place cannot take a result.
 #[derive(Debug, Error)]
 pub enum FolderError {
     /// It has the rows of another plan.
@@ -20,36 +19,35 @@ pub enum FolderError {
     )]
     Occupied {
         folder: String,
-        /// A result, or an unfinished one.
         what: &'static str,
-        /// The keys that differ, a line each.
+        /// The differing keys, a line each.
         differences: String,
     },
-    /// It is a store with another plan.
+    /// A store with another plan.
     #[error(
         "{folder}: is the result of another plan:\n  {differences}\nchoose another --out; what is in a store is not \
         replaced"
     )]
     Kept { folder: String, differences: String },
-    /// It is a store in which objects have changed.
+    /// A store with changed objects.
     #[error(
         "{folder}: objects are not what was put; remove those that have changed, and the campaign's command with this \
         --out puts them again\n  {damaged}"
     )]
     Changed { folder: String, damaged: String },
-    /// It has more rows than the plan.
+    /// More rows than the plan.
     #[error(
         "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose \
         another --out, or replace it with --overwrite"
     )]
     Larger { folder: String, found: u64, asked: u64 },
-    /// It has a result of an earlier version of the program.
+    /// A result of an earlier version of the program.
     #[error(
         "`{folder}` contains a result of format 5, which an earlier version of spindrift made and this one does not \
         read; remove it, or choose another --out"
     )]
     Old { folder: String },
-    /// Everything is there, and a shard has other keys that change no row.
+    /// A complete result, while a shard has other keys that change no row.
     #[error(
         "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign \
         without --shard: it answers from the rows that are there"
@@ -69,17 +67,13 @@ pub enum FolderError {
     /// Another process writes to it.
     #[error("another process is using `{folder}`; wait for it, or choose another folder")]
     Busy { folder: String },
-    /// It has a result that is to be replaced, and cannot be renamed.
+    /// A result to be replaced that cannot be renamed.
     #[error(
         "`{folder}` cannot be replaced, because it cannot be renamed: {why}; choose a folder below it or another one \
         as --out, and run the command in another folder, or remove what is in it and leave --overwrite out"
     )]
-    Immovable {
-        folder: String,
-        /// What keeps it from being renamed.
-        why: std::io::Error,
-    },
-    /// There is no result in it.
+    Immovable { folder: String, why: std::io::Error },
+    /// No result.
     #[error("`{folder}` has no result of spindrift: {why}")]
     Nothing { folder: String, why: String },
     #[error(transparent)]
@@ -91,22 +85,20 @@ pub(super) fn shown(one: KeyDifference) -> String {
     format!("{}: {} there, {} here", one.key, value(one.first), value(one.second))
 }
 
-/// The keys but the number of samples in which the plan of the text `there` differs from `plan`.
+/// The keys except the number of samples that differ between the plan text `there` and `plan`.
 pub(super) fn other_questions(there: &str, plan: &Plan) -> Option<String> {
     let mut keys = text_differences(there, &plan.text());
     keys.retain(|one| one.key != "campaign.samples");
     (!keys.is_empty()).then(|| keys.into_iter().map(shown).collect::<Vec<_>>().join("\n  "))
 }
 
-/// All keys in which the plan of the text `there`, whose rows are `rows`, differs from `plan`, whose rows are
-/// `identity`, one a line.
+/// All keys, one a line, that differ between the plan text `there` with `rows` and `plan` with `identity`.
 pub(super) fn all_differences((there, rows): (&str, &Identity), (plan, identity): (&Plan, &Identity)) -> String {
     let keys = if there.is_empty() { Vec::new() } else { text_differences(there, &plan.text()) };
     reasons(keys.into_iter().map(shown).collect(), rows, identity)
 }
 
-/// The text of a `list` of keys that differ, where the rows are `there` and not `identity`: what else differs is added,
-/// and what is too long is cut.
+/// The `list` of differing keys, shortened, with other differences of the identities.
 pub(super) fn reasons(mut list: Vec<String>, there: &Identity, identity: &Identity) -> String {
     if there.arithmetic != identity.arithmetic || there.format != identity.format {
         list.push(format!(

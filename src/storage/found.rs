@@ -1,4 +1,4 @@
-//! [`contents`]: what is in the place of a dataset; [`Found::examine`]: which of its parts are whole.
+//! [`contents`]: the contents of the place of a dataset; [`Found::examine`]: its whole parts.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
@@ -15,40 +15,38 @@ use crate::storage::names::{
 use crate::storage::parallel::in_parallel;
 use crate::storage::store::{Store, StoreError};
 
-/// The manifest of a dataset of an earlier format.
+/// Manifest of earlier formats.
 const OLD_MANIFEST: &str = "manifest.jsonl";
 
-/// A dataset as it was found.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// The text of its plan; empty where there is none.
+    /// The text of its plan, empty for none.
     pub plan: String,
-    /// What its rows are; `None` where there is nothing, or only what a process left that was stopped before it began.
+    /// Identity of its rows; `None` before a process began.
     pub identity: Option<Identity>,
-    /// Most samples of a part, where a file that is whole says so.
+    /// Most samples of a part, from a whole file.
     pub largest_part: Option<u64>,
-    /// The manifest, where it is whole.
+    /// The manifest, if whole.
     pub manifest: Option<Manifest>,
     pub is_finished: bool,
-    /// What is wrong with the head, the manifest and the plan, each with its file.
+    /// Damage of head, manifest and plan, with the file.
     pub damage: Vec<String>,
-    /// The files under names of the dataset.
+    /// Files with names of the dataset.
     pub files: BTreeSet<String>,
-    /// The first entry that has a name of the dataset and is something else: a link, or a folder where a file should
-    /// be.
+    /// The first entry with a name of the dataset but another kind: a link, or a folder for a file.
     pub foreign: Option<String>,
-    /// Entries whose names no file of a dataset has.
+    /// Entries with foreign names.
     pub strays: Vec<String>,
 }
 
 impl Found {
-    /// What a note says of each entry that is not part of the result, and is left alone.
+    /// A note on each foreign entry, left alone.
     pub fn notes(&self) -> Vec<String> {
         let notes = self.strays.iter().map(String::as_str).chain(self.unlisted());
         notes.map(|entry| format!("{entry}: not part of the result; left alone")).collect()
     }
 
-    /// The first entry that is not part of the dataset.
+    /// The first foreign entry.
     pub(super) fn not_its_own(&self) -> Option<&str> {
         self.foreign.iter().chain(&self.strays).map(String::as_str).chain(self.unlisted()).next()
     }
@@ -64,12 +62,12 @@ impl Found {
         self.manifest.iter().flat_map(|manifest| &manifest.files)
     }
 
-    /// Whether there is a page, or was one.
+    /// Whether there is, or was, a page.
     pub fn has_page(&self) -> bool {
         self.files.contains(REPORT) || self.listed().any(|file| file.name == REPORT)
     }
 
-    /// Of a result without a manifest: the files that follow from its rows. Nothing lists what should be in them.
+    /// Files derived from the rows of a result without a manifest, which nothing lists.
     pub fn unchecked(&self) -> Vec<String> {
         let is_unchecked = |name: &&String| {
             let is_known = [HEAD, PLAN, MANIFEST, SUCCESS].contains(&name.as_str()) || name.starts_with(DATA);
@@ -79,20 +77,19 @@ impl Found {
         all.filter(is_unchecked).cloned().collect()
     }
 
-    /// The number of rows: of a finished result, or by the names of the files of the `parts`.
+    /// Number of rows, of a finished result or from the file names of the `parts`.
     pub fn rows(&self, parts: Parts) -> u64 {
         let named = || self.files.iter().filter_map(|name| parts.part(part_of(name)?)).map(|part| part.count as u64);
         self.manifest.as_ref().map_or_else(|| named().sum(), |manifest| manifest.rows)
     }
 
-    /// What is wrong with the files that follow from the rows, each with its name.
+    /// Damage of the files derived from the rows, with names.
     ///
     /// # Errors
-    /// Where one cannot be read now.
+    /// A file that cannot be read now.
     pub fn derived_damage(&self, store: &dyn Store) -> Result<Vec<String>, StoreError> {
         let mut found = Vec::new();
         for file in self.manifest.iter().flat_map(Manifest::derived) {
-            // the damage of these is known
             if ![HEAD, PLAN].contains(&file.name.as_str()) {
                 found.extend(checked(store, file)?.err().map(|what| format!("{}: {what}", file.name)));
             }
@@ -100,21 +97,21 @@ impl Found {
         Ok(found)
     }
 
-    /// What is wrong with head, manifest, plan, the parts that were `examined`, and the files that follow from them.
+    /// Damage of head, manifest, plan, the `examined` parts, and derived files.
     ///
     /// # Errors
-    /// Where one cannot be read now.
+    /// A file that cannot be read now.
     pub fn problems(&self, store: &dyn Store, examined: &Examined) -> Result<Vec<String>, StoreError> {
         let damaged = examined.damaged.iter().map(|(_, what)| what);
         let known = self.damage.iter().chain(damaged).cloned();
         Ok(known.chain(self.derived_damage(store)?).collect())
     }
 
-    /// Reads the parts that `is_mine` chooses on `threads` threads: those of the rows of `plan`, which have `identity`
-    /// and are divided as `head` says.
+    /// Reads the parts chosen by `is_mine` on `threads` threads: the rows of `plan` with `identity`, divided as in
+    /// `head`.
     ///
     /// # Errors
-    /// Where a file cannot be read now: that of the first part.
+    /// The first part with a file that cannot be read now.
     pub fn examine(
         &self,
         store: &dyn Store,
@@ -124,7 +121,7 @@ impl Found {
     ) -> Result<Examined, StoreError> {
         let listed: BTreeMap<PartId, PartRecord> =
             self.manifest.iter().flat_map(Manifest::parts).map(|part| (part.part.id, part)).collect();
-        // of a finished result the parts that it lists
+        // the parts listed by a finished result
         let named = self.files.iter().filter(|_| listed.is_empty()).filter_map(|name| part_of(name));
         let parts: Vec<PartId> = named.chain(listed.keys().copied()).filter(|part| is_mine(*part)).collect();
         let all = in_parallel(parts, NonZeroUsize::new(threads), |id| {
@@ -142,12 +139,11 @@ impl Found {
     }
 }
 
-/// What became of the parts of a dataset.
 #[derive(Clone, Debug, Default)]
 pub struct Examined {
-    /// Those that are whole, in order; the last may have fewer rows than the plan has for it.
+    /// Whole ones, in order; the last may have fewer rows than in the plan.
     pub parts: Vec<PartRecord>,
-    /// The others, each with what is wrong.
+    /// The others, with their damage.
     pub damaged: Vec<(PartId, String)>,
 }
 
@@ -156,13 +152,13 @@ impl Examined {
         self.parts.iter().map(|part| part.part.count as u64).sum()
     }
 
-    /// Number of samples up to the last one. Parts are not made in order: it may be more than the rows.
+    /// Number of samples up to the last one, which may exceed the rows, since parts are made in any order.
     pub fn extent(&self) -> u64 {
         self.parts.last().map_or(0, |part| part.part.first.0 + part.part.count as u64)
     }
 }
 
-/// The content of a file; what is wrong with it where it is not what was written.
+/// The content of a file, or its damage.
 fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, String>, StoreError> {
     Ok(match store.read(&file.name)? {
         Err(error) => Err(reason(&error)),
@@ -174,14 +170,14 @@ fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, Strin
     })
 }
 
-/// How the damage of a file ends that is not there.
+/// Damage of an absent file.
 pub const MISSING: &str = "missing";
 
 fn reason(error: &std::io::Error) -> String {
     if error.kind() == std::io::ErrorKind::NotFound { MISSING.to_owned() } else { error.to_string() }
 }
 
-/// The part `id`, which the manifest may list as `listed`; what is wrong with it.
+/// The part `id`, possibly `listed` in the manifest, or its damage.
 fn part_there(
     store: &dyn Store,
     (plan, head): (&Plan, &Head),
@@ -230,10 +226,10 @@ fn part_there(
     Ok(Ok(record))
 }
 
-/// What is in `store`.
+/// The contents of `store`.
 ///
 /// # Errors
-/// Where it is a dataset of format 5 or earlier, something else than a dataset, or a file operation fails.
+/// A dataset of format 5 or earlier, foreign contents, or a failed file operation.
 pub fn contents(store: &dyn Store) -> Result<Found, FolderError> {
     let top = store.entries("")?;
     let mut found = Found::default();
@@ -308,7 +304,7 @@ impl Found {
         }
     }
 
-    /// The identity that the first sealed file of rows records.
+    /// The identity recorded by the first sealed file of rows.
     fn identity_of_rows(&self, store: &dyn Store) -> Result<Option<Identity>, StoreError> {
         for name in self.files.iter().filter(|name| part_of(name).is_some()) {
             if let Ok(bytes) = store.read(name)?
@@ -321,7 +317,7 @@ impl Found {
         Ok(None)
     }
 
-    /// What an interrupted process left in an unfinished dataset: temporary files, and bands without rows.
+    /// Leftovers of an interrupted process in an unfinished dataset: temporary files, and bands without rows.
     pub(super) fn leftovers(&self) -> impl Iterator<Item = &String> {
         let has_rows = |name: &str| self.files.contains(&name.replacen(PART_BANDS, RUNS, 1));
         self.files.iter().filter(move |name| {

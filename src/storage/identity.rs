@@ -1,4 +1,4 @@
-//! [`Identity`] of rows, as every file of rows records it; and the [`seal`] by which a file proves its own bytes.
+//! [`Identity`] of rows, recorded by every file of rows; [`seal`], by which a file proves its own bytes.
 
 use bytes::Bytes;
 use parquet::file::metadata::ParquetMetaDataReader;
@@ -16,18 +16,18 @@ use crate::table::Column;
 /// only; since 6 `dataset.json` records the identity and the sizes of parts, and every file of rows is sealed.
 pub const FORMAT: u32 = 6;
 
-/// Version of the arithmetic of rows: it changes where the same row plan would give other bits. The instruction set is
-/// no part of it. Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine
-/// matrix. Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the body; since 4
-/// estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that change within
-/// an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors through
-/// repeated periods, past separatrices, and from perigee to perigee.
+/// Version of the arithmetic of rows, which changes if the same row plan would give other bits. it changes where the
+/// same row plan would give other bits. Since 2 Taylor steps have more orders and integrals of thrust are those of the
+/// direction cosine matrix. Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the
+/// body; since 4 estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that
+/// change within an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors
+/// through repeated periods, past separatrices, and from perigee to perigee.
 pub const ARITHMETIC: u32 = 6;
 
-/// What the rows of a dataset are. Rows of two datasets with the same identity can be mixed.
+/// The identity of rows. Rows of two datasets with the same identity can be mixed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
-    /// Always `dataset`: the mark by which a folder is recognised.
+    /// Always `dataset`, the mark of a folder.
     pub spindrift: String,
     /// [`FORMAT`].
     pub format: u32,
@@ -40,12 +40,10 @@ pub struct Identity {
     pub columns: String,
 }
 
-/// What an [`Identity`] calls itself.
 const MARK: &str = "dataset";
-/// Keys of the metadata of a file of rows: version of the format.
+/// Metadata keys of a file of rows.
 const FORMAT_KEY: &str = "spindrift.format";
 const ARITHMETIC_KEY: &str = "spindrift.arithmetic";
-/// Hash of the row plan.
 const ROW_HASH_KEY: &str = "spindrift.row_hash";
 const SEED_KEY: &str = "spindrift.seed";
 const COLUMNS_KEY: &str = "spindrift.columns";
@@ -54,10 +52,8 @@ const FIRST_KEY: &str = "spindrift.first_sample";
 const SAMPLES_KEY: &str = "spindrift.samples";
 /// SHA-256 of the part's file of bands.
 pub const BANDS_KEY: &str = "spindrift.part_bands_sha256";
-/// The key, in Parquet's metadata or in JSON, of the seal: the SHA-256 of all bytes of the file with [`UNSEALED`] in
-/// place of the seal itself.
+/// The key, in Parquet's metadata or JSON, of the SHA-256 of all bytes with [`UNSEALED`] as the seal.
 pub const SEAL_KEY: &str = "spindrift.seal";
-/// What a file has for a seal before it is sealed.
 pub const UNSEALED: &str = "0000000000000000000000000000000000000000000000000000000000000000";
 
 fn hexadecimal(sha256: Sha256) -> String {
@@ -69,15 +65,15 @@ pub fn sha256(bytes: &[u8]) -> String {
     hexadecimal(Sha256::new().chain_update(bytes))
 }
 
-/// Where the digits of the seal begin. Between them and the key are two bytes of Parquet or up to four of JSON, none of
-/// which is a hexadecimal digit.
+/// Where the digits of the seal begin, after the key and two bytes of Parquet or up to four of JSON, none of them a
+/// hexadecimal digit.
 fn digits_of_seal(bytes: &[u8]) -> Option<usize> {
     let key = bytes.windows(SEAL_KEY.len()).rposition(|window| window == SEAL_KEY.as_bytes())? + SEAL_KEY.len();
     let start = (key..key + 5).find(|at| bytes.get(*at).is_some_and(u8::is_ascii_hexdigit))?;
     (start + UNSEALED.len() <= bytes.len()).then_some(start)
 }
 
-/// The seal that `bytes` should have at `start`, and the SHA-256 of the whole where `seal` is there.
+/// The seal that `bytes` should have at `start`, and the SHA-256 of the whole with `seal` there.
 fn checksums(bytes: &[u8], start: usize, seal: Option<&[u8]>) -> [String; 2] {
     let (before, after) = (Sha256::new().chain_update(&bytes[..start]), &bytes[start + UNSEALED.len()..]);
     let expected = hexadecimal(before.clone().chain_update(UNSEALED).chain_update(after));
@@ -85,10 +81,10 @@ fn checksums(bytes: &[u8], start: usize, seal: Option<&[u8]>) -> [String; 2] {
     [expected, hexadecimal(whole)]
 }
 
-/// Seals a file that has [`UNSEALED`] under [`SEAL_KEY`]. Returns its SHA-256, in hexadecimal.
+/// Seals a file with [`UNSEALED`] under [`SEAL_KEY`]; returns its SHA-256, hexadecimal.
 ///
 /// # Panics
-/// Where it has no such key.
+/// If it has no such key.
 pub fn seal(bytes: &mut [u8]) -> String {
     let start = digits_of_seal(bytes).expect("the key of the seal is there");
     let [seal, sha256] = checksums(bytes, start, None);
@@ -96,7 +92,7 @@ pub fn seal(bytes: &mut [u8]) -> String {
     sha256
 }
 
-/// The SHA-256 of a file whose seal is right; `None` of any other one.
+/// The SHA-256 of a file with a valid seal.
 pub fn sealed(bytes: &[u8]) -> Option<String> {
     let start = digits_of_seal(bytes)?;
     let seal = &bytes[start..start + UNSEALED.len()];
@@ -118,7 +114,7 @@ pub fn of(plan: &Plan, columns: &[Column]) -> Identity {
     }
 }
 
-/// What the file of one part records of it: `first` is the number of its first sample.
+/// Metadata of a part in its file; `first` is the number of its first sample.
 pub fn part_metadata(part: Part, first: SampleId) -> [(&'static str, String); 3] {
     [(PART_KEY, part.id.0.to_string()), (FIRST_KEY, first.to_string()), (SAMPLES_KEY, part.count.to_string())]
 }
@@ -128,15 +124,14 @@ pub fn part_metadata(part: Part, first: SampleId) -> [(&'static str, String); 3]
 pub struct RowsMetadata {
     pub identity: Identity,
     pub part: u64,
-    /// The number of the first sample.
     pub first: u64,
     pub rows: u64,
-    /// SHA-256 of the file of bands, where the part has one.
+    /// SHA-256 of the file of bands, if any.
     pub bands: Option<String>,
 }
 
 impl RowsMetadata {
-    /// Reads them; `None` where the bytes are no file of rows.
+    /// Reads the metadata; `None` unless it is a file of rows.
     pub fn of(bytes: Bytes) -> Option<Self> {
         let read = std::panic::catch_unwind(|| ParquetMetaDataReader::new().parse_and_finish(&bytes).ok());
         let metadata = read.ok().flatten()?;
@@ -158,8 +153,8 @@ impl RowsMetadata {
     }
 }
 
-/// Identity of the rows and the row plan, for files of rows: all that changes them, and nothing else. The name of the
-/// campaign, the version of the program and the instruction set are not part of it: no bit of a row depends on them.
+/// Identity and row plan for files of rows: all that changes rows. Name of the campaign, version of the program and
+/// instruction set do not.
 pub fn row_provenance(plan: &Plan, identity: &Identity) -> BTreeMap<String, String> {
     let pairs = [
         (FORMAT_KEY, identity.format.to_string()),
@@ -172,8 +167,7 @@ pub fn row_provenance(plan: &Plan, identity: &Identity) -> BTreeMap<String, Stri
     pairs.map(|(key, value)| (key.to_owned(), value)).into()
 }
 
-/// Version of the program, campaign, seed, and the plan with its hash. The instruction set is not part of it: no bit of
-/// a row depends on it.
+/// Version of the program, campaign, seed, and the plan with its hash, without the instruction set.
 pub fn provenance(plan: &Plan) -> BTreeMap<String, String> {
     let pairs = [
         ("spindrift.version", env!("CARGO_PKG_VERSION").to_owned()),
@@ -189,8 +183,7 @@ pub fn provenance(plan: &Plan) -> BTreeMap<String, String> {
 mod tests {
     use super::*;
 
-    /// Law: a sealed file has the SHA-256 that is returned; whichever bit changes, in the seal or elsewhere, and
-    /// wherever it is cut off, its seal is wrong.
+    /// Law: a sealed file has the returned SHA-256; any changed bit or truncation breaks its seal.
     #[test]
     fn every_changed_bit_breaks_the_seal() {
         let mut bytes = format!("{{\"a\": 1, \"{SEAL_KEY}\": \"{UNSEALED}\"}}\n").into_bytes();

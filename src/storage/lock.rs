@@ -1,4 +1,4 @@
-//! [`lock`]: keeps other processes away from a result. It is for people: results are right without it.
+//! [`lock`]: keeps other processes away from a result, for people; results are right without it.
 
 use std::fs::{File, TryLockError};
 use std::thread::sleep;
@@ -7,20 +7,20 @@ use std::time::{Duration, Instant};
 use crate::storage::folder_error::FolderError;
 use crate::storage::store::Store;
 
-/// How long a lock of another process is waited for: that of a process which was killed ends once the system has closed
-/// its files, and a program that the owner starts has copies of the owner's files for a moment.
+/// Longest wait for a lock: a killed process keeps its lock until its files are closed, and a child shares it for a
+/// moment.
 const PATIENCE: Duration = Duration::from_millis(300);
-/// Between two tries of a lock.
+/// Between two attempts.
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// A lock that keeps other processes away until it is dropped; none where there are no locks.
+/// Keeps other processes away until dropped; empty without locks.
 #[derive(Debug, Default)]
 pub struct Lock(#[expect(dead_code, reason = "is closed when it is dropped")] Option<File>);
 
-/// Locks `store`, shared with other shards and readers or not.
+/// Locks `store`, possibly shared with other shards and readers.
 ///
 /// # Errors
-/// Where another process has it, or it cannot be opened.
+/// A lock of another process, or one that cannot be opened.
 pub fn lock(store: &dyn Store, is_shared: bool) -> Result<Lock, FolderError> {
     let start = Instant::now();
     loop {
@@ -30,7 +30,7 @@ pub fn lock(store: &dyn Store, is_shared: bool) -> Result<Lock, FolderError> {
             Err(TryLockError::WouldBlock) => {
                 return Err(FolderError::Busy { folder: store.root().display().to_string() });
             }
-            // without knowing whether another process writes, nothing is written
+            // another process may be writing
             Err(TryLockError::Error(error)) => return Err(store.at("")(error).into()),
         }
     }
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
     use crate::storage::disk::folder;
 
-    /// Law: a lock that ends within a moment is waited for; one that is held is refused, within a second.
+    /// Law: a lock that ends within a moment is awaited; a held one is refused within a second.
     #[test]
     fn a_lock_that_ends_is_waited_for() {
         let root = std::env::temp_dir().join(format!("spindrift-lock-{}", std::process::id()));

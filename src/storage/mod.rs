@@ -2,16 +2,15 @@
 //!
 //! - [`store`]: the operations on the files of a dataset; [`disk`]: in a folder; `s3`, [`address`]: in an object store.
 //! - [`dataset`]: the files of a dataset and the rule by which parts are added; [`identity`]: of its rows; [`names`].
-//! - [`found`]: what is in a folder, and which parts are whole; [`claim`]: whether a campaign may write there, and
-//!   [`folder_error`]: why not; [`lock`]; [`replacement`]: a result takes the place of an older one.
-//! - [`rows_file`]: the files of rows, which [`part_sink`] writes and [`rows_reader`] reads; [`bands_file`]: of bands.
+//! - [`found`]: contents of a folder and its whole parts; [`claim`]: whether a campaign may write there, and
+//!   [`folder_error`]: why not; [`lock`]; [`replacement`] of an older result.
+//! - [`rows_file`]: files of rows, written by [`part_sink`] and read by [`rows_reader`]; [`bands_file`]: of bands.
 //! - [`columnar`]: tables to Parquet, with [`arrow_metadata`].
-//! - [`table_file`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`];
-//!   [`atomic`]: which are whole or absent.
+//! - [`table_file`]: tables in a single file: [`timeseries`], [`bands_table`], [`drawn_table`], [`precision_table`],
+//!   whole or absent ([`atomic`]).
 //! - [`parallel`]: threads.
 //!
-//! Not here: statistics of rows (`analysis`), text and figures for people (`report`), and reading tables for a campaign
-//! (`campaign`).
+//! Statistics of rows are in `analysis`, texts and figures in `report`, input tables in `campaign`.
 
 pub mod address;
 pub mod arrow_metadata;

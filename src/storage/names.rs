@@ -1,33 +1,33 @@
-//! The names of the files of a dataset. What has another name is not ours, and is never changed.
+//! The names of the files of a dataset. Files with other names are foreign and never changed.
 
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
 
 use crate::ensemble::PartId;
 
-/// Whose dataset this is.
+/// Identity of the dataset.
 pub const HEAD: &str = "dataset.json";
 pub const PLAN: &str = "plan.toml";
-/// Every file of a finished dataset.
+/// List of the files of a finished dataset.
 pub const MANIFEST: &str = "manifest.json";
 /// The empty file that marks a finished dataset.
 pub const SUCCESS: &str = "_SUCCESS";
 pub const SUMMARY: &str = "summary.json";
 pub const STATISTICS: &str = "statistics.parquet";
-/// The observables that the file derives, sample by sample.
+/// Derived observables, sample by sample.
 pub const OBSERVABLES: &str = "observables.parquet";
 pub const SENSITIVITY: &str = "sensitivity.parquet";
 pub const BANDS: &str = "bands.parquet";
 pub const REPORT: &str = "report.html";
-/// Folder of the files of rows.
+/// Files of rows.
 pub const RUNS: &str = "runs";
-/// Folder of the bands of parts.
+/// Bands of parts.
 pub const PART_BANDS: &str = "bands";
-/// Folder of the time series that are kept.
+/// Retained time series.
 pub const TRAJECTORIES: &str = "trajectories";
-/// Folder of copies of the files of numbers and the module that the plan names, each by its SHA-256.
+/// Copies of the data files and the module of the plan, named by SHA-256.
 pub const DATA: &str = crate::campaign::data::COPIES;
-/// Suffix of a file that is not whole yet.
+/// Suffix of an unfinished file.
 pub const UNFINISHED: &str = ".tmp";
 
 /// The files at the top of a dataset.
@@ -37,12 +37,12 @@ pub const TOP_FILES: [&str; 10] =
 /// The folders of a dataset.
 pub const FOLDERS: [&str; 4] = [RUNS, PART_BANDS, TRAJECTORIES, DATA];
 
-/// The name of the file of rows of `part`, below the folder of the dataset.
+/// The file of rows of `part`.
 pub fn rows_of(part: PartId) -> String {
     format!("{RUNS}/part-{:06}.parquet", part.0)
 }
 
-/// The name of the file of bands of `part`, below the folder of the dataset.
+/// The file of bands of `part`.
 pub fn bands_of(part: PartId) -> String {
     format!("{PART_BANDS}/part-{:06}.parquet", part.0)
 }
@@ -53,13 +53,12 @@ pub fn part_of(name: &str) -> Option<PartId> {
     Some(PartId(number)).filter(|part| rows_of(*part) == name)
 }
 
-/// Whether the file `name` is of a part, and not made of all rows.
+/// Whether the file `name` belongs to a part.
 pub fn is_of_part(name: &str) -> bool {
     [RUNS, PART_BANDS].contains(&name.split('/').next().unwrap_or_default())
 }
 
-/// The name under which the file `path` is written until it is whole: each of several processes that write it at the
-/// same time has a name of its own.
+/// A temporary name for the file `path`, different in each process.
 pub fn unfinished(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(format!(".{:016x}{UNFINISHED}", RandomState::new().hash_one(std::process::id())));
@@ -71,7 +70,7 @@ pub fn is_digits(text: &str) -> bool {
     text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }
 
-/// Whether a dataset may have a file of this name, whole or not.
+/// Whether a dataset may have a file `name`, whole or not.
 pub fn is_ours(name: &str) -> bool {
     let whole = match name.strip_suffix(UNFINISHED).and_then(|name| name.rsplit_once('.')) {
         Some((whole, digits)) if is_digits(digits) => whole,
@@ -98,7 +97,7 @@ pub fn is_ours(name: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Law: every name that a dataset gives is its own, whole or not; names of other programs are not.
+    /// Law: a dataset recognises its own names, whole or not, and no others.
     #[test]
     fn own_names_are_recognised() {
         let parts = [rows_of(PartId(3)), bands_of(PartId(3)), rows_of(PartId(12_345_678))];

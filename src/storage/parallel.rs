@@ -1,12 +1,12 @@
-//! [`in_parallel`]: independent items on several threads. [`in_order`]: the same, merged in their order as they come.
-//! Threads that the system does not start are done without.
+//! [`in_parallel`]: independent items on several threads; [`in_order`]: merged in their order. Threads that cannot
+//! start are done without.
 
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::Builder;
 
-/// `each` of the items, on `threads` threads, in their order.
+/// Applies `each` to the items on `threads` threads, in their order.
 pub fn in_parallel<T: Send, U: Send>(
     items: Vec<T>,
     threads: Option<NonZeroUsize>,
@@ -27,7 +27,7 @@ pub fn in_parallel<T: Send, U: Send>(
     }
 }
 
-/// Does `work`, which several threads can share, on `threads` threads: this one, and as many more as can be started.
+/// Does shareable `work` on up to `threads` threads, this one included.
 pub fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) {
     std::thread::scope(|scope| {
         let is_started = |_: &usize| Builder::new().spawn_scoped(scope, work).is_ok();
@@ -36,15 +36,14 @@ pub fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) {
     });
 }
 
-/// Items that may wait for an earlier one, for each thread.
+/// Items per thread that may wait for an earlier one.
 const AHEAD: usize = 2;
 
-/// Reads the items 0, 1, ... `items` - 1 on `threads` threads (`None`: one per core): `read` makes something of one on
-/// any thread, and `merge` is shown the results in the order of the items, whatever the threads do. No more than a few
-/// of them are held at a time.
+/// Reads the items 0 to `items` - 1 on `threads` threads (`None`: one per core): `read` makes a result on any thread,
+/// `merge` receives results in order. Few are held at a time.
 ///
 /// # Errors
-/// That of the first item, in their order, for which `read` or `merge` fails.
+/// The first item, in order, for which `read` or `merge` fails.
 pub fn in_order<T: Send, E: Send>(
     items: usize,
     threads: Option<NonZeroUsize>,
@@ -66,22 +65,19 @@ pub fn in_order<T: Send, E: Send>(
     }
 }
 
-/// What the threads of [`in_order`] share.
+/// State shared by the threads of [`in_order`].
 struct Queue<T, E, M> {
     state: Mutex<QueueState<T, E, M>>,
-    /// An item was merged, or one has failed.
+    /// An item was merged or failed.
     moved: Condvar,
 }
 
 struct QueueState<T, E, M> {
-    /// The next item to be read.
     next: usize,
-    /// How many items were merged.
     merged: usize,
-    /// Items that were read before an earlier one.
+    /// Items read before an earlier one.
     waiting: Vec<(usize, T)>,
     merge: M,
-    /// The first item that failed.
     error: Option<(usize, E)>,
 }
 
@@ -90,7 +86,7 @@ impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Reads items until there is none left; at most `ahead` of them beyond those that were merged.
+    /// Reads items until none is left, at most `ahead` beyond the merged ones.
     fn work(&self, items: usize, ahead: usize, read: &impl Fn(usize) -> Result<T, E>) {
         let _guard = Guard { queue: self, items };
         loop {
@@ -116,7 +112,7 @@ impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
     }
 }
 
-/// Ends the work of all threads where one panics: they would wait for its item.
+/// Ends all threads after a panic in one, since they would wait for its item.
 struct Guard<'q, T, E, M: FnMut(T) -> Result<(), E>> {
     queue: &'q Queue<T, E, M>,
     items: usize,
@@ -154,7 +150,7 @@ impl<T, E, M: FnMut(T) -> Result<(), E>> QueueState<T, E, M> {
 mod tests {
     use super::*;
 
-    /// Law: a panic in one item ends the work, and does not leave the other threads waiting.
+    /// Law: a panic in one item ends the work of all threads.
     #[test]
     fn a_panic_does_not_hang() {
         let work = || {
@@ -164,14 +160,13 @@ mod tests {
         assert!(std::panic::catch_unwind(work).is_err());
     }
 
-    /// Law: the error is that of the first item, in their order, that fails; a later one that failed sooner does not
-    /// keep the items before it from being merged.
+    /// Law: the error is that of the first failing item; earlier items are still merged.
     #[test]
     fn the_first_error_counts() {
         for threads in [1, 2, 3] {
             let has_failed = std::sync::atomic::AtomicBool::new(false);
             let read = |item: usize| match item {
-                // with more than one thread item 2 fails while item 1 is still read
+                // item 2 fails while item 1 is still read
                 1 => {
                     while threads > 1 && !has_failed.load(std::sync::atomic::Ordering::SeqCst) {
                         std::thread::yield_now();
@@ -195,7 +190,6 @@ mod tests {
         }
     }
 
-    /// Law: results are in the order of the items, for any number of threads.
     #[test]
     fn results_keep_their_order() {
         for threads in [1, 2, 7] {

@@ -1,7 +1,6 @@
-//! [`write_parts`]: adds each finished part to a dataset.
+//! [`write_parts`]: adds finished parts to a dataset.
 //!
-//! Threads encode their own parts; one thread more writes the files and waits for the disk, so that no run waits for
-//! it.
+//! Threads encode their own parts; another one writes files, so that no run waits for the disk.
 
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -16,28 +15,26 @@ use crate::storage::names::{bands_of, rows_of};
 use crate::storage::rows_file::RowsFile;
 use crate::storage::store::{Failure, StoreError};
 
-/// Encoded parts that may wait for the disk: memory for them is some 10 MB each.
+/// Encoded parts, some 10 MB each, that may wait for the disk.
 const WAITING: usize = 1;
 
-/// Counts rows while they are in memory.
 pub trait CountRows: std::fmt::Debug + Sync {
-    /// Counts the rows of a part, on any thread.
+    /// Counts the rows of a part in memory, on any thread.
     fn add(&self, rows: &Rows);
 }
 
 type Encoded = (Part, Vec<PartFile>);
 
-/// Memory of the files of parts that are written, for those of later parts.
+/// Memory of written files, reused for later parts.
 #[derive(Debug, Default)]
 struct Buffers(Mutex<Vec<Vec<Vec<u8>>>>);
 
 impl Buffers {
-    /// The memory of the files of a part, each empty; none where no part is written yet.
+    /// Empty memory of the files of a part, if any was returned.
     fn take(&self) -> std::vec::IntoIter<Vec<u8>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default().into_iter()
     }
 
-    /// Keeps the memory of `files`.
     fn give(&self, files: Vec<PartFile>) {
         let emptied = |file: PartFile| {
             let mut bytes = file.bytes;
@@ -51,21 +48,18 @@ impl Buffers {
 #[derive(Debug)]
 pub struct PartFiles {
     rows: RowsFile,
-    /// Known with the first part that has bands.
+    /// Known from the first part with bands.
     bands: OnceLock<BandsFile>,
 }
 
 impl PartFiles {
-    /// Of the campaign `ensemble`.
-    ///
     /// # Errors
-    /// Where two columns have the same name.
+    /// Two columns of one name.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
         Ok(PartFiles { rows: RowsFile::new(ensemble)?, bands: OnceLock::new() })
     }
 
-    /// The files of the part of `rows`: a function of the part alone. They are written to `buffers`, as long as there
-    /// are some.
+    /// The files of the part of `rows`, a function of the part alone, written to `buffers`.
     pub fn encoded(
         &self,
         rows: &Rows,
@@ -95,7 +89,7 @@ impl PartFiles {
     }
 }
 
-/// Encodes parts and hands them to the thread that writes.
+/// Encodes parts for the writing thread.
 #[derive(Debug)]
 pub struct PartSink<'c> {
     files: PartFiles,
@@ -106,33 +100,30 @@ pub struct PartSink<'c> {
 }
 
 impl PartSink<'_> {
-    /// Encodes the rows of a part, on any thread.
-    ///
     /// # Errors
-    /// Where they cannot be encoded, or parts are no longer written.
+    /// A failed encoding, or a stopped writer.
     pub fn take(&self, rows: &Rows) -> Result<(), Failure> {
         let files = self.files.encoded(rows, self.buffers.take());
         let files = files.map_err(|error| format!("a part could not be encoded: {error}"))?;
         self.counts.into_iter().for_each(|counts| counts.add(rows));
-        // the thread that writes ends early after an error of its own
+        // the writer stops after its own error
         self.encoded.send((rows.part(), files)).map_err(|_| "parts are no longer written")?;
         let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
         Ok(())
     }
 
-    /// CPU time of runs and of audits so far, s; measured where there are audits.
+    /// CPU time of runs and audits so far, s, if there are audits.
     pub fn seconds(&self) -> [f64; 2] {
         *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Runs `body` with a sink for the rows of `ensemble`, which also counts them in `counts`; when this returns, every
-/// part that the sink took is in `dataset`, or an error says why not. An error of writing is reported before one of
-/// `body`.
+/// Runs `body` with a sink for the rows of `ensemble`, also counted in `counts`; on return every part of the sink is in
+/// `dataset`, or an error tells why not. Errors of writing come first.
 ///
 /// # Errors
-/// Where parts could not be encoded or written.
+/// Parts that could not be encoded or written.
 pub fn write_parts<R>(
     dataset: &Dataset,
     ensemble: &Ensemble<'_>,

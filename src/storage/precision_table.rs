@@ -1,9 +1,9 @@
-//! Measurements of run time against error as a table.
+//! Measured run times and errors as a table.
 
 use crate::ensemble::precision::{Deviation, Measurement, Setting};
 use crate::table::Table;
 
-/// The table of `measured`, one row for each setting, on the instruction set `isa`.
+/// A row per setting, on the instruction set `isa`.
 pub fn precision_table<'m>(measured: &'m [Measurement], isa: &str) -> Table<'m> {
     let most = |of: Option<Deviation>| of.map(|deviation| deviation.max);
     let rms = |of: Option<Deviation>| of.map(|deviation| deviation.rms);

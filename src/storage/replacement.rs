@@ -1,12 +1,10 @@
-//! [`replace`]: a finished dataset takes the place of an older one, which stays whole until then; and what is removed
-//! on the way.
+//! [`replace`]: a finished dataset replaces an older one, which stays whole until then.
 //!
-//! The new dataset is made in the folder `.<name>.<digits>.new` beside the old one. The digits are those of its
-//! `dataset.json`, so that a folder of this name was made for this. When it is complete, the old dataset is renamed to
-//! `.<name>.<digits>.old`, the new one takes its place, and the old one is removed. An interruption at any point is
-//! completed from these names.
+//! The new dataset is made in the folder `.<name>.<digits>.new` beside the old one, with the digits of its
+//! `dataset.json`. When it is complete, the old dataset is renamed to `.<name>.<digits>.old`, the new one takes its
+//! place, and the old one is removed. These names allow an interruption at any point to be completed.
 //!
-//! Only files that a dataset lists, or that have names of its own, are ever removed.
+//! Only files that a dataset lists or names are ever removed.
 
 use std::ffi::OsString;
 use std::fs;
@@ -23,7 +21,7 @@ use crate::storage::lock::lock;
 use crate::storage::names::{FOLDERS, HEAD, is_digits};
 use crate::storage::store::{OpenFolder, Store, StoreError, at};
 
-/// The folder beside `root` that these digits name, for the new dataset or the old one.
+/// The folder beside `root` with these digits.
 fn beside(root: &Path, digits: &str, what: &str) -> PathBuf {
     let mut name = OsString::from(".");
     name.push(root.file_name().unwrap_or_default());
@@ -31,20 +29,19 @@ fn beside(root: &Path, digits: &str, what: &str) -> PathBuf {
     root.with_file_name(name)
 }
 
-/// The digits of a dataset with this `dataset.json`.
+/// The digits of a dataset with this head.
 fn digits(head: &[u8]) -> String {
     sha256(head)[..16].to_owned()
 }
 
-/// The digits of the dataset in `store`, where its `dataset.json` can be read.
+/// The digits of the dataset in `store`, if its head is readable.
 fn digits_of(store: &dyn Store) -> Result<Option<String>, StoreError> {
     Ok(store.read(HEAD)?.ok().map(|head| digits(&head)))
 }
 
-/// A dataset beside another, with the digits of its name.
 type Begun = (String, Arc<dyn Store>);
 
-/// The datasets beside `root` that were made to replace it, each with its digits.
+/// The replacements begun beside `root`, with their digits.
 fn begun(folders: &OpenFolder<'_>, root: &Path) -> Result<Vec<Begun>, StoreError> {
     let start = format!(".{}.", root.file_name().unwrap_or_default().to_string_lossy());
     let parent = folders(above(root));
@@ -60,10 +57,10 @@ fn begun(folders: &OpenFolder<'_>, root: &Path) -> Result<Vec<Begun>, StoreError
     Ok(found)
 }
 
-/// The folder beside `root` for a dataset with this head. What replacements by other datasets have left is removed.
+/// The folder beside `root` for a dataset with this head; removes leftovers of other replacements.
 ///
 /// # Errors
-/// Where `root` cannot be renamed, or a file operation fails.
+/// A `root` that cannot be renamed, or a failed file operation.
 pub(super) fn begin(folders: &OpenFolder<'_>, root: &Path, head: &Head) -> Result<Arc<dyn Store>, FolderError> {
     check_movable(root).map_err(|why| FolderError::Immovable { folder: root.display().to_string(), why })?;
     let own = digits(&head.bytes());
@@ -75,7 +72,7 @@ pub(super) fn begin(folders: &OpenFolder<'_>, root: &Path, head: &Head) -> Resul
     Ok(folders(&beside(root, &own, "new")))
 }
 
-/// Whether `root` can be renamed: a mount point cannot, and a folder in which somebody works should not.
+/// Whether `root` can be renamed: not a mount point, nor a folder in use.
 fn check_movable(root: &Path) -> io::Result<()> {
     if let (Ok(here), Ok(there)) = (std::env::current_dir(), root.canonicalize())
         && here.starts_with(there)
@@ -85,7 +82,7 @@ fn check_movable(root: &Path) -> io::Result<()> {
     if !cfg!(unix) {
         return Ok(());
     }
-    // into a folder of its own nothing is renamed; where nothing else is in the way, that is the error
+    // renaming into itself always fails; any other obstacle is reported first
     match fs::rename(root, root.join("_")) {
         Err(error) if error.kind() == ErrorKind::InvalidInput => Ok(()),
         Err(error) => Err(error),
@@ -93,8 +90,8 @@ fn check_movable(root: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes the files of a dataset, and its folders where nothing else is in them: first the marks, so that a partly
-/// removed dataset is never taken for a whole one; its head last.
+/// Removes the files of a dataset, and its folders if then empty: marks first, so that the rest never looks whole; the
+/// head last.
 pub(super) fn remove(store: &dyn Store) -> Result<(), FolderError> {
     let Some(found) = dataset(store)? else { return Ok(()) };
     unfinish(store)?;
@@ -113,7 +110,7 @@ pub(super) fn remove(store: &dyn Store) -> Result<(), FolderError> {
     Ok(())
 }
 
-/// The dataset in `store`; `None` where something else is there.
+/// The dataset in `store`; `None` for anything else.
 fn dataset(store: &dyn Store) -> Result<Option<Found>, FolderError> {
     match contents(store) {
         Err(FolderError::Old { .. } | FolderError::Foreign { .. }) => Ok(None),
@@ -129,11 +126,10 @@ fn sync_above(root: &Path) -> Result<(), StoreError> {
     sync_folder(above(root)).map_err(at(above(root)))
 }
 
-/// Puts the finished dataset `new` in the place of `root`, and removes what was there.
+/// Replaces `root` by the finished dataset `new`.
 ///
 /// # Errors
-/// Where a file operation fails, or something was put into `root` that is not part of its dataset; the old result is
-/// then still whole, in its place or beside it.
+/// A failed file operation, or foreign files in `root`; the old result is then whole, in its place or beside it.
 pub fn replace(folders: &OpenFolder<'_>, new: &Arc<dyn Store>, root: &Path) -> Result<(), FolderError> {
     let old = folders(root);
     let not_ours = match contents(&*old) {
@@ -149,32 +145,31 @@ pub fn replace(folders: &OpenFolder<'_>, new: &Arc<dyn Store>, root: &Path) -> R
     let own = digits_of(&**new)?.ok_or_else(|| new.at(HEAD)(ErrorKind::NotFound.into()))?;
     rename(&*old, &beside(root, &own, "old"))?;
     rename(&**new, root)?;
-    // both at once: a loss of power leaves the old result or the new one in its place
+    // durable together, so that a loss of power leaves one of both in place
     sync_above(root)?;
     remove(&*folders(&beside(root, &own, "old")))
 }
 
-/// Removes the dataset that the one in `root` has replaced, if it is still there.
+/// Removes the dataset that `root` has replaced, if still there.
 ///
 /// # Errors
-/// Where a file operation fails.
+/// A failed file operation.
 pub(super) fn remove_replaced(folders: &OpenFolder<'_>, root: &Path, found: &Found) -> Result<(), FolderError> {
     let own = digits_of(&*folders(root))?.filter(|_| found.identity.is_some());
     let old = own.map(|own| beside(root, &own, "old")).filter(|old| old.exists());
     old.map_or(Ok(()), |old| remove(&*folders(&old)))
 }
 
-/// Ends a replacement of `root` that was interrupted between its two renames: a dataset takes the place of `root`
-/// again.
+/// Completes a replacement of `root` interrupted between its two renames.
 ///
 /// # Errors
-/// Where a file operation fails.
+/// A failed file operation.
 pub(super) fn complete(folders: &OpenFolder<'_>, root: &Path) -> Result<(), FolderError> {
     if fs::read_dir(root).is_ok_and(|mut entries| entries.next().is_some()) || !above(root).is_dir() {
         return Ok(());
     }
     let begun = match begun(folders, root) {
-        // a folder that was given may be in one that this user cannot list
+        // the user may not list the folder above
         Err(error) if error.source.kind() == ErrorKind::PermissionDenied => return Ok(()),
         begun => begun?,
     };

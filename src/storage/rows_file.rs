@@ -15,34 +15,32 @@ use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::{self, BANDS_KEY, Identity, SEAL_KEY, UNSEALED, part_metadata, row_provenance};
 use crate::table::{Column, Content, Values};
 
-/// Name of the column that numbers the samples.
+/// Column of sample numbers.
 pub const SAMPLE_ID: &str = "sample_id";
-/// Name of the column that says how a run ended.
+/// Column of run statuses.
 pub const STATUS: &str = "status";
 
-/// Name of the column that says why a run is not `ok`.
+/// Column of reasons why a run is not `ok`.
 pub const REASON: &str = "reason";
 
-/// Name of the column that says why a run that was to be audited has no audit.
+/// Column of reasons why a selected run has no audit.
 pub const AUDIT_REASON: &str = "audit_reason";
 
-/// Layout of the files of rows of one campaign.
 #[derive(Clone, Debug)]
 pub struct RowsFile {
     layout: Layout,
     contents: Vec<Content>,
-    /// The columns of audits; none where the campaign has no audits.
+    /// Columns of audits, if any.
     audits: Vec<AuditValue>,
-    /// The observables whose numerical errors are columns too, by their indices.
+    /// Indices of the observables with columns of numerical errors.
     audited: Vec<usize>,
 }
 
-/// The name of the column with the numerical error of the observable `name`.
+/// The column of the numerical error of the observable `name`.
 pub fn audit_error_name(name: &str) -> String {
     format!("audit_error_{name}")
 }
 
-/// The columns of numerical errors of the observables `indices`.
 fn error_columns(ensemble: &Ensemble<'_>, indices: Vec<usize>) -> Vec<Column> {
     let columns = ensemble.request().columns();
     let column = |index: usize| {
@@ -55,8 +53,7 @@ fn error_columns(ensemble: &Ensemble<'_>, indices: Vec<usize>) -> Vec<Column> {
     indices.into_iter().map(column).collect()
 }
 
-/// The observables whose numerical errors are columns: those with statistics in the summary, where the campaign has
-/// audits.
+/// The observables with columns of numerical errors: the headlines, in a campaign with audits.
 pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
     if ensemble.plan().audit_fraction > 0.0 { headlines(ensemble.request()) } else { Vec::new() }
 }
@@ -93,7 +90,7 @@ pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
         .collect()
 }
 
-/// The identity of the rows of `ensemble`. Rows with the same identity are the same, sample by sample.
+/// The identity of the rows of `ensemble`.
 pub fn identity(ensemble: &Ensemble<'_>) -> Identity {
     identity::of(ensemble.plan(), &columns(ensemble))
 }
@@ -111,7 +108,6 @@ fn content(kind: ColumnKind) -> Content {
     }
 }
 
-/// Encoding and compression of the files of `plan`.
 fn packing(plan: &Plan) -> Packing {
     match plan.compression {
         Compression::Lz4 => Packing::Lz4,
@@ -121,10 +117,8 @@ fn packing(plan: &Plan) -> Packing {
 }
 
 impl RowsFile {
-    /// The files of `ensemble`.
-    ///
     /// # Errors
-    /// Where two columns have the same name.
+    /// Two columns of one name.
     pub fn new(ensemble: &Ensemble<'_>) -> Result<Self, ParquetError> {
         let (plan, columns) = (ensemble.plan(), columns(ensemble));
         let origin = row_provenance(plan, &identity::of(plan, &columns));
@@ -135,9 +129,9 @@ impl RowsFile {
         Ok(RowsFile { layout, contents, audits, audited: audited_observables(ensemble) })
     }
 
-    /// Writes `rows` to `out`, which is then to be sealed ([`identity::seal`]); `bands` is the SHA-256 of the bands.
+    /// Writes `rows` to `out`, to be sealed afterwards ([`identity::seal`]); `bands` is the SHA-256 of the bands.
     ///
-    /// A value that a run does not have is null: NaN and infinite in memory, whether the run is `ok` or not.
+    /// NaN and infinite values are null, whether the run is `ok` or not.
     pub fn write<W: Write + Send>(&self, rows: &Rows, bands: Option<&str>, out: W) -> Result<(), ParquetError> {
         let first = rows.samples().first().copied().unwrap_or(rows.part().first);
         let bands = bands.map(|sha256| (BANDS_KEY, sha256.to_owned()));
@@ -165,14 +159,13 @@ impl RowsFile {
     }
 }
 
-/// The reasons in `list`, each for its row.
 fn reasons<'r>(rows: &Rows, list: &'r [(usize, String)]) -> Values<'r> {
     let mut texts = vec![None; rows.part().count];
     list.iter().for_each(|(row, reason)| texts[*row] = Some(reason.into()));
     Values::Text(texts)
 }
 
-/// The columns `values` of the audits, then the errors of the observables `indices`; NaN in rows that were not audited.
+/// The columns `values` of the audits, then the errors of the observables `indices`; NaN without audit.
 fn audit_columns(rows: &Rows, values: &[AuditValue], indices: &[usize]) -> Vec<Vec<f64>> {
     let mut columns = vec![vec![f64::NAN; rows.part().count]; values.len() + indices.len()];
     for (row, audit) in rows.audits() {

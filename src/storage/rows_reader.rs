@@ -1,8 +1,7 @@
-//! [`RowsReader`]: reads the files of rows of a result back, columns by name, one part at a time.
+//! [`RowsReader`]: reads the rows of a result by column names, one part at a time.
 //!
-//! By Parquet's typed column reader: a column comes from the decoder as a list of numbers, without Arrow's arrays
-//! between. Memory is that of the parts under way and does not depend on the number of rows. The Parquet reader panics
-//! on some damaged files; here that is an error that names the file.
+//! Parquet's typed column reader decodes a column to a list of numbers without Arrow's arrays. Memory does not depend
+//! on the number of rows. Panics of the Parquet reader on damaged files become errors.
 
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -23,12 +22,10 @@ use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
 use crate::storage::store::Store;
 use crate::table::Values;
 
-/// Why rows could not be read.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{path}: {what}")]
 pub struct RowsError {
     pub path: String,
-    /// What is wrong with it.
     pub what: String,
 }
 
@@ -36,7 +33,7 @@ pub struct RowsError {
 #[derive(Clone, Debug)]
 pub struct RowsReader {
     store: Arc<dyn Store>,
-    /// The names of the files of rows, and those of the files of their bands.
+    /// Names of the files of rows and of bands.
     files: Vec<String>,
     bands: Vec<String>,
 }
@@ -49,7 +46,7 @@ pub struct PartReader {
 }
 
 impl RowsReader {
-    /// A reader of the files of rows `files` of `store`, and of their `bands`, in the order of their samples.
+    /// A reader of `files` in `store` and their `bands`, in sample order.
     pub fn new(store: Arc<dyn Store>, files: Vec<String>, bands: Vec<String>) -> Self {
         RowsReader { store, files, bands }
     }
@@ -63,15 +60,15 @@ impl RowsReader {
         &self.bands
     }
 
-    /// Opens the part of this index; `None` after the last.
+    /// Opens a part; `None` after the last.
     ///
     /// # Errors
-    /// Where the file cannot be opened or is no Parquet file.
+    /// A file that cannot be opened or is not Parquet.
     pub fn part(&self, index: usize) -> Option<Result<PartReader, RowsError>> {
         self.files.get(index).map(|name| PartReader::open(&*self.store, name))
     }
 
-    /// The parts with the first `rows` rows, in their order: no part after the one with the last of them.
+    /// The parts with the first `rows` rows, in order.
     pub fn first_parts(&self, rows: usize) -> impl Iterator<Item = Result<PartReader, RowsError>> + '_ {
         let mut opened = 0;
         (0..self.files.len()).map_while(move |index| {
@@ -81,12 +78,11 @@ impl RowsReader {
         })
     }
 
-    /// Reads every part on `threads` threads (`None`: one per core): `read` takes what is wanted from a part on any
-    /// thread, and `merge` is shown the results in the order of the parts, whatever the threads do. No more than a few
-    /// parts are held at a time.
+    /// Reads every part on `threads` threads (`None`: one per core): `read` on any thread, `merge` in order. Few parts
+    /// are held at a time.
     ///
     /// # Errors
-    /// That of the first part, in their order, that could not be opened or for which `read` or `merge` fails.
+    /// The first part, in order, that cannot be opened or for which `read` or `merge` fails.
     pub fn visit<T: Send, E: From<RowsError> + Send>(
         &self,
         threads: Option<NonZeroUsize>,
@@ -101,7 +97,7 @@ impl RowsReader {
     }
 }
 
-/// What `read` returns; a panic of the Parquet reader is an error too.
+/// The result of `read`, with a panic of the Parquet reader as an error.
 fn caught<T>(path: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, RowsError> {
     let what = match catch_unwind(AssertUnwindSafe(read)) {
         Ok(Ok(found)) => return Ok(found),
@@ -116,17 +112,17 @@ fn general(what: impl Into<String>) -> ParquetError {
 }
 
 impl PartReader {
-    /// Reads the file `name`.
+    /// Opens the file `name`.
     ///
     /// # Errors
-    /// Where it cannot be opened or is no Parquet file.
+    /// A file that cannot be opened or is not Parquet.
     pub fn open(store: &dyn Store, name: &str) -> Result<Self, RowsError> {
         let shown = store.path(name).display().to_string();
         let bytes = store.get(name);
         let bytes = bytes.map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
         let (reader, rows) = caught(&shown, || {
             let reader = SerializedFileReader::new(Bytes::from(bytes))?;
-            // thousands of groups of a few rows would take minutes to read
+            // thousands of small groups would take minutes
             let groups = reader.metadata().row_groups();
             let [group] = groups else {
                 return Err(general(format!("has {} row groups, and a file of a result has one", groups.len())));
@@ -146,7 +142,7 @@ impl PartReader {
         self.rows
     }
 
-    /// What the metadata say of `key`.
+    /// The metadata value of `key`.
     pub fn metadata(&self, key: &str) -> Option<&str> {
         let pairs = self.reader.metadata().file_metadata().key_value_metadata()?;
         pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
@@ -158,7 +154,7 @@ impl PartReader {
         schema.columns().iter().map(|column| column.name().to_owned()).collect()
     }
 
-    /// The numbers of the samples, row by row.
+    /// The sample numbers by row.
     pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
         match self.values(SAMPLE_ID)? {
             Values::Count(values) => Ok(values.into_iter().map(SampleId).collect()),
@@ -166,10 +162,10 @@ impl PartReader {
         }
     }
 
-    /// How each run ended.
+    /// The statuses by row.
     ///
     /// # Errors
-    /// Where the column is missing or damaged, or has a status that this version does not know.
+    /// A missing or damaged column, or an unknown status.
     pub fn statuses(&self) -> Result<Vec<Status>, RowsError> {
         let (Decoded::Text(texts), None) = self.decoded(STATUS)? else {
             return Err(self.failed(format!("`{STATUS}` is not a column of texts without gaps")));
@@ -181,7 +177,7 @@ impl PartReader {
         texts.iter().map(status).collect()
     }
 
-    /// Why each run is not `ok`; `None` for one that is.
+    /// Why each run is not `ok`, by row.
     pub fn reasons(&self) -> Result<Vec<Option<String>>, RowsError> {
         match self.values(REASON)? {
             Values::Text(texts) => Ok(texts.into_iter().map(|text| text.map(Cow::into_owned)).collect()),
@@ -189,10 +185,10 @@ impl PartReader {
         }
     }
 
-    /// The numbers of the column `name`, row by row: counts as doubles, null as NaN.
+    /// The numbers of the column `name` by row: counts as doubles, null as NaN.
     ///
     /// # Errors
-    /// Where the column is missing, damaged, or has no numbers.
+    /// A missing or damaged column, or one without numbers.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, RowsError> {
         match self.values(name)? {
             Values::Real(values) | Values::Counted(values) => Ok(values.into_owned()),
@@ -201,7 +197,7 @@ impl PartReader {
         }
     }
 
-    /// The values of the column `name`, row by row.
+    /// The values of the column `name` by row.
     pub fn values(&self, name: &str) -> Result<Values<'static>, RowsError> {
         Ok(match self.decoded(name)? {
             (Decoded::Real(values), None) => Values::Real(values.into()),
@@ -222,7 +218,7 @@ impl PartReader {
         RowsError { path: self.path.clone(), what }
     }
 
-    /// The values of the column `name` without gaps, and which rows have one (1); `None` where all have.
+    /// The values of the column `name` without gaps, and the present rows (1) unless all are.
     fn decoded(&self, name: &str) -> Result<(Decoded, Option<Vec<i16>>), RowsError> {
         caught(&self.path, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
@@ -246,7 +242,6 @@ impl PartReader {
         })
     }
 
-    /// The values of a column chunk.
     fn column<T: DataType>(
         &self,
         mut reader: ColumnReaderImpl<T>,
@@ -264,15 +259,13 @@ impl PartReader {
     }
 }
 
-/// The values of a column without gaps.
 enum Decoded {
     Real(Vec<f64>),
     Count(Vec<i64>),
-    /// Texts, as their bytes.
     Text(Vec<ByteArray>),
 }
 
-/// One value for each row: the next of `values` where there is one (1), else `none`.
+/// The next of `values` for each present row (1), else `none`.
 fn spread<T: Clone, C: FromIterator<T>>(mut values: impl Iterator<Item = T>, levels: &[i16], none: T) -> C {
     let mut value = |level: &i16| if *level == 1 { values.next() } else { None };
     levels.iter().map(|level| value(level).unwrap_or_else(|| none.clone())).collect()
@@ -290,7 +283,6 @@ mod tests {
     struct Folder(std::path::PathBuf);
 
     impl Folder {
-        /// A reader of these files.
         fn reader(&self, files: Vec<String>) -> RowsReader {
             RowsReader::new(store(&self.0), files, Vec::new())
         }
@@ -315,7 +307,6 @@ mod tests {
         Column::new(Quantity::new(name, "", "A column."), content)
     }
 
-    /// A file of three rows from sample `first` on.
     fn file(folder: &Folder, first: u64) -> String {
         let headings = [
             heading(SAMPLE_ID, Content::Count),
@@ -339,7 +330,7 @@ mod tests {
         name
     }
 
-    /// Law: what was written is read: numbers of samples, statuses, reasons, values; null is NaN, counts are doubles.
+    /// Law: rows are read as written; null is NaN, counts are doubles.
     #[test]
     fn rows_are_read_as_written() {
         let folder = Folder::new("read");
@@ -357,7 +348,7 @@ mod tests {
         assert!(reader.part(1).is_none());
     }
 
-    /// Law: a file with another number of row groups than one is refused for it before a row is read.
+    /// Law: a file with other than one row group is refused.
     #[test]
     fn files_of_many_groups_are_refused() {
         let folder = Folder::new("groups");
@@ -378,7 +369,7 @@ mod tests {
         }
     }
 
-    /// Law: the parts with the first n rows are as few as have so many, also where a part ends with row n.
+    /// Law: the fewest parts with the first n rows are read.
     #[test]
     fn the_first_parts_have_the_first_rows() {
         let folder = Folder::new("first");
@@ -389,7 +380,7 @@ mod tests {
         assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
     }
 
-    /// Law: a damaged file is an error that names it, never a panic, at whichever byte it is damaged.
+    /// Law: a file damaged at any byte is an error that names it, never a panic.
     #[test]
     fn damaged_files_are_errors() {
         let folder = Folder::new("damaged");

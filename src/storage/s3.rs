@@ -1,10 +1,9 @@
-//! [`connect`]: a dataset in an object store with S3's interface. Compiled into the library with the feature `cloud`,
-//! and into the Python package.
+//! [`connect`]: a dataset in an S3 object store, with the feature `cloud` and in the Python package.
 //!
-//! Each object is put on the condition that there is none of its name. The crate `object_store` tries a request again
-//! that the store could not answer (5xx, 429, a connection that broke). A conditional put needs more: an answer that
-//! was lost, 409 and 412 all leave open what is there. So it is looked at: the same content is success, whoever has put
-//! it; nothing is a reason to try again; anything else is refused, since nothing in a store is replaced or removed.
+//! Each object is put only if absent. The crate `object_store` retries unanswered requests (5xx, 429, broken
+//! connections). After a conditional put, a lost answer, 409 and 412 leave the state open, so the object is read: equal
+//! content is success, absence a reason to retry, anything else is refused, since nothing in a store is replaced or
+//! removed.
 
 use std::collections::BTreeMap;
 use std::error::Error as _;
@@ -24,20 +23,20 @@ use super::address::Address;
 use super::identity::sha256;
 use super::store::{Entry, Store};
 
-/// How often a request is tried again: with pauses up to 15 s, some minute in all.
+/// Retries of a request, with pauses up to 15 s, about a minute in all.
 const RETRIES: usize = 10;
-/// The same of the first request, which finds out that something is set wrong.
+/// Retries of the first request, which finds wrong settings.
 const FIRST_RETRIES: usize = 3;
-/// How often an object is put that was not taken and is not there.
+/// Attempts to put an object that was not taken and is absent.
 const ATTEMPTS: u32 = 8;
-/// The pause before the second of these attempts; each later one is twice as long.
+/// First pause between them, then doubled.
 const PAUSE: Duration = Duration::from_millis(50);
-/// How long a request may take, where `AWS_TIMEOUT` does not say: a part of 50 MB at 0.2 MB/s.
+/// Time limit of a request without `AWS_TIMEOUT`: a part of 50 MB at 0.2 MB/s.
 const TIMEOUT: &str = "250 seconds";
-/// Variables whose values are in no message.
+/// Variables with secret values, never in messages.
 const SECRETS: [&str; 4] =
     ["AWS_SECRET_ACCESS_KEY", "AWS_SESSION_TOKEN", "AWS_ACCESS_KEY_ID", "AWS_CONTAINER_AUTHORIZATION_TOKEN"];
-/// Variables by which credentials are found; without any, the machine has to have a role of its own.
+/// Variables with credentials; without any, the machine needs a role of its own.
 const CREDENTIALS: [&str; 6] = [
     "AWS_ACCESS_KEY_ID",
     "AWS_SECRET_ACCESS_KEY",
@@ -47,31 +46,30 @@ const CREDENTIALS: [&str; 6] = [
     "AWS_SKIP_SIGNATURE",
 ];
 
-/// Variables that say where the store is.
+/// Variables with the address of the store.
 const ENDPOINTS: [&str; 3] = ["AWS_ENDPOINT_URL_S3", "AWS_ENDPOINT_URL", "AWS_ENDPOINT"];
-/// What a store says where the bucket is not there, and not only the object.
+/// A store's answer if the bucket is absent, not only the object.
 const NO_BUCKET: &str = "NoSuchBucket";
 
-/// The object that is asked for first, so that the client is known to work.
+/// The first requested object, which tests the client.
 const FIRST: &str = "dataset.json";
 
-/// The objects below an address, each by its name below that.
 #[derive(Debug)]
 struct S3 {
     address: Address,
     root: PathBuf,
     runtime: Runtime,
     store: AmazonS3,
-    /// Files of which a later version may come.
+    /// Files that may be superseded.
     for_now: Mutex<BTreeMap<String, Bytes>>,
 }
 
-/// The store at `address`.
+/// Connects to the store at `address`.
 ///
 /// # Errors
-/// Where the environment does not say how to get there, or the store does not answer, or refuses.
+/// Wrong settings in the environment, or a store that does not answer or refuses.
 pub fn connect(address: &Address) -> io::Result<Arc<dyn Store>> {
-    // connections are encrypted by ring; it is an error to say so twice
+    // encryption by ring; a second installation fails
     let _ = rustls::crypto::ring::default_provider().install_default();
     let runtime = Builder::new_current_thread().enable_all().build()?;
     let store = |retries| store(address, retries).map_err(|error| explained(address, &error));
@@ -86,7 +84,7 @@ impl S3 {
         Key::from(format!("{}/{name}", self.address.prefix))
     }
 
-    /// The content of the object `name`; `None` where there is none.
+    /// The content of the object `name`, if any.
     fn object(&self, name: &str) -> io::Result<Option<Bytes>> {
         let key = self.key(name);
         match self.runtime.block_on(async { self.store.get(&key).await?.bytes().await }) {
@@ -96,7 +94,7 @@ impl S3 {
         }
     }
 
-    /// Puts the object `name`, unless there is one: the content of that, where it is another.
+    /// Puts the object `name` if absent; returns a different existing content.
     fn create(&self, name: &str, bytes: &[u8]) -> io::Result<Option<Bytes>> {
         let (key, payload) = (self.key(name), Bytes::copy_from_slice(bytes));
         let mut last = None;
@@ -113,11 +111,11 @@ impl S3 {
             };
             match self.object(name) {
                 Ok(Some(there)) => return Ok(Some(there).filter(|there| there != bytes)),
-                // refused for another one's sake that did not put it either
+                // refused in favour of another request that failed too
                 Ok(None) if matches!(error, Error::AlreadyExists { .. }) => {
                     last = Some(explained(&self.address, &error));
                 }
-                // it was tried again already, or is an error that stays
+                // retried already, or permanent
                 Ok(None) | Err(_) => return Err(explained(&self.address, &error)),
             }
         }
@@ -188,7 +186,7 @@ impl Store for S3 {
     }
 }
 
-/// What `error` means, and what to do; without a word of the credentials.
+/// Meaning of `error` and remedy, without credentials.
 fn explained(address: &Address, error: &Error) -> io::Error {
     let (text, cause) = (error.to_string(), cause(error));
     let text_of = match error {
@@ -220,12 +218,11 @@ fn explained(address: &Address, error: &Error) -> io::Error {
     io::Error::other(values.fold(text_of, |text, value| text.replace(&value, "***")))
 }
 
-/// The value of a variable of the environment that is set.
 fn variable(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
 
-/// What the store answered, or else the innermost reason.
+/// The store's answer, or else the innermost reason.
 fn cause(error: &Error) -> String {
     let text = error.to_string();
     let between = |start: &str, end: &str| Some(text.split_once(start)?.1.split_once(end)?.0.to_owned());
@@ -242,7 +239,7 @@ fn cause(error: &Error) -> String {
     innermost.map_or(text, ToString::to_string)
 }
 
-/// The store of `address`, as the environment says; each request is tried again so often.
+/// The store of `address` by the environment, with this number of retries.
 fn store(address: &Address, max_retries: usize) -> Result<AmazonS3, Error> {
     let builder = AmazonS3Builder::from_env().with_bucket_name(&address.bucket);
     let timeout = AmazonS3ConfigKey::Client(ClientConfigKey::Timeout);

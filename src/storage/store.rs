@@ -1,8 +1,7 @@
-//! [`Store`]: a place that holds the files of one dataset: a folder on a disk, an address in an object store, or a
-//! failing one in tests.
+//! [`Store`]: a place for the files of one dataset: a folder, an object store, or a failing one in tests.
 //!
-//! A file that is not what a dataset has under its name is [`Unfit`]; every other error means that the file cannot be
-//! read now and says nothing about its content. A file that ends before its length is of the second kind.
+//! A file of the wrong kind is [`Unfit`]; any other error means that it cannot be read now, as a file that ends before
+//! its length.
 
 use std::fmt::Debug;
 use std::fs::{File, TryLockError};
@@ -12,50 +11,47 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-/// Most bytes of a file.
 const MOST: u64 = 1 << 36;
 
-/// The files of one dataset, each by its name below [`Store::root`], with `/` between folder and file.
+/// The files of one dataset, by names below [`Store::root`] with `/`.
 pub trait Store: Debug + Send + Sync {
     /// The folder or address, for messages.
     fn root(&self) -> &Path;
 
-    /// Puts a whole file, durably: nobody sees a part of it. An object store keeps what it has and refuses other
-    /// bytes.
+    /// Puts a whole file, durably and atomically. An object store refuses to replace other bytes.
     ///
     /// # Errors
-    /// Where the file is not known to be there with these bytes.
+    /// A file that may not be there with these bytes.
     fn put(&self, name: &str, bytes: &[u8]) -> io::Result<()>;
 
-    /// Puts a whole file unless there is one of this name, which then stays: of several processes one succeeds.
+    /// Puts a whole file unless the name exists; one of several processes succeeds.
     ///
     /// # Errors
-    /// Where no file of this name is known to be there.
+    /// If no file of this name is known to be there.
     fn put_if_absent(&self, name: &str, bytes: &[u8]) -> io::Result<()>;
 
-    /// The content of a file: no link, no folder, no pipe.
+    /// The content of a regular file.
     ///
     /// # Errors
-    /// Where it cannot be read as far as its length, or is [`Unfit`].
+    /// A file that cannot be read to its end, or is [`Unfit`].
     fn get(&self, name: &str) -> io::Result<Vec<u8>>;
 
-    /// The entries of a folder, ascending by name; of the whole dataset where `folder` is empty.
+    /// The entries of a folder, ascending by name; of the whole dataset if `folder` is empty.
     ///
     /// # Errors
-    /// Where they cannot be listed, or there is no such folder.
+    /// An absent folder, or a failed listing.
     fn list(&self, folder: &str) -> io::Result<Vec<Entry>>;
 
-    /// Removes a file or an empty folder, durably; no error where there is none. An object store removes nothing.
+    /// Removes a file or an empty folder durably, if present. An object store removes nothing.
     fn remove(&self, name: &str) -> io::Result<()>;
 
-    /// Keeps other processes away until the result is dropped, those with shared locks too unless `is_shared`; `None`
-    /// where there are no locks.
+    /// Locks other processes out while held, including shared locks unless `is_shared`; `None` without locks.
     ///
     /// # Errors
-    /// Where another process has the lock, or it cannot be taken.
+    /// A lock of another process, or a failure.
     fn lock(&self, is_shared: bool) -> Result<Option<File>, TryLockError>;
 
-    /// Gives the folder the name `to`.
+    /// Renames the folder to `to`.
     fn rename(&self, to: &Path) -> io::Result<()>;
 
     /// Whether files can be replaced and removed.
@@ -63,7 +59,7 @@ pub trait Store: Debug + Send + Sync {
         true
     }
 
-    /// Keeps a file of which a later version may come: a store that replaces nothing puts it when it is put again.
+    /// Keeps a file that may be superseded: a store that replaces nothing puts only the last version.
     ///
     /// # Errors
     /// As [`Store::put`].
@@ -72,7 +68,6 @@ pub trait Store: Debug + Send + Sync {
     }
 }
 
-/// Opens the store in a folder of a disk.
 pub type OpenFolder<'a> = dyn Fn(&Path) -> Arc<dyn Store> + Sync + 'a;
 
 impl dyn Store + '_ {
@@ -86,10 +81,10 @@ impl dyn Store + '_ {
         at(&self.path(name))
     }
 
-    /// The content of the file `name`; what is wrong with it where it is absent or unfit.
+    /// The content of the file `name`, or its damage if absent or unfit.
     ///
     /// # Errors
-    /// Where it cannot be read now.
+    /// A file that cannot be read now.
     pub fn read(&self, name: &str) -> Result<Result<Vec<u8>, io::Error>, StoreError> {
         let got = match self.get(name) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -108,10 +103,10 @@ impl dyn Store + '_ {
         }
     }
 
-    /// Whether `error` is that the file or folder `name` is absent, and its folder does not list it either.
+    /// Whether `error` means that `name` is absent, confirmed by the listing of its folder.
     ///
     /// # Errors
-    /// Where the folder cannot be listed.
+    /// A failed listing.
     fn is_absent(&self, name: &str, error: &io::Error) -> Result<bool, StoreError> {
         if error.kind() != ErrorKind::NotFound || name.is_empty() {
             return Ok(false);
@@ -124,10 +119,10 @@ impl dyn Store + '_ {
         }
     }
 
-    /// The entries of the folder `folder` of the dataset; none where it is absent.
+    /// The entries of `folder`; none if absent.
     ///
     /// # Errors
-    /// Where they cannot be listed.
+    /// A failed listing.
     pub fn entries(&self, folder: &str) -> Result<Vec<Entry>, StoreError> {
         match self.list(folder) {
             Ok(entries) => Ok(entries),
@@ -137,19 +132,18 @@ impl dyn Store + '_ {
     }
 }
 
-/// An entry of a folder.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
     pub name: String,
-    /// Whether it is a folder; a link to a folder is none.
+    /// Whether it is a folder, and not a link.
     pub is_folder: bool,
-    /// Whether it is a regular file; a link to a file is none.
+    /// Whether it is a regular file, and not a link.
     pub is_file: bool,
-    /// Its size, bytes.
+    /// Bytes.
     pub size: u64,
 }
 
-/// A file operation that failed, with the path.
+/// A failed file operation, with the path.
 #[derive(Debug, Error)]
 #[error("{}: {source}", path.display())]
 pub struct StoreError {
@@ -157,7 +151,7 @@ pub struct StoreError {
     pub source: io::Error,
 }
 
-/// Why something could not be made or written, where only its text is of use.
+/// A failure of which only the text matters.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// Adds the path to an error.
@@ -166,7 +160,7 @@ pub fn at(path: &Path) -> impl FnOnce(io::Error) -> StoreError + use<> {
     move |source| StoreError { path, source }
 }
 
-/// What is not a file of a dataset, whatever is in it.
+/// Not a file of a dataset, whatever its content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Unfit {
     /// A folder, a link, a pipe or a device.
@@ -193,7 +187,7 @@ fn is_unfit(error: &io::Error) -> bool {
 /// The content of `file`, which has `length` bytes.
 ///
 /// # Errors
-/// Where it is too large, or cannot be read as far as its length.
+/// A file that is too large, or cannot be read to its end.
 pub fn content(file: impl Read, length: u64) -> io::Result<Vec<u8>> {
     let size = usize::try_from(length).ok().filter(|_| length <= MOST);
     let mut bytes = Vec::new();
@@ -210,7 +204,7 @@ pub fn content(file: impl Read, length: u64) -> io::Result<Vec<u8>> {
 mod tests {
     use super::*;
 
-    /// Memory that is read in pieces of some bytes; every other read is interrupted.
+    /// Memory read in small pieces; every other read is interrupted.
     struct Pieces<'a>(&'a [u8], usize);
 
     impl Read for Pieces<'_> {
@@ -224,8 +218,7 @@ mod tests {
         }
     }
 
-    /// Law: a file is read in whichever pieces it comes; one that ends before its length cannot be read, and one that
-    /// is too large is unfit: these are told apart.
+    /// Law: a file is read in any pieces; a short one is an error of reading, a too large one is unfit.
     #[test]
     fn a_short_file_is_an_error_of_reading() {
         let bytes: Vec<u8> = (0..255).collect();

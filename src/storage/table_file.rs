@@ -17,10 +17,10 @@ pub enum TableFormat {
 }
 
 impl TableFormat {
-    /// The format that the extension of `path` names.
+    /// The format of the extension of `path`.
     ///
     /// # Errors
-    /// Where it names neither.
+    /// An unknown extension.
     pub fn of(path: &Path) -> Result<Self, String> {
         match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
             Some("parquet") => Ok(TableFormat::Parquet),
@@ -33,7 +33,7 @@ impl TableFormat {
 /// Writes `table` of `plan` to `path`, in the format of its extension; the file is whole or absent.
 ///
 /// # Errors
-/// Where the extension has no format, or writing fails.
+/// An unknown extension, or a failure of writing.
 pub fn save(plan: &Plan, table: &Table<'_>, path: &Path) -> Result<(), Failure> {
     match TableFormat::of(path)? {
         TableFormat::Csv => atomic::write(path, |file| csv::write(file, table))?,

@@ -1,7 +1,7 @@
 //! A run as a table over time, for Parquet, CSV, the screen and Python.
 //!
-//! The state table has the spacecraft's centre of mass c; the series gives the point p (the origin of F_s), as the
-//! paper's state does: r_p = r_c - C_es c, v_p = v_c - C_es (omega x c).
+//! The state table has the centre of mass c, the series the point p (origin of F_s): r_p = r_c - C_es c, v_p = v_c -
+//! C_es (omega x c).
 
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
@@ -10,10 +10,10 @@ use crate::run::{Quantity, StateField};
 use crate::sampling::SampleId;
 use crate::table::{Column, Content, Table, Values};
 
-/// A series of the observables that is not a column here: the total is the sum of its bodies.
+/// A series without a column here: the total is the sum of its bodies.
 const LEFT_OUT: Series = Series::EnergyTotal;
 
-/// The points of `run` (sample `sample` of a plan) that the run reached and whose time `shown` accepts.
+/// The reached points of `run`, sample `sample`, at times accepted by `shown`.
 pub fn time_series(sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> bool) -> Table<'static> {
     let points: Vec<usize> = (0..run.outcome.points).filter(|point| shown(run.grid.times()[*point])).collect();
     let mut table = SeriesColumns { points: &points, table: Table::default() };
@@ -36,7 +36,6 @@ pub fn time_series(sample: SampleId, run: &SingleRun, shown: impl Fn(f64) -> boo
     table.table
 }
 
-/// A table built column by column.
 struct SeriesColumns<'a> {
     points: &'a [usize],
     table: Table<'static>,
@@ -48,7 +47,6 @@ impl SeriesColumns<'_> {
         self.table.push(Column::new(quantity, Content::Real), Values::Real(values.into()));
     }
 
-    /// Components of a vector; the name of a component comes before the unit.
     fn push_vector<const N: usize>(
         &mut self,
         stem: &str,

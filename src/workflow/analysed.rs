@@ -1,4 +1,4 @@
-//! What a result has found, for those who work with it: how it ended, and its verdicts as a file.
+//! The ending of a result, and its verdicts as a file.
 
 use std::path::Path;
 
@@ -10,13 +10,13 @@ use crate::report::junit;
 use crate::storage::atomic;
 use crate::workflow::error::WorkflowError;
 
-/// How the campaign ended that `analysed` is of.
+/// The ending of the campaign of `analysed`.
 pub fn end_of_analysed(analysed: &Analysed, found: &Findings) -> SummaryEnd {
     let end = SummaryEnd::of(&analysed.ending(), Some(&analysed.statistics));
     SummaryEnd { warnings: found.warnings(), ..end }
 }
 
-/// Writes the verdicts as JUnit XML, where a file for it was named.
+/// Writes the verdicts to `file`, if any, as JUnit XML.
 pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let text = junit::text(plan, analysed, &findings(plan, analysed, &[]));

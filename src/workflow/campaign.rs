@@ -1,4 +1,4 @@
-//! [`Campaign`]: a campaign file, what is changed of it, where its result goes; it runs what is not there yet.
+//! [`Campaign`]: a campaign file, its overrides and the place of its result; runs missing samples.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,8 +21,6 @@ use crate::workflow::workload::Workload;
 /// Default folder of results, in the current folder.
 pub const RESULTS: &str = "results";
 
-/// A campaign that is to be run and stored.
-///
 /// ```no_run
 /// use spindrift::workflow::{Campaign, Quiet, Session};
 ///
@@ -41,7 +39,7 @@ pub const RESULTS: &str = "results";
 pub struct Campaign<'a> {
     session: Session<'a>,
     file: PathBuf,
-    /// The text of the file, where it is not to be read.
+    /// The text of the file, unless it is read from disk.
     text: Option<String>,
     overrides: Overrides,
     root: Option<PathBuf>,
@@ -53,7 +51,7 @@ pub struct Campaign<'a> {
 }
 
 impl<'a> Campaign<'a> {
-    /// The campaign of `file`, which may be given without folder and extension.
+    /// The campaign of `file`, possibly without folder and extension.
     pub fn from_file(file: impl Into<PathBuf>, session: Session<'a>) -> Self {
         let overrides = session.overrides();
         Campaign {
@@ -70,86 +68,86 @@ impl<'a> Campaign<'a> {
         }
     }
 
-    /// The campaign that `text` describes; `name` is that of its file in messages.
+    /// The campaign described by `text`; `name` is its file in messages.
     pub fn from_text(name: &str, text: &str, session: Session<'a>) -> Self {
         Campaign { text: Some(text.to_owned()), ..Self::from_file(name, session) }
     }
 
-    /// Overrides a key of the file, named as in error messages: `("wheels.w1.rate_rad_s", "20 rpm")`.
+    /// Overrides a key, named as in error messages: `("wheels.w1.rate_rad_s", "20 rpm")`.
     #[must_use]
     pub fn set(mut self, key: &str, value: &str) -> Self {
         self.overrides.settings.push((key.to_owned(), value.to_owned()));
         self
     }
 
-    /// With so many samples, whatever the file says.
+    /// Overrides the number of samples.
     #[must_use]
     pub fn samples(mut self, samples: u64) -> Self {
         self.overrides.samples = Some(samples);
         self
     }
 
-    /// With this seed, whatever the file says.
+    /// Overrides the seed.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.overrides.seed = Some(seed);
         self
     }
 
-    /// With this fraction of the samples audited, whatever the file says.
+    /// Overrides the audited fraction of the samples.
     #[must_use]
     pub fn audit(mut self, fraction: f64) -> Self {
         self.overrides.audit_fraction = Some(fraction);
         self
     }
 
-    /// With the result in the folder `root`, or at the address `s3://bucket/name` of an object store; else in
-    /// [`RESULTS`], under the name of the campaign.
+    /// Stores the result in the folder `root` or at `s3://bucket/name`, instead of [`RESULTS`] under the campaign's
+    /// name.
     #[must_use]
     pub fn store(mut self, root: impl Into<PathBuf>) -> Self {
         self.root = Some(root.into());
         self
     }
 
-    /// In place of whatever result is in the folder.
+    /// Replaces an existing result.
     #[must_use]
     pub fn overwrite(mut self) -> Self {
         self.overwrite = true;
         self
     }
 
-    /// Only the parts of one of several processes; [`super::finish`] then finishes.
+    /// Runs only the parts of one of several processes; [`super::finish`] then finishes.
     #[must_use]
     pub fn shard(mut self, shard: Shard) -> Self {
         self.shard = Some(shard);
         self
     }
 
-    /// Only the samples whose runs failed in the result `of`, with its seed and number of samples.
+    /// Runs only the samples that failed in the result `of`, with its seed and number of samples.
     #[must_use]
     pub fn only_failed_of(mut self, of: impl Into<PathBuf>) -> Self {
         self.only_failed_of = Some(of.into());
         self
     }
 
-    /// Ends after the first part with a run that failed.
+    /// Ends after the first part with a failed run.
     #[must_use]
     pub fn fail_fast(mut self) -> Self {
         self.fail_fast = true;
         self
     }
 
-    /// With these files beside tables and summary.
+    /// Writes these files besides tables and summary.
     #[must_use]
     pub fn outputs(mut self, outputs: Outputs) -> Self {
         self.outputs = outputs;
         self
     }
 
-    /// Reads and checks the file; `None` where [`Campaign::only_failed_of`] finds no run that failed.
+    /// Reads and checks the file; `None` if [`Campaign::only_failed_of`] finds no failed run.
     ///
     /// # Errors
-    /// Where it, or the result whose failed samples are meant, is wrong.
+    /// A wrong file, or an unusable result with failed samples.
     pub fn prepare(self) -> Result<Option<PreparedCampaign<'a>>, WorkflowError> {
         let found = match (&self.only_failed_of, &self.text) {
             (None, Some(text)) => Some(Plan::from_text_of(&self.file, text, self.overrides.clone())?),
@@ -171,11 +169,10 @@ impl<'a> Campaign<'a> {
         Ok(Some(PreparedCampaign { campaign: self, plan, files, root, store }))
     }
 
-    /// Runs what is not there yet, and opens the finished result.
+    /// Runs missing samples, and opens the finished result.
     ///
     /// # Errors
-    /// Where the campaign cannot run, or does not finish: of a shard, after a stop, without failed samples to run
-    /// again.
+    /// A campaign that cannot run or does not finish: of a shard, after a stop, without failed samples.
     pub fn results(self) -> Result<Results<'a>, WorkflowError> {
         let session = self.session;
         let unfinished = |what: &str| WorkflowError::Input(format!("{what}: there is no finished result"));
@@ -191,7 +188,7 @@ impl<'a> Campaign<'a> {
     }
 }
 
-/// A campaign whose file was read.
+/// A campaign with its plan.
 pub struct PreparedCampaign<'a> {
     campaign: Campaign<'a>,
     plan: Plan,
@@ -205,7 +202,7 @@ impl PreparedCampaign<'_> {
         &self.plan
     }
 
-    /// The files that it was made from.
+    /// The files behind the plan.
     pub fn files(&self) -> &FilesRead {
         &self.files
     }
@@ -220,7 +217,7 @@ impl PreparedCampaign<'_> {
         Ensemble::new(&self.plan, self.campaign.session.isa)
     }
 
-    /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk.
+    /// Refuses impossible work, and without `yes` long work or most of the disk.
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
@@ -238,11 +235,10 @@ impl PreparedCampaign<'_> {
         }
     }
 
-    /// Runs what is not there yet: all samples, those that an interrupted run has not made, or those that a larger
-    /// campaign has more.
+    /// Runs missing samples: all, those left by an interruption, or those of a larger campaign.
     ///
     /// # Errors
-    /// Where the folder has something that must not be replaced, or files cannot be read or written.
+    /// A result that must not be replaced, or a failed file operation.
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
         callback::refuse_missing(self.plan.loop_spec()).map_err(WorkflowError::Input)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
@@ -260,10 +256,10 @@ impl PreparedCampaign<'_> {
     }
 }
 
-/// Refuses `what`, which divides the campaign into shards, where the plan has `[stop]`.
+/// Refuses `what`, which divides the campaign into shards, for a plan with `[stop]`.
 ///
 /// # Errors
-/// Where it has.
+/// If the plan has `[stop]`.
 pub fn refuse_shards_with_stop(plan: &Plan, what: &str) -> Result<(), WorkflowError> {
     match plan.analysis.stop {
         None => Ok(()),

@@ -1,4 +1,4 @@
-//! [`probed`]: what a campaign would run, by a probe of its first samples.
+//! [`probed`]: estimates a campaign by a probe of its first samples.
 
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
@@ -15,10 +15,10 @@ use crate::storage::rows_file;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::workload::Workload;
 
-/// Runs the first samples of `ensemble`, for as long as an estimate takes.
+/// Runs first samples of `ensemble` for an estimate.
 ///
 /// # Errors
-/// Where its nominal scene is not physical, or its control law is not here.
+/// An unphysical nominal scene, or a missing control law.
 pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>, WorkflowError> {
     let (plan, isa) = (ensemble.plan(), ensemble.isa());
     callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
@@ -43,7 +43,7 @@ pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>, WorkflowErro
     })
 }
 
-/// The observables of the file that are not a number in runs that the probe has made, a sentence each.
+/// A sentence per observable of the file that is not a number in runs of the probe.
 fn undefined_observables(plan: &Plan, names: &RowNames, probe: &RunProbe) -> Vec<String> {
     let statuses = probe.rows.statuses();
     let own = plan.analysis.derived.iter().map(|derived| derived.name.as_str());

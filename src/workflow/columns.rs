@@ -1,4 +1,4 @@
-//! [`ListedColumn`]: the columns that rows may have: of every campaign, and of one.
+//! [`ListedColumn`]: possible columns of rows, of all campaigns and of one.
 
 use crate::campaign::Plan;
 use crate::control::outcome::columns::OutcomeColumns;
@@ -17,23 +17,21 @@ pub const CONTROL: &str = "control loop";
 /// Title of the columns after them.
 pub const AUDIT: &str = "audit";
 
-/// A column that a row may have.
 #[derive(Clone, Debug)]
 pub struct ListedColumn {
-    /// Its group, or what else it has in common with those beside it.
+    /// Its group, or a title.
     pub group: String,
     pub quantity: Quantity,
-    /// The scenes that have it; empty for all.
+    /// Scenes with the column; empty for all.
     pub only: &'static str,
 }
 
-/// The columns of a group, in their order.
+/// The columns by group, in order.
 pub fn by_group(all: &[ListedColumn]) -> impl Iterator<Item = &[ListedColumn]> {
     all.chunk_by(|one, next| one.group == next.group)
 }
 
-/// The group called `word`; or of all groups the columns with the word in their name, their unit or their meaning.
-/// `None` where there is none.
+/// The group called `word`, or columns of all groups with the word in name, unit or meaning, if any.
 pub fn found(all: &[ListedColumn], word: &str) -> Option<Vec<ListedColumn>> {
     let lower = word.to_lowercase();
     let has = |column: &&ListedColumn| {
@@ -44,13 +42,13 @@ pub fn found(all: &[ListedColumn], word: &str) -> Option<Vec<ListedColumn>> {
     let group: Vec<ListedColumn> = all.iter().filter(|column| column.group == word).cloned().collect();
     match group.is_empty() {
         false => Some(group),
-        // a group that is not observed
+        // an unobserved group
         true if Group::from_name(word).is_some() => None,
         true => Some(all.iter().filter(has).cloned().collect()).filter(|found: &Vec<_>| !found.is_empty()),
     }
 }
 
-/// The columns of every group; those of wheels once, with the place of the name.
+/// The columns of every group; those of wheels once, with a placeholder for the name.
 pub fn of_all_campaigns() -> Vec<ListedColumn> {
     let column = |group: &str, quantity: &Quantity, only| ListedColumn {
         group: group.to_owned(),
@@ -64,10 +62,10 @@ pub fn of_all_campaigns() -> Vec<ListedColumn> {
     of_groups.chain(of_loops.iter().map(|(quantity, only)| column(CONTROL, quantity, only))).collect()
 }
 
-/// The columns of the rows of `plan`: what is of the sample, its groups, and audits.
+/// The columns of the rows of `plan`: of the sample, its groups, and audits.
 ///
 /// # Errors
-/// Where the environment names an instruction set that is not available.
+/// An unavailable instruction set in the environment.
 pub fn of_campaign(plan: &Plan) -> Result<Vec<ListedColumn>, WorkflowError> {
     let ensemble = Ensemble::new(plan, isa()?);
     let observed = ensemble.request().columns();
@@ -81,7 +79,6 @@ pub fn of_campaign(plan: &Plan) -> Result<Vec<ListedColumn>, WorkflowError> {
     Ok(all)
 }
 
-/// The columns as a table of their own.
 pub fn table_of(all: &[ListedColumn]) -> Table<'_> {
     Table::of(all)
         .word("group", "", |column| &*column.group)

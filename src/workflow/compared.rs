@@ -1,4 +1,4 @@
-//! [`compared`]: two finished results compared, and the comparison as a file.
+//! [`compared`]: a comparison of two finished results, and its file.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::storage::identity::provenance;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::results::Results;
 
-/// Compares what the rows of both say, sample by sample where both drew the same ones; `names` is what they are called.
+/// Compares the rows of two results, sample by sample if both drew the same ones; `names` are their names.
 pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result<Compared<'r>, WorkflowError> {
     let [first, second] = results;
     let rows = results.map(|one| ResultRows { plan: one.plan(), reader: one.rows() });
@@ -30,10 +30,10 @@ pub enum ComparisonFormat {
 }
 
 impl ComparisonFormat {
-    /// The format that the extension of `path` names.
+    /// The format of the extension of `path`.
     ///
     /// # Errors
-    /// Where it names neither.
+    /// An unknown extension.
     pub fn of(path: &Path) -> Result<Self, WorkflowError> {
         match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
             Some("json") => Ok(ComparisonFormat::Json),

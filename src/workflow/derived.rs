@@ -1,5 +1,5 @@
-//! [`derive`]: makes the files that follow from plan and rows, one after another. A campaign that ends writes them
-//! ([`super::finishing`]), and `verify` compares them with those that are there ([`super::derived_check`]).
+//! [`derive`]: makes the files that follow from plan and rows, for the end of a campaign ([`super::finishing`]) and for
+//! `verify` ([`super::derived_check`]).
 
 use std::fmt::Display;
 
@@ -23,7 +23,7 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::page::made_page;
 use crate::workflow::session::Session;
 
-/// Takes the file of this name, from any thread; without content where the dataset has no such file.
+/// Takes a file by name, from any thread; without content if the dataset lacks it.
 pub(super) type TakeFile<'a> = dyn Fn(&str, Option<&[u8]>) -> Result<(), StoreError> + Sync + 'a;
 
 /// A dataset with all its rows.
@@ -33,9 +33,9 @@ pub(super) struct Derivation<'a> {
     pub ensemble: &'a Ensemble<'a>,
     pub reader: &'a RowsReader,
     pub records: &'a [PartRecord],
-    /// Whether there is a page, and by how many scenes that are flown twice it measures noise within control loops.
+    /// Whether there is a page, and its number of scenes flown twice to measure noise.
     pub page: Option<Option<u64>>,
-    /// The samples whose time series are made.
+    /// Samples with time series.
     pub retained: &'a [SampleId],
 }
 
@@ -45,10 +45,10 @@ pub(super) struct Derived {
     pub findings: Findings,
 }
 
-/// Makes the files from what was `gathered` from the rows, and passes each to `files`.
+/// Makes the files from `gathered` and passes each to `files`.
 ///
 /// # Errors
-/// Where a file cannot be read, encoded or taken.
+/// A file that cannot be read, encoded or taken.
 pub(super) fn derive(job: &Derivation<'_>, gathered: Gathered, files: &TakeFile<'_>) -> Result<Derived, WorkflowError> {
     let (plan, threads) = (job.ensemble.plan(), job.session.threads);
     let analysed = computed(plan, job.reader, gathered, threads)?;
@@ -67,7 +67,7 @@ pub(super) fn derive(job: &Derivation<'_>, gathered: Gathered, files: &TakeFile<
     Ok(Derived { analysed, page, findings })
 }
 
-/// Passes the file `name` to `files`, which may have failed to be encoded.
+/// Passes the file `name`, or the failure of its encoding, to `files`.
 fn take<E: Display>(
     files: &TakeFile<'_>,
     name: &str,

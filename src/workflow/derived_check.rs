@@ -1,6 +1,5 @@
-//! [`derived_problems`]: whether the files of a result that follow from plan and rows are what this program makes of
-//! them. A checksum alone says only that a file is the one that the manifest lists, and whoever changes both can list
-//! any.
+//! [`derived_problems`]: whether the derived files of a result are those of this program. Checksums alone only match
+//! the manifest, which an intruder can change too.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,18 +17,16 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::page::noise_scenes;
 use crate::workflow::session::Session;
 
-/// What was compared, and what is wrong.
 #[derive(Debug, Default)]
 pub(super) struct DerivedCheck {
-    /// Files that were made again.
+    /// Files made again.
     pub files: usize,
-    /// Time series that were not made again.
+    /// Time series not made again.
     pub left_out: usize,
-    /// What is wrong, file by file.
+    /// Problems by file.
     pub problems: Vec<String>,
 }
 
-/// Compares files with those that are listed.
 struct Comparison<'a> {
     listed: BTreeMap<&'a str, &'a FileRecord>,
     made: Mutex<BTreeSet<String>>,
@@ -41,7 +38,7 @@ impl Comparison<'_> {
         self.problems.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{name}: {what}"));
     }
 
-    /// Compares the file `name` with its record; without bytes there is to be none.
+    /// Compares the file `name` with its record; without bytes there must be none.
     fn compare(&self, name: &str, bytes: Option<&[u8]>) {
         let listed = self.listed.get(name);
         if listed.is_none() && bytes.is_none() {
@@ -62,11 +59,11 @@ impl Comparison<'_> {
 const NO_SUCH_FILE: &str = "is listed, and plan and rows have no such file";
 const NOT_LISTED: &str = "is missing, and the manifest does not list it";
 
-/// Makes the files that follow from plan and rows of the result in `store` again, and compares them with those that its
-/// manifest lists; of the time series those that `chosen` chooses. The parts are `records`, whose checksums are right.
+/// Makes the derived files of the result in `store` again, with time series selected by `chosen`, and compares them
+/// with the manifest. Checksums of the parts `records` are verified.
 ///
 /// # Errors
-/// Where a file cannot be read.
+/// A file that cannot be read.
 pub(super) fn derived_problems(
     session: &Session<'_>,
     (store, manifest): (&Arc<dyn Store>, &Manifest),
@@ -111,10 +108,9 @@ pub(super) fn derived_problems(
     Ok(DerivedCheck { files: made.len(), left_out: retained.len() - made_again.len(), problems })
 }
 
-/// The version of this program.
 const THIS: &str = env!("CARGO_PKG_VERSION");
 
-/// The version that the summary names, where it is not this one.
+/// The version in the summary, if another one.
 fn other_version(store: &dyn Store) -> Result<Option<String>, WorkflowError> {
     let bytes = store.read(SUMMARY)?.unwrap_or_default();
     let summary: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! [`end_of`]: how the campaign of a finished result ended: what its rows say, and that its summary says the same.
+//! [`end_of`]: the ending of the campaign of a finished result, by its rows and summary.
 
 use crate::analysis::ending::ending;
 use crate::campaign::Plan;
@@ -14,11 +14,10 @@ use crate::storage::rows_reader::RowsReader;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
-/// How the campaign `plan` ended, by its rows in a finished result. Its `summary` has to say the same: programs read
-/// that.
+/// The ending of the campaign `plan` by its rows; its `summary` must agree, since programs read that.
 ///
 /// # Errors
-/// Where rows cannot be read, or the summary says something else.
+/// Unreadable rows, or a contradicting summary.
 pub(super) fn end_of(
     summary: &[u8],
     plan: &Plan,
@@ -42,7 +41,7 @@ pub(super) fn end_of(
     )))
 }
 
-/// The same of a result that was found to be finished and undamaged.
+/// [`end_of`] for a finished and undamaged result.
 ///
 /// # Errors
 /// As [`end_of`].

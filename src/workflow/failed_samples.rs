@@ -1,5 +1,4 @@
-//! Samples that failed: those of a result run again under another plan ([`plan_of_failed`]), or the first ends the
-//! campaign.
+//! Failed samples, run again under another plan ([`plan_of_failed`]) or ending the campaign.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,17 +17,17 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::{plan_and_files, sound};
 
-/// The samples whose runs are not `ok`, in the order of the files.
+/// The samples that are not `ok`, in the order of the files.
 fn failed(part: &mut PartReader) -> Result<Vec<SampleId>, RowsError> {
     let rows = part.samples()?.into_iter().zip(part.statuses()?);
     Ok(rows.filter(|(_, status)| *status != Status::Done).map(|(sample, _)| sample).collect())
 }
 
-/// The plan of `file` for the samples that failed in the result `of`, with the seed and the number of samples of that
-/// result: so the numbers mean the same samples; and the files that it was made from. `None` where none failed.
+/// The plan of `file` for the failed samples of the result `of`, with its seed and number of samples, so that numbers
+/// mean the same samples; and its files. `None` if none failed.
 ///
 /// # Errors
-/// Where the result is damaged or cannot be read, or the campaign file is wrong.
+/// A damaged result, or a wrong campaign file.
 pub fn plan_of_failed(
     session: &Session<'_>,
     file: &Path,
@@ -63,11 +62,11 @@ pub fn plan_of_failed(
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedRun {
     pub sample: SampleId,
-    /// How it ended, and why.
+    /// Status and reason.
     pub what: String,
 }
 
-/// The first run that failed among the rows that are in files.
+/// The first failed run in the stored rows.
 pub fn first_failed(reader: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
     let mut first = None;
     let read = |part: &mut PartReader| -> Result<Option<FailedRun>, RowsError> {
@@ -87,8 +86,7 @@ fn said(status: Status, reason: Option<&str>) -> String {
     reason.map_or_else(|| status.name().to_owned(), |reason| format!("{}: {}", status.name(), readable(reason)))
 }
 
-/// Lets no further part start where a run of `rows` failed, and keeps the `first` such run, in the order of the
-/// samples.
+/// Starts no further part after a failed run in `rows`, and keeps the `first` such run in sample order.
 pub(super) fn fail_fast(rows: &Rows, first: &Mutex<Option<FailedRun>>, stop: &AtomicBool) {
     let Some(row) = rows.statuses().iter().position(|status| *status != Status::Done) else { return };
     let reason = rows.reasons().iter().find(|(at, _)| *at == row).map(|(_, reason)| reason.as_str());

@@ -1,7 +1,6 @@
-//! Statistics, findings and page of a campaign once all rows are there; [`finish`] makes those of a result in a folder.
+//! Statistics, findings and page of a complete campaign; [`finish`] makes those of a result in a folder.
 //!
-//! It is a function of the plan and the rows: whichever processes made them, and however often they were stopped, the
-//! files are the same.
+//! They are a function of plan and rows, whichever processes made them and however often they stopped.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -25,61 +24,59 @@ use crate::workflow::results::Results;
 use crate::workflow::session::Session;
 use crate::workflow::source::{at_rows_of, claimed, data_copies, plan_in};
 
-/// What is made of the rows beside the tables and the summary.
+/// Outputs besides tables and summary.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
-    /// Whether the page is left out.
+    /// Whether to omit the page.
     pub without_page: bool,
-    /// The folder of the figures of the page as files.
+    /// Folder of the page's figures.
     pub figures: Option<PathBuf>,
-    /// The file of the verdicts as JUnit XML.
+    /// File of the verdicts as JUnit XML.
     pub junit: Option<PathBuf>,
 }
 
-/// What a process has run.
+/// The work of a process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Made {
     pub samples: u64,
     pub elapsed: Duration,
-    /// CPU time of runs and of audits, s; measured where there are audits.
+    /// CPU time of runs and audits, s, in a campaign with audits.
     pub seconds: [f64; 2],
 }
 
-/// A result that has just been finished.
 #[derive(Clone, Debug)]
 pub struct Completed {
     pub plan: Plan,
     pub root: PathBuf,
     pub findings: Findings,
     pub end: SummaryEnd,
-    /// What this process has run of it.
+    /// The work of this process.
     pub made: Option<Made>,
     pub is_audited: bool,
     /// Number of files of rows.
     pub files: usize,
-    /// Size of the result, bytes.
+    /// Bytes.
     pub bytes: u64,
 }
 
-/// A campaign whose place is claimed.
+/// A campaign with a claimed place.
 #[derive(Clone, Copy)]
 pub(super) struct Job<'a> {
     pub session: Session<'a>,
     pub ensemble: &'a Ensemble<'a>,
     pub ready: &'a Ready,
-    /// Where the result is for its user.
+    /// The place for the user.
     pub root: &'a Path,
-    /// What is made beside the tables.
     pub outputs: &'a Outputs,
     pub shard: Option<Shard>,
     pub fail_fast: bool,
 }
 
-/// Makes everything that follows from the rows, and marks the dataset as finished. Where the rows were counted while
-/// they were made, they are not read again for that.
+/// Makes everything that follows from the rows, and marks the dataset as finished. Rows counted in memory are not read
+/// again.
 ///
 /// # Errors
-/// Where parts are missing, rows cannot be read or a file operation fails.
+/// Missing parts, unreadable rows, or a failed file operation.
 pub(super) fn complete(
     job: &Job<'_>,
     made: Option<Made>,
@@ -93,7 +90,7 @@ pub(super) fn complete(
         None => Gathered::of_files(job.ensemble, &reader, threads)?,
     };
     let retained = gathered.retained.clone();
-    // an earlier end of the campaign may have left others
+    // left by an earlier end of the campaign
     dataset.clear(TRAJECTORIES)?;
     let (session, page) = (job.session, (!job.outputs.without_page).then_some(None));
     let derivation =
@@ -123,7 +120,7 @@ pub(super) fn complete(
     })
 }
 
-/// That an unfinished result with `[stop]` is completed by the command that looks at it.
+/// Message that an unfinished result with `[stop]` is continued by its own command.
 pub(super) fn stop_is_continued(root: &Path) -> String {
     format!(
         "{}: is not finished, and [stop] decides after each look whether it is; this continues it: spindrift campaign \
@@ -134,7 +131,7 @@ pub(super) fn stop_is_continued(root: &Path) -> String {
     )
 }
 
-/// Refuses to finish the result in `root` where these parts of it are missing.
+/// Refuses to finish the result in `root` without these parts.
 fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
     let Some(first) = missing.first() else { return Ok(()) };
     Err(WorkflowError::Files(format!(
@@ -147,22 +144,21 @@ fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
     )))
 }
 
-/// Copies the files of numbers and the module of the plan into the dataset, and then the plan: the dataset is complete
-/// in itself.
+/// Copies data files, module and plan into the dataset, which is then complete in itself.
 ///
 /// # Errors
-/// Where one has changed since the plan was made, or a file operation fails.
+/// A changed file, or a failed file operation.
 pub(super) fn keep(ready: &Ready, files: &FilesRead) -> Result<(), WorkflowError> {
     let copies = data_copies(files).collect::<Result<Vec<_>, _>>()?;
     ready.dataset.keep(&copies).map_err(WorkflowError::files)
 }
 
-/// Says what is in the folder and not part of the result.
+/// Reports foreign entries of the folder.
 pub(super) fn say_notes(session: &Session<'_>, root: &Path, notes: &[String]) {
     notes.iter().for_each(|note| session.watch.note(&format!("{}: {note}", root.display())));
 }
 
-/// How the campaign of a result that is there ended; its verdicts are written to the file `junit`, if one was named.
+/// The ending of an existing result; writes its verdicts to `junit`, if any.
 pub(super) fn already(
     session: &Session<'_>,
     root: &Path,
@@ -179,19 +175,18 @@ pub(super) fn already(
     Ok(end)
 }
 
-/// What [`finish`] found.
 #[derive(Clone, Debug)]
 pub enum Finished {
-    /// It has made what was missing.
+    /// Made now.
     Now(Box<Completed>),
     Already(SummaryEnd),
 }
 
-/// Finishes the result in `root`, a folder or an address, whose parts are all there: what follows from the rows is made
-/// where it is missing. `check` is shown the files that the plan was made from before anything is written.
+/// Finishes the result in `root`, a folder or address with all parts: makes missing derived files. `check` receives the
+/// files of the plan before anything is written.
 ///
 /// # Errors
-/// Where parts are missing or damaged, `check` refuses, or a file operation fails.
+/// Missing or damaged parts, a refusal by `check`, or a failed file operation.
 pub fn finish(
     session: &Session<'_>,
     root: &Path,
@@ -199,7 +194,7 @@ pub fn finish(
     check: &dyn Fn(&FilesRead) -> Result<(), WorkflowError>,
 ) -> Result<Finished, WorkflowError> {
     let store = session.store(root)?;
-    // a folder that is none is not created
+    // an absent folder is not created
     let (found, lock) = open(&*store, false)?;
     let (plan, files) = plan_in(session, &*store, &found)?;
     if plan.analysis.stop.is_some() && !found.is_finished {

@@ -1,8 +1,8 @@
-//! What the machine has left: memory, and space on a disk. Only refusals depend on it.
+//! Free memory and disk space of the machine, for refusals only.
 
 use std::path::Path;
 
-/// Free space of the file system that has `path`, or will have it, bytes; `None` where the system does not say.
+/// Free space of the file system of `path`, existing or not, bytes, if known.
 #[cfg(unix)]
 pub fn free_disk(path: &Path) -> Option<u64> {
     let absolute = std::path::absolute(path).ok()?;
@@ -11,14 +11,13 @@ pub fn free_disk(path: &Path) -> Option<u64> {
     Some(found.f_bavail.saturating_mul(found.f_frsize))
 }
 
-/// Free space of a disk; unknown here.
+/// Unknown here.
 #[cfg(not(unix))]
 pub fn free_disk(_path: &Path) -> Option<u64> {
     None
 }
 
-/// Memory that can be taken without swapping, bytes: of the machine, and of the control group where that is less. Only
-/// Linux says.
+/// Memory available without swapping, bytes, of the machine or its control group, on Linux only.
 pub fn free_memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let machine = available(&text)?;
@@ -28,7 +27,7 @@ pub fn free_memory() -> Option<u64> {
     Some(group.map_or(machine, |group| group.min(machine)))
 }
 
-/// The available memory that /proc/meminfo says, bytes.
+/// The available memory in /proc/meminfo, bytes.
 fn available(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)

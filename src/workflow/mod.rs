@@ -1,23 +1,21 @@
-//! Layer 11: campaigns and results, as a program works with them; the command line is one such program.
+//! Layer 11: campaigns and results for programs, such as the command line.
 //!
-//! - [`campaign`]: [`Campaign`], a file and where its result goes; [`outcome`]: how it ended; `running`: the samples
-//!   that are not there yet.
-//! - [`results`]: [`Results`], a finished result to be read. [`compared`](mod@compared): two of them compared.
-//! - [`check`]: what a campaign would run. [`simulated`]: one sample over time.
-//! - [`finishing`]: what is made once all rows are there: [`analysed`], [`page`], `derived`.
-//! - `ending`: how a finished campaign ended.
-//! - [`verification`]: whether a result is what was written, and (`derived_check`) what its rows say.
+//! - [`campaign`]: [`Campaign`], a file and the place of its result; [`outcome`]: its end; `running`: missing samples.
+//! - [`results`]: [`Results`], a finished result. [`compared`](mod@compared): two of them.
+//! - [`check`]: estimate of a campaign. [`simulated`]: one sample over time.
+//! - [`finishing`]: products of complete rows: [`analysed`], [`page`], `derived`.
+//! - `ending` of a finished campaign.
+//! - [`verification`]: whether a result is as written, and (`derived_check`) follows from its rows.
 //! - [`results_index`]: all results below a folder. [`sampling`]: draws without runs. [`precision`]:
 //!   time against error.
-//! - [`failed_samples`]: samples that failed, again or as the end.
-//! - [`source`]: where plans come from.
-//! - [`session`]: disk, threads, control law, and who is told.
-//! - [`outputs`]: files that are not written.
-//! - [`columns`]: the columns that rows may have. [`threads`]: how many are allowed. [`error`].
-//! - [`workload`]: what a command would compute and write, refused where it cannot be done; [`machine`]: what is left
-//!   of memory and disk.
+//! - [`failed_samples`]: run again, or ending a campaign.
+//! - [`source`] of plans.
+//! - [`session`]: disk, threads, control law, listeners.
+//! - [`outputs`]: refused files.
+//! - [`columns`] of rows. [`threads`]: their allowed number. [`error`].
+//! - [`workload`]: estimated work, refused if impossible; [`machine`]: free memory and disk.
 //!
-//! Not here: what is printed, options and exit codes (`cli`).
+//! Output, options and exit codes are in `cli`.
 
 pub mod analysed;
 pub mod campaign;

@@ -1,4 +1,4 @@
-//! [`CampaignOutcome`]: how a campaign ended; [`again`]: the same of a finished result.
+//! [`CampaignOutcome`]: the end of a campaign; [`again`]: of a finished result.
 
 use std::path::{Path, PathBuf};
 
@@ -13,35 +13,35 @@ use crate::workflow::failed_samples::FailedRun;
 use crate::workflow::finishing::{Completed, Made};
 use crate::workflow::results::Results;
 
-/// How a campaign ended that could run.
+/// The end of a campaign that could run.
 #[derive(Clone, Debug)]
 pub enum CampaignOutcome {
-    /// All rows are there, and so is everything that follows from them.
+    /// Complete, with everything that follows.
     Finished(Box<Completed>),
-    /// Everything of the same plan was there already.
+    /// Complete before.
     AlreadyFinished(SummaryEnd),
-    /// The parts of a shard are there.
+    /// The parts of a shard are complete.
     ShardDone {
         shard: Shard,
-        /// What this process has run.
+        /// The work of this process.
         made: Made,
     },
-    /// It was stopped; the same campaign continues.
+    /// Stopped; the same campaign continues.
     Stopped {
         samples: u64,
-        /// Samples that are not there yet.
+        /// Missing samples.
         left: u64,
     },
-    /// A run failed, where that ends the campaign.
+    /// A failed run ended the campaign.
     FailedFast(FailedRun),
 }
 
-/// Where a reader of the result in `root` goes: its page, where there is one.
+/// Where to read the result in `root`: its page, if any.
 pub fn place(root: &Path) -> PathBuf {
     Some(root.join(REPORT)).filter(|page| page.is_file()).unwrap_or_else(|| root.to_owned())
 }
 
-/// What a result was when it was finished, and the text of its summary.
+/// The end of a finished result, with the text of its summary.
 pub fn again(results: &Results<'_>) -> Result<(Completed, String), WorkflowError> {
     let (plan, analysed) = (results.plan(), results.analysed()?);
     let findings = findings(plan, &analysed, &[]);

@@ -1,5 +1,5 @@
-//! [`refuse_inputs`]: a file that a command writes is never one that it reads. [`refuse_within`]: nor one in the folder
-//! of a result, which has the files of a dataset and no others.
+//! [`refuse_inputs`]: outputs must not be inputs. [`refuse_within`]: nor in the folder of a result, which has only
+//! files of a dataset.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use crate::report::figure_files::check_format;
 use crate::storage::table_file::TableFormat;
 use crate::workflow::error::WorkflowError;
 
-/// Refuses a table or a plot whose extension has no format, before any work.
+/// Refuses a table or plot with an unknown extension before any work.
 ///
 /// # Errors
 /// The first such file.
@@ -18,8 +18,7 @@ pub fn check_formats(table: Option<&Path>, plot: Option<&Path>) -> Result<(), Wo
     plot.map_or(Ok(()), |path| check_format(path).map_err(|error| WorkflowError::Input(error.to_string())))
 }
 
-/// Refuses those of `outputs`, each with the option that names it, that are one of the files `inputs`: by the same
-/// path, through a link, or by another name of the same file.
+/// Refuses `outputs`, each with its option, that are among the files `inputs` by path, link, or another name.
 ///
 /// # Errors
 /// The first such output.
@@ -52,7 +51,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
     }
 }
 
-/// Refuses those of `outputs`, each with the option that names it, that are in the folder `root` of a result.
+/// Refuses `outputs`, each with its option, in the folder `root` of a result.
 ///
 /// # Errors
 /// The first such output.

@@ -1,4 +1,4 @@
-//! The report page of a result, made from its rows, and its figures as files.
+//! The page of a result, made from its rows, and its figures as files.
 
 use std::path::{Path, PathBuf};
 
@@ -26,25 +26,23 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 use crate::workflow::source::sound;
 
-/// A page that was made again.
 #[derive(Clone, Debug)]
 pub struct Remade {
     pub path: PathBuf,
-    /// Its size, bytes.
+    /// Bytes.
     pub size: u64,
-    /// The question that the campaign answers.
+    /// The question of the campaign.
     pub question: Option<String>,
     pub end: SummaryEnd,
-    /// The share of noise in the outcomes, where it was asked for.
+    /// The share of noise in the outcomes, if requested.
     pub noise: Vec<Finding>,
 }
 
-/// Makes the page of the finished result in `root` again, and its figures as files in the folder `figures`. `noise`:
-/// how many scenes are flown twice to tell noise within control loops from what was drawn.
+/// Makes the page of the finished result in `root` again, and its figures in the folder `figures`. `noise`: number of
+/// scenes flown twice to separate loop noise from draws.
 ///
 /// # Errors
-/// Where the folder has no finished result, its campaign has no loop whose noise was asked for, or files cannot be read
-/// or written.
+/// No finished result, requested noise without a loop, or a failed file operation.
 pub fn remade(
     session: &Session<'_>,
     root: &Path,
@@ -86,16 +84,14 @@ pub fn remade(
     Ok(Remade { path, size: page.html.len() as u64, question: plan.description.clone(), end, noise })
 }
 
-/// Begins the mark in a page that says by how many scenes the share of noise was measured, so that the same page can be
-/// made again.
+/// Start of the mark in a page for its number of noise scenes, so that it can be made again.
 const NOISE_MARK: &str = "<meta name=\"noise-scenes\" content=\"";
 const BEFORE_MARK: &str = "<meta charset=\"utf-8\">\n";
 
-/// The page of a result whose parts are `records`, and what it says, with the share of noise in its outcomes, measured
-/// by so many `scenes`, where that is asked for.
+/// The page of a result with the parts `records`, its findings, and the share of noise measured with `scenes`, if any.
 ///
 /// # Errors
-/// Where threads cannot be started, or rows cannot be read.
+/// Threads that cannot start, or unreadable rows.
 pub(super) fn made_page(
     session: &Session<'_>,
     ensemble: &Ensemble<'_>,
@@ -124,7 +120,7 @@ pub(super) fn made_page(
     Ok((page, found))
 }
 
-/// The rows of `samples`, from the parts that have them.
+/// The rows of `samples`, from their parts.
 fn rows_of(
     ensemble: &Ensemble<'_>,
     reader: &RowsReader,
@@ -166,14 +162,14 @@ fn rows_of(
     Ok(rows)
 }
 
-/// By how many scenes the page `html` was made to tell noise; `None` of one that does not.
+/// The number of noise scenes of the page `html`, if any.
 pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
     let text = std::str::from_utf8(html).ok()?;
     let (_, after) = text.split_once(BEFORE_MARK)?;
     after.strip_prefix(NOISE_MARK)?.split('"').next()?.parse().ok()
 }
 
-/// Writes the figures of `page`, of the campaign `plan`, as files into `folder`, if one was named.
+/// Writes the figures of `page` of the campaign `plan` into `folder`, if any.
 pub fn save_figures(
     session: &Session<'_>,
     plan: &Plan,

@@ -1,4 +1,4 @@
-//! [`measured`]: run time against error for every method and tolerance, as a table and a figure in a folder.
+//! [`measured`]: run time and error for every method and tolerance, as a table and a figure.
 
 use std::path::{Path, PathBuf};
 
@@ -19,42 +19,42 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::isa;
 use crate::workflow::workload::Workload;
 
-/// What is measured.
+/// The request.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// All that integrate the forces of the plan, without.
+    /// By default all that integrate the plan's forces.
     pub methods: Option<Vec<Method>>,
-    /// 1e-4 to 1e-16, a decade apart, without.
+    /// By default 1e-4 to 1e-16 by decades.
     pub tolerances: Option<Vec<f64>>,
-    /// The first so many samples.
+    /// Number of first samples.
     pub samples: u64,
-    /// Whether only the states that the observables need are integrated.
+    /// Whether to integrate only states needed by the observables.
     pub is_observed: bool,
     pub limits: Limits,
     /// Whether much work is allowed.
     pub is_allowed: bool,
 }
 
-/// What is told while it is measured.
+/// Progress of a measurement.
 #[derive(Debug)]
 pub enum Told<'m> {
-    /// What is measured, once.
+    /// Its parts, once.
     Begun(&'m [Finding]),
     Measured(&'m Measurement),
-    /// What was not measured, and why.
+    /// Omitted parts, with reasons.
     Omitted(&'m [Finding]),
 }
 
-/// The files that may be in `folder` afterwards.
+/// The files that may result in `folder`.
 pub fn outputs(folder: &Path) -> [PathBuf; 3] {
     ["parquet", "svg", "html"].map(|extension| folder.join(format!("precision.{extension}")))
 }
 
-/// Measures `plan`; the files that were written to `folder`.
+/// Measures `plan`; returns the files written to `folder`.
 ///
 /// # Errors
-/// Where a method does not integrate what acts, no sample has a reference solution, the work is too much, or a file
-/// cannot be written; those of `tell`.
+/// A method that does not integrate acting effects, no sample with a reference solution, too much work, a failed file
+/// operation, or an error of `tell`.
 pub fn measured(
     plan: &Plan,
     wanted: &Wanted,

@@ -1,4 +1,4 @@
-//! [`Results`]: a finished result, to be read: rows, what they say, and each run again.
+//! [`Results`]: a finished result: rows, analysis, replays.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ use crate::workflow::session::Session;
 use crate::workflow::simulated::not_physical;
 use crate::workflow::source::sound;
 
-/// A finished result, whose checksums were compared. No process changes it while this is there.
+/// A finished result with verified checksums, locked while held.
 pub struct Results<'a> {
     session: Session<'a>,
     root: PathBuf,
@@ -32,11 +32,10 @@ pub struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// The result in the folder or at the address `root`. A campaign that flew a control law is opened with that law in
-    /// `session`.
+    /// Opens the result in the folder or at the address `root`, with its control law, if any, in `session`.
     ///
     /// # Errors
-    /// Where there is none, it is not finished, or it is damaged.
+    /// A missing, unfinished or damaged result.
     pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self, WorkflowError> {
         let root = root.into();
         let store = session.store(&root)?;
@@ -57,20 +56,19 @@ impl<'a> Results<'a> {
         &self.plan
     }
 
-    /// The parts that it consists of.
     pub fn parts(&self) -> &[PartRecord] {
         &self.parts
     }
 
-    /// Its rows, part by part.
+    /// The rows by parts.
     pub fn rows(&self) -> &RowsReader {
         &self.reader
     }
 
-    /// The numbers of a column, row by row: of a dispersed value or an observable; NaN where a run has none.
+    /// The numbers of a dispersed value or observable by row; NaN for none.
     ///
     /// # Errors
-    /// Where there is no such column, or a file cannot be read.
+    /// A missing column, or an unreadable file.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, WorkflowError> {
         let mut numbers = Vec::new();
         let gather = |part: Vec<f64>| {
@@ -81,10 +79,10 @@ impl<'a> Results<'a> {
         Ok(numbers)
     }
 
-    /// Everything that the rows say.
+    /// Everything that follows from the rows.
     ///
     /// # Errors
-    /// Where a file cannot be read.
+    /// An unreadable file.
     pub fn analysed(&self) -> Result<Analysed, WorkflowError> {
         let (ensemble, threads) = (Ensemble::new(&self.plan, self.session.isa), self.session.threads);
         let gathered = Gathered::of_files(&ensemble, &self.reader, threads)?;
@@ -94,7 +92,7 @@ impl<'a> Results<'a> {
     /// Statistics of every observable.
     ///
     /// # Errors
-    /// Where a file cannot be read.
+    /// An unreadable file.
     pub fn statistics(&self) -> Result<Statistics, WorkflowError> {
         self.analysed().map(|found| found.statistics)
     }
@@ -102,26 +100,25 @@ impl<'a> Results<'a> {
     /// The verdicts on the requirements.
     ///
     /// # Errors
-    /// Where a file cannot be read.
+    /// An unreadable file.
     pub fn verdicts(&self) -> Result<Verdicts, WorkflowError> {
         self.analysed().map(|found| found.verdicts)
     }
 
-    /// The content of the file `name`, such as `summary.json`; `None` where there is none.
+    /// The content of the file `name`, such as `summary.json`, if present.
     pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>, WorkflowError> {
         Ok(self.reader.store().read(name)?.ok())
     }
 
-    /// The run of a sample again, with its states over time: bit for bit that of its row.
+    /// Repeats the run of a sample with its states over time, bit for bit as in its row.
     ///
     /// # Errors
-    /// Where its scene is not physical, so that there was no run.
+    /// An unphysical scene, which had no run.
     pub fn replay(&self, sample: SampleId) -> Result<SingleRun, WorkflowError> {
         SingleRun::new(&self.plan, sample, self.plan.grid.clone(), self.session.isa)
             .map_err(|errors| not_physical(sample.0, &errors))
     }
 
-    /// The number of threads that read its rows.
     pub(super) fn threads(&self) -> Option<std::num::NonZeroUsize> {
         self.session.threads
     }
@@ -129,15 +126,15 @@ impl<'a> Results<'a> {
     /// Writes the verdicts as JUnit XML.
     ///
     /// # Errors
-    /// Where a file cannot be read or written.
+    /// An unreadable or unwritable file.
     pub fn write_junit(&self, file: &Path) -> Result<(), WorkflowError> {
         write_junit(&self.plan, &self.analysed()?, Some(file))
     }
 
-    /// How the campaign ended, as its rows say.
+    /// The ending of the campaign by its rows.
     ///
     /// # Errors
-    /// Where rows or summary cannot be read, or the summary says something else.
+    /// Unreadable rows or summary, or a contradiction.
     pub fn end(&self) -> Result<SummaryEnd, WorkflowError> {
         end_of(&self.file(SUMMARY)?.unwrap_or_default(), &self.plan, &self.reader, &self.session)
     }

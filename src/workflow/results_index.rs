@@ -1,4 +1,4 @@
-//! [`written`]: all results below a folder, what each says, and what changed since the last run of the same campaign.
+//! [`written`]: all results below a folder, with changes since the previous run of the same campaign.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -18,36 +18,35 @@ use crate::storage::names::{HEAD, PLAN, REPORT, SUMMARY};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
-/// Folders are looked at so deep below the first one.
+/// Greatest depth below the first folder.
 const DEEPEST: usize = 6;
-/// Changes of plans that are named.
+/// Most named changes of plans.
 const MOST_KEYS: usize = 4;
-/// A file says of itself that it is of this day since 1970 at most: of the year 9999.
+/// Latest day since 1970 in a valid file: year 9999.
 const LAST_DAY: u64 = 2_932_896;
 
-/// What is below a folder.
+/// The results below a folder.
 #[derive(Clone, Debug, Default)]
 pub struct ResultsIndex {
-    /// The finished results: by campaign, the latest run of each first.
+    /// Finished results by campaign, latest first.
     pub entries: Vec<IndexEntry>,
-    /// Folders of results that say nothing, with the reason.
+    /// Unreadable results, with reasons.
     pub unreadable: Vec<Unreadable>,
 }
 
-/// What a result says, with what is needed to compare it with the run before.
+/// A result, with the data to compare it with the previous run.
 struct Found {
     entry: IndexEntry,
     seconds: u64,
     plan: String,
 }
 
-/// The name of the page.
 const PAGE: &str = "index.html";
 
-/// All results below `root`, and the page with them that is written there.
+/// All results below `root`, and the written page of them.
 ///
 /// # Errors
-/// Where there are none, the folder is a result itself, or it cannot be read or written.
+/// No results, a folder that is a result itself, or a failed file operation.
 pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, PathBuf), WorkflowError> {
     let index = indexed(session, root)?;
     let shown = root.display();
@@ -68,10 +67,10 @@ pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, Path
     Ok((index, path))
 }
 
-/// All results in `root` and below it. They are read, not verified: `spindrift verify` compares checksums.
+/// All results in and below `root`, without verified checksums (`spindrift verify`).
 ///
 /// # Errors
-/// Where the folder itself cannot be read.
+/// An unreadable folder.
 fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowError> {
     std::fs::read_dir(root).map_err(|error| {
         let why = match error.kind() {
@@ -108,7 +107,7 @@ fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowE
     Ok(index)
 }
 
-/// Collects the folders of results: those with a head or a summary. Within a result there is no other.
+/// Collects folders of results, which have a head or a summary, and do not nest.
 fn visit(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
     if [HEAD, SUMMARY].iter().any(|name| folder.join(name).is_file()) {
         found.push(folder.to_owned());
@@ -122,7 +121,7 @@ fn visit(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// What the result in `folder` says; the reason where it says nothing.
+/// The result in `folder`, or why it is unreadable.
 fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, String> {
     let path = folder.join(SUMMARY);
     let store = (session.folders)(folder);
@@ -154,12 +153,11 @@ fn read(session: &Session<'_>, folder: &Path, name: &Path) -> Result<Found, Stri
     Ok(Found { entry, seconds, plan })
 }
 
-/// What changed from the run `before` to the one `after` it: keys of the plan but those that say how numbers are shown,
-/// then verdicts.
+/// Changes from the run `before` to `after`: keys of the plan except number formats, then verdicts.
 fn changed(session: &Session<'_>, root: &Path, [before, after]: [&Found; 2]) -> String {
     let mut keys = text_differences(&before.plan, &after.plan);
     keys.retain(|one| !one.key.starts_with("display."));
-    // that of another version of the program, or of a control law that is not here, is only text
+    // a plan of another version, or with a missing law, is only text
     let plan = |one: &Found| {
         let folder = root.join(&one.entry.folder);
         Plan::from_text_in(&folder, PLAN, &one.plan, session.overrides()).ok().filter(|_| !keys.is_empty())

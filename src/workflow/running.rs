@@ -1,5 +1,4 @@
-//! [`run_missing`]: runs the samples of a campaign that are not there yet, look by look where the plan has `[stop]`,
-//! and finishes the result.
+//! [`run_missing`]: runs the missing samples of a campaign, look by look under `[stop]`, and finishes the result.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -18,18 +17,17 @@ use crate::workflow::failed_samples::{FailedRun, fail_fast, first_failed};
 use crate::workflow::finishing::{Job, Made, complete, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 
-/// Runs what is missing, and finishes the result.
 pub(super) fn run_missing(job: &Job<'_>) -> Result<CampaignOutcome, WorkflowError> {
     let (plan, ready) = (job.ensemble.plan(), job.ready);
     let parts = ready.dataset.head().parts(plan.rows());
     let mut made = Made::default();
-    // what is there already was counted by no one
+    // existing rows are uncounted
     let is_whole = ready.dataset.parts().is_empty() && job.shard.is_none() && plan.analysis.stop.is_none();
     let counts = if is_whole { RunningFold::of(job.ensemble) } else { None };
     plan.notes().iter().for_each(|note| job.session.watch.note(note));
     let targets = plan.looks();
     let mut samples = targets.last().copied().unwrap_or(plan.samples);
-    // looks at fewer samples than there are rows have been taken
+    // looks at fewer samples have been taken
     for target in targets.into_iter().filter(|target| *target >= ready.rows) {
         samples = target;
         if let Some(outcome) = job.run_to(parts.with_samples(target), counts.as_ref(), &mut made)? {
@@ -54,7 +52,7 @@ impl Job<'_> {
         self.shard.is_none_or(|shard| shard.has(part.id))
     }
 
-    /// Runs those of `parts` that are missing; an outcome where that ends the campaign: a stop, or a shard.
+    /// Runs the missing ones of `parts`; returns an outcome if that ends the campaign: a stop, or a shard.
     fn run_to(
         &self,
         parts: Parts,
@@ -62,7 +60,7 @@ impl Job<'_> {
         made: &mut Made,
     ) -> Result<Option<CampaignOutcome>, WorkflowError> {
         let dataset = &self.ready.dataset;
-        // a last part of fewer samples is made again with its further rows
+        // a shorter last part is made again with its further rows
         let there = dataset.parts().into_iter().map(|record| record.part);
         let outgrown = there.filter(|part| self.is_mine(part) && parts.part(part.id) != Some(*part));
         dataset.drop_parts(outgrown.map(|part| part.id))?;
@@ -82,7 +80,7 @@ impl Job<'_> {
             return Ok(Some(CampaignOutcome::FailedFast(failed)));
         }
         let left = dataset.missing(parts);
-        // the parts of other shards are theirs
+        // other shards make theirs
         if left.iter().any(|part| self.is_mine(part)) {
             let left = left.iter().map(|part| part.count as u64).sum();
             return Ok(Some(CampaignOutcome::Stopped { samples: parts.samples(), left }));
@@ -90,7 +88,7 @@ impl Job<'_> {
         Ok(self.shard.map(|shard| CampaignOutcome::ShardDone { shard, made: *made }))
     }
 
-    /// Runs `missing`; the first run that failed, where that ends the campaign.
+    /// Runs `missing`; returns the first failed run if it ends the campaign.
     pub(super) fn run_them(
         &self,
         missing: &[Part],
@@ -123,7 +121,7 @@ impl Job<'_> {
         Ok(first.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Says what was found in the folder; `samples` are those that this process has to make.
+    /// Reports the found state of the folder; `samples` are those for this process.
     fn say_what_was_found(&self, samples: u64, missing: &[Part]) {
         let (watch, ready, plan): (_, _, &Plan) = (self.session.watch, self.ready, self.ensemble.plan());
         say_notes(&self.session, self.root, &ready.notes);
@@ -137,7 +135,7 @@ impl Job<'_> {
         }
     }
 
-    /// Says that some of the threads that were asked for have no work.
+    /// Reports requested threads without work.
     fn say_idle_threads(&self, parts: usize) {
         if let Some(asked) = self.session.threads
             && parts > 0

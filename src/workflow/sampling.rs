@@ -1,4 +1,4 @@
-//! [`drawn`]: the dispersed parameters of a campaign, without runs.
+//! [`drawn`]: dispersed parameters without runs.
 
 use std::path::Path;
 
@@ -12,11 +12,11 @@ use crate::storage::drawn_table;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::workload::{Workload, plotted_samples};
 
-/// Draws the samples of `plan`, and writes them to the files `table` and `plot`; what their percentiles are, and what
-/// to know of the files and the samples. `is_allowed`: much work is.
+/// Draws the samples of `plan` and writes them to `table` and `plot`; returns percentiles and notes. `is_allowed`: much
+/// work is.
 ///
 /// # Errors
-/// Where the work is too much, nothing is dispersed that could be plotted, or a file cannot be written.
+/// Too much work, nothing dispersed to plot, or a failed file operation.
 pub fn drawn(
     plan: &Plan,
     [table, plot]: [Option<&Path>; 2],
@@ -49,7 +49,7 @@ pub fn drawn(
             let why = format!("{} has no dispersions: there is nothing to plot", plan.name);
             return Err(WorkflowError::Input(why));
         }
-        // sample 0 is the nominal scene, which is not dispersed
+        // sample 0 is nominal
         let DrawnScenes { columns, .. } = DrawnScenes::new(plan, SampleId(1), plotted_samples(plan));
         let (count, all) = (columns.first().map_or(0, Vec::len), plan.samples.saturating_sub(1));
         let samples = counted(count, "sample");

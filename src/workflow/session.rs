@@ -1,4 +1,4 @@
-//! [`Session`]: with what all work on campaigns and results is done; [`Watch`]: who is told of it, and may stop it.
+//! [`Session`]: means for all work on campaigns and results; [`Watch`]: its listener, which may stop it.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -18,28 +18,28 @@ use crate::storage::address::Address;
 use crate::storage::disk::{folder, meant};
 use crate::storage::store::{OpenFolder, Store, at};
 
-/// Is told what happens, and may stop it; called from any thread.
+/// Receives events from any thread, and may stop the work.
 pub trait Watch: Sync {
-    /// What a person should know: damage that was found, samples that are there already, looks of `[stop]`.
+    /// A note for a person: damage, existing samples, looks of `[stop]`.
     fn note(&self, _text: &str) {}
 
-    /// Runs of so many samples begin.
+    /// Runs of this many samples begin.
     fn begin(&self, _samples: u64) {}
 
-    /// So many more of them have ended.
+    /// This many more have ended.
     fn advance(&self, _samples: u64) {}
 
-    /// No further run is made.
+    /// No further run follows.
     fn end(&self) {}
 
-    /// No further part is started once this is set; what is committed stays, and the same campaign continues.
+    /// Starts no further part once set; committed parts stay, and the same campaign continues.
     fn stop(&self) -> &AtomicBool;
 
-    /// Parts under way are given up once this is set.
+    /// Abandons parts under way once set.
     fn abandon(&self) -> &AtomicBool;
 }
 
-/// Tells nobody, and lets everything end.
+/// Ignores everything and never stops.
 #[derive(Debug, Default)]
 pub struct Quiet {
     stop: AtomicBool,
@@ -59,18 +59,18 @@ impl Watch for Quiet {
 /// Connects to the store at an address.
 ///
 /// # Errors
-/// Where the environment does not say how to get there, or the store does not answer, or refuses.
+/// A wrong environment, or a store that does not answer or refuses.
 pub type Connect = fn(&Address) -> std::io::Result<Arc<dyn Store>>;
 
 static CONNECT: OnceLock<Connect> = OnceLock::new();
 
-/// Makes `connect` the client of this process, where the build has none of its own: so the Python package has object
-/// stores and the library of the program, compiled once.
+/// Makes `connect` the client of this process if the build has none: the Python package has object stores with the
+/// library of the program, compiled once.
 pub fn connect_by(connect: Connect) {
     let _ = CONNECT.set(connect);
 }
 
-/// How this process connects to a store, where it can.
+/// The client of this process, if any.
 pub fn connect() -> Option<Connect> {
     #[cfg(feature = "cloud")]
     return Some(crate::storage::s3::connect);
@@ -78,37 +78,36 @@ pub fn connect() -> Option<Connect> {
     CONNECT.get().copied()
 }
 
-/// With what work is done.
 #[derive(Clone, Copy)]
 pub struct Session<'a> {
     /// Opens folders of results.
     pub folders: &'a OpenFolder<'a>,
     pub isa: Isa,
-    /// How many threads run and read; `None`: one per core.
+    /// Number of threads for runs and files; `None`: one per core.
     pub threads: Option<NonZeroUsize>,
-    /// The control law that the program brings, for campaigns that fly one.
+    /// The program's control law, for campaigns that fly one.
     pub law: Option<&'a ControlLaw>,
-    /// The law of attitude that the program brings, for phases that name it.
+    /// The program's attitude law, for phases that name it.
     pub attitude_law: Option<&'static LawKind>,
-    /// How each thread does its share of a campaign.
+    /// Runs the share of each thread.
     pub crew: &'a dyn Crew,
     pub watch: &'a dyn Watch,
 }
 
 impl<'a> Session<'a> {
-    /// The disk, all cores, no control law; `watch` is told.
+    /// Disk, all cores, no control law, and the listener `watch`.
     ///
     /// # Errors
-    /// Where the environment names an instruction set that is not available.
+    /// An unavailable instruction set in the environment.
     pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
         let isa = isa()?;
         Ok(Session { folders: &folder, isa, threads: None, law: None, attitude_law: None, crew: &Alone, watch })
     }
 
-    /// The place of a result: a folder, or an address `s3://bucket/name` of an object store.
+    /// The store of a folder or an address `s3://bucket/name`.
     ///
     /// # Errors
-    /// Where it is no address, or the store cannot be reached.
+    /// An invalid address, or an unreachable store.
     pub fn store(&self, root: &Path) -> Result<Arc<dyn Store>, WorkflowError> {
         let Some(address) = Address::of(root, connect().is_some()).map_err(WorkflowError::Input)? else {
             let root = meant(root).map_err(at(root))?;
@@ -119,29 +118,29 @@ impl<'a> Session<'a> {
         connected.map_err(at(root)).map_err(WorkflowError::files)
     }
 
-    /// The same on so many threads.
+    /// Sets the number of threads.
     #[must_use]
     pub fn on_threads(self, threads: Option<NonZeroUsize>) -> Self {
         Session { threads, ..self }
     }
 
-    /// The same for campaigns that fly `law`, and their results.
+    /// Sets the control law for campaigns and results.
     #[must_use]
     pub fn under(self, law: &'a ControlLaw) -> Self {
         Session { law: Some(law), ..self }
     }
 
-    /// What plans are read with: the laws that the program brings.
+    /// Overrides with the program's laws.
     pub(super) fn overrides(&self) -> Overrides {
         Overrides { law: self.law.cloned(), attitude_law: self.attitude_law, ..Overrides::default() }
     }
 
-    /// The number of threads that read files.
+    /// Number of threads that read files.
     pub(super) fn readers(&self) -> usize {
         threads(self.threads, usize::MAX)
     }
 
-    /// What runs are told; `progress` is told how many have ended.
+    /// Supervision of runs; `progress` receives numbers of ended ones.
     pub(super) fn supervision<'s>(&'s self, progress: &'s (dyn Fn(u64) + Sync)) -> Supervision<'s> {
         Supervision { progress, stop: self.watch.stop(), abandon: self.watch.abandon(), crew: self.crew }
     }
@@ -150,7 +149,7 @@ impl<'a> Session<'a> {
 /// The instruction set of this process.
 ///
 /// # Errors
-/// Where the environment names one that does not exist or is not available.
+/// An unknown or unavailable one in the environment.
 pub fn isa() -> Result<Isa, WorkflowError> {
     Isa::chosen().map_err(|value| {
         let names: Vec<&str> = Isa::available().iter().map(|isa| isa.name()).collect();

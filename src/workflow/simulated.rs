@@ -1,4 +1,4 @@
-//! [`simulated`]: one sample of a plan again, as a table over time; [`plotted`]: as figures.
+//! [`simulated`]: one sample of a plan as a table over time; [`plotted`]: as figures.
 
 use std::path::Path;
 
@@ -18,20 +18,19 @@ use crate::storage::timeseries::time_series;
 use crate::table::Table;
 use crate::workflow::error::WorkflowError;
 
-/// A run, and its table over time.
 #[derive(Clone, Debug)]
 pub struct Simulated {
     pub run: SingleRun,
-    /// Its states and what is observed of them, at the points that were asked for.
+    /// States and observables at the requested points.
     pub series: Table<'static>,
-    /// What to know of the times, where the last is after the end of the campaign's runs.
+    /// A note on times beyond the end of the campaign's runs.
     pub late: Option<String>,
 }
 
-/// Sample `sample` of `plan` at `times`, s; at the points of the campaign without.
+/// Sample `sample` of `plan` at `times`, s, by default at the campaign's points.
 ///
 /// # Errors
-/// Where there is no such sample, its scene is not physical, or a time is no time.
+/// An unknown sample, an unphysical scene, or an invalid time.
 pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> Result<Simulated, WorkflowError> {
     callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     if sample >= plan.samples {
@@ -50,14 +49,14 @@ pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> R
     Ok(Simulated { run, series, late })
 }
 
-/// A plot of a run without times of its own has at least so many intervals: two per pixel.
+/// Fewest intervals of a plot without requested times: two per pixel.
 const SMOOTH: usize = 1200;
 
-/// Draws sample `sample` of `plan` on `grid`, without one on that of the campaign with divided intervals, to the file
-/// `path`; what to know of that.
+/// Draws sample `sample` of `plan` to the file `path`, on `grid` or the divided grid of the campaign; returns a note,
+/// if any.
 ///
 /// # Errors
-/// Where the scene is not physical, or the file cannot be written.
+/// An unphysical scene, or a failed file operation.
 pub fn plotted(
     plan: &Plan,
     sample: u64,
@@ -84,7 +83,6 @@ pub fn plotted(
     Ok([said].into_iter().chain(other).collect())
 }
 
-/// The requested times, ascending, without duplicates.
 fn ascending(times: &[f64]) -> Result<Vec<f64>, WorkflowError> {
     if let Some(wrong) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0)) {
         return Err(WorkflowError::Input(format!("--times: {wrong:?} must be a finite number >= 0, in seconds")));
@@ -95,7 +93,7 @@ fn ascending(times: &[f64]) -> Result<Vec<f64>, WorkflowError> {
     Ok(times)
 }
 
-/// A grid of `times` that begins at zero, as every grid does: conservation errors are relative to that point.
+/// A grid of `times` from zero on, to which conservation errors are relative.
 fn grid(times: &[f64], plan: &Plan) -> Grid {
     let mut times = times.to_vec();
     if times.first() != Some(&0.0) {
@@ -107,7 +105,7 @@ fn grid(times: &[f64], plan: &Plan) -> Grid {
     Grid::at(times)
 }
 
-/// The error that sample `sample` is not physical.
+/// The error of an unphysical sample.
 pub fn not_physical(sample: u64, errors: &[SceneError]) -> WorkflowError {
     let errors: Vec<String> = errors.iter().map(|error| format!("\n  {error}")).collect();
     WorkflowError::Input(format!("sample {sample} is not physical (its status is invalid_sample):{}", errors.concat()))

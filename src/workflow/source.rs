@@ -1,4 +1,4 @@
-//! Where plans come from: a campaign file ([`plan_and_files`]), or a result that is there ([`sound`]).
+//! Sources of plans: a campaign file ([`plan_and_files`]), or an existing result ([`sound`]).
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,15 +21,15 @@ use crate::workflow::session::Session;
 /// The plan of the campaign file `file`, as [`plan_and_files`].
 ///
 /// # Errors
-/// Where there is no such file, or it is wrong.
+/// A missing or wrong file.
 pub fn plan(file: &Path, overrides: Overrides) -> Result<Plan, WorkflowError> {
     plan_and_files(file, overrides).map(|(plan, _)| plan)
 }
 
-/// The plan of the campaign file `file`, which may be given without folder and extension, and the files that were read.
+/// The plan of the campaign file `file`, possibly without folder and extension, and the files read.
 ///
 /// # Errors
-/// Where there is no such file, or it is wrong.
+/// A missing or wrong file.
 pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesRead), WorkflowError> {
     let path = find(file).map_err(|tried| {
         if file.is_dir() {
@@ -52,10 +52,10 @@ pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesR
     Ok(Plan::load_with_files(&path, overrides)?)
 }
 
-/// The plan of the result in `store`, and the files that it was made from.
+/// The plan of the result in `store`, and its files.
 ///
 /// # Errors
-/// Where the plan is missing or wrong.
+/// A missing or wrong plan.
 pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Result<(Plan, FilesRead), WorkflowError> {
     let path = store.path(PLAN);
     let remedy = "the campaign's command with its file writes it again";
@@ -72,8 +72,7 @@ pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Resul
     })
 }
 
-/// The folder with the copies of the files of numbers of the result in `store`: its own, or a temporary one with those
-/// of an object store.
+/// The folder of the data copies of the result in `store`: its own, or a temporary one for an object store.
 fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf, WorkflowError> {
     if store.replaces() {
         return Ok(store.root().to_owned());
@@ -90,16 +89,16 @@ fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf, WorkflowE
     Ok(folder)
 }
 
-/// The `plan` of a result with the number of samples that it has, or that `[stop]` looks at next.
+/// The `plan` of a result with its number of samples, or that of the next look of `[stop]`.
 pub fn at_rows_of(plan: Plan, found: &Found) -> Plan {
     let parts = Parts::up_to(u64::MAX, found.largest_part.unwrap_or(u64::MAX));
     plan.at_look(found.rows(parts))
 }
 
-/// Claims `store` for the rows of `ensemble`: in place of another result or not, for a shard or all.
+/// Claims `store` for the rows of `ensemble`, for a shard or all, possibly replacing a result.
 ///
 /// # Errors
-/// Where something is there that must not be replaced, or a file operation fails.
+/// A result that must not be replaced, or a failed file operation.
 pub fn claimed(
     session: &Session<'_>,
     store: &Arc<dyn Store>,
@@ -110,11 +109,10 @@ pub fn claimed(
     claim(store, ensemble, options).map_err(WorkflowError::files)
 }
 
-/// The plan of the result in `store` and its parts, after every checksum was compared: for commands that read it. The
-/// file `remade` is not looked at.
+/// The plan of the result in `store` and its parts, with verified checksums except of the file `remade`.
 ///
 /// # Errors
-/// Where it is damaged, or its plan is not that of its rows; or where a file operation fails.
+/// A damaged result, a plan of other rows, or a failed file operation.
 pub fn sound(
     session: &Session<'_>,
     (store, found): (&dyn Store, &Found),
@@ -145,10 +143,10 @@ pub fn sound(
     }
 }
 
-/// Refuses a result whose rows have not the identity `expected` of its plan.
+/// Refuses a result with rows of another identity than `expected`.
 ///
 /// # Errors
-/// Where they have another.
+/// If the rows have another identity.
 pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) -> Result<(), WorkflowError> {
     let there = found.identity.as_ref().filter(|there| *there != expected);
     let Some(there) = there else { return Ok(()) };
@@ -168,10 +166,10 @@ pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) 
     Err(WorkflowError::Files(format!("{}: {why}", store.root().display())))
 }
 
-/// The files of numbers and the module of the plan, each with the name that its copy has.
+/// The data files and module of the plan, with the names of their copies.
 ///
 /// # Errors
-/// Where one has changed since the plan was made, or cannot be read.
+/// A file that has changed since, or is unreadable.
 pub(super) fn data_copies(files: &FilesRead) -> impl Iterator<Item = Result<(String, Vec<u8>), WorkflowError>> {
     files.data.iter().map(|(path, expected)| {
         let failed = |why: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {why}", path.display()));

@@ -1,14 +1,14 @@
-//! How many threads a command may ask for.
+//! The allowed number of threads.
 
 use std::num::NonZeroUsize;
 
-/// Most threads for each core. More only wait for each other, and each has its own memory.
+/// Most threads per core; more wait for each other and take memory.
 const MOST_OF_A_CORE: usize = 4;
 
-/// So many threads, where this machine can use them.
+/// `number` threads, if this machine can use them.
 ///
 /// # Errors
-/// The allowed range, where it cannot.
+/// The allowed range.
 pub fn usable(number: usize) -> Result<NonZeroUsize, String> {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let most = MOST_OF_A_CORE * cores;

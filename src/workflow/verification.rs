@@ -1,4 +1,4 @@
-//! [`verify`]: whether a result is what was written, and whether its rows are what the plan says.
+//! [`verify`]: whether a result is as written, and its rows follow from the plan.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -21,28 +21,27 @@ use crate::workflow::finishing::{Completed, Job, Made, Outputs, complete, keep, 
 use crate::workflow::session::Session;
 use crate::workflow::source::{at_rows_of, claimed, plan_in, refuse_other_rows};
 
-/// How a result was verified.
 #[derive(Clone, Debug)]
 pub struct Verified {
     pub checked: Checked,
-    /// The result, where a repair has finished it.
+    /// The result finished by a repair.
     pub completed: Option<Box<Completed>>,
 }
 
-/// What is verified of a result.
+/// Options of a verification.
 #[derive(Clone, Copy, Debug)]
 pub struct Verification {
-    /// The fraction of the parts whose rows are computed again.
+    /// Fraction of the parts to compute again.
     pub fraction: f64,
-    /// Whether damaged and missing parts, and what follows from them, are made again.
+    /// Whether to repair damaged and missing parts and derived files.
     pub repair: bool,
 }
 
-/// Compares every checksum of the result in `root`, a folder or an address, and computes some of its rows again; each
-/// problem is told. `None` where a repair was stopped.
+/// Compares all checksums of the result in `root`, a folder or address, and computes some rows again; reports each
+/// problem. `None` if a repair was stopped.
 ///
 /// # Errors
-/// Where the result is damaged and not repaired, or a file operation fails.
+/// A damaged, unrepaired result, or a failed file operation.
 pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Result<Option<Verified>, WorkflowError> {
     let shared = session.store(root)?;
     let store = &*shared;
@@ -57,7 +56,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let (found, lock) = open(store, !wanted.repair)?;
     let (plan, read) = plan_in(session, store, &found)?;
     let plan = at_rows_of(plan, &found);
-    // also without rows to compute again: the page has runs over time
+    // required even without recomputed rows, since the page has runs over time
     callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
     let ensemble = Ensemble::new(&plan, session.isa);
     let head = Head::of(&ensemble, found.largest_part);
@@ -67,7 +66,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let mut problems = found.problems(store, &examined)?;
     problems.extend(found.foreign.iter().map(|entry| format!("{entry}: not what the result has under this name")));
     let records = examined.parts;
-    // a last part of fewer samples than the plan has is made again with its further rows
+    // a shorter last part is made again with its further rows
     let planned = head.parts(plan.rows());
     let sound: Vec<Part> =
         records.iter().map(|record| record.part).filter(|part| planned.part(part.id) == Some(*part)).collect();
@@ -84,7 +83,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
         counted(chosen.len(), "part"),
         counted(rows, "row"),
     );
-    // what follows from rows that are damaged, or not all there, is made again with them
+    // files derived from damaged or missing rows are made again with them
     if let Some(manifest) = found.manifest.as_ref().filter(|_| problems.is_empty()) {
         let chosen = |samples: &[SampleId]| choice(samples, wanted.fraction);
         let check = derived_problems(session, (&shared, manifest), (&ensemble, &read), &records, &chosen)?;
@@ -94,7 +93,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
         }
         problems.extend(check.problems);
     }
-    // a repair that was interrupted has left what is sound and not finished
+    // an interrupted repair leaves a sound, unfinished result
     if problems.is_empty() && (found.is_finished || !wanted.repair) {
         let (is_finished, unchecked) = (found.is_finished, found.unchecked());
         let checked = Checked { what: checked, problems: 0, is_finished, missing, unchecked };
@@ -107,7 +106,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
         return Err(WorkflowError::Files(format!("{checked}: {problems}; {remedy}")));
     }
     if found.is_finished {
-        // without the mark, everything that follows from the rows is made again
+        // without the mark, all derived files are made again
         unfinish(store)?;
     }
     drop(lock);
@@ -127,16 +126,16 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
 }
 
-/// What makes damaged objects of a store again.
+/// Remedy for damaged objects of a store.
 const IN_A_STORE: &str = "remove what has changed, and the campaign's command with this --out puts it again";
 
-/// A fraction of `list`, evenly spread, and at least one where the fraction is above zero.
+/// An evenly spread fraction of `list`, at least one if the fraction is positive.
 fn choice<T: Copy>(list: &[T], fraction: f64) -> Vec<T> {
     let count = (list.len() as f64 * fraction).ceil() as usize;
     (0..count).map(|index| list[index * list.len() / count]).collect()
 }
 
-/// Those of the `chosen` parts whose rows, computed again, have not the bytes of their `records`.
+/// The `chosen` parts whose recomputed rows differ from their `records`.
 fn differing(
     session: &Session<'_>,
     ensemble: &Ensemble<'_>,
@@ -161,8 +160,8 @@ fn differing(
     Ok(found)
 }
 
-/// Makes damaged, missing and differing parts again, and finishes the result; the number of samples that are left where
-/// a signal stopped it.
+/// Makes damaged, missing and differing parts again, and finishes the result; returns the number of samples left by a
+/// stop.
 fn repair(
     session: &Session<'_>,
     (store, root): (&Arc<dyn Store>, &Path),
@@ -193,8 +192,7 @@ fn repair(
 mod tests {
     use super::*;
 
-    /// Law: a choice has its share of a list, rounded up, and is spread over all of it: each of as many stretches of
-    /// equal length has one, and none has two.
+    /// Law: a choice has its share of a list, rounded up, one in each of as many equal stretches.
     #[test]
     fn a_choice_is_spread_over_the_list() {
         for length in [1, 7, 10, 100, 1_001] {

@@ -1,7 +1,6 @@
-//! [`Workload`]: what a command is about to compute, write and hold in memory, estimated before it starts.
+//! [`Workload`]: estimated work, files and memory of a command.
 //!
-//! What cannot be done is refused with the numbers; what is much is done only with `--yes`. Nothing that is computed
-//! depends on an estimate.
+//! Impossible work is refused with its numbers, large work without `--yes`. No result depends on an estimate.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -22,9 +21,9 @@ use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::machine::{free_disk, free_memory};
 
-/// CPU time beyond which a command asks for `--yes`, s.
+/// Limit of CPU time without `--yes`, s.
 const LONG_S: f64 = 24.0 * 3600.0;
-/// Fraction of the free disk beyond which a command asks for `--yes`.
+/// Limit of the fraction of the free disk without `--yes`.
 const LARGE: f64 = 0.5;
 
 /// Bytes of a number in a file: random digits do not compress. A 146-column campaign of 4096 runs has 8.2
@@ -39,43 +38,42 @@ const PART: [f64; 2] = [200.0, 1000.0];
 const END: [f64; 2] = [5.5e5, 1e4];
 /// Bytes of two extremes as text, and what is said of runs without a value.
 const EXTREMES: f64 = 50.0;
-/// Memory of the program itself, bytes, and of each part: its samples, its record, and its line of the manifest.
+/// Memory of the program, bytes, and of each part: its samples, record, and manifest line.
 const PROGRAM: [f64; 2] = [3e7, 1000.0];
-/// Most memory of one thread for each observation point, bytes: of runs with debris and actuation, and what audits add.
+/// Most memory of a thread per observation point, bytes: of runs with debris and actuation, and what audits add.
 /// Measured are 1600 to 7000, and 2200 to 7300 (tests/program/commands/memory.rs).
 const POINT: [f64; 2] = [8500.0, 7500.0];
 /// Columns of a time series, of its states and of what is observed of them: at most.
 const SERIES: f64 = 80.0;
 
-/// What a command is about to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
-    /// What is done: "9 runs of small".
+    /// Description: "9 runs of small".
     what: String,
-    /// Size of the files, bytes.
+    /// Bytes of files.
     pub disk: f64,
-    /// Memory, bytes.
+    /// Bytes of memory.
     pub memory: f64,
     /// CPU time, s.
     seconds: f64,
-    /// What is supposed of a run, s.
+    /// Assumed time of a run, s.
     run_seconds: f64,
-    /// The sample whose run is out of reach by the pace of a probe: then the time is not known.
+    /// A sample out of reach at the pace of a probe, which leaves the time unknown.
     too_long: Option<SampleId>,
 }
 
-/// Most numbers in a figure, which has some 100 bytes for each.
+/// Most numbers in a figure, some 100 bytes each.
 const PLOTTED: u64 = 2_000_000;
 
-/// How many dispersed samples of `plan` a figure shows: the first ones, so that its memory is bounded.
+/// Number of first dispersed samples of `plan` in a figure, which bounds its memory.
 pub fn plotted_samples(plan: &Plan) -> u64 {
     let columns = plan.dispersions.columns().len().max(1) as u64;
     (PLOTTED / columns).min(plan.samples.saturating_sub(1))
 }
 
 impl Workload {
-    /// The first `samples` samples of the campaign of `ensemble` as far as the dataset in `store` does not have them
-    /// (`None`: it is made again from the start), or the part `shard` of that, on at most `asked` threads.
+    /// The first `samples` samples of the campaign of `ensemble` missing in `store` (`None`: all), or the share of
+    /// `shard`, on at most `asked` threads.
     pub fn of_campaign(
         (ensemble, samples): (&Ensemble<'_>, u64),
         store: Option<&dyn Store>,
@@ -100,7 +98,7 @@ impl Workload {
             Retention::Worst { count, .. } | Retention::Sample(count) => count as f64,
             Retention::None | Retention::Failed => 0.0,
         };
-        // of runs that are not counted, bands have the extremes only
+        // bands have only the extremes of uncounted runs
         let counted = (plan.last_counted().0 as f64 / samples as f64).min(1.0);
         let of_bands = bands * (counted * PART[1].min(runs / parts.max(1.0)) + (1.0 - counted) * EXTREMES);
         let of_part = PART[0] * columns + of_bands;
@@ -120,7 +118,7 @@ impl Workload {
         }
     }
 
-    /// Drawing the samples of `plan`, to a table or not, and to a plot or not.
+    /// Drawing the samples of `plan`, with a table and a plot or without.
     pub fn of_samples(plan: &Plan, has_table: bool, has_plot: bool) -> Self {
         let (samples, columns) = (plan.samples as f64, plan.dispersions.columns().len() as f64);
         // numbers of CSV have some 20 characters; those of Parquet, and those of the mass properties, have fewer
@@ -137,15 +135,15 @@ impl Workload {
         }
     }
 
-    /// The same to a table in memory.
+    /// Drawing to a table in memory.
     pub fn of_drawn_table(plan: &Plan) -> Self {
         let work = Self::of_samples(plan, false, false);
-        // number, status and masses of each, beside the values; a status takes ten bytes
+        // number, status (ten bytes) and masses besides the values
         let numbers = plan.samples as f64 * (plan.dispersions.columns().len() as f64 + 9.5);
         Workload { memory: work.memory + numbers * 8.0, ..work }
     }
 
-    /// Reference solutions of `samples` samples of the plan of `ensemble`, and the runs that are compared with them.
+    /// Reference solutions of `samples` samples of the plan of `ensemble`, and the compared runs.
     pub fn of_precision(ensemble: &Ensemble<'_>, samples: u64) -> Self {
         let plan = ensemble.plan();
         let samples = samples.min(plan.samples) as f64;
@@ -162,7 +160,7 @@ impl Workload {
         }
     }
 
-    /// The same with the CPU time of runs that were measured, where that decides.
+    /// With the measured CPU time of runs, if that decides.
     #[must_use]
     pub fn measured(self, ensemble: &Ensemble<'_>) -> Self {
         if self.seconds <= LONG_S {
@@ -172,7 +170,7 @@ impl Workload {
         let fraction = plan.audit_fraction;
         let audit = if fraction > 0.0 { AuditProbe::new(ensemble).map(|probe| probe.seconds) } else { Ok(0.0) };
         match (probe.too_long, audit) {
-            // what is supposed of a run is not what it takes: it ends early
+            // the run ends before its assumed time
             (Some(LongRun { sample, reached }), _)
                 if is_out_of_reach(plan.max_steps, reached, plan.grid.duration()) =>
             {
@@ -182,13 +180,13 @@ impl Workload {
                 let run_seconds = probe.seconds + fraction * audit;
                 Workload { seconds: self.seconds * run_seconds / self.run_seconds, ..self }
             }
-            // what is supposed of a run stays, which is more than what a probe has time for
+            // the assumed time exceeds that of a probe
             _ => self,
         }
     }
 
-    /// Refuses what the machine cannot do, and without `yes` what takes long or most of the disk of `root`. Of a shard
-    /// the time is not asked: its scheduler has a limit.
+    /// Refuses impossible work, and without `yes` long work or most of the disk of `root`; not the time of a shard,
+    /// which its scheduler limits.
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
@@ -197,7 +195,7 @@ impl Workload {
             .map_or(Ok(()), |why| Err(WorkflowError::Input(why)))
     }
 
-    /// Refuses, without `yes`, what [`Workload::check`] refuses with it or without: of a campaign that may end earlier.
+    /// Refuses without `yes`, for a campaign that may end earlier, what [`Workload::check`] always refuses.
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
@@ -210,7 +208,7 @@ impl Workload {
         }
     }
 
-    /// Why it is not done where `disk` and `memory` bytes are free, as far as that is known.
+    /// The refusal with `disk` and `memory` bytes free, if known.
     fn refusal(&self, [disk, memory]: [Option<u64>; 2], root: &Path, yes: bool, is_shard: bool) -> Option<String> {
         let size = |size: f64| if size < u64::MAX as f64 { bytes(size as u64) } else { format!("{} B", short(size)) };
         let seconds = match self.too_long {
@@ -259,8 +257,7 @@ fn time(seconds: f64) -> String {
 mod tests {
     use super::*;
 
-    /// Law: what does not fit is refused whatever is said; what takes long, or half of the disk, is refused without
-    /// `--yes`; the rest is done.
+    /// Law: impossible work is always refused; long work, or half of the disk, without `--yes`.
     #[test]
     fn what_cannot_be_done_is_refused() {
         let free = [Some(1_000_000_000), Some(2_000_000_000)];
@@ -298,7 +295,7 @@ mod tests {
                 assert!(fits, "{work:?}: {found:?}, not {says:?}");
             }
         }
-        // where the system does not say what is left, only time is asked for
+        // unknown free space: only time counts
         assert_eq!(work(1e30, 1e30, 1.0).refusal([None; 2], Path::new("r"), false, false), None);
     }
 }
