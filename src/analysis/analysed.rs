@@ -1,4 +1,4 @@
-//! [`Analysed`]: statistics, sensitivities and verdicts of a campaign, a function of its plan and files.
+//! [`Analysed`]: statistics, sensitivities and verdicts, a function of plan and files.
 
 use std::num::NonZeroUsize;
 

@@ -116,8 +116,7 @@ impl AuditTally {
 mod tests {
     use super::*;
 
-    /// Law: an estimate covers errors up to its size; a large error, bounded by half a turn, is covered by any large
-    /// estimate.
+    /// Law: an estimate covers errors up to its size.
     #[test]
     fn an_estimate_just_below_the_error_does_not_cover_it() {
         let covered = |error: f64, estimate: f64| {

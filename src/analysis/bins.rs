@@ -29,7 +29,6 @@ pub fn bins(values: &[f64], limits: &[f64]) -> (Vec<f64>, bool) {
     (moved(edges, limits, |edge, by| edge * by, |to, from| to / from), true)
 }
 
-/// Number of bars.
 fn bars(values: usize) -> usize {
     (values as f64).sqrt().ceil().clamp(BARS[0] as f64, BARS[1] as f64) as usize
 }
@@ -152,12 +151,11 @@ mod tests {
                 assert_eq!(heights.iter().sum::<f64>(), f64::from(5 * places));
             }
         }
-        // irregular values have no lattice
         let values: Vec<f64> = (0..400).map(|k| libm::sqrt(f64::from(k))).collect();
         assert_eq!(lattice(&values), None);
     }
 
-    /// Law: the number of bars is the square root of the number of values, from ten to forty; a limit among the values
+    /// Law: the square root of the number of values, from ten to forty, is the number of bars; a limit among the values
     /// is an edge on every scale, and every value is in one bar.
     #[test]
     fn bars_are_few_for_few_values_and_end_at_a_limit() {

@@ -8,7 +8,6 @@ use crate::statistics::sensitivity::{Block, saltelli_indices};
 /// (`indices_from_blocks_of_any_two_dimensions_are_covered`).
 const ENOUGH_BLOCKS: usize = 64;
 
-/// Names of the distributions of a plan, in the order of the factors of a `saltelli` design.
 fn factor_names(plan: &Plan) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for (factor, dimension) in plan.dispersions.factors().into_iter().zip(plan.dispersions.dimensions()) {

@@ -95,7 +95,6 @@ pub fn references<P: PartColumns>(
     Ok(first.into_iter().map(reference).collect())
 }
 
-/// Maximum number of rows for exact quantiles.
 pub const MOST_EXACT: u64 = 100_000;
 
 /// Whether the quantiles of `plan` come from the values themselves.

@@ -54,7 +54,7 @@ pub struct Absence {
 }
 
 impl Absence {
-    /// `lacks` tells whether a row is without; `None` for a row that does not count.
+    /// `lacks` tells whether a row is without.
     pub(super) fn of(
         lacks: [&dyn Fn(usize) -> Option<bool>; 2],
         rows: [std::ops::Range<usize>; 2],
@@ -243,7 +243,6 @@ pub fn compare(
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })
 }
 
-/// Values in the first samples; NaN for a run without a value or not `ok`.
 fn values<'o>(
     result: ResultRows<'_>,
     observed: impl Iterator<Item = &'o Observed> + Clone,

@@ -119,7 +119,6 @@ fn what_differs_is_found_by_pairs() {
     }
     println!("moved, spread, lost: pairs {:?}, other seeds {:?} of 60", counts[0], counts[1]);
     assert_eq!(counts[0], [60; 3]);
-    // symmetric runs of larger spread move apart, and not to one side
     let one = rows(200, [1; 2], 0.0, 0.0);
     let wider: Vec<[f64; 3]> = one.iter().map(|[a, b, c]| [1.05 * a, *b, *c]).collect();
     let found = comparison([&one, &wider], true);

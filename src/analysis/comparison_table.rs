@@ -4,7 +4,6 @@ use crate::analysis::comparison::{ColumnComparison, Comparison};
 use crate::analysis::outcomes::unique;
 use crate::table::Table;
 
-/// The table, in the order of the comparison.
 pub fn table(comparison: &Comparison) -> Table<'_> {
     let rows = &comparison.columns;
     let mut table = Table::of(rows);

@@ -106,7 +106,6 @@ impl TestedInput {
         self.groups.is_some()
     }
 
-    /// Occurrences of the event in each group.
     fn levels(&self, marked: &[bool]) -> Option<Vec<Level>> {
         let (groups, labels) = self.groups.as_ref()?;
         let none = Occurrence { events: 0, runs: 0 };
@@ -118,7 +117,6 @@ impl TestedInput {
         Some(levels)
     }
 
-    /// Unadjusted p-value of an influence on the spread.
     fn p_of_spread(&self, y: &TestedSpread) -> f64 {
         let rows = self.values.len();
         if let Some(levels) = y.is_other.as_ref().and_then(|is_other| self.levels(is_other)) {
@@ -178,7 +176,6 @@ struct TestedSpread {
     ranks: Vec<f64>,
     /// Rows that differ from the most frequent value, if ties are too many for ranks.
     is_other: Option<Vec<bool>>,
-    /// Number of rows that differ from the most frequent value.
     others: usize,
 }
 

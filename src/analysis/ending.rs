@@ -31,7 +31,6 @@ impl Ending {
     }
 }
 
-/// The ending of the campaign `ensemble` from its rows and bands.
 pub fn ending(
     ensemble: &Ensemble<'_>,
     reader: &RowsReader,

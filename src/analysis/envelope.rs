@@ -99,7 +99,6 @@ mod tests {
             times.iter().map(|t| (1.0 + t) * libm::sin(core::f64::consts::TAU * hertz * t)).collect::<Vec<_>>()
         };
         assert_eq!((turns(&wave(1.0)), envelope(&times, &wave(1.0))), (12, None));
-        // eighty swings with an amplitude from 1 to 7
         let [x, low, high] = envelope(&times, &wave(80.0 / 6.0)).expect("too fast");
         assert!(x.is_sorted() && x[0] == 0.0 && *x.last().unwrap() == 6.0);
         for k in 0..x.len() {
@@ -111,7 +110,6 @@ mod tests {
                 high[k]
             );
         }
-        // a turn at every point
         let aliased: Vec<f64> = (0..101).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
         assert!(envelope(&times[..101], &aliased).is_some());
         // a step with noise of a thousandth is a curve, of a tenth an area
@@ -120,7 +118,6 @@ mod tests {
         };
         assert!(envelope(&times[..101], &step(1e-3)).is_none() && envelope(&times[..101], &step(0.1)).is_some());
         assert_eq!(seen_turns(&wave(1.0)), 12);
-        // rounding noise of a constant is a line
         let constant: Vec<f64> = aliased.iter().map(|sign| 1.75e9 + 1e-3 * sign).collect();
         assert!(envelope(&times[..101], &constant).is_none() && swing(&constant) == 0.0 && swing(&aliased) == 2.0);
     }

@@ -11,7 +11,6 @@ const DRAWS: u32 = 1 << 13;
 /// Fewer distinct values than one in this many draws are discrete.
 const SHARED: usize = 8;
 
-/// Draws, ascending.
 #[derive(Clone, Debug)]
 pub struct Expected(Vec<f64>);
 
@@ -43,7 +42,6 @@ impl Expected {
         Some(Expected::of((0..u64::from(DRAWS)).map(draw).collect()))
     }
 
-    /// Of the distribution with this quantile function.
     pub fn of_quantile(quantile: impl Fn(f64) -> f64) -> Self {
         Expected::of((0..DRAWS).map(|k| quantile((f64::from(k) + 0.5) / f64::from(DRAWS))).collect())
     }

@@ -17,7 +17,6 @@ use crate::storage::rows_reader::RowsError;
 pub const MOST_ROWS: usize = 65_536;
 /// Maximum rows if it names none.
 const FEWER_ROWS: usize = 16_384;
-/// The observables, and their number of rows.
 fn wanted(plan: &Plan) -> (Vec<String>, usize) {
     let named = named(plan);
     if !named.is_empty() {
@@ -39,7 +38,6 @@ pub struct RowTable {
 }
 
 impl RowTable {
-    /// The values of an observable, if kept.
     pub(super) fn column(&self, plan: &Plan, name: &str) -> Option<&[f64]> {
         let place = FirstRows::new(plan).observed.iter().position(|one| one.quantity.name() == name)?;
         Some(&self.observables[place])
@@ -60,7 +58,6 @@ impl FirstRows {
     pub fn new(plan: &Plan) -> Self {
         let (names, most) = wanted(plan);
         let observed = Observed::named(plan, names.iter().map(String::as_str));
-        // blocks of a `saltelli` design identify inputs by position
         let (inputs, most) = match plan.design {
             Design::Saltelli(_) => (Vec::new(), MOST_ROWS),
             _ => (inputs(plan), most),
@@ -75,7 +72,6 @@ pub fn explained(plan: &Plan) -> Vec<String> {
     observed.into_iter().map(|one| one.quantity.name().to_owned()).collect()
 }
 
-/// Columns of the inputs, without derived ones.
 pub(super) fn inputs(plan: &Plan) -> Vec<String> {
     let columns = plan.dispersions.columns().iter().enumerate();
     let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());

@@ -115,7 +115,6 @@ pub struct RunningFold {
 #[derive(Debug)]
 struct Merging {
     whole: <Everything as Accumulator>::Whole,
-    /// Number of leading parts merged.
     merged: u64,
     /// Counted parts that wait for an earlier one.
     waiting: BTreeMap<u64, <Everything as Accumulator>::OfPart>,

@@ -166,7 +166,6 @@ pub fn share_interval(successes: u64, [count, lost]: [u64; 2], confidence: f64) 
     if lost == 0 { of(successes) } else { [of(successes)[0], of(successes + lost)[1]] }
 }
 
-/// The effect of `missing` values on a requirement.
 pub fn without_value(missing: &str) -> String {
     match missing {
         "1" => "1 run without a value counts as a violation".to_owned(),
@@ -193,7 +192,6 @@ pub fn of_quantile(order: &Order, asked: &AskedQuantile) -> QuantileStatistic {
     found
 }
 
-/// The number of runs that would bound the `p`-quantile.
 fn too_few(p: f64, confidence: f64) -> String {
     format!(
         "p{} with {}% confidence needs {} runs ({} for a bound on one side)",

@@ -51,7 +51,6 @@ fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[us
 }
 
 impl ResultRows<'_> {
-    /// Numbers of the first rows, fewer than planned if the campaign was stopped.
     fn first<T>(self, of: impl Fn(&PartReader) -> Result<Vec<T>, RowsError>) -> Result<Vec<T>, RowsError> {
         let mut all = Vec::new();
         for part in self.reader.first_parts(MOST_ROWS) {
@@ -71,7 +70,6 @@ impl ResultRows<'_> {
 fn shared_rows(first: &Plan, second: &Plan) -> Vec<[usize; 2]> {
     let planned = |plan: &Plan| usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_ROWS);
     let (mut row, mut other, mut shared) = (first_dispersed(first), first_dispersed(second), Vec::new());
-    // samples ascend in both
     while row < planned(first) && other < planned(second) {
         let (a, b) = (first.sample(row as u64), second.sample(other as u64));
         if a == b {
@@ -92,7 +90,6 @@ mod tests {
     use super::*;
     use crate::analysis::small_plan::small_plan;
 
-    /// Law: common dispersed samples are paired; the nominal sample is not.
     #[test]
     fn rows_of_the_same_sample_are_paired() {
         let plan = |samples: u64| small_plan(samples, "");

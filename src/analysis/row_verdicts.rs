@@ -225,7 +225,6 @@ mod tests {
         }
     }
 
-    /// Groups of runs, runs within the limit, values.
     fn counts(groups: &[(u64, u64, &[f64])]) -> RequirementRuns {
         let mut counts = RequirementRuns::new(0);
         for (runs, within, values) in groups {

@@ -164,7 +164,6 @@ impl Prepared {
         one != other && r > NOTABLE_CORRELATION && (r > CHANCE / libm::sqrt(self.rows as f64) || is_written())
     }
 
-    /// The input with the largest notable correlation with input `index`.
     fn correlated_with(&self, plan: &Plan, names: &[String], index: usize) -> Option<(String, f64)> {
         let others = (0..names.len()).filter(|other| self.is_notable(plan, names, [index, *other]));
         let r = |other: &usize| self.correlations[index][*other];
@@ -243,7 +242,6 @@ impl Prepared {
         if has_tests { found } else { found.into_iter().map(|one| one.without_intervals(false)).collect() }
     }
 
-    /// Effects on an event in the marked rows, one of `questions`.
     fn on_event(
         &self,
         plan: &Plan,

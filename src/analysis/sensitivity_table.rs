@@ -5,10 +5,8 @@ use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::statistics::correlation::Estimate;
 use crate::table::Table;
 
-/// Column, meaning, value.
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);
 
-/// Suffix of the column, meaning, value.
 type EstimatePart = (&'static str, &'static str, fn(Estimate) -> f64);
 
 const PARTS: [EstimatePart; 3] = [

@@ -311,7 +311,6 @@ fn described(
     }
 }
 
-/// The sketch of `values`, about their mean if they are close together.
 fn sketched(values: &[f64], moments: &Moments) -> Sketch {
     let range = moments.max().zip(moments.min()).map_or(0.0, |(max, min)| max - min);
     let mut sketch = Sketch::about(moments.mean().filter(|mean| range < CLOSE * mean.abs()).unwrap_or(0.0));
@@ -340,7 +339,6 @@ pub fn is_yes_or_no(moments: &Moments) -> bool {
     moments.min() == Some(0.0) && moments.max() == Some(1.0) && (mean - of_square).abs() < 1e-9 * mean
 }
 
-/// Why mean and standard deviation are uncertain.
 fn note(moments: &Moments, mean_interval: [Option<f64>; 2]) -> Option<String> {
     let skewness = moments.count().gt(&1).then(|| moments.skewness().unwrap_or(0.0))?;
     let share = moments.largest_share(2);

@@ -86,7 +86,6 @@ pub struct Survey {
 /// Column with the failure code of a mission, or 0.
 pub const FAILURE: &str = "failure";
 
-/// Whether the column `name` is a numerical error, which is small and never negative.
 fn is_error(name: &str) -> bool {
     let is_largest =
         name.contains("_max") && ["_error", "residual_", "orthonormality"].iter().any(|mark| name.contains(mark));
@@ -351,7 +350,6 @@ impl SurveyedOutcome {
     }
 }
 
-/// The largest hash of a sample in the thinned table of so many samples.
 fn most_hash(samples: u64) -> u64 {
     if samples <= THINNED {
         return u64::MAX;
@@ -388,7 +386,6 @@ mod tests {
         assert!(kept.is_sorted());
         for bit in 0..8 {
             let ones = kept.iter().filter(|index| **index >> bit & 1 == 1).count();
-            // five standard deviations of a fair coin
             assert!(ones.abs_diff(SCATTER / 2) < 112, "bit {bit}: {ones} of {SCATTER}");
         }
         assert_eq!(chosen(&samples[..10], SCATTER), (0..10).collect::<Vec<_>>());

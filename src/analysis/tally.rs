@@ -64,7 +64,6 @@ pub struct TallyColumns {
     air: Option<[(&'static str, f64); 2]>,
 }
 
-/// Columns of the minimum and maximum distance from the centre of the central body, m.
 const DISTANCES: [&str; 2] = ["orbit_distance_min_m", "orbit_distance_max_m"];
 
 #[derive(Clone, Debug)]

@@ -124,7 +124,6 @@ pub enum NoAudit {
         /// Debris, or a spacecraft without a Taylor series.
         body: &'static str,
         most: f64,
-        /// Units of time of its motion in the run.
         units: f64,
     },
 }
@@ -148,7 +147,6 @@ impl Selection {
 pub struct Auditor {
     isa: Isa,
     grid: Grid,
-    /// Limit of reference solutions in plain doubles.
     most_steps: u64,
     request: Request,
     engine: Box<dyn Engine>,

@@ -31,7 +31,6 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandLayout {
     pub series: Vec<(Quantity, Form)>,
-    /// s, ascending.
     pub times: Vec<f64>,
     /// Nominal numbers, series by series and point by point; NaN for none.
     pub nominal: Vec<f64>,
@@ -69,7 +68,6 @@ pub struct PartBands {
     /// Runs of samples up to `last_counted`.
     counted: u64,
     last_counted: SampleId,
-    /// Codes of the last runs, by run.
     recent: Vec<Code>,
     recent_runs: usize,
     /// Codes to count, by column, of up to [`PENDING`] runs.
@@ -206,7 +204,6 @@ impl RunsOfColumn {
     }
 }
 
-/// The counts of one series at one point.
 #[derive(Clone, Debug, Default)]
 struct BandColumn {
     all: RunsOfColumn,

@@ -4,7 +4,6 @@ use core::f64::consts::PI;
 
 /// Exact to rounding for motions of up to about a turn.
 const DEGREE: usize = 16;
-/// Relative rounding of a quantity.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Halvings until neighbouring numbers.
 const HALVINGS: usize = 60;
@@ -61,7 +60,6 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], wanted: Wanted, error: f64
     let series = Series::of(values);
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let allowed = (error * slope.abs()).max(ROUNDING * largest);
-    // NaN fails
     if series.tail() <= allowed {
         let middle = 0.5 * (times[0] + times[DEGREE]);
         let half = 0.5 * (times[DEGREE] - times[0]);

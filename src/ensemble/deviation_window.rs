@@ -39,7 +39,6 @@ impl<C: Copy + Default + Into<u64>> DeviationWindow<C> {
         }
     }
 
-    /// Widens the window to `code`, without zero and NaN.
     fn include(&mut self, code: usize) {
         let from = (code / OCTAVE * OCTAVE).max(usize::from(NOT_A_NUMBER) + 1);
         let to = (code / OCTAVE + 1) * OCTAVE;

@@ -186,7 +186,6 @@ mod tests {
     use super::*;
     use crate::observables::{Group, table};
 
-    /// Law: mass properties are named and measured as in rows.
     #[test]
     fn mass_properties_are_named_as_in_rows() {
         for [name, unit, _] in MASS_COLUMNS {

@@ -94,7 +94,6 @@ impl<'p> ExtremeFinder<'p> {
                 let start = event.map_or(0.0, |event| time_of(run, event)) + extreme.delay_s;
                 let end = self.ends[run];
                 let is_undefined = self.undefined[run * self.plan.extremes.len() + index] >= start;
-                // NaN is not before it
                 if start <= end && !is_undefined {
                     let places = self.places(run, index, [start, end]);
                     let search = |between| Search { run, quantity: index, wanted: (), between };

@@ -112,7 +112,6 @@ fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Paramete
     (run.outcome.status != Status::StepLimit).then(|| run.row.iter().map(|value| value.to_bits()).collect())
 }
 
-/// Samples with the largest or smallest value of a column of `parameter`, other than nominal.
 fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Vec<Vec<f64>> {
     let own = plan.dispersions.columns().iter().zip(&drawn.columns).filter(|(column, _)| column.parameter == parameter);
     let extremes = own.flat_map(|(column, values)| {
@@ -126,7 +125,6 @@ fn extreme_samples(plan: &Plan, drawn: &DrawnScenes, parameter: Parameter) -> Ve
     samples.into_iter().map(|sample| drawn.columns.iter().map(|values| values[sample]).collect()).collect()
 }
 
-/// The parameter's name, or those of its dispersed components.
 fn dispersed_name(plan: &Plan, parameter: Parameter) -> String {
     let columns = plan.dispersions.columns().iter().filter(|column| column.parameter == parameter);
     let names: Vec<String> = columns.map(|column| parameter.component_name(column.component)).collect();

@@ -30,7 +30,6 @@ struct WatchedQuantity {
     changes_at_ticks: bool,
 }
 
-/// Query for a quantity of a run at `times`, s.
 #[derive(Clone, Debug)]
 struct Query {
     run: usize,
@@ -43,7 +42,6 @@ const MOST_FLIGHTS: usize = 24;
 /// Limits of a search's relative error, which is that of the integration within them.
 pub(super) const ERRORS: [f64; 2] = [1e-13, 1e-9];
 
-/// A search in quantity `quantity` of run `run` between two times, s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Search<T> {
     pub run: usize,
@@ -103,7 +101,6 @@ impl PointValues<'_> {
             [change(ROUNDING_OF_VARIABLES * size), change(-ROUNDING_OF_VARIABLES * size)]
         };
         let changes = (0..variables.len()).map(moved).chain([[ROUNDING_OF_VARIABLES * value.abs(); 2]]);
-        // infinite changes, at an end of the expression's domain, are no rounding
         changes.map(|both| both.into_iter().filter(|change| change.is_finite()).fold(0.0, f64::max)).sum()
     }
 
@@ -212,7 +209,6 @@ impl<'p> Lookup<'p> {
         searches
     }
 
-    /// Flies `runs` again with points at the times of `queries`.
     fn fly_again(
         &self,
         runs: &[usize],

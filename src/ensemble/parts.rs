@@ -140,7 +140,6 @@ mod tests {
 
     const NUMBERS: [u64; 11] = [0, 1, 255, 256, 257, 4096, 4097, 100_000, 1_000_000, 1_000_003, 5_000_000];
 
-    /// Law: every sample is in exactly one part, in order, and sizes are within bounds.
     #[test]
     fn parts_tile_the_samples() {
         for (samples, largest) in
@@ -161,7 +160,6 @@ mod tests {
         }
     }
 
-    /// Law: boundaries do not depend on the number of samples.
     #[test]
     fn boundaries_do_not_depend_on_the_number_of_samples() {
         for largest in [LARGEST, 1000, 7] {

@@ -5,7 +5,6 @@ use super::crossing::{ROUNDING, Series};
 
 /// Samples of the polynomial, several between extremes.
 const SAMPLES: usize = 128;
-/// Golden-section steps, to rounding.
 const DIVISIONS: usize = 80;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -26,7 +25,6 @@ pub(super) fn of_curve(times: &[f64], values: &[f64], error: f64) -> Peak {
     }
     let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
     let series = Series::of(values);
-    // NaN fails
     if series.tail() <= error.max(ROUNDING) * size {
         let place = peak(&series);
         if series.value(place) <= largest + ROUNDING * size {

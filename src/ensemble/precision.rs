@@ -282,7 +282,6 @@ struct Pass {
     momentum: Sum,
 }
 
-/// A maximum and a mean square, both NaN after a NaN.
 #[derive(Default)]
 struct Sum {
     max: f64,

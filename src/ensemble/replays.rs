@@ -45,7 +45,6 @@ pub fn replayed(
     flown.filter_map(|(sample, run)| Some((sample, run.ok()?))).collect()
 }
 
-/// The campaign's grid, divided where it is coarse or the motion fast.
 fn grid(plan: &Plan, isa: Isa) -> Grid {
     let given = plan.grid.points().saturating_sub(1).max(1);
     // phases of a mission are short: as many as possible

@@ -188,7 +188,6 @@ mod tests {
     use super::*;
     use crate::ensemble::parts::PartId;
 
-    /// Law: infinite values are absent in memory as in files.
     #[test]
     fn infinite_values_are_absent() {
         let mut rows = Rows::new(Shape { parameters: 1, observables: 2 }, 1);

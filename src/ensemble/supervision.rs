@@ -94,7 +94,6 @@ mod tests {
         assert_eq!(reports(100, &[1; 90]), [100]);
         assert_eq!(reports(6, &[REPORTED_AFTER / 2; 4]), [2, 2, 2]);
         assert_eq!(reports(0, &[]), [0; 0]);
-        // a run that is repeated after a panic
         assert_eq!(reports(2, &[u64::MAX; 3]), [1, 1]);
     }
 }

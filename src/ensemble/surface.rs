@@ -17,7 +17,6 @@ use crate::scene::{Orbit, Scene};
 
 /// Sixteenfold refinements: five hours become a third of a second.
 const LEVELS: usize = 4;
-/// Most narrowings, at a corner of the motion.
 const NARROWINGS: usize = 24;
 /// Relative error of the time, as of an event at a tolerance of 1e-9.
 const ERROR: f64 = 1e-9;
@@ -55,7 +54,6 @@ impl Place {
     }
 }
 
-/// Accumulated velocity change by thrusters.
 struct Pushes(Vec<[f64; 2]>);
 
 impl Pushes {

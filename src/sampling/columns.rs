@@ -21,7 +21,7 @@ impl Columns {
         self.0.iter().position(|column| (column.parameter, column.component) == (parameter, component))
     }
 
-    /// The index of a component, which is added if it is not there.
+    /// The index of a component, added if absent.
     pub fn add(&mut self, parameter: Parameter, component: usize, nominal: &SceneInput) -> usize {
         self.find((parameter, component)).unwrap_or_else(|| {
             let nominal = parameter.value(nominal, component).unwrap_or(f64::NAN);

@@ -117,7 +117,6 @@ fn combined(a: &Matrix, b: &Matrix, factor: f64) -> Matrix {
     a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + factor * b).collect()).collect()
 }
 
-/// Without the negative eigenvalues.
 fn semidefinite_part(matrix: &Matrix) -> Matrix {
     let (values, vectors) = eigen(matrix);
     let n = matrix.len();

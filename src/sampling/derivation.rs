@@ -52,7 +52,7 @@ impl Derived {
     }
 }
 
-/// Relative difference between the expression in the nominal scene and the nominal value.
+/// Relative tolerance of nominal values.
 const NOMINAL_SLACK: f64 = 1e-9;
 
 /// A component that waits for its inputs, each with its nominal value.

@@ -165,7 +165,7 @@ impl Expression {
         most
     }
 
-    /// What `of` makes of the whole, step by step: of a step and what it made of the operands.
+    /// Evaluates the steps on a stack: `of` combines a step with its operands.
     fn fold<T>(&self, mut of: impl FnMut(&Step, &[T]) -> T) -> Option<T> {
         let mut stack: Vec<T> = Vec::new();
         for step in &self.steps {
@@ -415,7 +415,6 @@ mod tests {
             ("sin(pi / 2) + cos(0) + atan2(0, 1)", 2.0),
             ("ln(exp(2)) + log10(1000)", 5.0),
         ] {
-            // an ulp or two of the functions; none is measured
             assert!((value(text) - expected).abs() < 1e-15, "{text} = {}", value(text));
         }
         assert_eq!(Expression::parse("x.y + z[0] + x.y").map(|e| e.variables), Ok(vec!["x.y".into(), "z[0]".into()]));

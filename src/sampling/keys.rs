@@ -359,7 +359,6 @@ pub struct DataColumn {
 }
 
 impl DataColumn {
-    /// The name of its number.
     pub fn target_name(&self) -> String {
         self.target.map_or_else(|| self.column.clone(), |(parameter, component)| parameter.component_name(component))
     }

@@ -13,7 +13,6 @@ use super::distribution::Distribution;
 use crate::math::normal::quantile;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
-/// The grade of a value as a function of its normal score.
 #[derive(Clone, Debug, PartialEq)]
 enum Grades {
     Continuous,
@@ -27,7 +26,6 @@ const FINEST: f64 = 1.0 / 64.0;
 const INTERVALS: u32 = 128;
 /// Ten are usual.
 const MOST_STEPS: u32 = 60;
-/// Tolerance of the rank correlation.
 const NEAR: f64 = 1e-9;
 
 impl Grades {
@@ -66,7 +64,6 @@ impl Grades {
     }
 }
 
-/// The covariance of the grades for r = `sign`, 1 or -1.
 fn extreme_covariance(a: &Grades, b: &Grades, sign: f64) -> f64 {
     let half = |steps: &[[f64; 3]]| 0.5 * sign * steps.iter().map(|[p, _, d]| d * p * (1.0 - p)).sum::<f64>();
     match (a, b) {
@@ -177,8 +174,8 @@ mod tests {
         covariance(&a, &b, libm::asin(r)) / (a.deviation() * b.deviation())
     }
 
-    /// Known: the density of Plackett integrated in closed form for continuous distributions, and mpmath's bivariate
-    /// normal probabilities (double integrals, 30 digits) for steps.
+    /// Truth: Plackett's density integrated in closed form for continuous distributions, and mpmath's bivariate normal
+    /// probabilities (30 digits) for steps.
     #[test]
     fn rank_correlations_are_known_ones() {
         let normal = Distribution::Normal(Normal { mean: 0.0, std: 1.0 });

@@ -97,7 +97,6 @@ impl Sampler<'_> {
         self.read_back(scene, applied);
     }
 
-    /// Records normalised parameters as in `scene`.
     fn read_back(&self, scene: &SceneInput, applied: &mut [f64]) {
         for parameter in &self.normalised {
             let columns = self.dispersions.columns().iter();

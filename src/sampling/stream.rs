@@ -147,13 +147,11 @@ mod tests {
 
     #[test]
     fn the_hash_gives_the_published_values() {
-        // FNV-1a 128 of "" and "a" (the authors' test values)
         assert_eq!(fnv1a(""), FNV_BASIS);
         assert_eq!(fnv1a("a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
     }
 
-    /// Law: a number depends on seed, name, sample and tick alone, not on the order of reading; each of the four
-    /// changes it.
+    /// Law: a number depends on seed, name, sample and tick alone, not on the order of reading.
     #[test]
     fn numbers_depend_on_their_address_alone() {
         let mut noise = Noise::new(1, "gyro", SampleId(7));

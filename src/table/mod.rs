@@ -27,7 +27,6 @@ pub enum Content {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Name, unit and meaning.
     pub quantity: Quantity,
     pub content: Content,
     /// Whether values may be absent.

@@ -47,7 +47,6 @@ pub struct Text<'t> {
     /// Number of lines of heads.
     heads: usize,
     least: Vec<usize>,
-    /// Spaces before each line, and between columns.
     gaps: [usize; 2],
 }
 
@@ -91,12 +90,10 @@ impl<'t> Text<'t> {
         self
     }
 
-    /// Full width of a column.
     fn widest(&self, column: usize) -> usize {
         self.rows.iter().map(|row| letters(&row[column])).fold(self.least[column], usize::max)
     }
 
-    /// Line width for these column widths.
     fn used(&self, widths: &[usize]) -> usize {
         let [before, between] = self.gaps;
         before + widths.iter().sum::<usize>() + between * widths.len().saturating_sub(1)
@@ -143,7 +140,6 @@ impl<'t> Text<'t> {
         starts
     }
 
-    /// The text of each row.
     fn blocks(&self, width: usize) -> Vec<String> {
         let [before, between] = self.gaps;
         let has_sentences = self.aligns.last() == Some(&Align::Sentence);
@@ -258,7 +254,6 @@ mod tests {
         assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
     }
 
-    /// Law: rows shown one by one align as in the whole table.
     #[test]
     fn single_lines_are_those_of_the_table() {
         let new = || Table::with([("a", Align::Left), ("b", Align::Right)]);

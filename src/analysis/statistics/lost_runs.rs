@@ -6,7 +6,6 @@ use crate::analysis::small_plan::small_plan;
 use crate::sampling::{SampleId, Stream};
 use crate::statistics::binomial::at_least;
 
-/// Uniform numbers in (0, 1).
 struct Uniform(Stream, u64);
 
 impl Uniform {
@@ -45,7 +44,6 @@ fn bounded_plan(more: &str) -> Plan {
 
 const CAMPAIGNS: u64 = 300;
 const RUNS: usize = 200;
-/// Probability of a false alarm of each law.
 const ALPHA: f64 = 1e-3;
 
 /// H0: a 95% interval of a quantile or of the mean covers the truth in at least 95% of campaigns of 200 runs, uniform
@@ -115,7 +113,6 @@ fn replicates_have_the_hull_too() {
     let [low, high] = [filled(0.0), filled(2.0)];
     for (place, one) in found.quantiles.iter().enumerate() {
         let ends = [low.quantiles[place].interval[0], high.quantiles[place].interval[1]];
-        // filled-in values are no bound
         let known = [ends[0].filter(|end| *end > 0.0), ends[1].filter(|end| *end < 2.0)];
         assert_eq!(one.interval, known, "{}", one.p);
     }

@@ -252,7 +252,6 @@ pub fn unknown_orbit(looked: &Looked<'_>, _: f64, note: &mut Note<'_>) {
     note(size, what);
 }
 
-/// Attitude of the local orbital frame at the start, and mean motion, rad/s.
 fn flown(orbit: &OrbitInput) -> ([f64; 4], f64) {
     let Orbit { mu, position, velocity, .. } = Orbit::of(orbit);
     let inverse_axis = 2.0 / norm(position) - dot(velocity, velocity) / mu;

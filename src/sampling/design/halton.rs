@@ -73,7 +73,6 @@ impl Radix {
         u64::from(self.permutations[digit * self.base as usize + value as usize])
     }
 
-    /// The middle of the cell of a point.
     fn number(&self, point: u64) -> f64 {
         let (mut cell, mut rest, mut digit) = (0, point, 0);
         while rest != 0 && digit < self.weights.len() {

@@ -20,7 +20,6 @@ pub const REPLICATES: Row = Row::new(
     "Number of designs of this kind, each scrambled independently; default: 1",
 );
 
-/// The number of replicates.
 pub(super) fn count(written: &Written) -> u64 {
     written.count(REPLICATES.key).unwrap_or(1)
 }
@@ -70,7 +69,6 @@ pub trait Sequence: Debug {
     fn number(&self, dimension: usize, point: u64) -> f64;
 }
 
-/// Replicates of a scrambled sequence.
 #[derive(Debug)]
 pub struct Replicated<S>(Vec<S>);
 

@@ -18,12 +18,10 @@ use crate::sampling::error::DispersionError;
 use crate::sampling::keys::Written;
 use crate::sampling::stream::key;
 
-/// The points of the blocks.
 #[derive(Clone, Debug)]
 pub struct Saltelli {
     /// The sequence of each dimension, and the key of its order.
     sequences: Vec<(Sobol, u64)>,
-    /// The distribution of each dimension.
     factors: Vec<usize>,
     members: u64,
 }

@@ -128,7 +128,6 @@ pub fn bound(dimensions: usize, points: u64) -> Option<[usize; 3]> {
     None
 }
 
-/// Nested uniform scrambling of a binary fraction.
 fn scrambled(bits: u64, key: u64) -> u64 {
     let mut flips = keyed(key, bits >> NESTED) >> NESTED;
     for level in 0..NESTED {
@@ -140,7 +139,6 @@ fn scrambled(bits: u64, key: u64) -> u64 {
     bits ^ flips
 }
 
-/// Separates the key of the nodes from that of the bits below them.
 const NODES: u64 = 0x6e6f_6465_735f_6f66;
 
 #[cfg(test)]

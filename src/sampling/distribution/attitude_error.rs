@@ -144,7 +144,6 @@ mod tests {
         let l = factor(m).expect("positive definite");
         for i in 0..3 {
             for j in 0..3 {
-                // a rounding for each of three products; none is measured
                 assert!((dot(l[i], l[j]) - m[i][j]).abs() < 1e-15);
             }
         }

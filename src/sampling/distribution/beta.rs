@@ -30,7 +30,6 @@ impl Scalar for Beta {
     }
 }
 
-/// A beta distribution from `min` to `max`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beta {
     alpha: f64,

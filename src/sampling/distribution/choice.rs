@@ -30,7 +30,6 @@ impl Choice {
 const LISTED: usize = 4;
 
 impl Choice {
-    /// Different values with their probabilities.
     fn shares(&self) -> Vec<(f64, f64)> {
         let mut shares: Vec<(f64, f64)> = Vec::new();
         let mut before = 0.0;

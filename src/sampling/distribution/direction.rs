@@ -196,7 +196,6 @@ impl<Q: Nested, S: Spread> Map for Direction<Q, S> {
     }
 }
 
-/// The length of a vector whose square may overflow or vanish.
 fn length_of(vector: [f64; 3]) -> f64 {
     let largest = vector.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
     if largest == 0.0 || (1e-150..1e150).contains(&largest) {

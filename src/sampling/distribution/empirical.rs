@@ -21,7 +21,6 @@ pub struct Empirical {
 }
 
 impl Empirical {
-    /// At least one value.
     pub fn new(values: &[f64], interpolation: Interpolation) -> Self {
         let mut values = values.to_vec();
         values.sort_by(f64::total_cmp);

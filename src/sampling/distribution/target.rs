@@ -137,7 +137,6 @@ impl Target<'_> {
         }
     }
 
-    /// A missing key.
     pub(super) fn lacks<T>(
         &self,
         key: &'static str,
@@ -147,7 +146,6 @@ impl Target<'_> {
         Err(DispersionError { value: None, ..error(self.index, key, "", allowed, remedy) })
     }
 
-    /// The nominal value of a whole attitude.
     pub(super) fn attitude(&self, distribution: &str) -> Result<[f64; 4], DispersionError> {
         match <[f64; 4]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && self.parameter.shape() == Shape::Quaternion => Ok(nominal),
@@ -155,7 +153,6 @@ impl Target<'_> {
         }
     }
 
-    /// The nominal value of a whole vector.
     pub(super) fn vector(&self, distribution: &str) -> Result<[f64; 3], DispersionError> {
         let parameter = self.parameter;
         let is_vector = parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"];

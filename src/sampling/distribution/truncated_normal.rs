@@ -13,7 +13,6 @@ const fn sigmas(key: &'static str, meaning: &'static str) -> Row {
     Row::values(key, meaning).within("> 0", "3 cuts off 0.27% of the normal distribution", above(0.0))
 }
 
-/// The key in messages.
 fn cut_key(written: &Written) -> &'static str {
     ["sigmas"].into_iter().chain(BOTH_KEYS).find(|key| written.has(key)).unwrap_or("lower")
 }
