@@ -29,7 +29,6 @@ impl Default for ArcRecord {
 }
 
 impl ArcRecord {
-    /// Removes all arcs and keeps the memory.
     pub fn clear(&mut self) {
         self.words.clear();
         (self.count, self.last) = (0, START);
@@ -50,33 +49,27 @@ impl ArcRecord {
         self.count += 1;
     }
 
-    /// Number of arcs.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// True if there are no arcs.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// The last arc.
     pub fn last(&self) -> Option<&Arc> {
         (self.count > 0).then_some(&self.last)
     }
 
-    /// A reader that lends the arcs in order.
     pub fn reader(&self) -> ArcReader<'_> {
         ArcReader { words: self.words.iter(), arc: START }
     }
 
-    /// The arcs in order.
     pub fn iter(&self) -> impl Iterator<Item = Arc> + '_ {
         let mut reader = self.reader();
         std::iter::from_fn(move || reader.next().copied())
     }
 
-    /// Copies of the arcs in order.
     pub fn to_vec(&self) -> Vec<Arc> {
         self.iter().collect()
     }
@@ -90,8 +83,6 @@ pub struct ArcReader<'a> {
 }
 
 impl ArcReader<'_> {
-    /// The next arc; `None` after the last.
-    #[expect(clippy::should_implement_trait, reason = "an iterator could not lend what it has")]
     pub fn next(&mut self) -> Option<&Arc> {
         let arc = &mut self.arc;
         let mut changed = *self.words.next()?;
@@ -114,7 +105,7 @@ impl Extend<Arc> for ArcRecord {
     }
 }
 
-/// Appends the numbers of `new` that differ from `last`, bit for bit, updates `last` and returns their mask.
+/// Appends the numbers of `new` with other bits than in `last`, updates `last` and returns their mask.
 #[inline]
 fn record<const K: usize>(words: &mut Vec<u64>, last: &mut [f64; K], new: &[f64; K]) -> u64 {
     // mostly nothing changes: one test of the whole array

@@ -22,7 +22,7 @@ pub fn is_isotropic(body: &Body) -> bool {
     diagonal && j[0][1] == 0.0 && j[0][2] == 0.0 && j[1][2] == 0.0
 }
 
-/// Errors of [`complete_isotropic`]: half a unit in the last place of the rate, a few roundings of the attitude.
+/// Errors of [`complete_isotropic`]:
 pub const ISOTROPIC_ERRORS: LocalErrors =
     LocalErrors { rounding: 0.5 * f64::EPSILON, attitude: 2.0 * f64::EPSILON, ..LocalErrors::NONE };
 

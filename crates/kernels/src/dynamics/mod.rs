@@ -1,8 +1,8 @@
 //! Layer 2: equations of motion and the forces and torques in them; generic over [`crate::math::Real`] for speed.
 
 pub mod actuation;
-pub mod applied;
-pub mod arc_record;
+pub(crate) mod applied;
+pub(crate) mod arc_record;
 pub mod debris;
 pub mod earth_rotation;
 pub mod effects;
@@ -11,17 +11,16 @@ pub mod gravity;
 pub mod gyrostat;
 pub mod magnetic_field;
 pub mod null_space;
-pub mod offset_series;
+pub(crate) mod offset_series;
 pub mod orbit;
-pub mod orbit_in_body;
+pub(crate) mod orbit_in_body;
 pub mod orbit_path;
-pub mod orbit_series;
+pub(crate) mod orbit_series;
 pub mod orbit_state;
 pub mod relative_orbit;
 
 use crate::math::Real;
 
-/// Copies `values` into lane `lane`.
 #[inline(always)]
 pub(crate) fn set_lanes<R: Real, const K: usize>(lanes: &mut [R; K], lane: usize, values: &[f64; K]) {
     for (own, value) in lanes.iter_mut().zip(values) {
@@ -29,7 +28,6 @@ pub(crate) fn set_lanes<R: Real, const K: usize>(lanes: &mut [R; K], lane: usize
     }
 }
 
-/// The numbers of lane `lane`.
 #[inline(always)]
 pub(crate) fn lane_of<R: Real, const K: usize>(lanes: &[R; K], lane: usize) -> [f64; K] {
     let mut values = [0.0; K];

@@ -9,7 +9,6 @@ use crate::math::vector::{scaled, sum};
 /// Coefficients of the offset and its products in one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct OffsetSeries<R> {
-    /// The reference orbit.
     orbit: OrbitSeries<R>,
     /// d, F_e, m.
     offset: Vec<[R; 3]>,
@@ -27,7 +26,6 @@ pub struct OffsetSeries<R> {
     flattened: Flattened<R>,
 }
 
-/// Coefficients of the oblateness terms.
 #[derive(Clone, Debug)]
 struct Flattened<R> {
     /// Powers -5/2 and -7/2 of 1 + q.
@@ -47,7 +45,6 @@ struct Flattened<R> {
 }
 
 impl<R: Real> OffsetSeries<R> {
-    /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         let vectors = vec![[zero; 3]; order + 1];
         let numbers = vec![zero; order + 1];
@@ -111,13 +108,11 @@ impl<R: Real> OffsetSeries<R> {
         tide
     }
 
-    /// The reference orbit.
     #[inline(always)]
     pub fn orbit(&self) -> &OrbitSeries<R> {
         &self.orbit
     }
 
-    /// The coefficients of r, m.
     #[inline(always)]
     pub fn place(&self) -> &[[R; 3]] {
         &self.place

@@ -231,8 +231,8 @@ mod tests {
         Orbit { mu: MU, position: [radius, 0.0, 0.0], velocity, body_radius: 0.0, j2: None, epoch: None }
     }
 
-    /// Law: energy and angular momentum are constant, |r| is the distance, and the state repeats after one period; from
-    /// circles to an eccentricity of 0.98.
+    /// Law: energy and angular momentum are constant, and the state repeats after a period, up to an eccentricity of
+    /// 0.98.
     #[test]
     fn the_constants_of_the_orbit_are_constant() {
         for (speed, radial) in

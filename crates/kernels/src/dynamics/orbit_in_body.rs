@@ -14,7 +14,6 @@ use super::orbit_series::next_of_power;
 use crate::math::Real;
 use crate::math::vector::{conjugate, dcm_from_quaternion, dot, hamilton, scaled, transposed_product};
 
-/// Coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]
 pub struct OrbitInBody<R> {
     /// r, B, m.
@@ -32,7 +31,6 @@ pub struct OrbitInBody<R> {
 }
 
 impl<R: Real> OrbitInBody<R> {
-    /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         let (vectors, numbers) = (vec![[zero; 3]; order + 1], vec![zero; order + 1]);
         OrbitInBody {

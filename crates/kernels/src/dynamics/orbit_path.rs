@@ -40,7 +40,7 @@ type Steps = [OnceLock<Box<[Step]>>; MOST_BLOCKS];
 
 #[derive(Clone, Debug)]
 struct Step {
-    /// Start as a sum of two numbers, and length, s.
+    /// Start, the sum of two numbers, and length, s.
     time: [f64; 2],
     length: f64,
     /// Coefficients of the position, F_e, m, in s.
@@ -130,7 +130,6 @@ impl OrbitPath {
     }
 }
 
-/// Uncomputed steps of a path that starts on `start`; `None` if it has a closed form.
 fn no_steps(start: &KeplerOrbit<f64>) -> Option<Arc<Steps>> {
     start.gravity().oblateness.map(|_| Arc::new([const { OnceLock::new() }; MOST_BLOCKS]))
 }
@@ -160,7 +159,6 @@ impl Step {
         end_of_step(&self.coefficients, self.low, self.time, self.length)
     }
 
-    /// Time since its start, s.
     fn within(&self, [time, low]: [f64; 2]) -> f64 {
         (time - self.time[0]) + (low - self.time[1])
     }

@@ -26,10 +26,8 @@ pub struct OrbitSeries<R> {
     flattened: Flattened<R>,
 }
 
-/// Coefficients of the oblateness terms.
 #[derive(Clone, Debug)]
 pub struct Flattened<R> {
-    /// f.
     pub five: Vec<R>,
     /// g.
     pub seven: Vec<R>,
@@ -40,7 +38,6 @@ pub struct Flattened<R> {
 }
 
 impl<R: Real> OrbitSeries<R> {
-    /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         let numbers = || vec![zero; order + 1];
         OrbitSeries {
@@ -86,7 +83,6 @@ impl<R: Real> OrbitSeries<R> {
         }
     }
 
-    /// The gravity of the central body, per unit squared.
     #[inline(always)]
     pub fn gravity(&self) -> Gravity<R> {
         self.gravity
@@ -98,7 +94,6 @@ impl<R: Real> OrbitSeries<R> {
         &self.flattened
     }
 
-    /// The coefficients of r, m.
     #[inline(always)]
     pub fn position(&self) -> &[[R; 3]] {
         &self.position
@@ -117,7 +112,6 @@ impl<R: Real> OrbitSeries<R> {
         &self.pull
     }
 
-    /// The coefficients of rho, m^2.
     #[inline(always)]
     pub fn square(&self) -> &[R] {
         &self.square

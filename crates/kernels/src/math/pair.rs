@@ -36,7 +36,6 @@ impl<R: Real> Neg for Pair<R> {
     }
 }
 
-/// Masks of a [`Pair`].
 #[derive(Clone, Copy, Debug)]
 pub struct PairMask<M>(M, M);
 

@@ -3,7 +3,6 @@
 /// A probability and its complement, each with its own relative accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probability {
-    /// P.
     pub lower: f64,
     /// 1 - P.
     pub upper: f64,

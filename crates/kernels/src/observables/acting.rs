@@ -43,7 +43,6 @@ impl<'a> Acting<'a> {
         Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }
 
-    /// The arcs flown by a run of `scene`.
     pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
         Acting { scene, arcs: Arcs::Flown(arcs) }
     }
@@ -106,7 +105,6 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Bound in `arc`, in addition to `effects`.
     fn torque(&self, arc: &Arc, effects: f64) -> f64 {
         let applied = &arc.applied;
         let thrust = self.scene.thruster_torque_s(applied.thrust);

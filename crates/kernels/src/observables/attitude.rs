@@ -1,5 +1,3 @@
-//! Attitude from the DCM or quaternion of a kernel, and its series.
-
 use fearless_simd::Simd;
 
 use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, three};

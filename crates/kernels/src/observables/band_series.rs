@@ -18,7 +18,7 @@ pub enum Form {
     HalfTangent,
 }
 
-/// Stands for the tangent of a right angle; its square is finite.
+/// Stands for the tangent of a right angle.
 const VERTICAL: f64 = 1e100;
 
 impl Form {
@@ -57,7 +57,7 @@ pub struct BandSeries {
     pub form: Form,
 }
 
-/// The series that has bands even if no column needs it: |omega|.
+/// The series that has bands even if no column needs it:
 const OWN: Series = Series::RateSquare;
 
 /// Quantities with bands in runs of `request`: conservation errors, energy of each body, energy transfer, angles,

@@ -61,29 +61,23 @@ const LEAST: f64 = 1e-17;
 /// Component along each of three axes of a unit error in a random direction: 1/sqrt(3).
 const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 
-/// Safety factor: with 1 the estimate is below the true error in up to half of the runs of a family of
-/// `tests/accuracy/error_estimate.rs` (mostly by a third), with 2 in less than one of twenty.
+/// Safety factor:
 const SAFETY: f64 = 2.0;
 
 /// Half a turn: nothing is known.
 const LOST: f64 = core::f64::consts::PI;
 
-/// Relative rounding of the energy of a state and of |H|^2.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
-/// Relative rounding of a wheel's momentum.
 const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// Factor on the rounding of a component by a change to principal axes.
 const TURNED: f64 = 4.0;
 
-/// The states of a run and the method's estimates of their errors.
 #[derive(Clone, Copy)]
 pub(super) struct ObservedStates<'a> {
     pub(super) table: &'a StateTable,
-    /// Times of the points of the table, s.
     pub(super) times: &'a [f64],
-    /// Number of points with states, at least one.
     pub(super) filled: usize,
     pub(super) local: &'a LocalErrors,
 }
@@ -106,7 +100,6 @@ impl ErrorEstimate {
 #[derive(Clone, Debug)]
 pub(super) struct Conditioning {
     times: [f64; MOST_POINTS],
-    /// Reference rate of errors of omega, rad/s.
     scale: f64,
     /// |H|, N m s.
     momentum: [f64; MOST_POINTS],
@@ -155,7 +148,6 @@ impl Conditioning {
         }
     }
 
-    /// Estimate for a run under `acting`.
     #[inline(always)]
     pub(super) fn estimate<S: Simd>(
         &mut self,
@@ -181,7 +173,6 @@ impl Conditioning {
         ErrorEstimate { error: lesser(followed * made, LOST).larger(found.error), amplification }
     }
 
-    /// Estimate for debris of this inertia.
     #[inline(always)]
     pub(super) fn estimate_debris<S: Simd>(
         &mut self,
@@ -475,7 +466,6 @@ impl Conditioning {
             row[i] -= mu;
             size = size.larger(dot(*row, *row).sqrt());
         }
-        // eta' = H x (A - mu) eta across H, with the determinant of A - mu restricted to this plane
         let square = -h * h * dot(axis, product(adjugate(a), axis));
         let drift = h * size * duration;
         let growth = if square > 0.0 {

@@ -98,7 +98,6 @@ impl<S: Simd> BodyConstants<S> {
 #[derive(Clone, Copy)]
 struct WheelConstants<S: Simd> {
     body: BodyConstants<S>,
-    /// a_i.
     axis: [Lanes<S>; 3],
     /// J_i.
     axial: Lanes<S>,
@@ -106,7 +105,6 @@ struct WheelConstants<S: Simd> {
 
 struct Constants<S: Simd, const W: usize> {
     body: BodyConstants<S>,
-    /// One entry per wheel.
     wheels: [WheelConstants<S>; W],
     /// m / 2.
     half_total: Lanes<S>,
@@ -146,7 +144,6 @@ fn load<S: Simd>(simd: S, column: Column<'_>, at: usize) -> Lanes<S> {
     Lanes::load(simd, &column[at])
 }
 
-/// Kinetic energies of redundant states.
 struct Redundant<'a, const W: usize> {
     body: Column<'a>,
     wheels: [Column<'a>; W],
@@ -189,7 +186,6 @@ pub(super) fn energies<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut Series
     }
 }
 
-/// [`energies`] with arrays for `W` wheels.
 #[inline(always)]
 fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let MeasuredRun { observed, debris, table, .. } = *run;

@@ -5,7 +5,6 @@ use crate::math::Real;
 /// Accumulated errors of one kind.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sums {
-    /// Along H.
     along: f64,
     /// |w| Y.
     across: f64,
@@ -15,11 +14,9 @@ pub(super) struct Sums {
     shift: f64,
     /// Rotation about L, without the shift.
     about: f64,
-    /// Largest error so far.
     pub(super) most: f64,
 }
 
-/// Operands at a point.
 #[derive(Clone, Copy)]
 pub(super) struct Here {
     /// Time since the previous point and since the start, s.
@@ -50,7 +47,6 @@ impl Sums {
         self.record(at, along + sideways + self.shift * at.h * at.w);
     }
 
-    /// Records an error of magnitude `total`.
     #[inline(always)]
     fn record(&mut self, at: &Here, total: f64) {
         // across L: bounded since L is constant, and by the integral of the error of the rate

@@ -15,9 +15,7 @@ pub(super) struct FinishedRun<'a> {
     pub(super) table: &'a StateTable,
     pub(super) outcome: &'a Outcome,
     pub(super) time_reached: f64,
-    /// Points reached.
     pub(super) filled: usize,
-    /// Times of the points, s.
     pub(super) times: &'a [f64],
     /// Last point with finite rotational states; `None` if the final state is not observed.
     pub(super) final_point: Option<usize>,
@@ -25,7 +23,6 @@ pub(super) struct FinishedRun<'a> {
     pub(super) estimate: ErrorEstimate,
     pub(super) debris_estimate: ErrorEstimate,
     pub(super) mass: &'a MassProperties,
-    /// [`principal_moments`], if observed.
     pub(super) moments: [f64; 3],
 }
 

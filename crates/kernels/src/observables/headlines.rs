@@ -53,7 +53,6 @@ mod tests {
     use super::*;
     use crate::observables::table;
 
-    /// Law: every handle of a headline has a column.
     #[test]
     fn headlines_are_columns() {
         for id in HEADLINES {

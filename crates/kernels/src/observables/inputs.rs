@@ -22,7 +22,6 @@ impl Value {
         }
     }
 
-    /// True if the value is reduced from `series`.
     pub(super) fn of(self, series: Series) -> bool {
         matches!(self, Value::Of(own, _) | Value::Window(own, _) if own == series)
     }
@@ -50,7 +49,6 @@ impl Value {
         of_series.chain(direct).copied()
     }
 
-    /// True if a failed run has the value.
     pub(super) fn is_known_after_failure(self) -> bool {
         match self {
             Value::Of(..) | Value::Window(..) | Value::Law(_) => false,

@@ -47,7 +47,6 @@ impl LawSeries {
         series.index().checked_sub(Series::PointingError.index()).filter(|place| *place < Self::COUNT)
     }
 
-    /// The series of the set.
     pub(super) fn series(self) -> impl Iterator<Item = Series> {
         Series::all().filter(move |series| Self::place(*series).is_some_and(|place| self.0 & 1 << place != 0))
     }
@@ -84,7 +83,6 @@ impl LawColumns {
         LawColumns { of_events, over_time: self.over_time, ..Self::kept([self.list.to_vec(), events].concat()) }
     }
 
-    /// Handles of the columns.
     pub(super) fn ids(self) -> impl Iterator<Item = ColumnId> {
         let of_law = self.list.len() - self.of_events;
         let group = move |index: usize| if index < of_law { Group::Control } else { Group::Events };

@@ -14,7 +14,6 @@ use super::surroundings::surroundings;
 use super::table::Series;
 use crate::run::StateField;
 
-/// Writes the observed series of a run.
 #[inline(always)]
 pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     for source in run.sources {

@@ -87,7 +87,6 @@ pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
     }
 }
 
-/// Angular momentum of the spacecraft about c.
 #[inline(always)]
 pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     match run.scene.mass.wheels.len() {
@@ -100,7 +99,6 @@ pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mu
     }
 }
 
-/// [`angular_momentum`] with arrays for `W` wheels.
 #[inline(always)]
 fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (&run.scene.mass, run.table, run.vectors());

@@ -1,5 +1,3 @@
-//! Angular rate, nutation, attitude relative to the nominal run and to the start, wheels, direction of the debris.
-//!
 //! Angles between vectors are atan2(|a x b|, a . b), accurate to rounding (W. Kahan, *How Futile are Mindless
 //! Assessments of Roundoff*, 2006, section 12). The angle between attitudes is stored as tan^2 of its half, |v|^2/s^2
 //! of the quaternion conj(q_nominal) q = (s, v).
@@ -122,7 +120,6 @@ fn half_tangent_square<R: Real>(a: [R; 4], b: [R; 4]) -> R {
     dot([x, y, z], [x, y, z]) / (s * s)
 }
 
-/// Angle of s3 from the line to the debris.
 #[inline(always)]
 fn debris_direction<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());
@@ -138,7 +135,6 @@ fn debris_direction<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
     }
 }
 
-/// atan2(y, x) of each lane.
 #[inline(always)]
 pub(super) fn angle<S: Simd>(y: Lanes<S>, x: Lanes<S>, out: &mut [f64; WIDTH]) {
     for ((out, y), x) in out.iter_mut().zip(y.to_array()).zip(x.to_array()) {

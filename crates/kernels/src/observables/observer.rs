@@ -65,7 +65,6 @@ pub struct Observer {
     nominal: Option<NominalAttitude>,
     windows: Vec<(Window, Range<usize>)>,
     accuracy: Accuracy,
-    /// Points of the last run.
     filled: usize,
 }
 
@@ -214,7 +213,6 @@ impl Observer {
         })
     }
 
-    /// Number of points reached.
     #[inline(always)]
     pub(super) fn reached(&self) -> usize {
         self.filled
@@ -237,7 +235,6 @@ impl Observer {
         }
     }
 
-    /// Exchange of energy between body and wheels about the centre of mass.
     #[inline(always)]
     fn find_exchange<S: Simd>(&mut self, simd: S) {
         let (series, values) = (&self.series, &self.statistics);

@@ -1,5 +1,4 @@
-//! Distance, angle of s3 from nadir, torque of the gravity gradient ([`crate::dynamics::effects::gravity_gradient`]),
-//! and the magnetic field with its torque on residual dipole and torque rods.
+//! Distance, nadir angle, gravity-gradient torque, magnetic field and torque.
 
 use fearless_simd::Simd;
 

@@ -1,5 +1,3 @@
-//! Columns of states and series, eight points at a time.
-
 use core::ops::Range;
 
 use fearless_simd::Simd;
@@ -33,12 +31,10 @@ pub(super) struct MeasuredRun<'a> {
     /// Magnetic field and dipoles.
     pub(super) magnetism: Option<Magnetism<'a>>,
     pub(super) scene: &'a Scene,
-    /// Observation times, s.
     pub(super) times: &'a [f64],
     /// Records of the control law, by series ([`super::law_columns::LawSeries`]) and point; may be empty.
     pub(super) of_law: &'a [f64],
     pub(super) table: &'a StateTable,
-    /// Filled points, at least one.
     pub(super) points: usize,
 }
 
@@ -52,7 +48,6 @@ pub(super) struct Magnetism<'a> {
 }
 
 impl MeasuredRun<'_> {
-    /// Vectors that contain the filled points.
     #[inline(always)]
     pub(super) fn vectors(&self) -> usize {
         self.points.div_ceil(WIDTH)
@@ -73,7 +68,6 @@ impl SeriesTable {
         SeriesTable { columns: std::array::from_fn(|_| vec![[f64::NAN; WIDTH]; vectors]) }
     }
 
-    /// Values of a series, with padding.
     #[inline(always)]
     pub(super) fn column(&self, series: Series) -> &[f64] {
         self.columns[series.index()].as_flattened()
@@ -124,7 +118,6 @@ pub(super) fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
     if W < MAX_WHEELS { W } else { wheels }
 }
 
-/// Three components at the eight points of vector `at`.
 #[inline(always)]
 pub(super) fn three<S: Simd>(simd: S, [x, y, z]: [Column<'_>; 3], at: usize) -> [Lanes<S>; 3] {
     [Lanes::load(simd, &x[at]), Lanes::load(simd, &y[at]), Lanes::load(simd, &z[at])]

@@ -78,10 +78,8 @@ impl Reduction {
     pub(super) const CHANGE: usize = Self::ERROR + ErrorStatistic::ALL.len();
     pub(super) const FRACTION: usize = Self::CHANGE + ChangeStatistic::ALL.len();
 
-    /// Values per series.
     pub(super) const COUNT: usize = Self::FRACTION + 1;
 
-    /// Index among the values of a series.
     pub(super) const fn index(self) -> usize {
         match self {
             Reduction::Order(statistic) => statistic as usize,
@@ -93,7 +91,6 @@ impl Reduction {
     }
 }
 
-/// Passes over a series required by its reductions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Passes {
     /// By statistic, since each may need an elementary function.

@@ -141,7 +141,7 @@ impl Request {
         self.ids().position(|other| other == id)
     }
 
-    /// The [`Request::columns`] of the table, each with its wheel; not named, which takes most of the time.
+    /// The [`Request::columns`] of the table, each with its wheel.
     fn rows(&self) -> Vec<(&'static Column, Option<usize>)> {
         let facts = self.facts();
         let is_requested = |column: &&Column| self.groups.contains(column.group) && column.scenes.include(&facts);
@@ -218,12 +218,10 @@ impl Request {
         tasks
     }
 
-    /// Statistics behind the columns, with repetitions.
     fn inputs(&self) -> impl Iterator<Item = (Series, Reduction)> {
         self.ids().flat_map(|id| id.value.inputs().collect::<Vec<_>>())
     }
 
-    /// Groups, fields and purposes, in the order of the columns, without repetition.
     fn needs(&self) -> Vec<(Group, StateField, &'static str)> {
         let (facts, mut needs) = (self.facts(), Vec::new());
         for ColumnId { group, value } in self.ids() {
@@ -262,9 +260,7 @@ pub(super) mod tests {
             windows: NO_WINDOWS,
         }
     }
-    /// Law: a row has the columns of the bodies, constraints and actuators of its scene: a linear momentum has an error
-    /// only if a velocity is integrated, under thrust or with constraints; constraints between bodies have residuals if
-    /// there are several bodies; work and impulse are those of what acts.
+    /// Law: a row has the columns of the bodies, constraints and actuators of its scene.
     #[test]
     fn columns_are_those_of_the_scene() {
         let none = Actuated::NONE;

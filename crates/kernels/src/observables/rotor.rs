@@ -8,7 +8,6 @@ use crate::scene::mass::MassProperties;
 pub(super) struct Body<'a> {
     /// `None` for the debris.
     pub(super) mass: Option<&'a MassProperties>,
-    /// Field of the angular velocity.
     pub(super) rates: StateField,
     /// K, kg m^2, its inverse A, and a third of the trace of K.
     pub(super) inertia: [[f64; 3]; 3],
@@ -17,7 +16,6 @@ pub(super) struct Body<'a> {
     /// Upper bounds of |A| and of the distance of A from a multiple of one, 1/(kg m^2).
     pub(super) stiffness: f64,
     pub(super) spread: f64,
-    /// True if K is diagonal.
     pub(super) is_principal: bool,
     /// The wheels' momentum H - K omega if constant, without actuation.
     pub(super) offset: Option<[f64; 3]>,
@@ -26,7 +24,6 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Constants of a run over `duration` seconds.
     pub(super) fn of(acting: Acting<'a>, table: &StateTable, duration: f64) -> Self {
         let mass = &acting.scene().mass;
         let inertia = mass.inertia_rotating();

@@ -18,7 +18,6 @@ impl Slot {
 }
 
 impl Statistics {
-    /// All NaN.
     pub(super) fn unknown() -> Self {
         Statistics(Box::new([[f64::NAN; Reduction::COUNT]; Series::COUNT]))
     }
@@ -41,7 +40,6 @@ impl Statistics {
     }
 }
 
-/// Sources of the values of a row.
 #[derive(Clone, Debug)]
 pub(super) struct RowPlan {
     /// Statistic of each column; arbitrary for a direct value or a window.

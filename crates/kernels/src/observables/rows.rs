@@ -13,17 +13,14 @@ pub enum ColumnKind {
     Count,
 }
 
-/// Properties of the scenes of a campaign, which decide what their rows contain.
 pub(super) struct Facts {
     pub(super) debris: bool,
     pub(super) actuated: Actuated,
     pub(super) effects: ForceModel,
     pub(super) constrained: bool,
-    /// Number of turning wheels.
     pub(super) wheels: usize,
 }
 
-/// An enum with the list of its variants.
 macro_rules! listed {
     ($(#[$doc:meta])* $visibility:vis enum $name:ident { $($(#[$of:meta])* $variant:ident,)* }) => {
         $(#[$doc])*
@@ -54,7 +51,6 @@ macro_rules! scenes {
                 }
             }
 
-            /// True if the scenes with `$facts` are of this kind.
             pub(super) fn include(self, $facts: &Facts) -> bool {
                 match self {
                     $(Scenes::$name => $included,)*
@@ -247,7 +243,6 @@ macro_rules! columns {
     };
 }
 
-/// Maximum magnitude, final value, root mean square and slope of an error.
 macro_rules! errors {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
         errors!($group, $scenes, $series, $name, ["", ""], ["1/s", "_per_s"], $what)
@@ -263,7 +258,6 @@ macro_rules! errors {
     };
 }
 
-/// Initial and maximum value of a conserved quantity.
 macro_rules! scales {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, [$unit:literal, $suffix:literal], $what:literal) => {
         columns! { $group $scenes:
@@ -273,7 +267,6 @@ macro_rules! scales {
     };
 }
 
-/// Initial, final, minimum, maximum, mean and peak-to-peak of an energy.
 macro_rules! energies {
     ($group:ident, $scenes:ident, $series:ident, $name:literal, $what:literal) => {
         columns! { $group $scenes:
@@ -287,7 +280,6 @@ macro_rules! energies {
     };
 }
 
-/// Swing, transfer and power of an energy about the centre of mass.
 #[rustfmt::skip]
 macro_rules! exchange {
     ($series:ident, $scenes:ident, $body:literal, $what:literal) => {

@@ -20,11 +20,9 @@ const FEWEST: usize = 8;
 /// Largest deviation of a time from the even grid, in steps: rounding only.
 const UNEVENNESS: f64 = 1e-6;
 
-/// Transform of one length, with scratch memory.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum {
     points: usize,
-    /// Sampling interval, s.
     step: f64,
     /// Hann's window, zero in the padding.
     window: Vec<f64>,
@@ -218,8 +216,6 @@ mod tests {
     use crate::math::Isa;
     use crate::math::isa::Work;
 
-    /// Largest error of a tone's frequency in units of 1/horizon: the parabola's bias under Hann's window, 0.03 from
-    /// two cycles per horizon on, and a margin for the mirror image.
     const BIN_ERROR: f64 = 0.05;
 
     struct Peak<'a>(&'a mut Spectrum, &'a [f64], f64, f64);
@@ -231,7 +227,6 @@ mod tests {
         }
     }
 
-    /// A column with arbitrary numbers in the padding.
     fn padded(mut values: Vec<f64>) -> Vec<f64> {
         values.resize(values.len().next_multiple_of(2 * WIDTH), 1e3);
         values

@@ -73,7 +73,6 @@ pub struct ColumnId {
 }
 
 impl ColumnId {
-    /// True if there is one such column per wheel.
     pub(super) fn is_of_wheel(self) -> bool {
         all().any(|column| column.id() == self && column.is_of_wheel())
     }
@@ -219,7 +218,6 @@ pub(super) struct SeriesRow {
     /// Statistic by which the values are divided.
     pub(super) scale: Option<(Series, Reduction)>,
     pub(super) needs: &'static [&'static [Need]],
-    /// Column of a time series.
     pub(super) shown: Option<Quantity>,
 }
 

@@ -37,10 +37,8 @@ const STEP: f64 = 0.7;
 /// Most steps between two points that follow the rotation, with linear coefficients in between.
 const FOLLOWED: f64 = 4.0;
 
-/// Limit of steps of a run, cheaper than the torques.
 const MOST_STEPS: f64 = 128.0;
 
-/// A point, in principal axes.
 #[derive(Clone, Copy)]
 struct Station {
     time: f64,
@@ -204,7 +202,6 @@ impl Flow {
         }
     }
 
-    /// Fastest change of an error, 1/s, by rotation and a destabilising torque.
     #[inline(always)]
     fn pace(&self, unit: f64) -> f64 {
         let most =
@@ -293,7 +290,6 @@ fn exponent(stations: &[Station], moments: [f64; 3]) -> f64 {
     turning.sum::<f64>() / count as f64 * duration
 }
 
-/// `motion` with the body turned by [`ROTATION`] about axis `axis`.
 #[inline(always)]
 fn turned(motion: &Motion<f64>, axis: usize) -> Motion<f64> {
     let mut turn = [1.0, 0.0, 0.0, 0.0];
@@ -301,7 +297,6 @@ fn turned(motion: &Motion<f64>, axis: usize) -> Motion<f64> {
     Motion { attitude: hamilton(motion.attitude, turn), ..*motion }
 }
 
-/// Symmetric part of J^(-1/2) M J^(-1/2) for the principal moments `moments`, M by `columns`.
 fn symmetric(moments: [f64; 3], columns: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| {
         core::array::from_fn(|j| 0.5 * (columns[j][i] + columns[i][j]) / (moments[i] * moments[j]).sqrt())

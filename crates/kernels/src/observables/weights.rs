@@ -23,7 +23,6 @@ impl Weights {
         Self::at(grid.times())
     }
 
-    /// Weights for series at `times`.
     pub(super) fn at(times: &[f64]) -> Self {
         let points = times.len();
         let mean = times.iter().sum::<f64>() / points as f64;
@@ -51,7 +50,6 @@ pub(super) fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
     &column.as_chunks().0[..count]
 }
 
-/// Joins the lanes as a fixed tree.
 #[inline(always)]
 fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
     let [a, b, c, d, e, f, g, h] = lanes;

@@ -16,7 +16,6 @@ pub const MAX_WINDOWS: usize = 16;
 /// Windows of a campaign.
 pub type Windows = List<Window, MAX_WINDOWS>;
 
-/// Fills unused memory.
 const BLANK: Window = Window {
     series: Series::EnergyTotal,
     group: Group::Energies,
@@ -54,7 +53,7 @@ impl Window {
         }
     }
 
-    /// Name, unit and meaning of the column for the quantity over time `of`.
+    /// Name, unit and meaning of its column.
     pub fn quantity(&self, of: &Quantity) -> Quantity {
         let (prefix, word) = if self.is_highest { ("highest", "Largest") } else { ("lowest", "Smallest") };
         let text = |time: f64| format!("{time:?}").trim_end_matches(".0").replace('.', "p").replace('-', "m");

@@ -39,7 +39,6 @@ impl<M: Embedded> LaneMethod for Adaptive<M> {
     }
 }
 
-/// Steps of an adaptive method in lanes.
 pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
     tolerance: Tolerance,
     stages: M::Stages<R, N>,
@@ -58,7 +57,6 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
 }
 
 impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
-    /// Derivative and first step in lanes at the start of an arc.
     #[inline(always)]
     fn start<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) {
         let (state, starting) = (&lanes.now.state, self.starting);

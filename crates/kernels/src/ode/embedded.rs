@@ -32,7 +32,6 @@ pub trait Embedded: Copy {
     /// Stages, and data of dense output.
     type Stages<R: Real, const N: usize>;
 
-    /// Memory for the stages.
     fn stages<R: Real, const N: usize>(zero: R) -> Self::Stages<R, N>;
 
     /// Derivative at the start of the step.

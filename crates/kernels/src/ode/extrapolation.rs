@@ -12,14 +12,12 @@ use crate::math::real::{Mask, Real};
 /// Limit of columns: order 28, 210 evaluations.
 pub const COLUMNS: usize = 14;
 
-/// Memory for a step.
 pub struct Extrapolation<R, const N: usize> {
     /// The last row of Neville's scheme.
     row: [[R; N]; COLUMNS],
 }
 
 impl<R: Real, const N: usize> Extrapolation<R, N> {
-    /// Memory in the arithmetic of `zero`.
     pub fn new(zero: R) -> Self {
         Extrapolation { row: [[zero; N]; COLUMNS] }
     }

@@ -8,7 +8,6 @@ pub(super) struct LaneSlots {
     /// The run in each lane.
     lanes: [Option<usize>; WIDEST],
     next_run: usize,
-    /// Number of lanes with a run.
     occupied: usize,
 }
 

@@ -1,21 +1,21 @@
 //! Layer 1: integrators of ordinary differential equations, without physics; imports [`crate::math`] only.
 
-pub mod adaptive;
-pub mod embedded;
+pub(crate) mod adaptive;
+pub(crate) mod embedded;
 mod error_model;
 pub mod explicit;
-pub mod extrapolation;
-pub mod fixed;
-pub mod integrators;
-pub mod lane_driver;
+pub(crate) mod extrapolation;
+pub(crate) mod fixed;
+pub(crate) mod integrators;
+pub(crate) mod lane_driver;
 mod lane_slot;
 mod runs;
 mod step;
 mod step_control;
-pub mod stepper;
+pub(crate) mod stepper;
 pub mod switches;
 mod system;
-pub mod tableau;
+pub(crate) mod tableau;
 
 pub use adaptive::Adaptive;
 pub use error_model::{ErrorModel, Remainder, StepErrors};

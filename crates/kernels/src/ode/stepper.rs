@@ -49,16 +49,13 @@ pub struct StepperLane<R, const N: usize> {
     pub error_sum: R,
 }
 
-/// A step to attempt.
 #[derive(Clone, Copy)]
 pub struct Proposal<R: Real> {
-    /// The step.
     pub step: Step<R>,
     /// True if it ends at the end of the arc.
     pub lands: R::Mask,
 }
 
-/// Result of an attempted step.
 pub struct Attempt<R: Real> {
     /// True if accepted.
     pub accepted: R::Mask,
@@ -76,7 +73,6 @@ pub trait Stepper<R: Real, const N: usize> {
     /// Lane `lane` has no run; it takes steps of zero length.
     fn idle(&mut self, lane: usize);
 
-    /// The next step of every lane.
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
 
     /// Attempts the step and writes its end to `end`: returning a large state would copy it.

@@ -7,7 +7,6 @@ use crate::dynamics::gyrostat::{Gyrostat, WITH_THRUST};
 use crate::run::Grid;
 use crate::scene::Scene;
 
-/// The arcs of the runs of a batch.
 pub struct ArcSource<'a> {
     /// The scene of each run; empty for bodies without actuators.
     scenes: &'a [Scene],
@@ -18,7 +17,6 @@ pub struct ArcSource<'a> {
 }
 
 impl<'a> ArcSource<'a> {
-    /// Runs of `scenes` under `laws`, observed on `grid`.
     pub fn new(scenes: &'a [Scene], laws: Laws<'a>, grid: &'a Grid) -> Self {
         ArcSource { scenes, laws, duration: grid.duration(), times: grid.times() }
     }
@@ -28,7 +26,6 @@ impl<'a> ArcSource<'a> {
         ArcSource { scenes: &[], laws: Laws::OpenLoop, duration, times: &[] }
     }
 
-    /// The end of the last arc, s.
     pub fn duration(&self) -> f64 {
         self.duration
     }

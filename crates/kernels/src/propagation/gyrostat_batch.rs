@@ -14,14 +14,12 @@ use crate::dynamics::relative_orbit::RelativeOrbit;
 use crate::run::{Grid, Outcome, StateTable, Trajectory};
 use crate::scene::{Offsets, Scene};
 
-/// Reusable buffers for the runs of a batch.
 #[derive(Clone, Debug)]
 pub struct GyrostatBatch {
     runs: Vec<Gyrostat<f64>>,
     completion: StateCompletion,
 }
 
-/// Completes the runs of a batch to state tables.
 #[derive(Clone, Debug)]
 pub struct StateCompletion {
     grid: Grid,
@@ -33,12 +31,10 @@ pub struct StateCompletion {
     /// Motion of the debris near an orbit, if any.
     debris_orbit: Option<Box<RelativeOrbit>>,
     table: StateTable,
-    /// Arcs of the run just completed, if it followed a schedule.
     arcs: ArcRecord,
 }
 
 impl GyrostatBatch {
-    /// Empty buffers for batches of `plan`.
     pub fn new(plan: &PropagationSettings) -> Self {
         GyrostatBatch {
             runs: Vec::new(),

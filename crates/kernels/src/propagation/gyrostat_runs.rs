@@ -38,7 +38,6 @@ impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
         }
     }
 
-    /// Run `run` with its arcs so far.
     pub fn run(&self, run: usize) -> &Gyrostat<f64> {
         &self.runs[run]
     }

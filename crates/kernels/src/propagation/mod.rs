@@ -1,19 +1,19 @@
 //! Layer 3: engines that integrate scenes to the components at the observation times, and complete these to the
 //! physical [`crate::run::StateTable`]. Runs are in lanes that share no decision.
 
-pub mod arc_source;
+pub(crate) mod arc_source;
 pub mod engine;
 mod factory;
-pub mod gyrostat_batch;
-pub mod gyrostat_runs;
-pub mod integrated_effects;
-pub mod local_error;
-pub mod method;
-pub mod null_space_engine;
-pub mod null_space_runs;
-pub mod rotation_errors;
-pub mod runge_kutta_engine;
-pub mod series_remainder;
+pub(crate) mod gyrostat_batch;
+pub(crate) mod gyrostat_runs;
+pub(crate) mod integrated_effects;
+pub(crate) mod local_error;
+pub(crate) mod method;
+pub(crate) mod null_space_engine;
+pub(crate) mod null_space_runs;
+pub(crate) mod rotation_errors;
+pub(crate) mod runge_kutta_engine;
+pub(crate) mod series_remainder;
 pub mod settings;
 pub mod taylor;
 pub mod trajectory_recorder;

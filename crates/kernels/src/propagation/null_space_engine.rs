@@ -17,7 +17,6 @@ use crate::scene::{MAX_WHEELS, Scene};
 /// Points inside a step take a step of their own, cheap next to the right-hand side.
 type Pair = Adaptive<DormandPrinceRestepped>;
 
-/// Components for Berdoz's two wheels.
 pub const TWO_WHEELS: usize = components(2);
 /// Components for the largest number of wheels.
 pub const ALL_WHEELS: usize = components(MAX_WHEELS);
@@ -32,7 +31,6 @@ pub struct NullSpaceEngine<S, const W: usize, const N: usize> {
 }
 
 impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
-    /// Memory for runs with `settings`.
     pub fn new(simd: S, settings: &PropagationSettings) -> Self {
         let points = settings.grid.points();
         NullSpaceEngine {
@@ -78,7 +76,6 @@ impl<S: Simd, const W: usize, const N: usize> NullSpaceEngine<S, W, N> {
 /// Power of a body's rate in the error of a step, which local extrapolation continues at order five.
 const ORDER: i32 = 6;
 
-/// Rates of a body at all points, if observed.
 fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]> + '_ {
     (0..if table.has(field) { table.points() } else { 0 }).map(move |point| table.at(field, point))
 }

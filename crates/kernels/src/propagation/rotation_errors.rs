@@ -28,7 +28,6 @@ impl RotationError {
     }
 }
 
-/// The larger number; NaN if either is NaN.
 fn larger_or_nan(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }

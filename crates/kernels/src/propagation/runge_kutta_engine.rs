@@ -33,7 +33,6 @@ pub struct RungeKuttaEngine<S, R, M, E, const N: usize> {
 }
 
 impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKuttaEngine<S, R, M, E, N> {
-    /// Memory for runs with `settings`; `zero` determines the number of lanes.
     pub fn new(simd: S, zero: R, method: M, settings: &PropagationSettings) -> Self {
         let points = settings.grid.points();
         RungeKuttaEngine {

@@ -12,10 +12,8 @@ use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 /// Maximum number of points of a run at which the series is expanded.
 const EXPANSIONS: usize = 16;
 
-/// Components: rate and attitude.
 const N: usize = WITH_ATTITUDE;
 
-/// A [`Remainder`] with its memory.
 #[derive(Clone, Debug)]
 pub struct Remainders {
     method: Remainder,
@@ -26,7 +24,6 @@ pub struct Remainders {
 }
 
 impl Remainders {
-    /// Memory for runs by a method.
     pub fn new(method: Remainder) -> Self {
         Remainders {
             method,

@@ -1,7 +1,7 @@
 //! Layer 1: the simulated scene: mass properties, actuators, initial state; validated, immutable, SI.
 
-pub mod actuated;
-pub mod alignment;
+pub(crate) mod actuated;
+pub(crate) mod alignment;
 pub mod body;
 pub mod check;
 pub mod epoch;
@@ -9,23 +9,23 @@ pub mod error;
 mod failures;
 pub mod input;
 pub mod mass;
-pub mod name;
+pub(crate) mod name;
 pub mod orbit;
 pub mod parameter;
-pub mod plate;
-pub mod resolve;
+pub(crate) mod plate;
+pub(crate) mod resolve;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod schedule;
 pub mod schema;
-pub mod second_moment;
-pub mod solids;
+pub(crate) mod second_moment;
+pub(crate) mod solids;
 mod surroundings;
 pub mod table;
 mod tensor;
 pub mod thruster;
 pub mod unit_quaternion;
-pub mod wheel;
+pub(crate) mod wheel;
 
 pub use actuated::Actuated;
 pub use epoch::Epoch;

@@ -30,7 +30,6 @@ pub struct Plate {
     pub diffuse: f64,
 }
 
-/// Number of plates of the parts of `input`.
 pub(super) fn of_parts(input: &SceneInput) -> usize {
     input.parts.iter().map(|part| count(part.shape)).sum()
 }
@@ -69,7 +68,6 @@ fn written(plate: &PlateInput) -> Plate {
     }
 }
 
-/// Adds the plates of a part, with default coefficients.
 fn push_part(part: &PartInput, plates: &mut Vec<Plate>) {
     let c = dcm_from_quaternion(constant_quaternion(1.0, unit_quaternion(part.attitude)));
     let mut push = |area: f64, normal: [f64; 3], center: [f64; 3]| {

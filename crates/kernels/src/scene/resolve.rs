@@ -95,7 +95,6 @@ impl Scene {
     }
 }
 
-/// The problems noted by `check`, if any.
 fn gathered(check: impl FnOnce(&mut Problems)) -> Result<(), Vec<SceneError>> {
     let mut problems = Problems::default();
     check(&mut problems);

@@ -19,7 +19,6 @@ pub struct Body<R = f64> {
 /// pi - fl(pi), for types wider than `f64`.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
-/// pi, to about 107 bits if the type has as many.
 #[inline(always)]
 fn pi<R: Real>(one: R) -> R {
     one.splat(core::f64::consts::PI) + one.splat(PI_LOW)
@@ -54,7 +53,6 @@ pub fn hollow_cylinder<R: Real>(wall: R, radius: R, length: R, density: R) -> Bo
 /// Mass and moments of inertia of a cylinder about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder<R = f64> {
-    /// Mass, kg.
     pub mass: R,
     /// Moment about the cylinder's axis, kg m^2.
     pub axial: R,
@@ -103,7 +101,6 @@ pub fn solid_box<R: Real>(size: [R; 3], density: R) -> Body<R> {
 mod tests {
     use super::*;
 
-    /// Roundings of up to 400 terms.
     const QUADRATURE_TOLERANCE: f64 = 2e-13;
 
     /// Simpson's rule on [-1, 1], exact for the cubic integrands.

@@ -22,12 +22,10 @@ pub(super) fn symmetric_product<R: Real>(scale: R, a: [[R; 3]; 3], j: [[R; 3]; 3
     symmetric_of(|i, k| scale * dot(rows[i], a[k]))
 }
 
-/// The smallest and the largest of three numbers.
 pub(super) fn extremes([a, b, c]: [f64; 3]) -> [f64; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Makes a tensor that is symmetric to rounding exactly symmetric.
 pub(super) fn symmetric<R: Real>(tensor: [[f64; 3]; 3], one: R) -> [[R; 3]; 3] {
     let k = |value: f64| one.splat(value);
     std::array::from_fn(|i| std::array::from_fn(|j| k(0.5) * (k(tensor[i][j]) + k(tensor[j][i]))))

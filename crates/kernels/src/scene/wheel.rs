@@ -61,7 +61,6 @@ impl<R: Real> Wheel<R> {
         std::array::from_fn(|i| scaled(self.axial * self.axis[i], self.axis))
     }
 
-    /// Inertia without its axial part.
     pub(super) fn transverse_inertia(&self) -> [[R; 3]; 3] {
         point_inertia(self.transverse, self.axis)
     }

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 pub struct Carries(BTreeMap<u32, u64>);
 
 impl Carries {
-    /// Adds `count` to the counter `key` with the lower 32 bits `low`.
     #[inline(always)]
     pub fn add(&mut self, key: u32, low: &mut u32, count: u64) {
         let sum = u64::from(*low) + (count & u64::from(u32::MAX));
@@ -23,7 +22,6 @@ impl Carries {
         *self.0.entry(key).or_default() += carried;
     }
 
-    /// True without carries.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -1,7 +1,7 @@
 //! Layer 2: statistics of many runs, as pure functions of numbers.
 
 pub mod binomial;
-pub mod carries;
+pub(crate) mod carries;
 pub mod conditional;
 pub mod contingency;
 pub mod correlation;
@@ -19,5 +19,5 @@ pub mod sensitivity;
 pub mod share_within;
 pub mod sketch;
 pub mod spread;
-pub mod student;
+pub(crate) mod student;
 pub mod two_sample;

@@ -8,7 +8,7 @@
 /// evaluated { Effect: file, [begin_arc, set_arc]?, key, condition; }
 /// ```
 ///
-/// An effect that changes within an arc is a type in `file` with `NEEDS_ORBIT`, `none(zero)`, `set_lane(lane,
+/// An effect that changes within an arc is a type in `file` with `none(zero)`, `set_lane(lane,
 /// &Effect<f64>)` and `torque(&Motion<R>)` in B, N m; constants of an arc (the dipole of the torque rods) are set by
 /// `begin_arc(dipole)` and copied by `set_arc(lane, &Effect<f64>)`. The form `Evaluated` adds `force(&Motion<R>)` in B,
 /// N, and branches ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)`,
@@ -236,7 +236,7 @@ macro_rules! effects {
         }
     };
     (all { $($file:ident: $Constants:ident, [$($begin_arc:ident, $set_arc:ident)?];)* }) => {
-        $(pub mod $file;)*
+        $(pub(crate) mod $file;)*
 
         /// Constants of the effects that change within an arc, one run per lane; `None` if inactive.
         #[derive(Clone, Copy, Debug)]
@@ -263,11 +263,6 @@ macro_rules! effects {
             /// True if no effect acts.
             pub fn is_empty(&self) -> bool {
                 true $(&& self.$file.is_none())*
-            }
-
-            /// True if an effect depends on the position.
-            pub fn needs_orbit(&self) -> bool {
-                false $(|| $file::$Constants::<R>::NEEDS_ORBIT && self.$file.is_some())*
             }
 
             /// Copies the effects of `own` into lane `lane`.

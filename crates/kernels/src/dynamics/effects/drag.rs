@@ -14,7 +14,6 @@ use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, norm, scaled, sum, transposed_product};
 use crate::scene::Scene;
 
-/// Drag, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Drag<R> {
     /// Drag coefficient.
@@ -23,15 +22,10 @@ pub struct Drag<R> {
 }
 
 impl<R: Real> Drag<R> {
-    /// Depends on the position.
-    pub const NEEDS_ORBIT: bool = true;
-
-    /// Inactive.
     pub fn none(zero: R) -> Self {
         Drag { plates: PlatesInLanes::none(zero), air: Air::none(zero) }
     }
 
-    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &Drag<f64>) {
         self.plates.set_lane(lane, &own.plates);
         self.air.set_lane(lane, &own.air);
@@ -56,7 +50,6 @@ impl<R: Real> Drag<R> {
         scaled(density * density.splat(-0.5) * all, velocity)
     }
 
-    /// Chooses the sides of the plates and the layer of the atmosphere.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
         self.air.choose_branches(lanes, motion.place.distance);
@@ -69,7 +62,6 @@ impl<R: Real> Drag<R> {
         zero.never()
     }
 
-    /// Calls `visit` with the switch functions at `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {
         let mut distances = [motions[0].time; M];
@@ -101,7 +93,6 @@ impl<R: Real> Drag<R> {
     }
 }
 
-/// Velocity relative to the air, B, m/s.
 #[inline(always)]
 fn flow<R: Real>(motion: &Motion<R>) -> [R; 3] {
     transposed_product(dcm_from_quaternion(motion.attitude), Air::relative_velocity(&motion.place))
@@ -115,7 +106,6 @@ pub fn air_of(scene: &Scene) -> Option<Air<f64>> {
     Some(Air::new(scene.environment.density_scale, orbit.body_radius, exponential, table))
 }
 
-/// Drag on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<Drag<R>> {
     let own = air_of(scene)?;
     let mut air = Air::none(zero);

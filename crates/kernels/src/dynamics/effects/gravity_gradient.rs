@@ -11,7 +11,6 @@ use crate::math::symmetric::principal_axes;
 use crate::math::vector::{constant_matrix, cross, dcm_from_quaternion, product, scaled, transposed_product};
 use crate::scene::Scene;
 
-/// Gravity gradient, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct GravityGradient<R> {
     /// 3 mu, m^3/s^2; zero if inactive.
@@ -21,12 +20,10 @@ pub struct GravityGradient<R> {
 }
 
 impl<R: Real> GravityGradient<R> {
-    /// Inactive.
     pub fn none(zero: R) -> Self {
         GravityGradient { strength: zero, inertia: [[zero; 3]; 3] }
     }
 
-    /// Copies `gradient` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, gradient: &GravityGradient<f64>) {
         self.strength.set_lane(lane, gradient.strength);
         for i in 0..3 {
@@ -35,9 +32,6 @@ impl<R: Real> GravityGradient<R> {
             }
         }
     }
-
-    /// Depends on the position.
-    pub const NEEDS_ORBIT: bool = true;
 
     /// Torque on a body, B, N m.
     #[inline(always)]
@@ -56,7 +50,6 @@ impl<R: Real> GravityGradient<R> {
     }
 }
 
-/// Gravity gradient on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<GravityGradient<R>> {
     let orbit = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient)?;
     let inertia_s = constant_matrix(zero, scene.mass.inertia);
@@ -86,7 +79,6 @@ pub struct GradientSeries<R> {
 }
 
 impl<R: Real> GradientSeries<R> {
-    /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         GradientSeries {
             inertia: [[zero; 3]; 3],
@@ -96,10 +88,8 @@ impl<R: Real> GradientSeries<R> {
         }
     }
 
-    /// True if the series needs the position in F_e on a two-body orbit.
     pub const NEEDS_POSITION: bool = false;
 
-    /// Starts a step.
     #[inline(always)]
     pub fn begin(&mut self, gradient: &GravityGradient<R>, _time: R, _unit: R) {
         self.inertia = gradient.inertia;

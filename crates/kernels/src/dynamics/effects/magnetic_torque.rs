@@ -10,7 +10,6 @@ use crate::math::Real;
 use crate::math::vector::{conjugate, constant, cross, dcm_from_quaternion, hamilton, norm, sum, transposed_product};
 use crate::scene::Scene;
 
-/// Magnetic torque, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct MagneticTorque<R> {
     field: MagneticField<R>,
@@ -21,18 +20,15 @@ pub struct MagneticTorque<R> {
 }
 
 impl<R: Real> MagneticTorque<R> {
-    /// Inactive.
     pub fn none(zero: R) -> Self {
         MagneticTorque { field: MagneticField::none(zero), residual: [zero; 3], dipole: [zero; 3] }
     }
 
-    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &MagneticTorque<f64>) {
         self.field.set_lane(lane, &own.field);
         self.set_arc(lane, own);
     }
 
-    /// Copies the dipole of the present arc of `own` into lane `lane`.
     pub fn set_arc(&mut self, lane: usize, own: &MagneticTorque<f64>) {
         for i in 0..3 {
             self.residual[i].set_lane(lane, own.residual[i]);
@@ -44,9 +40,6 @@ impl<R: Real> MagneticTorque<R> {
     pub fn begin_arc(&mut self, rods: [R; 3]) {
         self.dipole = sum(self.residual, rods);
     }
-
-    /// Depends on the position.
-    pub const NEEDS_ORBIT: bool = true;
 
     /// Torque on a body, B, N m.
     #[inline(always)]
@@ -61,7 +54,6 @@ pub fn residual_dipole(scene: &Scene) -> Option<[f64; 3]> {
     scene.environment.magnetic_dipole_a_m2.or((!scene.torque_rods.is_empty()).then_some([0.0; 3]))
 }
 
-/// Magnetic torque on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<MagneticTorque<R>> {
     let dipole = constant(zero, residual_dipole(scene)?);
     let field = MagneticField::of(scene)?.in_lanes(zero);
@@ -80,15 +72,12 @@ pub struct MagneticSeries<R> {
 }
 
 impl<R: Real> MagneticSeries<R> {
-    /// Memory for series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         MagneticSeries { dipole: [zero; 3], field: FieldSeries::new(zero, order), turned: vec![[zero; 4]; order + 1] }
     }
 
-    /// The field depends on the position in F_e.
     pub const NEEDS_POSITION: bool = true;
 
-    /// Starts a step at `time` (s) in a unit of time of `unit` seconds.
     #[inline(always)]
     pub fn begin(&mut self, torque: &MagneticTorque<R>, time: R, unit: R) {
         self.dipole = torque.dipole.map(|component| component * (unit * unit));

@@ -6,9 +6,10 @@
 //! compiled without them, and an orbit is evaluated only if an acting effect needs it.
 
 mod changing_effects;
-pub mod plates;
+pub(crate) mod plates;
 pub mod within_arcs;
 
+pub use self::solar_pressure::Light;
 use super::actuation::sum;
 use crate::math::enumeration::bit_set;
 use crate::math::vector::norm;

@@ -15,7 +15,6 @@ pub struct PlatesInLanes<R, const K: usize> {
     count: usize,
 }
 
-/// A plate, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct PlateInLanes<R, const K: usize> {
     /// Outward unit normal, B.
@@ -29,7 +28,6 @@ pub struct PlateInLanes<R, const K: usize> {
 }
 
 impl<R: Real, const K: usize> PlatesInLanes<R, K> {
-    /// No plates.
     pub fn none(zero: R) -> Self {
         let limits = [zero, zero.splat(f64::INFINITY)];
         let plate = PlateInLanes { normal: [zero; 3], arm: [zero; 3], numbers: [zero; K], limits };
@@ -49,7 +47,6 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         plates
     }
 
-    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &PlatesInLanes<f64, K>) {
         self.count = self.count.max(own.count);
         for (plate, own) in self.plates[..self.count].iter_mut().zip(&own.plates) {
@@ -91,7 +88,6 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         }
     }
 
-    /// The plates.
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = &PlateInLanes<R, K>> {
         self.plates[..self.count].iter()

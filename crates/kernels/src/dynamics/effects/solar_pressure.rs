@@ -14,13 +14,11 @@ use crate::math::Real;
 use crate::math::vector::{cross, dcm_from_quaternion, scaled, sum, transposed_product};
 use crate::scene::{Scene, Shadow};
 
-/// 1/(seconds per day).
 const DAY: f64 = 1.0 / 86_400.0;
 
 /// Lower bound of the Sun's distance in the series, au.
 const NEAREST: f64 = 0.983;
 
-/// Light pressure, one run per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct SolarPressure<R> {
     /// 1 - c_s, 2 c_s and 2 c_d/3, each times the pressure at 1 au, N/m^2.
@@ -65,16 +63,11 @@ impl<R: Real> Light<R> {
 }
 
 impl<R: Real> SolarPressure<R> {
-    /// Depends on the position.
-    pub const NEEDS_ORBIT: bool = true;
-
-    /// Inactive.
     pub fn none(zero: R) -> Self {
         let light = Light { epoch: zero, radius: zero, shadow: Shadow::Cone };
         SolarPressure { plates: PlatesInLanes::none(zero), light, zone: Zone::none(zero) }
     }
 
-    /// Copies `own` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, own: &SolarPressure<f64>) {
         self.plates.set_lane(lane, &own.plates);
         self.zone.set_lane(lane, &own.zone);
@@ -111,7 +104,6 @@ impl<R: Real> SolarPressure<R> {
         (lit / (sun.distance * sun.distance), seen(&sun, motion))
     }
 
-    /// Chooses the sides of the plates and the shadow zone in the lanes `lanes`.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
         let sun = self.light.sun(motion.time);
@@ -125,7 +117,6 @@ impl<R: Real> SolarPressure<R> {
         self.zone.is_part(zero)
     }
 
-    /// Calls `visit` with the switch functions at `M` states.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, motions: &[Motion<R>; M], visit: &mut impl FnMut([R; M])) {
         let mut edges = [[motions[0].time; M]; 2];
@@ -166,7 +157,6 @@ fn seen<R: Real>(sun: &Sun<R>, motion: &Motion<R>) -> [R; 3] {
     transposed_product(dcm_from_quaternion(motion.attitude), sun.direction)
 }
 
-/// Light pressure on `scene` in the frame B, which `c_sb` maps to F_s.
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<SolarPressure<R>> {
     let light = Light::of(zero, scene).filter(|_| scene.environment.solar_pressure)?;
     let pressure = scene.environment.solar_pressure_n_m2;

@@ -41,7 +41,7 @@ pub struct Motion<R> {
     pub attitude: [R; 4],
     /// Angular velocity relative to F_e, B, rad/s.
     pub rate: [R; 3],
-    /// Position on the orbit if an effect needs it ([`ChangingEffects::needs_orbit`]), otherwise NaN.
+    /// Position on the orbit if an effect acts, otherwise NaN.
     pub place: OrbitState<R>,
 }
 
@@ -281,7 +281,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>) {
         let zero = self.zero;
         self.effects.set_lane(zero, lane, &run.effects);
-        if let Some(orbit) = run.orbit.as_ref().filter(|_| run.effects.needs_orbit() || run.offset.is_some()) {
+        if let Some(orbit) = run.orbit.as_ref().filter(|_| !run.effects.is_empty() || run.offset.is_some()) {
             self.orbit.get_or_insert_with(|| PathsInLanes::blank(zero)).set_lane(lane, orbit);
         }
         if let (Some(orbit), Some(_)) = (&run.orbit, &run.offset) {

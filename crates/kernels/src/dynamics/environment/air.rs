@@ -60,7 +60,6 @@ impl AirTable {
     }
 
     fn layer_at(&self, height: f64) -> Layer<f64> {
-        // layers are in km
         let km = |height: f64| height / 1e3;
         let last = self.heights.len() - 2;
         let below = self.heights.partition_point(|base| km(*base) <= height * 1e-3);

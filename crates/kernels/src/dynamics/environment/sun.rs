@@ -50,8 +50,7 @@ pub fn sun_after(epoch: Epoch, time: f64) -> Sun<f64> {
     sun(epoch.days_since_j2000() + time / 86_400.0)
 }
 
-/// An angle of `start` degrees that grows by `rate` degrees per day, in turns without whole turns, which would cost
-/// digits.
+/// An angle of `start` degrees growing by `rate` degrees per day, in turns without whole turns.
 #[inline(always)]
 fn turns<R: Real>(days: R, start: f64, rate: f64) -> R {
     let all = days.mul_add(days.splat(rate / 360.0), days.splat(start / 360.0));

@@ -15,7 +15,6 @@ use crate::math::vector::{
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 
-/// Fields of the translation, and works and impulses.
 const TRANSLATION: [StateField; 5] = [
     StateField::ComPosition,
     StateField::ComVelocity,
@@ -193,7 +192,6 @@ impl<S: Simd> Chunk<'_, S> {
         self.write(table, StateField::AngularImpulse, self.read3_of_thrust(ANGULAR_IMPULSE));
     }
 
-    /// Position, velocity and impulse of c on an orbit or near it; the impulse includes gravity's.
     #[inline(always)]
     fn complete_orbit(self, orbit: &OrbitPath, table: &mut StateTable) {
         let fields = [StateField::ComPosition, StateField::ComVelocity, StateField::Impulse];
@@ -214,7 +212,6 @@ impl<S: Simd> Chunk<'_, S> {
         self.write(table, StateField::Impulse, scaled(self.splat(run.mass), gained));
     }
 
-    /// Position, velocity and impulse of c on a straight line bent by thrust.
     #[inline(always)]
     fn complete_line(self, table: &mut StateTable) {
         let run = self.run;
@@ -249,7 +246,6 @@ impl<S: Simd> Chunk<'_, S> {
         Lanes::from_slice(self.simd, self.times)
     }
 
-    /// True if the first `components` components are integrated.
     #[inline(always)]
     fn has(self, components: usize) -> bool {
         self.trajectory.components() >= components

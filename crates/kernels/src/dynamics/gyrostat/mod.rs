@@ -21,11 +21,11 @@
 //! Everything is in the *principal frame* B of K (F_s if J* is diagonal), where omega_i' is one product of two rates
 //! plus linear terms. Torques and thrusts are constant between switches; h_i is linear in time and not integrated.
 
-pub mod completion;
+pub(crate) mod completion;
 pub mod equations;
 pub mod observed;
 mod time_scale;
-pub mod wheel;
+pub(crate) mod wheel;
 
 use crate::dynamics::applied::scheduled_arc;
 use crate::dynamics::arc_record::ArcRecord;
@@ -118,7 +118,7 @@ pub struct Gyrostat<R> {
     pub flown: ArcRecord,
     /// Under a law, the observation points before the last arc.
     passed: usize,
-    /// All arcs of the schedule, if laid out for the time scale.
+    /// All arcs of the schedule, laid out for the time scale.
     scheduled: Vec<GyrostatArc<R>>,
     /// Largest rate of the motion so far, rad/s, for [`Gyrostat::time_unit`].
     rate: f64,
@@ -204,7 +204,6 @@ impl<R: Real> Gyrostat<R> {
         })
     }
 
-    /// Sets the wheels of `scene` at time zero, once body and angular velocity are set.
     fn set_wheels(&mut self, zero: R, scene: &Scene) {
         self.wheels.clear();
         for (i, wheel) in scene.mass.wheels.iter().enumerate() {

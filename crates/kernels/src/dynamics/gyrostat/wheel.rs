@@ -36,20 +36,17 @@ impl<R: Real> WheelMotion<R> {
         WheelMotion { momentum: self.momentum_after(torque, since), turn: self.turn_after(wheel, torque, since) }
     }
 
-    /// The momentum after `since` seconds at the motor torque `torque` (N m).
     #[inline(always)]
     pub fn momentum_after(&self, torque: R, since: R) -> R {
         torque.mul_add(since, self.momentum)
     }
 
-    /// The turn after `since` seconds at the motor torque `torque` (N m).
     #[inline(always)]
     pub fn turn_after(&self, wheel: &GyrostatWheel<R>, torque: R, since: R) -> R {
         let mean = (torque.splat(0.5) * torque).mul_add(since, self.momentum);
         (mean * wheel.inverse_axial).mul_add(since, self.turn)
     }
 
-    /// Broadcasts to all lanes of `zero`.
     #[inline(always)]
     pub fn in_lanes<L: Real>(&self, zero: L) -> WheelMotion<L> {
         WheelMotion { momentum: zero.splat(self.momentum.lane(0)), turn: zero.splat(self.turn.lane(0)) }
@@ -57,7 +54,6 @@ impl<R: Real> WheelMotion<R> {
 }
 
 impl<R: Real> GyrostatWheel<R> {
-    /// The motion at time zero.
     #[inline(always)]
     pub fn start(&self) -> WheelMotion<R> {
         WheelMotion { momentum: self.momentum, turn: self.momentum.zero() }
@@ -91,7 +87,6 @@ impl<R: Real> GyrostatWheel<R> {
         }
     }
 
-    /// Broadcasts to all lanes of `zero`.
     #[inline(always)]
     #[expect(clippy::manual_map, reason = "a closure given to `map` is compiled outside the kernel's instruction set")]
     pub fn in_lanes<L: Real>(&self, zero: L) -> GyrostatWheel<L> {

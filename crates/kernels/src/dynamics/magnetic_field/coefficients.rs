@@ -11,7 +11,6 @@ use std::sync::LazyLock;
 /// Reference radius of the coefficients, m.
 pub const RADIUS: f64 = 6_371_200.0;
 
-/// Largest degree of the model.
 pub const DEGREE: usize = 13;
 
 /// Year from which the secular variation applies; earlier fields are interpolated from 2020.
@@ -40,14 +39,12 @@ pub struct Tables {
     pub before: Weights,
 }
 
-/// The tables, computed once.
 pub static TABLES: LazyLock<Tables> = LazyLock::new(|| Tables {
     middle: weights(|[_, middle, _]| middle),
     after: weights(|[_, _, change]| change),
     before: weights(|[first, middle, _]| (middle - first) / (MIDDLE - FieldModel::YEARS[0])),
 });
 
-/// Weights from the coefficients that `of` selects in each row.
 fn weights(of: impl Fn([f64; 3]) -> f64) -> Weights {
     const NANO: f64 = 1e-9;
     let row = |index: usize| match index.checked_sub(COEFFICIENTS.len()) {
@@ -122,7 +119,6 @@ const COEFFICIENTS: [[f64; 3]; 80] = [
     [-6.9, -5.2, 0.3], [-0.34, 1.0, 0.3], [2.9, 3.9, 0.2],
 ];
 
-/// The coefficients from degree 9 on, without secular variation.
 #[rustfmt::skip]
 const HIGHER: [[f64; 2]; DEGREE * (DEGREE + 2) - 80] = [
     [5.03, 4.7], [8.36, 8.0], [-23.44, -24.8], [2.84, 3.0], [11.04, 12.1], [-1.48, -0.2], [9.86, 8.3], [-1.14, -2.5],

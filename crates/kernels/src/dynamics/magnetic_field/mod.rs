@@ -10,7 +10,7 @@
 //! (k - j) V_kj = (2k - 1) Z V_(k-1)j - (k + j - 1) (a/r)^2 V_(k-2)j, and likewise W_kj
 //! ```
 
-pub mod coefficients;
+pub(crate) mod coefficients;
 pub mod series;
 
 use self::coefficients::{DEGREE, MIDDLE, RADIUS, TABLES, Tables, index};
@@ -123,7 +123,6 @@ impl<R: Real> MagneticField<R> {
         turned(cos, sin, dipole)
     }
 
-    /// Sine and cosine of the Earth's rotation angle at `time`, s.
     #[inline(always)]
     fn turn(&self, time: R) -> (R, R) {
         let turns = time.mul_add(time.splat(TURNS_PER_SECOND), self.turns);
@@ -158,7 +157,6 @@ fn add_weighed<R: Real>(field: &mut [R; 3], weights: &[R; 6], now: [R; 2]) {
     }
 }
 
-/// Rotation about e3.
 #[inline(always)]
 fn turned<R: Real>(cos: R, sin: R, [x, y, z]: [R; 3]) -> [R; 3] {
     [cos * x - sin * y, sin * x + cos * y, z]

@@ -41,7 +41,6 @@ pub struct WheelMotion {
 }
 
 impl WheelMotion {
-    /// All zero.
     pub const AT_REST: WheelMotion = WheelMotion {
         lever: [[0.0; 3]; 3],
         c_ws: [[0.0; 3]; 3],
@@ -51,7 +50,6 @@ impl WheelMotion {
         angular_acceleration: [0.0; 3],
     };
 
-    /// Wheel `index` in `state`.
     #[inline(always)]
     pub fn of<const W: usize>(wheel: &WheelParameters, state: &State<W>, index: usize) -> Self {
         let (c_es, c_ew) = (state.fuselage.dcm, state.wheels[index].dcm);

@@ -28,7 +28,6 @@ pub struct SpacecraftMass<const W: usize> {
 /// The block of omega_s and the wheel rates of a symmetric matrix (lower triangle), or its Cholesky factor; kg m^2.
 #[derive(Clone, Copy, Debug)]
 pub struct RotationBlock<const W: usize> {
-    /// omega_s with omega_s.
     pub omega: [[f64; 3]; 3],
     /// Wheel rates (rows) with omega_s.
     pub mixed: [[f64; 3]; W],
@@ -37,7 +36,6 @@ pub struct RotationBlock<const W: usize> {
 }
 
 impl<const W: usize> SpacecraftMass<W> {
-    /// Pi^T M Pi of fuselage and wheels.
     #[inline(always)]
     pub fn of(parameters: &Parameters<W>, state: &State<W>, wheels: &[WheelMotion; W]) -> Self {
         let minus = lever(state.fuselage.dcm, parameters.first);
@@ -174,13 +172,11 @@ pub fn cholesky<const N: usize>(a: [[f64; N]; N]) -> Factor<N> {
     l
 }
 
-/// L^-T L^-1 `right`.
 #[inline(always)]
 pub fn solved<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
     backward(l, forward(l, right))
 }
 
-/// L^-1 `right`.
 #[inline(always)]
 fn forward<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
     let mut x = right;
@@ -193,7 +189,6 @@ fn forward<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
     x
 }
 
-/// L^-T `right`.
 #[inline(always)]
 fn backward<const N: usize>(l: &Factor<N>, right: [f64; N]) -> [f64; N] {
     let mut x = right;

@@ -17,14 +17,14 @@
 //! Pi-dot nu-hat - Omega M nu + a_non + B u)` (39). `tests/accuracy/null_space.rs` proves that this block form equals
 //! Berdoz's printed matrices.
 
-pub mod completion;
-pub mod energy;
+pub(crate) mod completion;
+pub(crate) mod energy;
 pub mod forces;
 pub mod kernel;
-pub mod kinematics;
-pub mod mass_matrix;
+pub(crate) mod kinematics;
+pub(crate) mod mass_matrix;
 pub mod parameters;
-pub mod residuals;
+pub(crate) mod residuals;
 pub mod state;
 
 pub use completion::{complete, observed_state};

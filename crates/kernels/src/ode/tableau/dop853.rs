@@ -8,7 +8,6 @@ use super::butcher::Tableau;
 #[derive(Clone, Copy, Debug)]
 pub struct Dop853Tableau;
 
-/// A row of stages with zeros after the given weights.
 const fn padded<const N: usize>(weights: [f64; N]) -> [f64; 16] {
     let mut row = [0.0; 16];
     let mut stage = 0;

@@ -4,7 +4,6 @@
 
 use super::butcher::Tableau;
 
-/// The tableau.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceTableau;
 

@@ -3,10 +3,8 @@
 
 use super::butcher::Tableau;
 
-/// sqrt(15), correctly rounded.
 const ROOT_15: f64 = 3.872983346207417;
 
-/// The tableau.
 #[derive(Clone, Copy, Debug)]
 pub struct GaussLegendreTableau;
 

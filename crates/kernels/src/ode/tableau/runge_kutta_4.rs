@@ -3,7 +3,6 @@
 
 use super::butcher::Tableau;
 
-/// The tableau.
 #[derive(Clone, Copy, Debug)]
 pub struct RungeKutta4Tableau;
 

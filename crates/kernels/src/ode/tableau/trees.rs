@@ -9,7 +9,6 @@ impl Tree {
         1 + self.0.iter().map(Tree::order).sum::<usize>()
     }
 
-    /// The density gamma.
     fn density(&self) -> f64 {
         self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
     }
@@ -27,7 +26,6 @@ impl Tree {
     }
 }
 
-/// All trees of each order up to `order`: element n contains those with n nodes.
 fn trees(order: usize) -> Vec<Vec<Tree>> {
     let mut all: Vec<Vec<Tree>> = vec![Vec::new()];
     for nodes in 1..=order {

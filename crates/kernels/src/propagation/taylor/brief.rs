@@ -27,7 +27,6 @@ pub(super) struct BriefRule {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Brief<R: Real> {
-    /// Lanes with a brief arc.
     pub lanes: R::Mask,
     /// Their orders.
     pub order: R,
@@ -79,7 +78,6 @@ impl BriefRule {
 }
 
 impl<R: Real> Brief<R> {
-    /// True if some lanes take a step of full order.
     #[inline(always)]
     pub(super) fn is_mixed(&self, full: usize) -> bool {
         self.most == full

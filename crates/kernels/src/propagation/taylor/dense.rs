@@ -21,7 +21,6 @@ pub struct Segment<R, const J: usize> {
 }
 
 impl<R: Real, const J: usize> Segment<R, J> {
-    /// Memory for a series of order `order`.
     pub fn new(zero: R, order: usize) -> Self {
         Segment { jet: vec![[zero; J]; order + 1], start: zero, start_low: zero }
     }
@@ -78,7 +77,6 @@ fn group<R: Real, const J: usize, const G: usize, const U: usize>(
     }
 }
 
-/// One component of a series, in lane `lane`, at `x`.
 #[inline(always)]
 pub fn value_at<R: Real, const J: usize>(jet: &[[R; J]], component: usize, lane: usize, x: f64) -> f64 {
     let order = jet.len() - 1;

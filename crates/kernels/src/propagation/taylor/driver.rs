@@ -195,7 +195,6 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         self.set_alarm();
     }
 
-    /// Sets the step after which all lanes are examined at the latest.
     fn set_alarm(&mut self) {
         let RunLanes { work, states, .. } = &self.lanes;
         let (clock, kept) = (work.ring.clock, work.ring.len());

@@ -40,7 +40,6 @@ pub struct FoldBuffer {
 const SERIES: usize = 2 * LARGEST;
 
 impl FoldBuffer {
-    /// Memory for `lanes` lanes of `components` components at `points` points.
     pub fn new(lanes: usize, components: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(WIDTH) + WIDTH;
         let capacity = stride + LARGEST * WIDTH;

@@ -36,7 +36,6 @@ impl<R: Real> Reciprocals<R> {
     }
 }
 
-/// Intermediate series of the recurrences.
 #[derive(Clone, Debug)]
 pub struct Scratch<R> {
     /// q (x) F.
@@ -47,7 +46,6 @@ pub struct Scratch<R> {
 }
 
 impl<R: Real> Scratch<R> {
-    /// Memory for any order.
     pub fn new(zero: R) -> Self {
         Scratch {
             turned_force: [[zero; 4]; MAX_ORDER],
@@ -155,7 +153,6 @@ fn attitude_of<R: Real, const N: usize>(coefficients: &[R; N]) -> [R; 4] {
     [coefficients[ATTITUDE], coefficients[ATTITUDE + 1], coefficients[ATTITUDE + 2], coefficients[ATTITUDE + 3]]
 }
 
-/// Offset from an orbit at one order, m.
 #[inline(always)]
 fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[R; N]) -> [R; 3] {
     if N < WITH_THRUST {
@@ -165,7 +162,6 @@ fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[
     scaled(constants.inverse_mass, [coefficients[first], coefficients[first + 1], coefficients[first + 2]])
 }
 
-/// Coefficients n of q (x) torque and torque . omega.
 #[inline(always)]
 fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]], n: usize) -> ([R; 4], R) {
     let zero = jet[0][0].zero();

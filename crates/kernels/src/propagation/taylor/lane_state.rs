@@ -8,14 +8,12 @@ use crate::run::Grid;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SeriesLane {
-    /// The index of the run.
     pub run: usize,
     /// Unit of time, s: a power of two near the time scale of the motion, so that conversions are exact.
     pub unit: f64,
     /// Start and end of the arc, s.
     pub start: f64,
     pub end: f64,
-    /// True in the last arc of the run.
     pub is_last: bool,
     /// Length of the arc, units.
     pub length: f64,
@@ -49,7 +47,6 @@ pub(super) struct Waiting {
 pub(super) const QUADRATURES: usize = WITH_THRUST - WITH_ANGLES;
 
 impl SeriesLane {
-    /// A lane before the first arc of run `run`.
     pub(super) fn new(run: usize, unit: f64, clock: usize) -> Self {
         SeriesLane {
             run,

@@ -26,7 +26,6 @@ pub(super) struct LaneVectors<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> LaneVectors<R, N> {
-    /// Empty lanes like `zero`.
     pub fn new(zero: R) -> Self {
         LaneVectors {
             constants: Constants::zero(zero),
@@ -41,7 +40,6 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         }
     }
 
-    /// Sets the state in `lane`.
     pub fn set_state(&mut self, lane: usize, state: &[f64; N]) {
         for (i, component) in state.iter().enumerate() {
             self.state[i].set_lane(lane, *component);
@@ -56,7 +54,6 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
         self.may_be_brief.set_lane(lane, 0.0);
     }
 
-    /// The angular velocity in `lane`, per unit.
     #[inline(always)]
     pub fn omega(&self, lane: usize) -> [f64; 3] {
         lane_of(&[self.state[OMEGA], self.state[OMEGA + 1], self.state[OMEGA + 2]], lane)

@@ -72,7 +72,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         }
     }
 
-    /// Loads the next run into `lane`, or empties it.
     #[inline(never)]
     pub(super) fn load_lane(&mut self, lane: usize) {
         self.vectors.set_state(lane, &[0.0; N]);
@@ -108,7 +107,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.begin_arc(lane);
     }
 
-    /// Sets the constants of run `run` in `lane`; `unit` is the unit of time, s.
     fn set_unit(&mut self, lane: usize, run: usize, unit: f64) {
         self.vectors.constants.set_run(lane, &self.runs[run], unit);
         self.vectors.per_unit.set_lane(lane, 1.0 / unit);
@@ -206,7 +204,6 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         }
     }
 
-    /// Writes the pending points of `lane` to its trajectory.
     fn flush_points(&mut self, lane: usize) {
         let Workspace { points, trajectories, .. } = &mut *self.work;
         points.flush::<N>(lane, &mut trajectories[lane]);

@@ -6,25 +6,25 @@
 //! the whole run.
 
 mod brief;
-pub mod dense;
-pub mod driver;
+pub(crate) mod dense;
+pub(crate) mod driver;
 pub mod engine;
-pub mod fold_buffer;
-pub mod jet;
+pub(crate) mod fold_buffer;
+pub(crate) mod jet;
 mod lane_state;
 mod lane_vectors;
 mod lanes;
-pub mod period;
+pub(crate) mod period;
 mod period_folding;
 mod period_search;
 mod point_rows;
 mod points;
 mod reference_run;
 pub mod reference_solution;
-pub mod return_detector;
-pub mod series_ring;
+pub(crate) mod return_detector;
+pub(crate) mod series_ring;
 pub mod step;
 mod switched_reference;
 pub mod thrust;
 mod truncation;
-pub mod workspace;
+pub(crate) mod workspace;

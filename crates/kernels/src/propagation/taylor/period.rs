@@ -23,7 +23,6 @@ const RETURN_OF_TOLERANCE: f64 = 100.0;
 /// Limit of Newton steps on one polynomial; three or four are usual.
 const NEWTON_STEPS: usize = 12;
 
-/// One period of an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
     /// Length, units, an unevaluated sum.

@@ -28,7 +28,6 @@ pub(super) struct FoldedLane {
     pub lane: usize,
     pub state: SeriesLane,
     pub period: Option<Period>,
-    /// Step after the last series.
     pub end: usize,
     /// Number of points of the arc.
     pub points: usize,

@@ -15,7 +15,6 @@ pub(super) struct PointRows {
 }
 
 impl PointRows {
-    /// Memory for points of `components` components.
     pub(super) fn new(lanes: usize, components: usize) -> Self {
         PointRows { values: vec![0.0; lanes * WIDTH * components], first: [0; WIDEST], next: [0; WIDEST] }
     }
@@ -42,7 +41,6 @@ impl PointRows {
         }
     }
 
-    /// Writes the points of `lane` into the columns of `trajectory`.
     #[inline(never)]
     pub(super) fn flush<const N: usize>(&mut self, lane: usize, trajectory: &mut Trajectory) {
         let points = self.first[lane]..self.next[lane];

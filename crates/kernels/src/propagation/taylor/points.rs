@@ -13,7 +13,6 @@ use crate::math::lanes::WIDEST;
 use crate::run::{Grid, Trajectory};
 
 pub(super) struct TakenStep<R, const N: usize> {
-    /// The constants at its start.
     pub constants: Constants<R>,
     /// The state at its start.
     pub begin: [R; N],
@@ -29,7 +28,6 @@ pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
     pub step: &'a TakenStep<R, N>,
     pub quadrature: &'a mut Quadrature<R>,
-    /// 1/unit of time, 1/s.
     pub per_unit: R,
 }
 

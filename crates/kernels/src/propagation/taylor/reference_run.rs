@@ -18,7 +18,6 @@ pub const MOST_STEPS: u64 = 1_000_000;
 /// All components of a gyrostat: one kernel for all scenes.
 pub(super) const N: usize = WITH_THRUST;
 
-/// One run from its start to the end of its grid.
 pub(super) struct Integration<'a, 'l> {
     pub(super) run: &'a mut Gyrostat<DoubleDouble>,
     /// The run in `f64`, for its unit of time: a power of two near the time scale of the motion.
@@ -39,7 +38,6 @@ pub(super) struct ReferenceOrbit {
     /// Position and velocity relative to the orbit at time zero, m and m/s, if the spacecraft may leave it.
     pub(super) offset: Option<[[DoubleDouble; 3]; 2]>,
     pub(super) place: OrbitState<DoubleDouble>,
-    /// The unit of time, s.
     pub(super) unit: DoubleDouble,
 }
 

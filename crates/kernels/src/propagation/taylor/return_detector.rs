@@ -17,12 +17,10 @@ pub struct ReturnDetector<R> {
 }
 
 impl<R: Real> ReturnDetector<R> {
-    /// No searches.
     pub fn none(zero: R) -> Self {
         ReturnDetector { start: [zero; 3], direction: [zero; 3], extent2: zero, side: zero }
     }
 
-    /// Sets the section of `lane`, or ends its search.
     pub fn set(&mut self, lane: usize, section: Option<&PoincareSection>) {
         let section = section.copied().unwrap_or(NONE);
         set_lanes(&mut self.start, lane, &section.start);

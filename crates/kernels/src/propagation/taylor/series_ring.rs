@@ -13,25 +13,17 @@ pub const LARGEST: usize = 192;
 pub struct SeriesRing<R, const J: usize> {
     segments: Vec<Segment<R, J>>,
     order: usize,
-    /// Number of steps so far.
     pub clock: usize,
 }
 
 impl<R: Real, const J: usize> SeriesRing<R, J> {
-    /// Memory for series of order `order` in the lanes of `zero`.
     pub fn new(zero: R, order: usize) -> Self {
         SeriesRing { segments: (0..INITIAL).map(|_| Segment::new(zero, order)).collect(), order, clock: 0 }
     }
 
-    /// Number of kept steps.
     #[inline(always)]
     pub fn len(&self) -> usize {
         self.segments.len()
-    }
-
-    /// Never: at least one step is kept.
-    pub fn is_empty(&self) -> bool {
-        self.segments.is_empty()
     }
 
     /// The series of step `step`, one of the last.
@@ -40,14 +32,12 @@ impl<R: Real, const J: usize> SeriesRing<R, J> {
         &self.segments[step % self.segments.len()]
     }
 
-    /// Memory for the series of the step that begins.
     #[inline(always)]
     pub fn current(&mut self) -> &mut Segment<R, J> {
         let slot = self.clock % self.segments.len();
         &mut self.segments[slot]
     }
 
-    /// Series of the last step.
     #[inline(always)]
     pub fn last(&self) -> &Segment<R, J> {
         self.segment(self.clock - 1)

@@ -39,7 +39,6 @@ const NOISE: f64 = 1e-13;
 /// Branches are chosen by the signs after this fraction of a step; the error is of second order, 1e-18.
 const AHEAD: f64 = 1e-9;
 
-/// Limit of steps that replace one.
 const MOST_CUTS: usize = 60;
 
 /// Shortest step as a fraction of the time scale of the run.
@@ -193,7 +192,6 @@ struct Taken {
 
 struct Steps {
     extrapolation: Box<Extrapolation<DoubleDouble, ALL>>,
-    /// Length of the next step, and shortest step, s.
     length: f64,
     shortest: f64,
     count: u64,

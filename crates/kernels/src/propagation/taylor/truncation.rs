@@ -35,7 +35,6 @@ pub(super) struct TruncationSums {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truncation<R> {
     order: usize,
-    /// 2/(p+1)!.
     factor: f64,
     /// Ratio of the neglected sum of omega's series to its first term.
     all: f64,
@@ -89,7 +88,6 @@ impl<R: Real> Truncation<R> {
         }
     }
 
-    /// Adds a step of length `length` along the series `jet`.
     #[inline(always)]
     pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let rate = self.left_out_of_rate(jet, length);
@@ -126,7 +124,6 @@ impl<R: Real> Truncation<R> {
         length.splat(self.all) * (raised_to(length, order - 1) * left_out(sizes, length))
     }
 
-    /// Adds the truncation of the attitude in a step of length `length`.
     #[inline(always)]
     fn add_turn<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let order = self.order;
@@ -179,7 +176,6 @@ fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
     from_last.larger(before * share(before * square, third))
 }
 
-/// `term` over `of`, at most one.
 #[inline(always)]
 fn share<R: Real>(term: R, of: R) -> R {
     (term / of.larger(of.splat(f64::MIN_POSITIVE))).smaller(of.splat(1.0))

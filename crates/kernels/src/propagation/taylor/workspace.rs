@@ -12,10 +12,8 @@ use crate::dynamics::effects::ChangingSeries;
 use crate::math::Real;
 use crate::run::Trajectory;
 
-/// Settings of an integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Relative tolerance.
     pub tolerance: f64,
     /// True to propagate arcs without actuation by their period.
     pub periodic: bool,
@@ -23,13 +21,10 @@ pub struct Settings {
     pub max_steps: u64,
 }
 
-/// Memory for runs of `N` components, the first `J` with series.
 #[derive(Clone, Debug)]
 pub struct Workspace<R, const J: usize> {
-    /// Order and step size.
     pub rule: StepRule,
     pub(super) brief: BriefRule,
-    /// Settings.
     pub settings: Settings,
     /// Nodes of the integrals of thrust.
     pub quadrature: Quadrature<R>,
@@ -52,7 +47,6 @@ pub struct Workspace<R, const J: usize> {
 }
 
 impl<R: Real, const J: usize> Workspace<R, J> {
-    /// Memory for runs of `components` components at `points` points, in the lanes of `zero`.
     pub fn new(zero: R, settings: Settings, components: usize, points: usize) -> Self {
         let rule = StepRule::in_f64(settings.tolerance);
         Workspace {
