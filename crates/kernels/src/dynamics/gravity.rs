@@ -19,8 +19,7 @@
 //! No terms cancel: an offset of metres keeps all its digits, although the last digit of 7000 km is a nanometre.
 
 use super::orbit_state::OrbitState;
-use crate::math::Real;
-use crate::math::vector::{dot, scaled, sum};
+use crate::math::prelude::*;
 use crate::scene::Orbit;
 
 /// Gravity of a central body, one run per lane.
@@ -162,7 +161,6 @@ pub(super) fn twice_and<R: Real>(place: [R; 3], offset: [R; 3]) -> [R; 3] {
 mod tests {
     use super::*;
     use crate::math::double_double::DoubleDouble;
-    use crate::math::vector::{difference, norm};
 
     fn gravities() -> [Gravity<f64>; 3] {
         let k = 1.5 * 1.08262668e-3 * 6_378_137.0 * 6_378_137.0;

@@ -3,8 +3,7 @@
 
 use super::gravity::{Gravity, stronger, stronger_powers, twice_and};
 use super::orbit_series::{OrbitSeries, convolution, dot_convolution, minus_convolution, next_of_power};
-use crate::math::Real;
-use crate::math::vector::{scaled, sum};
+use crate::math::prelude::*;
 
 /// Coefficients of the offset and its products in one step, in the lanes' units of time.
 #[derive(Clone, Debug)]

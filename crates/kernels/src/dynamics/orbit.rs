@@ -16,8 +16,8 @@
 use super::gravity::Gravity;
 use super::orbit_state::OrbitState;
 use super::set_lanes;
+use crate::math::prelude::*;
 use crate::math::sine::sin_cos_turns;
-use crate::math::vector::{constant, dot, norm, scaled, sum};
 use crate::math::{Mask, Real};
 use crate::scene::Orbit;
 
@@ -221,7 +221,6 @@ impl<R: Real> KeplerOrbit<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{cross, difference};
 
     const MU: f64 = 3.986004418e14;
 

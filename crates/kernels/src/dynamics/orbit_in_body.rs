@@ -11,8 +11,7 @@
 
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;
-use crate::math::Real;
-use crate::math::vector::{conjugate, dcm_from_quaternion, dot, hamilton, scaled, transposed_product};
+use crate::math::prelude::*;
 
 #[derive(Clone, Debug)]
 pub struct OrbitInBody<R> {

@@ -11,10 +11,8 @@ use super::gravity::Gravity;
 use super::orbit::KeplerOrbit;
 use super::orbit_series::OrbitSeries;
 use super::orbit_state::OrbitState;
-use crate::math::Real;
-use crate::math::lanes::WIDEST;
+use crate::math::prelude::*;
 use crate::math::sums::two_sum;
-use crate::math::vector::{norm, scaled, sum};
 use crate::scene::Orbit;
 
 /// Order of the series.

@@ -10,8 +10,7 @@
 
 use super::gravity::Gravity;
 use super::orbit_state::OrbitState;
-use crate::math::Real;
-use crate::math::vector::{norm, scaled};
+use crate::math::prelude::*;
 
 /// Coefficients of one step, in the lanes' units of time.
 #[derive(Clone, Debug)]

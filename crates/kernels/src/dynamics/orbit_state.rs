@@ -1,8 +1,7 @@
 //! [`OrbitState`]: position and velocity relative to the central body.
 
 use super::set_lanes;
-use crate::math::Real;
-use crate::math::vector::{norm, sum};
+use crate::math::prelude::*;
 
 /// Position and velocity relative to the central body, one run per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]

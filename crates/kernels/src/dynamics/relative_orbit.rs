@@ -5,7 +5,7 @@ use super::gravity::Gravity;
 use super::offset_series::OffsetSeries;
 use super::orbit_path::{OrbitPath, end_of_step, state_within, step_length};
 use super::orbit_state::OrbitState;
-use crate::math::vector::{dot, norm, scaled};
+use crate::math::prelude::*;
 use crate::scene::orbit::Offset;
 
 /// Order of the series, as in [`super::orbit_path`].

@@ -11,6 +11,7 @@ pub mod list;
 pub mod normal;
 pub(crate) mod pair;
 pub(crate) mod power;
+pub(crate) mod prelude;
 pub(crate) mod probability;
 pub(crate) mod real;
 pub(crate) mod saddle_point;

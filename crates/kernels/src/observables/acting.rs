@@ -2,8 +2,7 @@
 
 use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::effects::{largest_changing_torque, largest_constant_torque};
-use crate::math::Real;
-use crate::math::vector::dot;
+use crate::math::prelude::*;
 use crate::scene::{Arc, Scene};
 
 #[derive(Clone, Copy)]

@@ -2,8 +2,7 @@ use fearless_simd::Simd;
 
 use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, three};
 use super::table::Series;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{dcm_from_quaternion, difference, dot, sum};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 

@@ -38,8 +38,7 @@ use super::error_sums::{Here, Sums, dip};
 use super::rotor::{Body, adjugate};
 use super::torque_growth::{self, LARGEST_EXPONENT, MOST};
 use crate::dynamics::effects::ForceModel;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{constant, constant_matrix, cross, difference, dot, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 

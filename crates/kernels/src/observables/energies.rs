@@ -12,7 +12,7 @@ use super::points::{
     Column, MeasuredRun, SeriesTable, columns, constant, count_of_wheels, each, first, needed, of_wheels, only, three,
 };
 use super::table::Series;
-use crate::math::vector::{cross, difference, dot, scaled, transposed_product};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 use crate::scene::MAX_WHEELS;

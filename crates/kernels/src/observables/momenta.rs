@@ -15,8 +15,7 @@ use super::points::{
     of_wheels, three,
 };
 use super::table::Series;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{dcm_from_quaternion, difference, dot, norm, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::StateField;
 use crate::scene::MAX_WHEELS;

@@ -9,8 +9,7 @@ use super::points::{
     Column, MeasuredRun, SeriesTable, constant, constant_matrix, first, four, needed, of_wheels, only, three,
 };
 use super::table::Series;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{conjugate, cross, difference, dot, hamilton, norm, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::StateField;
 use crate::scene::MAX_WHEELS;

@@ -7,8 +7,7 @@ use super::motion::angle;
 use super::points::{Magnetism, MeasuredRun, SeriesTable, constant_matrix, needed, three};
 use super::table::Series;
 use crate::dynamics::effects::gravity_gradient::GravityGradient;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{constant, cross, dot, norm, scaled, transposed_product};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::StateField;
 

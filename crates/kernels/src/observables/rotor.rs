@@ -1,7 +1,7 @@
 //! [`Body`]: constants of a run's rotation for [`super::conditioning`].
 
 use super::acting::Acting;
-use crate::math::vector::{cross, difference, dot, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::run::{StateField, StateTable};
 use crate::scene::mass::MassProperties;
 

@@ -9,9 +9,7 @@ use crate::dynamics::effects::drag::{self, Drag};
 use crate::dynamics::effects::solar_pressure::{self, Light, SolarPressure};
 use crate::dynamics::environment::air::Air;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::math::Lanes;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{dot, norm, transposed_product};
+use crate::math::prelude::*;
 use crate::run::StateField;
 
 #[inline(always)]

@@ -13,8 +13,8 @@ use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, ForceModel};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
+use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{cross, difference, dot, hamilton, quaternion_from_dcm, scaled, sum, transposed_product};
 use crate::run::{StateField, StateTable, rate_scale};
 use crate::scene::Scene;
 

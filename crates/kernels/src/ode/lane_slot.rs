@@ -1,8 +1,7 @@
 //! [`LaneSlots`]: assignment of runs to lanes.
 
 use super::runs::{EndedRun, Recorder, Runs, Termination};
-use crate::math::lanes::WIDEST;
-use crate::math::real::Real;
+use crate::math::prelude::*;
 
 pub(super) struct LaneSlots {
     /// The run in each lane.

@@ -1,7 +1,6 @@
 //! Directions in F_s and their alignment errors.
 
-use crate::math::Real;
-use crate::math::vector::{constant, cross, dot, norm, scaled, sum};
+use crate::math::prelude::*;
 
 /// The unit vector along `direction` (of any length), turned by the alignment error `tilt` (rad), in the type of `one`.
 ///
@@ -69,7 +68,6 @@ fn nominal(direction: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::difference;
 
     #[test]
     fn a_tilt_turns_the_axis_by_its_angle_about_its_vector() {

@@ -8,9 +8,8 @@ use super::solids::{Body, hollow_cylinder, solid_box, solid_cylinder, sphere};
 use super::tensor::{matrix_sum, point_inertia, symmetric, symmetric_product};
 use super::unit_quaternion::unit_quaternion;
 use super::wheel::Wheel;
-use crate::math::Real;
 use crate::math::list::List;
-use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, difference, product, scaled, sum};
+use crate::math::prelude::*;
 
 /// Largest number of parts of a body.
 pub const MAX_PARTS: usize = 32;
@@ -162,7 +161,6 @@ impl<R: Real> Body<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::norm;
 
     const ULPS: f64 = 1e-15;
 

@@ -12,8 +12,8 @@ use super::schema::{ArcErrors, FieldModel, InitialInput, PartInput, WheelInput, 
 use super::surroundings::{self, ADD_ORBIT};
 use super::table::Table;
 use super::tensor::extremes;
+use crate::math::prelude::*;
 use crate::math::symmetric::{is_positive_definite, principal_axes};
-use crate::math::vector::{difference, norm};
 
 /// Largest mass (kg) and moment of inertia (kg m^2): products of two, in sums over pairs and determinants, are finite.
 const LARGEST: f64 = 1e150;

@@ -7,9 +7,8 @@ use super::schema::{MAX_WHEELS, WheelMode};
 pub use super::solids::Body;
 use super::tensor::{matrix_sum, point_inertia};
 pub use super::wheel::Wheel;
-use crate::math::Real;
 use crate::math::list::List;
-use crate::math::vector::{difference, scaled, sum};
+use crate::math::prelude::*;
 
 /// Mass properties of all bodies, and of the spacecraft (body and wheels) as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]

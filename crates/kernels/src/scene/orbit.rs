@@ -6,7 +6,7 @@ use super::error::Problems;
 use super::input::SceneInput;
 use super::schema::limit::shown;
 use super::schema::{InitialInput, OrbitInput};
-use crate::math::vector::{cross, difference, dot, norm, quaternion_from_dcm, scaled, sum};
+use crate::math::prelude::*;
 
 /// Largest accepted J2.
 const LARGEST_J2: f64 = 0.1;

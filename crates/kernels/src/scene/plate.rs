@@ -8,7 +8,7 @@ use super::alignment::aligned;
 use super::input::SceneInput;
 use super::schema::{MAX_PLATES, PartInput, PartShape, PlateInput};
 use super::unit_quaternion::unit_quaternion;
-use crate::math::vector::{constant_quaternion, dcm_from_quaternion, product, sum};
+use crate::math::prelude::*;
 
 /// Plates around a cylinder.
 pub const PRISM_SIDES: usize = 12;
@@ -101,7 +101,6 @@ fn push_part(part: &PartInput, plates: &mut Vec<Plate>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{dot, norm, scaled};
     use crate::scene::{EnvironmentInput, Name, OrbitInput, Scene};
 
     fn plates(part: PartInput) -> Vec<Plate> {

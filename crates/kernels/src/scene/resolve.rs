@@ -10,9 +10,7 @@ use super::{
     ActuatorModels, InitialState, LocalFrame, Offsets, Orbit, Scene, SceneError, TorqueRod, check, failures, plate,
     schedule,
 };
-use crate::math::vector::{
-    conjugate, cross, dcm_from_quaternion, difference, hamilton, product, sum, transposed_product,
-};
+use crate::math::prelude::*;
 
 impl Scene {
     /// The scene that `input` describes.
@@ -169,7 +167,6 @@ fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{dot, norm, scaled};
     use crate::scene::samples;
     use crate::scene::schema::OrbitInput;
 

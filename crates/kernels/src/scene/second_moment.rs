@@ -7,8 +7,7 @@
 use super::schema::{MassErrors, PrincipalInertia, PrincipalMoments};
 use super::solids::Body;
 use super::tensor::{symmetric_of, symmetric_product};
-use crate::math::Real;
-use crate::math::vector::{constant, constant_quaternion, dcm_from_quaternion, dot, scaled, sum};
+use crate::math::prelude::*;
 
 /// S of the inertia `j`, kg m^2, by rows: (tr(J)/2) 1 - J, with a diagonal of half sums and half differences.
 pub fn second_moment<R: Real>(j: [[R; 3]; 3]) -> [[R; 3]; 3] {

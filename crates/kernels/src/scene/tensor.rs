@@ -1,7 +1,6 @@
 //! Inertia tensors by rows.
 
-use crate::math::Real;
-use crate::math::vector::{dot, product, sum};
+use crate::math::prelude::*;
 
 /// m (r^2 1 - r r^T), without differences on the diagonal.
 pub(super) fn point_inertia<R: Real>(mass: R, r: [R; 3]) -> [[R; 3]; 3] {

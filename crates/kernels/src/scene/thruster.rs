@@ -1,7 +1,7 @@
 //! [`Thruster`]: position and direction of a thruster; force and torque of several (Berdoz's (72)).
 
 use super::schema::MAX_THRUSTERS;
-use crate::math::vector::{cross, difference, scaled, sum};
+use crate::math::prelude::*;
 
 /// A thruster, fixed in the body.
 #[derive(Clone, Copy, Debug, PartialEq)]

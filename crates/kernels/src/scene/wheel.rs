@@ -5,8 +5,7 @@ use super::alignment::aligned;
 use super::schema::{WheelInput, WheelMode};
 use super::solids::{Body, Cylinder, solid_cylinder};
 use super::tensor::{matrix_sum, point_inertia};
-use crate::math::Real;
-use crate::math::vector::{constant, scaled};
+use crate::math::prelude::*;
 
 /// A balanced axisymmetric turning wheel, with centre and axis fixed in the body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,8 +10,7 @@ use super::within_arcs::Motion;
 use crate::dynamics::environment::EARTH_RATE;
 use crate::dynamics::environment::air::{Air, AirTable};
 
-use crate::math::Real;
-use crate::math::vector::{cross, dcm_from_quaternion, norm, scaled, sum, transposed_product};
+use crate::math::prelude::*;
 use crate::scene::Scene;
 
 #[derive(Clone, Copy, Debug)]

@@ -6,9 +6,8 @@
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit_in_body::OrbitInBody;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::math::Real;
+use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{constant_matrix, cross, dcm_from_quaternion, product, scaled, transposed_product};
 use crate::scene::Scene;
 
 #[derive(Clone, Copy, Debug)]

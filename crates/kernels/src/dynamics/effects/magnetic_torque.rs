@@ -6,8 +6,7 @@
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
 use crate::dynamics::magnetic_field::{MagneticField, largest};
-use crate::math::Real;
-use crate::math::vector::{conjugate, constant, cross, dcm_from_quaternion, hamilton, norm, sum, transposed_product};
+use crate::math::prelude::*;
 use crate::scene::Scene;
 
 #[derive(Clone, Copy, Debug)]

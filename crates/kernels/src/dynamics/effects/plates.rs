@@ -3,9 +3,8 @@
 //! The switch function of a plate is the cosine of its normal to the incoming direction, negative if it faces away. If
 //! steps end at switches, the chosen side is frozen.
 
-use crate::math::Real;
+use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{constant, difference, dot, norm, transposed_product};
 use crate::scene::{MAX_PLATES, Plate, Scene};
 
 /// Plates with `K` numbers each; lanes with fewer plates are padded with zero areas.

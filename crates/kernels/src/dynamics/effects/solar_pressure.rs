@@ -10,8 +10,7 @@ use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::shadow::{Zone, lit};
 use crate::dynamics::environment::sun::{Sun, sun};
-use crate::math::Real;
-use crate::math::vector::{cross, dcm_from_quaternion, scaled, sum, transposed_product};
+use crate::math::prelude::*;
 use crate::scene::{Scene, Shadow};
 
 const DAY: f64 = 1.0 / 86_400.0;
@@ -183,7 +182,6 @@ pub fn largest_rate(scene: &Scene) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::{difference, norm};
     use crate::scene::{EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, SceneInput};
 
     const PRESSURE: f64 = 5e-6;

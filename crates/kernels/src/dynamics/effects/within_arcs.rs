@@ -9,8 +9,7 @@ use crate::dynamics::offset_series::OffsetSeries;
 use crate::dynamics::orbit_path::PathsInLanes;
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::math::Real;
-use crate::math::vector::scaled;
+use crate::math::prelude::*;
 
 /// Actions on a body other than its actuators', one run per lane.
 #[derive(Clone, Copy, Debug)]

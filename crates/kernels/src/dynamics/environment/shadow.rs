@@ -7,7 +7,7 @@
 use super::each_lane;
 use super::sun::{ASTRONOMICAL_UNIT, Sun};
 use crate::dynamics::set_lanes;
-use crate::math::vector::{cross, difference, dot, norm, scaled};
+use crate::math::prelude::*;
 use crate::math::{Mask, Real};
 use crate::scene::Shadow;
 

@@ -8,10 +8,7 @@ use super::{
 };
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::math::lanes::WIDTH;
-use crate::math::vector::{
-    conjugate, constant, constant_matrix, constant_quaternion, difference, dot, hamilton, product, scaled, sum,
-};
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 

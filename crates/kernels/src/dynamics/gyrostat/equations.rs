@@ -2,8 +2,7 @@
 
 use super::{ANGLE, ANGULAR_IMPULSE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK};
 use crate::dynamics::effects::within_arcs::Beside;
-use crate::math::Real;
-use crate::math::vector::{cross, dcm_from_quaternion, difference, dot, product, scaled, sum};
+use crate::math::prelude::*;
 
 /// Constants of the equations, one run per lane.
 #[derive(Clone, Copy, Debug)]

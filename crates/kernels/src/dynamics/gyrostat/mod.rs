@@ -31,11 +31,8 @@ use crate::dynamics::applied::scheduled_arc;
 use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::effects::{ChangingEffects, ForceModel, largest_changing_rate};
 use crate::dynamics::orbit_path::OrbitPath;
-use crate::math::Real;
+use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{
-    constant, cross, dcm_from_quaternion, dot, hamilton, product, quaternion_from_dcm, scaled, sum, transposed_product,
-};
 use crate::scene::{Actuation, Arc, MAX_WHEELS, Offsets, Scene, WheelMode};
 use wheel::{GyrostatWheel, WheelMotion};
 

@@ -4,8 +4,7 @@ use super::wheel::WheelMotion;
 use super::{ANGLE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::actuation::{BodyState, WheelState};
 use crate::dynamics::lane_of;
-use crate::math::Real;
-use crate::math::vector::{conjugate, hamilton, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::scene::MAX_WHEELS;
 
 /// The state of `run` at `time`, the end of its last arc (or zero), from the integrated components in SI and the

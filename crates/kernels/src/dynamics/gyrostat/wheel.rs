@@ -1,7 +1,6 @@
 //! [`GyrostatWheel`]: a wheel's constants, and its rate, momentum and angle in closed form.
 
-use crate::math::Real;
-use crate::math::vector::{constant, dot};
+use crate::math::prelude::*;
 
 /// One wheel of a run, in the frame B of [`super::Gyrostat`].
 #[derive(Clone, Copy, Debug)]

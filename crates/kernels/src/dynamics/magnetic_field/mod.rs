@@ -15,9 +15,8 @@ pub mod series;
 
 use self::coefficients::{DEGREE, MIDDLE, RADIUS, TABLES, Tables, index};
 use super::earth_rotation::{TURNS_PER_SECOND, turns_at};
-use crate::math::Real;
+use crate::math::prelude::*;
 use crate::math::sine::sin_cos_turns;
-use crate::math::vector::{dot, scaled};
 use crate::scene::{Epoch, FieldModel, Scene};
 
 /// The field, one run per lane.

@@ -5,7 +5,7 @@ use super::parameters::{Parameters, WheelParameters};
 use super::residuals::residuals;
 use super::state::{Columns, State, rotated, transposed};
 use crate::dynamics::actuation::{BodyState, WheelState};
-use crate::math::vector::{cross, dot, product, scaled_quaternion_from_dcm, sum};
+use crate::math::prelude::*;
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
@@ -104,7 +104,6 @@ pub fn quaternion(c: Columns, near: [f64; 4]) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::vector::dcm_from_quaternion;
     use proptest::prelude::*;
 
     proptest! {

@@ -3,7 +3,7 @@
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;
 use super::state::{State, rotated_back};
-use crate::math::vector::{cross, dot, product};
+use crate::math::prelude::*;
 
 /// The kinetic energies of the bodies, J.
 #[derive(Clone, Copy, Debug, PartialEq)]

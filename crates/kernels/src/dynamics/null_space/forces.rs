@@ -6,7 +6,7 @@
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};
 use super::state::{State, rotated, rotated_back};
-use crate::math::vector::{cross, difference, dot, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::scene::Actuation;
 use crate::scene::thruster::report_offset;
 

@@ -5,7 +5,7 @@ use super::kinematics::{WheelMotion, dcm_rate, for_each_wheel};
 use super::mass_matrix::{Factor, SpacecraftMass, cholesky, solved};
 use super::parameters::Parameters;
 use super::state::{Pose, State, rotated};
-use crate::math::vector::{cross, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::scene::{Actuation, Scene};
 
 /// Right-hand side for a scene with at most `W` wheels and one arc of constant actuation.

@@ -2,7 +2,7 @@
 
 use super::parameters::WheelParameters;
 use super::state::{Columns, State, rotated, rotated_back};
-use crate::math::vector::{cross, difference, dot, scaled, sum};
+use crate::math::prelude::*;
 
 /// S omega (68): C-dot = C omega^x by columns, column j being C (omega x e_j).
 #[inline(always)]

@@ -9,7 +9,7 @@
 use super::kinematics::{WheelMotion, for_each_wheel, lever};
 use super::parameters::Parameters;
 use super::state::State;
-use crate::math::vector::{dot, product, scaled};
+use crate::math::prelude::*;
 
 /// A lower triangular Cholesky factor with the reciprocals on its diagonal.
 pub type Factor<const N: usize> = [[f64; N]; N];

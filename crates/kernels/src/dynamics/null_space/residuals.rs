@@ -4,7 +4,7 @@
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;
 use super::state::{Columns, State, rotated, rotated_back};
-use crate::math::vector::{cross, difference, dot, scaled, sum};
+use crate::math::prelude::*;
 use crate::scene::Scene;
 
 /// Largest residuals in `state`: [kinematic, collocation, attitude]; missing bodies do not count.

@@ -1,6 +1,6 @@
 //! Layout of the state, and Sigma (59), the full state from the measurable one.
 
-use crate::math::vector::{dcm_from_quaternion, product, sum, transposed_product};
+use crate::math::prelude::*;
 use crate::scene::Scene;
 
 /// A DCM by columns: `columns[j]` is C e_j.

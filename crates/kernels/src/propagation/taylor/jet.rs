@@ -12,7 +12,7 @@ use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_ANGLES,
     WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST,
 };
-use crate::math::vector::{cross, dot, scaled};
+use crate::math::prelude::*;
 use crate::math::{Mask, Real};
 
 /// Largest order of a jet: 22 for a tolerance of 1e-16, twice that for double-double.

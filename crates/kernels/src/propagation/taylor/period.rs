@@ -9,8 +9,8 @@
 use fearless_simd::Simd;
 
 use super::jet::MAX_ORDER;
+use crate::math::prelude::*;
 use crate::math::sine::sin_cos_turns;
-use crate::math::vector::{constant, dot, hamilton, norm, scaled};
 use crate::math::{Lanes, Real};
 
 /// Tolerated distance of a return from the start as a share of the curve's extent: far below the distance of two

@@ -15,8 +15,8 @@ use super::period::Period;
 use super::series_ring::SeriesRing;
 use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, WITH_ANGLES, WITH_ATTITUDE};
 use crate::dynamics::lane_of;
-use crate::math::lanes::{TWO_52, WIDEST, WIDTH};
-use crate::math::vector::hamilton;
+use crate::math::lanes::TWO_52;
+use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{Grid, Trajectory};
 

@@ -6,8 +6,7 @@ use super::period::{Period, PoincareSection};
 use super::series_ring::SeriesRing;
 use super::workspace::Workspace;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
-use crate::math::Real;
-use crate::math::vector::{dcm_from_quaternion, product};
+use crate::math::prelude::*;
 
 /// Section across the motion of `omega` in a free arc, per unit of time, for the moments' `ratio` and `inverse` and the
 /// wheels' `momentum`.

@@ -2,7 +2,7 @@
 //! The columns of a point are as many cache lines as it has components, more than the first-level cache holds for all
 //! lanes: writing points directly cost a tenth of the time of a run under thrust.
 
-use crate::math::lanes::{WIDEST, WIDTH};
+use crate::math::prelude::*;
 use crate::run::Trajectory;
 
 #[derive(Clone, Debug)]

@@ -8,8 +8,7 @@ use super::series_ring::SeriesRing;
 use super::thrust::{Push, Quadrature, angle_of};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGLE, WITH_THRUST};
-use crate::math::Real;
-use crate::math::lanes::WIDEST;
+use crate::math::prelude::*;
 use crate::run::{Grid, Trajectory};
 
 pub(super) struct TakenStep<R, const N: usize> {

@@ -8,7 +8,7 @@ use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::double_double::DoubleDouble;
-use crate::math::vector::{difference, norm, scaled, sum};
+use crate::math::prelude::*;
 use crate::run::Grid;
 use crate::scene::Scene;
 

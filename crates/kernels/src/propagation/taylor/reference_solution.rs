@@ -30,7 +30,7 @@ use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::double_double::DoubleDouble;
 use crate::math::isa::LaneWork;
-use crate::math::vector::{conjugate, difference, dot, hamilton, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::math::{Isa, Real};
 use crate::propagation::integrated_effects::{by_evaluation, by_series};
 use crate::propagation::settings::observes_debris_rotation;

@@ -2,8 +2,7 @@
 
 use super::period::PoincareSection;
 use crate::dynamics::{lane_of, set_lanes};
-use crate::math::Real;
-use crate::math::vector::{difference, dot};
+use crate::math::prelude::*;
 
 const NONE: PoincareSection = PoincareSection { start: [0.0; 3], direction: [0.0; 3], extent2: 0.0, side: 0.0 };
 

@@ -15,9 +15,8 @@
 //! bits.
 
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, OMEGA};
-use crate::math::Real;
 use crate::math::power::{exp2_rough, log2_rough};
-use crate::math::vector::dot;
+use crate::math::prelude::*;
 use crate::propagation::gyrostat_runs::SMALLEST_OFFSET;
 
 /// Order and constants of the step size for one tolerance.

@@ -14,8 +14,7 @@ use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
     ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, THRUST_WORK, WITH_THRUST,
 };
-use crate::math::Real;
-use crate::math::vector::{dot, product, scaled};
+use crate::math::prelude::*;
 
 /// Error of the quadrature, as a share of the tolerance.
 const SHARE: f64 = 0.1;

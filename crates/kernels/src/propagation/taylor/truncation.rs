@@ -4,8 +4,7 @@ use super::brief::{Brief, LEAST};
 use super::step::StepRule;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, OMEGA, WITH_ATTITUDE};
-use crate::math::Real;
-use crate::math::vector::{dcm_from_quaternion, dot, norm, product, scaled, sum};
+use crate::math::prelude::*;
 use crate::propagation::local_error::rounding;
 use crate::run::LocalErrors;
 
