@@ -44,30 +44,27 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 #[doc(hidden)]
-pub mod analysis;
-#[doc(hidden)]
-pub mod campaign;
-#[doc(hidden)]
 pub mod cli;
-#[doc(hidden)]
-pub mod control;
-#[doc(hidden)]
-pub mod ensemble;
-#[doc(hidden)]
-pub mod findings;
-#[doc(hidden)]
-pub mod report;
-#[doc(hidden)]
-pub mod sampling;
-#[doc(hidden)]
-pub mod storage;
-#[doc(hidden)]
-pub mod table;
 #[doc(hidden)]
 pub mod workflow;
 
 #[doc(hidden)]
+pub use spindrift_control::control;
+#[doc(hidden)]
+pub use spindrift_ensemble::{analysis, ensemble, storage, table};
+#[doc(hidden)]
 pub use spindrift_kernels::{dynamics, math, observables, ode, propagation, run, scene, statistics};
+#[doc(hidden)]
+pub use spindrift_plan::{loops, sampling};
+#[doc(hidden)]
+pub use spindrift_report::{findings, report};
+
+/// Campaign files, whose loops [`control`] reads.
+#[doc(hidden)]
+pub mod campaign {
+    pub use spindrift_control::control::tables::Overrides;
+    pub use spindrift_plan::campaign::*;
+}
 
 /// ```
 /// use spindrift::{CampaignError, Overrides, Plan};
@@ -95,19 +92,6 @@ pub use campaign::Overrides;
 /// ```
 #[doc(inline)]
 pub use campaign::Plan;
-#[doc(inline)]
-pub use control::ControlLaw;
-/// ```
-/// use spindrift::{Actuated, Actuation, BodyState, ControlLaw, LawContext, WheelState};
-/// let make = |context: &LawContext<'_>| {
-///     let mass = context.nominal.mass.total; // what flight software knows
-///     move |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY).with_thrust(&[0.01 * mass])
-/// };
-/// let law = ControlLaw::new("push", Actuated { thrusters: true, ..Actuated::NONE }, &[], make);
-/// assert!(law.parameters.is_empty());
-/// ```
-#[doc(inline)]
-pub use control::LawContext;
 /// ```
 /// use spindrift::Actuation;
 /// let push = Actuation::none(2.0).with_thrust(&[5.0]); // until 2 s
@@ -209,6 +193,19 @@ pub use ensemble::Supervision;
 /// ```
 #[doc(inline)]
 pub use ensemble::run as run_ensemble;
+#[doc(inline)]
+pub use loops::ControlLaw;
+/// ```
+/// use spindrift::{Actuated, Actuation, BodyState, ControlLaw, LawContext, WheelState};
+/// let make = |context: &LawContext<'_>| {
+///     let mass = context.nominal.mass.total; // what flight software knows
+///     move |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY).with_thrust(&[0.01 * mass])
+/// };
+/// let law = ControlLaw::new("push", Actuated { thrusters: true, ..Actuated::NONE }, &[], make);
+/// assert!(law.parameters.is_empty());
+/// ```
+#[doc(inline)]
+pub use loops::LawContext;
 /// ```
 /// use spindrift::Isa;
 /// assert!(Isa::available().iter().any(|isa| isa.name() == Isa::best().name()));

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::campaign::Overrides;
 use crate::cli::argument_values::{count, fraction, method, seconds, setting, shard, shift, threads, tolerance};
 use crate::cli::colour::Colour;
 use crate::cli::help::{EXIT_CODES, examples};
 use crate::cli::screen;
+use crate::control::tables::Overrides;
 use crate::propagation::Method;
 use crate::storage::claim::Shard;
 use crate::workflow::Outputs;

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::campaign::Overrides;
 use crate::campaign::meaning::meant;
 use crate::cli::arguments::ColumnsOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
+use crate::control::tables::Overrides;
 use crate::findings::shell_word::quoted_path;
 use crate::observables::Group;
 use crate::table::Table;

@@ -8,6 +8,7 @@ use crate::campaign::schema::schema;
 use crate::cli::arguments::NewOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
+use crate::control::tables::Loops;
 use crate::findings::shell_word::quoted_path;
 use crate::storage::atomic;
 
@@ -17,7 +18,7 @@ const START: &str = include_str!("../../assets/start.toml");
 const SCHEMA: &str = "spindrift.schema.json";
 
 fn schema_text() -> String {
-    format!("{:#}\n", schema())
+    format!("{:#}\n", schema(&Loops))
 }
 
 pub fn print_schema() -> Result<CommandOutcome, Failure> {

@@ -1,9 +1,10 @@
 //! `spindrift sample`: draws the dispersed parameters without runs.
 
-use crate::campaign::{Overrides, Plan, draw};
+use crate::campaign::{Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
+use crate::control::tables::Overrides;
 use crate::findings::dispersions;
 use crate::report::screen::paragraphs;
 use crate::sampling::SampleId;

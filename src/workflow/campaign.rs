@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::campaign::{FilesRead, Overrides, Plan};
-use crate::control::laws::callback;
+use crate::campaign::{FilesRead, Plan};
+use crate::control::tables::Overrides;
 use crate::ensemble::Ensemble;
+use crate::loops::callback;
 use crate::storage::claim::{Claim, Shard};
 use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;

@@ -3,12 +3,12 @@
 use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
 use crate::campaign::Plan;
-use crate::control::laws::callback;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, influence, undefined};
 use crate::findings::checked::Probed;
+use crate::loops::callback;
 use crate::run::Status;
 use crate::scene::Scene;
 use crate::storage::rows_file;

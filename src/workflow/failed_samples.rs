@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::campaign::{FilesRead, Overrides, Plan};
+use crate::campaign::{FilesRead, Plan};
+use crate::control::tables::Overrides;
 use crate::ensemble::Rows;
 use crate::findings::loss::readable;
 use crate::findings::number::counted;

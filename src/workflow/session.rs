@@ -6,12 +6,12 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
 use super::error::WorkflowError;
-use crate::campaign::Overrides;
-use crate::control::ControlLaw;
-use crate::control::laws::LawKind;
+use crate::control::tables::Overrides;
 use crate::ensemble::Supervision;
 use crate::ensemble::runner::threads;
 use crate::ensemble::supervision::{Alone, Crew};
+use crate::loops::ControlLaw;
+use crate::loops::attitude_law::LawKind;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
 use crate::storage::address::Address;

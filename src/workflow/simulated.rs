@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use crate::campaign::Plan;
-use crate::control::laws::callback;
 use crate::ensemble::SingleRun;
 use crate::ensemble::replays::GROUPS;
 use crate::ensemble::single::SingleRuns;
 use crate::findings::number::counted;
+use crate::loops::callback;
 use crate::math::Isa;
 use crate::report::figure_files::instead;
 use crate::report::simulation_figure::{left_out, simulation_figure};

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::campaign::{FilesRead, Overrides, Plan, data, find, nearest_file};
+use crate::campaign::{FilesRead, Plan, data, find, nearest_file};
+use crate::control::tables::Overrides;
 use crate::ensemble::{Ensemble, Parts};
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::control::laws::callback;
 use crate::ensemble::{Ensemble, Part, Rows, Supervision, run as run_parts};
 use crate::findings::number::counted;
 use crate::findings::verified::Checked;
+use crate::loops::callback;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, open};
 use crate::storage::columnar::EncodingError;

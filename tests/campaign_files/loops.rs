@@ -1,7 +1,7 @@
 //! Control loops in campaign files: what is refused, and how a phase or a sensor is addressed.
 
 use crate::prelude::*;
-use spindrift::control::observes::Observes;
+use spindrift::loops::observes::Observes;
 
 pub const LOOP: &str = include_str!("loop.toml");
 
@@ -26,8 +26,8 @@ fn a_sensor_that_nobody_uses_is_refused() {
     let raw = LOOP.replacen("initial_attitude_sigma_rad = 0.1\n", "", 1);
     let tachometers = "[[sensors]]\nname = \"tach\"\nkind = \"tachometers\"\n";
     let mut refusals = 0;
-    for estimator in &spindrift::control::estimators::KINDS {
-        for kind in &spindrift::control::sensors::KINDS {
+    for estimator in spindrift::control::estimators::KINDS.iter().map(|maker| &maker.kind) {
+        for kind in spindrift::control::sensors::KINDS.iter().map(|maker| &maker.kind) {
             let is_field = matches!(kind.observes, Observes::Field(_));
             if kind.observes.needs_debris() || kind.observes.at_most_one() && !is_field {
                 continue;

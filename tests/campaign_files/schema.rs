@@ -3,6 +3,7 @@
 use crate::prelude::*;
 use serde_json::json;
 use spindrift::campaign::schema::schema;
+use spindrift::control::tables::Loops;
 
 use crate::support::every_key::every_loop;
 
@@ -87,7 +88,7 @@ fn files() -> Vec<(String, String)> {
 
 #[test]
 fn valid_files_are_accepted() {
-    let schema = schema();
+    let schema = schema(&Loops);
     for (name, text) in files() {
         assert!(obeys(&schema, &parsed(&text)), "{name}");
     }
@@ -129,7 +130,7 @@ const BY_NAME: [&str; 3] = ["thrust_n", "torque_n_m", "display.columns"];
 /// Law: a key that no table has is refused in every table, and a value of another type for every key.
 #[test]
 fn wrong_names_and_types_are_refused() {
-    let schema = schema();
+    let schema = schema(&Loops);
     let mut count = 0;
     for (name, text) in files() {
         let mut wrong = Vec::new();
@@ -153,7 +154,7 @@ fn wrong_names_and_types_are_refused() {
 /// leave out what that has.
 #[test]
 fn limits_and_words_are_those_of_the_program() {
-    let schema = schema();
+    let schema = schema(&Loops);
     let is_accepted = |from: &str, to: &str| {
         assert!(EVERY_TABLE.contains(from), "{from}");
         obeys(&schema, &parsed(&EVERY_TABLE.replacen(from, to, 1)))

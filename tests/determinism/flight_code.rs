@@ -8,12 +8,10 @@ use super::{
 };
 use spindrift::{
     control::{
-        estimate::Estimate,
-        failure::Failure,
         flight_code::{self, FlightCode, MOST_BYTES},
         laws::LawSettings,
-        sensor_spec::Readings,
     },
+    loops::{estimate::Estimate, failure::Failure, sensor_spec::Readings},
     scene::DeclaredTable,
     workflow::{Verification, verify},
 };

@@ -1,7 +1,7 @@
 """Thrusts of 1,000 random sets of thrusters by SciPy's linprog: writes thrust_allocation.json beside this file
 (needs scipy; python3 thrust_allocation.py).
 
-The sets are not stored: a linear congruential generator makes them, here and in the test (src/control/allocation/tests.rs).
+The sets are not stored: a linear congruential generator makes them, here and in the test (crates/control/src/control/allocation/tests.rs).
 The program of each set: thrusts f within 0 <= f <= max give the torque A f and the force B f. In this order of priority the least
 
 1. |A f - torque| across the axes of the wheels,

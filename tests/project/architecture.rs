@@ -3,7 +3,7 @@
 
 use crate::prelude::*;
 
-const LAYERS: [(&str, u32); 20] = [
+const LAYERS: [(&str, u32); 21] = [
     ("math", 0),
     ("scene", 1),
     ("run", 1),
@@ -14,8 +14,9 @@ const LAYERS: [(&str, u32); 20] = [
     ("table", 2),
     ("propagation", 3),
     ("observables", 3),
-    ("control", 4),
+    ("loops", 4),
     ("campaign", 5),
+    ("control", 6),
     ("ensemble", 6),
     ("storage", 7),
     ("analysis", 8),
@@ -81,10 +82,19 @@ fn read(folder: &Path, root: &Path, list: &mut Vec<Source>) {
 }
 
 fn sources() -> Vec<Source> {
-    ["src", "crates/kernels/src"].iter().flat_map(|folder| sources_in(folder)).collect()
+    CRATES_OF_THE_PROJECT[1..].iter().flat_map(|folder| sources_in(folder)).collect()
 }
 
-const CRATES_OF_THE_PROJECT: [&str; 3] = ["src", "crates/kernels/src", "crates/python/src"];
+/// The Python package is outside the layers.
+const CRATES_OF_THE_PROJECT: [&str; 7] = [
+    "crates/python/src",
+    "crates/kernels/src",
+    "crates/plan/src",
+    "crates/control/src",
+    "crates/ensemble/src",
+    "crates/report/src",
+    "src",
+];
 
 fn sources_in(folder: &str) -> Vec<Source> {
     let root = root().join(folder);
@@ -96,7 +106,9 @@ fn sources_in(folder: &str) -> Vec<Source> {
 fn forbidden_imports(source: &Source) -> Vec<String> {
     let layer = |module: &str| LAYERS.iter().find(|(name, _)| *name == module).map(|(_, layer)| *layer);
     let Some(own) = layer(source.module()) else { return vec![format!("{} has no layer", source.path)] };
-    let starts = ["crate::", "spindrift::", "spindrift_kernels::"];
+    let crates = ["crate", "spindrift", "spindrift_kernels", "spindrift_plan", "spindrift_control"];
+    let starts = crates.into_iter().chain(["spindrift_ensemble", "spindrift_report"]).map(|name| format!("{name}::"));
+    let starts: Vec<String> = starts.collect();
     let imported = starts.iter().flat_map(|start| source.after(start)).map(|path| path[0]);
     imported
         .filter(|name| *name != source.module() && layer(name).is_some_and(|layer| layer >= own))

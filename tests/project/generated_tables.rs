@@ -8,12 +8,12 @@ use std::fmt::Write as _;
 use spindrift::{
     Quantity,
     campaign::{draws, failure_tables, scene::TABLES, settings},
-    control::guidance::condition::{GuidanceQuantity, QUANTITIES},
     ensemble::plausibility::{
         looked::digits,
         rule::{Limit, Rule as PlausibilityRule},
         rules::RULES,
     },
+    loops::condition::{GuidanceQuantity, QUANTITIES},
     observables::{LawColumns, LawSeries, band_series::band_series, request::wheel_names, table},
     sampling::keys::{Kind, Presence, Rule},
     scene::{LawParameter, table::Table},
@@ -117,16 +117,12 @@ fn rules() -> String {
 fn dependencies() -> String {
     let mut rows = Vec::new();
     let listed = listed_dependencies();
-    let [program, kernels, figures, python, benches] = [
-        "Cargo.toml",
-        "crates/kernels/Cargo.toml",
-        "crates/figures/Cargo.toml",
-        "crates/python/Cargo.toml",
-        "benches/Cargo.toml",
-    ]
-    .map(manifest);
+    let [program, figures, python, benches] =
+        ["Cargo.toml", "crates/figures/Cargo.toml", "crates/python/Cargo.toml", "benches/Cargo.toml"].map(manifest);
     let mut of_program = program["dependencies"].as_table().unwrap().clone();
-    of_program.extend(kernels["dependencies"].as_table().unwrap().clone());
+    for name in ["kernels", "plan", "control", "ensemble", "report"] {
+        of_program.extend(manifest(&format!("crates/{name}/Cargo.toml"))["dependencies"].as_table().unwrap().clone());
+    }
     let places = [
         (&toml::Value::Table(of_program), "program"),
         (&program["target"]["cfg(unix)"]["dependencies"], "program, on Unix"),
@@ -203,24 +199,35 @@ fn parameters() -> String {
 }
 
 fn keys_of_loops() -> String {
-    use spindrift::control::{actuators::modulation, estimators, laws, net_launch, parameters, sensors};
+    use spindrift::control::{actuators::modulation, estimators, laws, parameters, sensors};
+    use spindrift::loops::{launch_numbers, rod_law};
     let mut lists: Vec<(String, &[LawParameter])> =
         vec![("`[control]`".into(), &parameters::LOOP), ("`[control]` with thrusters".into(), &parameters::THRUSTERS)];
     for (place, name) in modulation::NAMES.iter().enumerate() {
         lists.push((format!("`[control]`, `modulation = \"{name}\"`"), modulation::parameters(place)));
     }
-    lists.push(("`[control]` with debris".into(), &net_launch::parameters::DEBRIS));
+    lists.push(("`[control]` with debris".into(), &launch_numbers::DEBRIS));
     let named = |table: &str, key: &str, name: &str| format!("`{table}`, `{key} = \"{name}\"`");
-    lists.extend(estimators::KINDS.iter().map(|kind| (named("[control]", "estimator", kind.name), kind.parameters)));
-    lists.extend(sensors::KINDS.iter().map(|kind| (named("[[sensors]]", "kind", kind.name), kind.parameters)));
+    lists.extend(
+        estimators::KINDS
+            .iter()
+            .map(|maker| &maker.kind)
+            .map(|kind| (named("[control]", "estimator", kind.name), kind.parameters)),
+    );
+    lists.extend(
+        sensors::KINDS
+            .iter()
+            .map(|maker| &maker.kind)
+            .map(|kind| (named("[[sensors]]", "kind", kind.name), kind.parameters)),
+    );
     lists.extend(laws::KINDS.iter().map(|kind| (named("[[guidance]]", "law", kind.name), kind.parameters)));
     lists.push(("`[[guidance]]`".into(), &parameters::PHASE));
     lists.push(("`[[guidance]]` with `until`".into(), &parameters::CONDITION));
     lists.push(("`[[guidance]]` with thrusters".into(), &laws::momentum_unloading::UNLOADING));
-    for (name, of) in laws::rod_law::ROD_LAWS {
+    for (name, of) in rod_law::ROD_LAWS {
         lists.push((named("[[guidance]]", "rods", name), of.parameters()));
     }
-    lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &net_launch::parameters::TRANSFER));
+    lists.push(("`[[guidance]]`, target or thrust \"transfer\"".into(), &launch_numbers::TRANSFER));
     lists.push(("`[[guidance]]`, `target = \"attitude\"`".into(), &parameters::ATTITUDE));
     let row = |(table, parameter): (&String, &LawParameter)| {
         let facts = &parameter.facts;
@@ -254,7 +261,9 @@ fn keys_of_tables() -> String {
     });
     let draws = [("`[[correlate]]`", &draws::CORRELATE[..]), ("`[[derive]]`", &draws::DERIVE)]
         .map(|(table, keys)| (table.to_owned(), keys.to_vec(), &[][..]));
-    let loops = settings::LOOPS.iter().map(|(table, keys, rules)| (format!("`{table}`"), keys.to_vec(), *rules));
+    let loops = spindrift::control::tables::TABLES
+        .iter()
+        .map(|(table, keys, rules)| (format!("`{table}`"), keys.to_vec(), *rules));
     let analysis = settings::ANALYSIS.iter().map(|(table, keys, rules)| (format!("`{table}`"), keys.to_vec(), *rules));
     for (table, rows, rules) in
         settings.chain(of_scene).chain(loops).chain(kinds).chain(designs).chain(draws).chain(analysis)

@@ -33,7 +33,7 @@ fn words_are_those_of_the_glossary() {
     let words = words(&fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap());
     assert!(words.len() > 6, "{words:?}");
     let mut list = vec![root().join("README.md"), root().join("CHANGELOG.md")];
-    for folder in ["docs", "src", "assets"] {
+    for folder in ["docs", "src", "crates", "assets"] {
         files(&root().join(folder), &mut list);
     }
     for file in &list {

@@ -177,9 +177,10 @@ fn on_orbit(keys: &str) -> String {
 /// Loops of every estimator, modulation, sensor, law, target and maneuver, with their keys.
 pub fn every_loop() -> Vec<String> {
     let base = every_table_of_loops();
-    let sensors_of = |estimator: &spindrift::control::estimators::EstimatorKind| {
+    let sensors_of = |estimator: &spindrift::loops::kinds::EstimatorKind| {
         // those that need an orbit: below
-        let kinds = spindrift::control::sensors::KINDS.iter().filter(|kind| kind.needs.is_none());
+        let kinds =
+            spindrift::control::sensors::KINDS.iter().map(|maker| &maker.kind).filter(|kind| kind.needs.is_none());
         let used = kinds.filter(|kind| estimator.knows_the_truth || (estimator.uses)(&kind.observes));
         used.fold(String::new(), |text, kind| {
             let name = kind.name;
@@ -190,10 +191,10 @@ pub fn every_loop() -> Vec<String> {
     let laws = spindrift::control::laws::KINDS.iter().map(|kind| (kind.name, numbers(kind.parameters)));
     let laws: Vec<_> = laws.collect();
     let mut phases = String::new();
-    let targets = spindrift::control::guidance::target::TARGETS;
+    let targets = spindrift::loops::target::TARGETS;
     let of_orbit = targets.iter().filter(|(_, target)| target.needs_orbit()).map(|(name, _)| *name);
     let targets = targets.iter().filter(|(_, target)| !target.needs_orbit()).map(|(name, _)| *name);
-    let maneuvers = spindrift::control::guidance::phase::MANEUVERS.iter().map(|(name, _)| *name);
+    let maneuvers = spindrift::loops::phase::MANEUVERS.iter().map(|(name, _)| *name);
     let pairs: Vec<_> = targets.flat_map(|target| maneuvers.clone().map(move |thrust| (target, thrust))).collect();
     let opposed = [("transfer", "stop"), ("stop", "transfer")];
     for (place, (target, thrust)) in pairs.into_iter().filter(|pair| !opposed.contains(pair)).enumerate() {
@@ -207,7 +208,7 @@ pub fn every_loop() -> Vec<String> {
         phases += if target == "transfer" || thrust == "transfer" { "transfer_time_s = 60\n" } else { "" };
     }
     let mut files = Vec::new();
-    for estimator in &spindrift::control::estimators::KINDS {
+    for estimator in spindrift::control::estimators::KINDS.iter().map(|maker| &maker.kind) {
         for modulation in spindrift::control::actuators::modulation::NAMES {
             let (sensors, estimator) = (sensors_of(estimator), estimator.name);
             let failures = failures_of(&sensors);
@@ -228,12 +229,13 @@ pub fn every_loop() -> Vec<String> {
              law = \"rate_damping\"\ngain_n_m_s = 1.0\ntarget = \"{target}\"\n{attitude}"
         ));
     }
-    let of_orbit = spindrift::control::sensors::KINDS.iter().filter(|kind| kind.needs.is_some());
+    let of_orbit =
+        spindrift::control::sensors::KINDS.iter().map(|maker| &maker.kind).filter(|kind| kind.needs.is_some());
     let sensors = of_orbit.fold(String::new(), |text, kind| {
         let name = kind.name;
         format!("{text}[[sensors]]\nname = \"a_{name}\"\nkind = \"{name}\"\nperiod_s = 0.5\nlatency_s = 0.25\n")
     });
-    for (name, of) in spindrift::control::laws::rod_law::ROD_LAWS.iter().filter(|(name, _)| *name != "none") {
+    for (name, of) in spindrift::loops::rod_law::ROD_LAWS.iter().filter(|(name, _)| *name != "none") {
         let own = numbers(of.parameters());
         files.push(format!(
             "{orbit}[[torque_rods]]\nname = \"m1\"\naxis = [0, 0, 1]\nmax_dipole_a_m2 = 5.0\n[control]\nperiod_s = \

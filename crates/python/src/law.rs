@@ -11,8 +11,8 @@ use generator::{Generator, Gn, is_generator};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use spindrift::campaign::Plan;
-use spindrift::control::laws::callback::{Call, Callback, Installation, is_law_of};
 use spindrift::ensemble::supervision::Crew;
+use spindrift::loops::callback::{Call, Callback, Installation, is_law_of};
 use spindrift::workflow::WorkflowError;
 
 /// Parts that are flown side by side on a thread, one run of each at a time: the function answers for up to as many.

@@ -3,8 +3,8 @@
 use crate::prelude::*;
 
 use spindrift::{
-    control::guidance::{phase::Maneuver, target::Target},
     dynamics::environment::sun::sun,
+    loops::{phase::Maneuver, target::Target},
     math::vector::quaternion_from_dcm,
 };
 

@@ -1,15 +1,13 @@
 //! Filters in their steady state, against the Riccati equation solved in another form.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
-use spindrift::control::{
-    estimators::{
-        attitude_filter::AttitudeObservation,
-        delayed::Filter,
-        rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter},
-        translation_filter::{MotionObservation, TranslationFilter, TranslationStep},
-    },
-    measurement::PointMotion,
+use spindrift::control::estimators::{
+    attitude_filter::AttitudeObservation,
+    delayed::Filter,
+    rigid_body_filter::{BodyObservation, BodyStep, MeasuredMotion, RigidBodyFilter},
+    translation_filter::{MotionObservation, TranslationFilter, TranslationStep},
 };
+use spindrift::loops::measurement::PointMotion;
 
 const AGREED: f64 = 1e-12;
 

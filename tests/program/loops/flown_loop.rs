@@ -1,7 +1,7 @@
 //! A run of a control loop with its true states at every control tick and at the start of every arc.
 
 use crate::prelude::*;
-use spindrift::control::spec::LoopSpec;
+use spindrift::loops::spec::LoopSpec;
 use spindrift::scene::Arc;
 
 use crate::loops::closed_loops::without;

@@ -2,10 +2,8 @@
 
 use crate::prelude::*;
 use spindrift::{
-    control::{
-        laws::{AttitudeLaw, LawKind, LawSettings, PhaseLaw},
-        vector::{cross, difference, product, scaled, sum},
-    },
+    control::laws::{AttitudeLaw, LawKind, LawSettings, PhaseLaw},
+    loops::vector::{cross, difference, product, scaled, sum},
     scene::{LawParameter, schema::Limit},
     workflow::WorkflowError,
 };

@@ -1,0 +1,579 @@
+//! The drivers of each outcome in words; where there are none, the effect that the runs would have shown.
+
+use crate::analysis::analysed::Analysed;
+use crate::analysis::drivers::{LEAST_CHANCE, LEAST_SHARE, Question, Ranked, Ranking, is_known, rankings};
+use crate::analysis::effects::{Dependence, Direction, Level};
+use crate::analysis::event::{Event, Occurs};
+use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
+use crate::analysis::noise_share::NoiseShare;
+use crate::analysis::observed::Observed;
+use crate::analysis::verdicts::Verdicts;
+use crate::campaign::{Plan, ShownUnit};
+use crate::findings::finding::{Figures, Finding, Kind, Number};
+use crate::findings::number::{self, brief, counted, outward, share, short};
+use crate::findings::requirement;
+use crate::findings::{loss, names};
+use crate::math::normal;
+use crate::sampling::Design;
+use crate::statistics::binomial::{Decision, POWER};
+use crate::statistics::contingency::Occurrence;
+use crate::statistics::quantile::percent;
+use crate::statistics::share_within::FEWEST_OTHERS;
+
+const NAMED: usize = 2;
+
+pub const SEE_INTERACTIONS: &str =
+    "interactions of inputs are not included, but are in total indices (design.kind = \"saltelli\")";
+
+/// The observables of `all` that are outcomes of the campaign, in their order.
+pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
+    let mut names: Vec<&str> = all.iter().map(|one| one.observable.as_str()).collect();
+    names.dedup();
+    let order = crate::analysis::outcomes::outcomes(plan);
+    let place = |name: &&str| order.iter().position(|outcome| outcome == name);
+    names.retain(|name| place(name).is_some());
+    names.sort_by_key(place);
+    names
+}
+
+/// Reason for refusing all driver tests ([`Plan::bound_inputs`]); `None` if tests ran or there is nothing to test.
+pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
+    let rows = all.first()?.rows;
+    plan.bound_inputs(rows)?;
+    let design = plan.design.name();
+    Some(format!("no driver was tested: {rows} runs of design {design} bind inputs to each other, random ones do not"))
+}
+
+pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Vec<Ranking<'a>> {
+    if refused(plan, all).is_some() {
+        return Vec::new();
+    }
+    rankings(all, outcome, 1.0 - plan.analysis.confidence)
+}
+
+/// The event of `outcome` as a verb: "fail".
+pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
+    let of = |one: &'static str, several: &'static str| if runs == 1 { one } else { several };
+    match event.occurs {
+        Occurs::Missed { is_only: true, .. } if ["launched", "failure"].contains(&outcome) => {
+            of("fails", "fail").to_owned()
+        }
+        Occurs::Missed { is_only: true, .. } => format!("{} the limit", of("misses", "miss")),
+        Occurs::Missed { requirement, .. } => {
+            format!("{} the limit of {}", of("misses", "miss"), limit(plan, requirement))
+        }
+        Occurs::Value(value) if outcome == COMPUTED => {
+            format!("{} {}computed", of("was", "were"), if value == 1.0 { "" } else { "not " })
+        }
+        Occurs::Value(value) => format!("{} {}", of("has", "have"), short(value)),
+        Occurs::OtherThan(value) => format!("{} another value than {}", of("has", "have"), short(value)),
+        Occurs::Worst(share) => {
+            format!("{} among the worst {}%", of("is", "are"), short(libm::round(1e9 * share) / 1e7))
+        }
+    }
+}
+
+/// The limit of a requirement: "at least 6 s", and whether runs without a value violate it.
+fn limit(plan: &Plan, requirement: usize) -> String {
+    let one = &plan.analysis.requirements[requirement];
+    let observed = Observed::named(plan, one.observable().into_iter());
+    let unit = observed.first().map_or("", |observed| observed.quantity.unit());
+    let value = one.limit.value();
+    let shown = plan.analysis.display.of(one.name(), if unit == "1" { "" } else { unit });
+    let never = if one.never_meets { " (no value meets it)" } else { "" };
+    requirement::limit_text(one.limit, &shown.of_time(value.abs(), Some(value))) + never
+}
+
+/// "the runs that fail", "the worst 5% of runs".
+fn such_runs(plan: &Plan, outcome: &str, event: &Event) -> String {
+    match event.occurs {
+        Occurs::Worst(share) => format!("the worst {}% of runs", short(libm::round(1e9 * share) / 1e7)),
+        _ => format!("the runs that {}", verb(plan, outcome, event, u64::MAX)),
+    }
+}
+
+pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
+    let said = match &ranking.question {
+        Question::Event(event) => of_event(plan, [outcome, &such_runs(plan, outcome, event)], event, ranking),
+        Question::Spread => of_spread(plan, ranking),
+    };
+    said + &correlations(plan, ranking)
+}
+
+fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
+    let mut pairs: Vec<[&str; 2]> = Vec::new();
+    let mut said = String::new();
+    let has_shares = ranking.drivers().take(NAMED).any(|driver| driver.share.filter(is_known).is_some());
+    for driver in ranking.drivers().take(NAMED) {
+        let one = driver.input.input.as_str();
+        let with = driver.input.correlated_with.as_ref();
+        let Some(other) = driver.instead().or(with.map(|(other, _)| other.as_str())) else { continue };
+        if pairs.contains(&[other, one]) {
+            continue;
+        }
+        pairs.push([one, other]);
+        let r = with.filter(|(name, _)| name == other).map_or_else(String::new, |(_, r)| format!(" ({r:.2})"));
+        let [one, other] = [one, other].map(|column| names::of_input_column(plan, column));
+        let apart = match (driver.instead(), &ranking.question) {
+            (Some(_), _) => ", and these runs do not tell which of them acts",
+            (None, Question::Spread) if has_shares => ", so their shares overlap",
+            (None, _) => "",
+        };
+        said += &format!("; {one} and {other} are correlated{r}{apart}");
+    }
+    said
+}
+
+fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ranking<'_>) -> String {
+    if let Some(together) = at_a_distance(plan, runs, ranking) {
+        return together;
+    }
+    let confidence = percent(plan.analysis.confidence);
+    let phrase = |ranked: &Ranked<'_>| {
+        let column = &ranked.input.input;
+        let name = names::of_input_column(plan, column);
+        let shown =
+            names::place_of(plan, column).map_or_else(|| ShownUnit::own(""), |place| names::unit_of_input(plan, place));
+        let amount = |value: f64| format!("{} {}", short(shown.value(value)), shown.unit).trim_end().to_owned();
+        let dependence = ranked.effect.map(|effect| &effect.dependence)?;
+        Some(match dependence {
+            Dependence::Levels { levels, most, ratio } => {
+                let level = |level: &Level| {
+                    let value =
+                        level.value.map_or("at other values".to_owned(), |value| format!("= {}", amount(value)));
+                    format!(
+                        "{value}: {} of {} {}",
+                        level.of.events,
+                        level.of.runs,
+                        verb(plan, outcome, event, level.of.events)
+                    )
+                };
+                let mut listed: Vec<&Level> = levels.iter().collect();
+                let first = listed.remove(*most);
+                listed.insert(0, first);
+                let listed: Vec<String> = listed.into_iter().map(level).collect();
+                let end = |end: f64| if end.is_finite() { brief(end) } else { "no bound".to_owned() };
+                let times = if ratio.lower.is_nan() && ratio.upper.is_nan() {
+                    format!("risk ratio {}", brief(ratio.value))
+                } else if ratio.value.is_finite() {
+                    let [low, high] = outward([ratio.lower, ratio.upper], 3).map(end);
+                    format!("risk ratio {} [{low}, {high}]", brief(ratio.value))
+                } else {
+                    format!("risk ratio above {} with {confidence}% confidence", brief(ratio.lower))
+                };
+                format!("{name} {} ({times})", listed.join("; "))
+            }
+            Dependence::Shift { chance, medians } => {
+                let word = if *chance > 0.5 { "larger" } else { "smaller" };
+                let [with, without] = medians.map(amount);
+                format!("{name} is {word} in {runs} (median {with}, others {without})")
+            }
+            Dependence::Distance { chance } => {
+                let word = if *chance > 0.5 { "farther from" } else { "nearer to" };
+                format!("{name} is {word} its median in {runs}")
+            }
+        })
+    };
+    let named: Vec<String> = ranking.drivers().take(NAMED).filter_map(phrase).collect();
+    if named.is_empty() {
+        let of = event.of;
+        let verb = verb(plan, outcome, event, of.events);
+        let power = power_on_event(plan, ranking, of, &verb);
+        return format!("{} of {} runs {verb}; no input was found that explains which{power}", of.events, of.runs);
+    }
+    named.join("; ")
+}
+
+/// One phrase for several named drivers that are all farther from, or all nearer to, their medians; else `None`.
+fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<String> {
+    let is_far = |ranked: &Ranked<'_>| match ranked.effect?.dependence {
+        Dependence::Distance { chance } => Some(chance > 0.5),
+        _ => None,
+    };
+    let named: Vec<&Ranked<'_>> = ranking.drivers().take(NAMED).collect();
+    let first = is_far(named.first()?)?;
+    if named.len() < 2 || named.iter().any(|ranked| is_far(ranked) != Some(first)) {
+        return None;
+    }
+    let listed: Vec<String> = named.iter().map(|ranked| names::of_input_column(plan, &ranked.input.input)).collect();
+    let word = if first { "farther from" } else { "nearer to" };
+    Some(format!("{} are {word} their medians in {runs}", listed.join(" and ")))
+}
+
+fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
+    let Some(first) = ranking.inputs.first() else { return String::new() };
+    let runs = counted(first.input.rows, "run");
+    let direction = |ranked: &Ranked<'_>| match ranked.input.direction {
+        Some(Direction::Rises) => " (rises with it)",
+        Some(Direction::Falls) => " (falls with it)",
+        Some(Direction::NotMonotonic) => " (not monotonic)",
+        None => "",
+    };
+    let rest = rest(plan, ranking).map_or_else(String::new, |rest| format!("; {rest}"));
+    let is_small = |ranked: &&Ranked<'_>| ranked.share.filter(is_known).is_some_and(|share| share.value < LEAST_SHARE);
+    let (small, large): (Vec<&Ranked<'_>>, Vec<&Ranked<'_>>) = ranking.drivers().take(NAMED).partition(is_small);
+    // next to large shares negligible ones are not listed
+    let drivers = if large.is_empty() { small } else { large };
+    if drivers.is_empty() {
+        let most = ranking.inputs.iter().map(|ranked| ranked.share.filter(is_known).map(|share| share.upper));
+        return match most.collect::<Option<Vec<f64>>>() {
+            Some(ends) if ends.iter().all(|end| *end < 0.995) => {
+                let most = (100.0 * ends.into_iter().fold(0.0, f64::max)).ceil();
+                format!("no single input explains more than {most:.0}% of the variance{rest}")
+            }
+            _ => format!("no input was found in {runs}{}", power_on_spread(plan, ranking)),
+        };
+    }
+    if first.input.total.is_some() {
+        let of = |driver: &&Ranked<'_>| {
+            let share = driver.share.filter(|share| share.value >= LEAST_SHARE);
+            let share = share.map_or_else(|| format!("below {LEAST_SHARE}"), |share| format!("{:.2}", share.value));
+            format!("{} {share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
+        };
+        return format!("total Sobol indices: {}", drivers.iter().map(of).collect::<Vec<_>>().join(", "));
+    }
+    let mut is_said = false;
+    let of = |driver: &&Ranked<'_>| {
+        // a negligible estimate contradicts the test that found the input
+        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value >= LEAST_SHARE);
+        let within = |end: f64| end.clamp(0.0, 1.0);
+        let share = share.map(|share| number::share([within(share.value); 2], [share.lower, share.upper].map(within)));
+        let share = match share {
+            Some(share) if is_said => format!(" {share}"),
+            Some(share) => format!(" explains {share} of the variance"),
+            None => String::new(),
+        };
+        is_said |= !share.is_empty();
+        format!("{}{share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
+    };
+    let said = drivers.iter().map(of).collect::<Vec<_>>().join(", ");
+    if is_said { said + &rest } else { said }
+}
+
+/// The number of runs, if it is too small to estimate the shares of the named drivers. `None` if a share is known, or
+/// none exists because the samples were chosen.
+fn too_few(ranking: &Ranking<'_>) -> Option<u64> {
+    let input = ranking.drivers().next()?.input;
+    let is_said = |ranked: &Ranked<'_>| {
+        ranked.share.is_some_and(|share| share.lower.is_nan() || is_known(&share) && share.value > 0.0)
+    };
+    let is_open = input.total.is_none() && !ranking.drivers().take(NAMED).any(is_said);
+    (ranking.question == Question::Spread && is_open).then_some(input.rows)
+}
+
+/// The source of the remaining variance, if the drivers explain less than half.
+fn rest(plan: &Plan, ranking: &Ranking<'_>) -> Option<String> {
+    let shares = ranking.drivers().map(|ranked| ranked.share.filter(is_known).map(|share| share.value));
+    let share: f64 = shares.collect::<Option<Vec<f64>>>()?.iter().sum();
+    if share >= 0.5 || ranking.inputs.first()?.input.total.is_some() {
+        return None;
+    }
+    let noise = if plan.law.is_some() { "noise in the loop, " } else { "" };
+    Some(format!("the rest is {noise}interactions, or effects too small to show"))
+}
+
+/// Sum of the normal quantiles of level and power for one of `inputs` tests (Bonferroni).
+fn reach(plan: &Plan, inputs: usize) -> f64 {
+    let level = 0.5 * (1.0 - plan.analysis.confidence) / inputs.max(1) as f64;
+    -normal::quantile(level) + normal::quantile(POWER)
+}
+
+/// The effect found in nine of ten such campaigns, by Fisher's transformation of a rank correlation.
+fn power_on_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
+    let rows = ranking.inputs.first().map_or(0, |first| first.input.rows);
+    let tested = ranking.inputs.iter().filter(|ranked| ranked.input.p_value.is_some()).count();
+    if rows <= 3 || tested == 0 {
+        return String::new();
+    }
+    let r = libm::tanh(reach(plan, tested) / libm::sqrt(rows as f64 - 3.0));
+    let share = (100.0 * f64::max(r * r, LEAST_SHARE)).ceil();
+    format!("; one that it rises or falls with, and that explains {share:.0}% of it, is found in 90% of such campaigns")
+}
+
+/// As [`power_on_spread`], for the probability that a run with the event has the larger value (H. B. Mann & D. R.
+/// Whitney, 1947).
+fn power_on_event(plan: &Plan, ranking: &Ranking<'_>, of: Occurrence, verb: &str) -> String {
+    let (with, without) = (of.events as f64, (of.runs - of.events) as f64);
+    if ranking.inputs.is_empty() || with * without == 0.0 {
+        return String::new();
+    }
+    let error = libm::sqrt((with + without + 1.0) / (12.0 * with * without));
+    let chance = 0.5 + f64::max(reach(plan, ranking.inputs.len()) * error, LEAST_CHANCE);
+    if chance >= 0.995 {
+        return "; so few runs show none".to_owned();
+    }
+    let chance = (100.0 * chance).ceil();
+    format!(
+        "; one that is larger in a run that {verb} than in another with a chance of {chance:.0}% is found in 90% of \
+         such campaigns"
+    )
+}
+
+/// One sentence per ranking with drivers.
+pub(super) fn found(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<String> {
+    let rankings = ranked(plan, all, outcome);
+    let known = rankings.iter().filter(|ranking| ranking.drivers().next().is_some());
+    known.map(|ranking| sentence(plan, outcome, ranking)).collect()
+}
+
+const DRIVEN: usize = 3;
+
+/// A finding for each ranking, with its drivers as children: rankings with drivers first, then unmet outcomes, then
+/// events of unmet requirements, spread last; outcomes in the order of `required`, then the others, then errors, each
+/// strongest first.
+pub(super) fn findings(
+    plan: &Plan,
+    analysed: &Analysed,
+    (noise, required): (&[NoiseShare], &[String]),
+) -> Vec<Finding> {
+    let (all, verdicts) = (&analysed.sensitivities, &analysed.verdicts);
+    let share = |one: &Finding| one.children.first().and_then(|driver| driver.numbers.first()).map(|share| share.value);
+    let strength = |one: &Finding| share(one).filter(|share| share.is_finite()).unwrap_or(0.0);
+    let is_error = |name: &str| analysed.survey.outcome(name).is_some_and(|(_, outcome)| outcome.is_error);
+    let place = |name: &str| {
+        let place = required.iter().position(|one| one == name);
+        place.unwrap_or(required.len() + usize::from(is_error(name)))
+    };
+    let mut found: Vec<(Finding, ([bool; 3], usize))> = Vec::new();
+    let mut few: Vec<(String, u64)> = Vec::new();
+    for outcome in outcomes(plan, all) {
+        let has_runs = |ranking: &&Ranking<'_>| ranking.inputs.first().is_some_and(|first| first.input.rows > 0);
+        for ranking in ranked(plan, all, outcome).iter().filter(has_runs) {
+            let one = finding(plan, analysed, outcome, ranking);
+            few.extend(too_few(ranking).map(|runs| (one.title.clone(), runs)));
+            let order = [one.children.is_empty(), is_met(verdicts, outcome), is_settled(verdicts, ranking)];
+            found.push((one, (order, place(outcome))));
+        }
+    }
+    found.sort_by(|(one, order), (other, after)| order.cmp(after).then(strength(other).total_cmp(&strength(one))));
+    // one entry for identical empty results
+    let mut list: Vec<Finding> = Vec::new();
+    for (one, _) in found {
+        let same = list.last_mut().filter(|last| last.children.is_empty() && last.sentence.ends_with(&one.sentence));
+        match same {
+            Some(last) => {
+                let titles = last.sentence.strip_suffix(&one.sentence).filter(|_| last.title.is_empty());
+                let titles = titles.map_or(last.title.as_str(), |titles| titles.trim_end_matches(": "));
+                last.sentence = format!("{titles}; {}: {}", one.title, one.sentence);
+                last.title.clear();
+            }
+            None => list.push(one),
+        }
+    }
+    let mut found = list;
+    let most = if verdicts.list.is_empty() { DRIVEN } else { 1 };
+    let mut seen: Vec<String> = Vec::new();
+    for one in &mut found {
+        let outcome = one.title.split(": ").next().unwrap_or_default().to_owned();
+        let is_first = !one.children.is_empty() && seen.len() < most && !seen.contains(&outcome);
+        seen.extend(is_first.then_some(outcome));
+        one.rank = u8::from(!is_first);
+    }
+    let about =
+        |id: &str, title: &str, rank: u8, said: String| Finding { rank, ..Finding::new(Kind::Driver, id, title, said) };
+    if let Some(why) = loss::all_fail(&analysed.missions) {
+        found.insert(0, about("all_fail", "failures", 0, why));
+    } else if let Some(why) = refused(plan, all) {
+        found = vec![about("untold", "", 0, why)];
+    } else if let Some(first) = found.first_mut().filter(|_| seen.is_empty() && !analysed.statistics.loss().is_big()) {
+        first.rank = 0;
+    }
+    if let Some(runs) = few.iter().map(|(_, runs)| *runs).max() {
+        let said = format!("{} are too few to say how much of its variance an input explains", counted(runs, "run"));
+        let is_shown = |one: &Finding| one.rank == 0 && few.iter().any(|(title, _)| *title == one.title);
+        let rank = u8::from(!found.iter().any(is_shown));
+        let more = if few.len() > 1 { format!(" and {} more", few.len() - 1) } else { String::new() };
+        found.push(about("few", &format!("{}{more}", few[0].0), rank, said));
+    }
+    let has_rest = found.iter().any(|one| one.sentence.contains("; the rest is "));
+    if has_rest && !matches!(plan.design, Design::Saltelli(_)) {
+        found.push(about("interactions", "shares of the variance", 1, SEE_INTERACTIONS.to_owned()));
+    }
+    if plan.law.is_some() && noise.is_empty() && !all.is_empty() {
+        let said = "noise in the loop is no input: spindrift report . --noise 256 measures its share";
+        found.push(about("noise", "", 1, said.to_owned()));
+    }
+    found.extend(noise.iter().map(|one| noise_finding(plan, one)));
+    found
+}
+
+fn is_met(verdicts: &Verdicts, outcome: &str) -> bool {
+    let mut of = verdicts.list.iter().filter(|one| one.requirement.observable() == Some(outcome));
+    of.all(|one| one.gate.decision == Decision::Pass)
+}
+
+/// Whether a ranking matters less: the requirement is met, or it explains only the spread.
+fn is_settled(verdicts: &Verdicts, ranking: &Ranking<'_>) -> bool {
+    match ranking.question {
+        Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {
+            verdicts.list.get(requirement).is_some_and(|one| one.gate.decision == Decision::Pass)
+        }
+        Question::Event(_) => false,
+        Question::Spread => true,
+    }
+}
+
+fn finding(plan: &Plan, analysed: &Analysed, outcome: &str, ranking: &Ranking<'_>) -> Finding {
+    let unit = analysed.statistics.column(outcome).map_or("", |column| column.quantity.unit());
+    let name = names::of_column(outcome, unit);
+    let (title, part) = match &ranking.question {
+        Question::Spread => (name, String::new()),
+        Question::Event(event) => (format!("{name}: which runs {}", verb(plan, outcome, event, u64::MAX)), part(event)),
+    };
+    let row = match &ranking.question {
+        Question::Event(event) => row(event),
+        Question::Spread => String::new(),
+    };
+    let driver = |ranked: &Ranked<'_>| {
+        let input = &ranked.input.input;
+        let figures = Figures { small: Some(format!("scatter_{outcome}{row}_{input}")), large: None };
+        let share = ranked.share.filter(is_known).map(|share| {
+            Number::share("share of the variance", share.value, [share.lower, share.upper], ranked.input.rows)
+        });
+        let found = Finding::new(Kind::Driver, input, names::of_input_column(plan, input), "");
+        Finding { numbers: share.into_iter().collect(), figures, ..found }
+    };
+    let figures = Figures { small: None, large: Some(format!("influence_{outcome}{part}")) };
+    let found = Finding::new(Kind::Driver, format!("drivers_{outcome}{part}"), title, sentence(plan, outcome, ranking));
+    Finding { children: ranking.drivers().map(driver).collect(), figures, ..found }
+}
+
+/// Suffix of the names of figures of single runs, for one of several requirements on an outcome.
+pub fn row(event: &Event) -> String {
+    match event.occurs {
+        Occurs::Missed { is_only: false, .. } => part(event),
+        _ => String::new(),
+    }
+}
+
+/// Suffix of figure names for an event.
+pub fn part(event: &Event) -> String {
+    match event.occurs {
+        Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
+        _ if event.has_few_values => String::new(),
+        _ => "_event".to_owned(),
+    }
+}
+
+fn noise_finding(plan: &Plan, one: &NoiseShare) -> Finding {
+    let observed = Observed::named(plan, core::iter::once(one.observable.as_str()));
+    let name = observed.first().map_or(one.observable.clone(), |observed| names::of_quantity(&observed.quantity));
+    let shares =
+        one.share.map(|of| Number::share("share of noise", of.value, [of.lower, of.upper], 2 * one.scenes as u64));
+    let found = Finding::new(Kind::Driver, format!("noise_{}", one.observable), name, noise_sentence(one));
+    Finding { numbers: shares.into_iter().collect(), rank: 1, ..found }
+}
+
+pub fn noise_sentence(one: &NoiseShare) -> String {
+    let scenes = one.scenes;
+    match one.share {
+        // a probability of differences cannot be estimated from none
+        Some(share) if share.value == 0.0 => {
+            format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
+        }
+        Some(of) => {
+            let said = share([of.value; 2], [of.lower, of.upper]);
+            format!("noise within the loop is {said} of the variance ({scenes} scenes, each flown twice)")
+        }
+        None if one.others > 0 => format!(
+            "the share of noise within the loop is not known: {} of {} runs have another value than the others, and it \
+             takes {FEWEST_OTHERS} ({scenes} scenes, each flown twice)",
+            one.others,
+            2 * scenes
+        ),
+        None => format!(
+            "noise within the loop has no share of a variance ({scenes} scenes with a value, which do not vary)"
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::correlation::Estimate;
+    use spindrift_control::control::tables::Overrides;
+
+    /// Law: a share appears with its interval and only if that is informative: not for too few runs, an interval near
+    /// [0, 1], or chosen samples. "No input explains more than" needs the upper ends of all inputs. Drivers are always
+    /// named.
+    #[test]
+    fn shares_are_said_with_intervals_or_not_at_all() {
+        let text = include_str!("../../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let known = Some(Estimate { value: 0.5, lower: 0.4, upper: 0.625 });
+        for (share, is_known) in [
+            (known, true),
+            (None, false),
+            (Some(Estimate { value: 0.99, lower: 0.0, upper: 1.0 }), false),
+            (Some(Estimate { value: 0.5, lower: 0.1, upper: 0.95 }), false),
+            (Some(Estimate { value: 0.5, lower: f64::NAN, upper: f64::NAN }), false),
+        ] {
+            for is_driver in [true, false] {
+                let input = |name: &str| InputSensitivity { input: name.to_owned(), rows: 77, ..Default::default() };
+                let inputs = ["first_one", "second_one"].map(input);
+                let of = |place: usize, share| Ranked { input: &inputs[place], effect: None, share, is_driver };
+                let ranking = Ranking { question: Question::Spread, inputs: vec![of(0, share), of(1, known)] };
+                let said = sentence(&plan, "y", &ranking);
+                assert_eq!(said.contains("first"), is_driver, "{said}");
+                assert_eq!(said.contains("more than 63% of the variance"), is_known && !is_driver, "{said}");
+                assert_eq!(said.contains("explains 50% [40, 63] of the variance"), is_driver, "{said}");
+                let alone = Ranking { question: Question::Spread, inputs: vec![of(0, share)] };
+                let said = sentence(&plan, "y", &alone);
+                assert_eq!(said.contains('%'), is_known, "{said}");
+            }
+        }
+    }
+
+    /// Law: a negligible share is not listed, alone or next to a large one.
+    #[test]
+    fn negligible_shares_are_not_listed() {
+        let text = include_str!("../../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let inputs = ["first_one", "second_one"].map(|name| InputSensitivity {
+            input: name.to_owned(),
+            rows: 400,
+            ..Default::default()
+        });
+        let estimate = |value: f64| Some(Estimate { value, lower: 0.5 * value, upper: (2.0 * value).min(1.0) });
+        for (shares, names) in [([0.4, 1e-4], [true, false]), ([0.4, 0.3], [true; 2]), ([1e-4, 1e-4], [true; 2])] {
+            let of = |place: usize| Ranked {
+                input: &inputs[place],
+                effect: None,
+                share: estimate(shares[place]),
+                is_driver: true,
+            };
+            let said = sentence(&plan, "y", &Ranking { question: Question::Spread, inputs: vec![of(0), of(1)] });
+            assert_eq!(["first", "second"].map(|name| said.contains(name)), names, "{said}");
+            assert!(!said.contains("0.0"), "{said}");
+        }
+    }
+
+    /// Law: the correlation of two inputs appears once, with whether the rows separate them.
+    #[test]
+    fn correlated_inputs_are_told() {
+        let text = include_str!("../../../../campaigns/spin_sweep.toml");
+        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let input = |name: &str, other: &str, instead: bool| InputSensitivity {
+            input: name.to_owned(),
+            correlated_with: Some((other.to_owned(), 0.8)),
+            instead: instead.then(|| other.to_owned()),
+            ..Default::default()
+        };
+        for (instead, said) in [
+            (false, "; a and b are correlated (0.80)"),
+            (true, "; a and b are correlated (0.80), and these runs do not tell which of them acts"),
+        ] {
+            let inputs = [input("a", "b", instead), input("b", "a", false)];
+            for is_driver in [true, false] {
+                let of = |place: usize| Ranked {
+                    input: &inputs[place],
+                    effect: None,
+                    share: None,
+                    is_driver: place == 0 || is_driver,
+                };
+                let ranking = Ranking { question: Question::Spread, inputs: vec![of(0), of(1)] };
+                assert!(sentence(&plan, "y", &ranking).ends_with(said));
+            }
+        }
+    }
+}
