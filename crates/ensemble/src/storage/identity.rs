@@ -16,13 +16,14 @@ use crate::table::Column;
 /// only; since 6 `dataset.json` records the identity and the sizes of parts, and every file of rows is sealed.
 pub const FORMAT: u32 = 6;
 
-/// Version of the arithmetic of rows, which changes if the same row plan would give other bits. it changes where the
-/// same row plan would give other bits. Since 2 Taylor steps have more orders and integrals of thrust are those of the
-/// direction cosine matrix. Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the
-/// body; since 4 estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that
-/// change within an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors
-/// through repeated periods, past separatrices, and from perigee to perigee.
-pub const ARITHMETIC: u32 = 6;
+/// Version of the arithmetic of rows, which changes if the same row plan would give other bits; the instruction set is
+/// no part of it. Since 2 Taylor steps have more orders and integrals of thrust are those of the direction cosine
+/// matrix. Since 3 the Taylor series of the gravity gradient follow the orbit in the frame of the body; since 4
+/// estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that change within
+/// an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors through
+/// repeated periods, past separatrices, and from perigee to perigee. Since 7 steps in penumbra count with their ratio
+/// of error to estimate.
+pub const ARITHMETIC: u32 = 7;
 
 /// The identity of rows. Rows of two datasets with the same identity can be mixed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

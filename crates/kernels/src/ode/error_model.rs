@@ -19,6 +19,9 @@ pub struct StepErrors {
     pub extrapolation: f64,
     /// Error of dense output in units of the tolerance, which later steps do not inherit.
     pub dense: f64,
+    /// Ratio of error to estimate of a step from an edge where f grows with the power 3/2 of time, such as that of a
+    /// penumbra; test `steps_from_an_edge_err_as_stated`.
+    pub from_edge: f64,
 }
 
 impl StepErrors {
@@ -32,7 +35,7 @@ impl ErrorModel {
     /// Weight of a step's estimate if the right-hand side is not smooth, where local extrapolation gains nothing.
     pub(super) fn rough_weight(&self, tolerance: f64) -> f64 {
         match self {
-            ErrorModel::Estimated(errors) => (1.0 / errors.gain(tolerance)).max(1.0),
+            ErrorModel::Estimated(errors) => (errors.from_edge / errors.gain(tolerance)).max(1.0),
             ErrorModel::Remainder(_) => 1.0,
         }
     }
@@ -45,4 +48,48 @@ pub struct Remainder {
     pub order: usize,
     /// Error of a step over the term of order + 1 of the series at its start.
     pub factor: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::embedded::Embedded;
+    use super::super::explicit::{Carried, Step};
+    use super::super::{Dop853, DormandPrince, DormandPrinceRestepped, System, Tolerance};
+
+    /// y' = t^(3/2), its edge at time zero; errors in units of y.
+    struct Edge;
+
+    impl System<f64, 1> for Edge {
+        fn derivative(&self, time: f64, _state: &[f64; 1]) -> [f64; 1] {
+            [time * time.sqrt()]
+        }
+
+        fn error_ratio(&self, error: &[f64; 1], _old: &[f64; 1], _new: &[f64; 1], _tolerance: Tolerance) -> f64 {
+            error[0].abs()
+        }
+    }
+
+    fn error_over_estimate<M: Embedded>() -> f64 {
+        let mut stages = M::stages(0.0);
+        let start = Carried { state: [0.0], carry: [0.0] };
+        let mut end = start;
+        *M::first(&mut stages) = [0.0];
+        let tolerance = Tolerance { relative: 1.0, absolute: 1.0 };
+        let step = Step { time: 0.0, end: 1.0, length: 1.0 };
+        let attempt = M::attempt(&Edge, step, &start, tolerance, &mut stages, &mut end);
+        (end.state[0] - 0.4).abs() / attempt.ratio
+    }
+
+    /// Law: the integral of t^(3/2) over (0, 1) is 2/5.
+    #[test]
+    fn steps_from_an_edge_err_as_stated() {
+        let found = [
+            (error_over_estimate::<DormandPrince>(), DormandPrince::ERRORS.from_edge),
+            (error_over_estimate::<DormandPrinceRestepped>(), DormandPrinceRestepped::ERRORS.from_edge),
+            (error_over_estimate::<Dop853>(), Dop853::ERRORS.from_edge),
+        ];
+        for (ratio, stated) in found {
+            assert!((ratio / stated - 1.0).abs() < 1e-2, "{ratio} {stated}");
+        }
+    }
 }

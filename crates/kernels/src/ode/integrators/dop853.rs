@@ -35,7 +35,7 @@ impl Embedded for Dop853 {
     const START_EVALUATIONS: f64 = 2.0;
     const DENSE_EVALUATIONS: f64 = 3.0;
     const POINT_EVALUATIONS: f64 = 0.0;
-    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.125, dense: 6.0 };
+    const ERRORS: StepErrors = StepErrors { factor: 1.0, extrapolation: 0.125, dense: 6.0, from_edge: 3.44 };
 
     type Stages<R: Real, const N: usize> = Dop853Stages<R, N>;
 

@@ -55,7 +55,8 @@ impl<P: PointsInside> Embedded for P {
     const START_EVALUATIONS: f64 = 1.0;
     const DENSE_EVALUATIONS: f64 = 0.0;
     const POINT_EVALUATIONS: f64 = P::EVALUATIONS;
-    const ERRORS: StepErrors = StepErrors { factor: P::ERROR_FACTOR, extrapolation: 0.2, dense: P::DENSE_ERROR };
+    const ERRORS: StepErrors =
+        StepErrors { factor: P::ERROR_FACTOR, extrapolation: 0.2, dense: P::DENSE_ERROR, from_edge: 11.34 };
 
     type Stages<R: Real, const N: usize> = [[R; N]; 7];
 
