@@ -66,6 +66,7 @@ await page.goto(pathToFileURL(resolve(file)).href);
 await page.waitForFunction(() => document.documentElement.dataset.ready === "true");
 await page.evaluate(async () => {
   const replay = await globalThis.spindriftPage.replay();
+  replay.chooseSample(0);
   document.querySelector("nav").remove();
   document.querySelector(".numbers.ends").remove();
   replay.view(replay.approach ? "approach" : "inertial");
