@@ -1,5 +1,5 @@
-//! [`Accumulator`]: one pass over the parts of a campaign. Parts are counted on any thread and merged in order, so that
-//! results depend neither on threads nor on the source of the rows.
+//! [`Accumulator`]: one pass over the parts of a campaign, counted on any thread and merged in order, so that results
+//! depend neither on threads nor on the source of the rows.
 
 use std::num::NonZeroUsize;
 

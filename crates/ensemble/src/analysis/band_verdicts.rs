@@ -1,7 +1,7 @@
 //! Verdicts on requirements over time, from the bands of a campaign.
 //!
-//! The limit applies at every band time in an interval for a share of the runs, not necessarily the same runs each
-//! time. The number of runs within it is known up to the bucket of the limit: both bounds must decide.
+//! The limit applies at every band time in an interval for a share of the runs, not necessarily the same ones. The
+//! number within it is known up to the bucket of the limit: both bounds must decide.
 
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::order_statistics::among_values;

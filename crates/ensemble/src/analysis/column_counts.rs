@@ -1,5 +1,5 @@
 //! [`Collector`]: counts the values of observables, part by part, on any thread. Parts are merged in order and sketches
-//! hold counts, so that results do not depend on threads.
+//! hold counts: results do not depend on threads.
 
 use std::borrow::Cow;
 use std::sync::{Mutex, PoisonError};
@@ -64,9 +64,8 @@ pub const REFERENCE_ROWS: usize = 16;
 /// resolves a hundredth of the standard deviation with a third of the memory.
 pub(super) const CLOSE: f64 = 0.25;
 
-/// The value about which each of `observed` is sketched: the median over the first rows, in `parts`, or zero if there
-/// are none or they differ by a quarter of it. The nominal value would be a poor reference, since it may be far from
-/// the others.
+/// The value about which each of `observed` is sketched: the median over the first rows, in `parts` (the nominal value
+/// may be far from the others), or zero if there are none or they differ by a quarter of it.
 pub fn references<P: PartColumns>(
     observed: &[Observed],
     population: Population,

@@ -1,5 +1,5 @@
-//! Tests of the effect of inputs on the spread and the [`Event`]s of an outcome: rank and table tests, free of
-//! distributional assumptions; p-values adjusted for all inputs (Holm).
+//! Tests of the effect of inputs on the spread and the [`Event`]s of an outcome: distribution-free rank and table
+//! tests, with p-values adjusted for all inputs (Holm).
 
 use crate::analysis::event::{Event, are_few, distinct};
 use crate::statistics::conditional::conditional_test;

@@ -1,6 +1,5 @@
 //! Layer 8: statistics and verdicts from rows. One [`fold`] over the parts, in memory or in files ([`part_columns`]),
-//! has an [`accumulator`] per result; [`analysed`] has all results, [`comparison`] compares two. Files are in
-//! `storage`, formulas in `statistics`.
+//! has an [`accumulator`] per result; [`analysed`] has all results, [`comparison`] compares two.
 
 pub mod accumulator;
 pub mod analysed;

@@ -1,5 +1,5 @@
-//! Amplitude spectrum of a uniform series, for a picture; `exchange_frequency_hz` is computed in
-//! [`crate::observables`], on the campaign's grid.
+//! Amplitude spectrum of a uniform series, for a picture; `exchange_frequency_hz` comes from [`crate::observables`], on
+//! the campaign's grid.
 
 use core::f64::consts::{PI, TAU};
 

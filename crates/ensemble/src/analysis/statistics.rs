@@ -2,8 +2,8 @@
 //!
 //! Counts and extremes are exact, moments are merged in the order of the parts, sketches hold counts: results do not
 //! depend on threads. Quantiles are exact up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows, beyond
-//! they come from sketches with an error bound. Columns are read in batches, so that memory does not depend on the
-//! number of rows.
+//! they come from sketches with an error bound. Columns are read in batches, so that memory does not grow with the
+//! rows.
 //!
 //! The nominal sample 0 counts only if it is alone. Runs that are not `ok` are left out of estimates, except for the
 //! quantiles of requirements, which they violate. Intervals hold for all their possible values; for a mean, within the

@@ -1,6 +1,6 @@
 //! Time series of runs retained by `[retain]`: `trajectories/sample-000012.parquet`.
 //!
-//! A row is a function of plan and sample, so runs are chosen from the finished rows and flown again, bit for bit as by
+//! A row is a function of plan and sample: runs are chosen from the finished rows and flown again, bit for bit as by
 //! `simulate --sample 12 --out`.
 
 use std::collections::BTreeSet;

@@ -13,7 +13,7 @@ use crate::ensemble::single::states;
 use crate::ensemble::worker::BATCH;
 use crate::math::Isa;
 use crate::math::lanes::WIDTH;
-use crate::observables::table::error_id;
+use crate::observables::error_id;
 use crate::observables::{ErrorStatistic, Group, Observer, Request, Series};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};

@@ -3,8 +3,8 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
+use super::columns::Series;
 use super::points::{MeasuredRun, SeriesTable, needed, three};
-use super::table::Series;
 use crate::dynamics::effects::drag::{self, Drag};
 use crate::dynamics::effects::solar_pressure::{self, Light, SolarPressure};
 use crate::dynamics::environment::air::Air;

@@ -53,8 +53,7 @@ pub enum Decision {
     Undecided(Option<u64>),
 }
 
-/// Probability with which the number of runs in [`Decision::Undecided`] decides in a single look. Adding runs until a
-/// decision errs more often: see [`super::looks`].
+/// Probability with which the number of runs in [`Decision::Undecided`] decides in a single look.
 pub const POWER: f64 = 0.9;
 /// Runs beyond which a requirement counts as undecidable.
 pub const MAX_RUNS: u64 = 10_000_000_000;
@@ -62,7 +61,7 @@ pub const MAX_RUNS: u64 = 10_000_000_000;
 /// Decides whether the success rate is at least `target` in (0, 1), at `confidence`.
 ///
 /// No rounding of an inverse decides: the lower bound reaches the target exactly if P(X >= successes) at the target is
-/// at most 1 - confidence, and likewise the upper one.
+/// at most 1 - confidence; likewise the upper one.
 pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Decision {
     let risk = 1.0 - confidence;
     if trials == 0 {
@@ -77,8 +76,7 @@ pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Deci
 }
 
 /// A number of runs, at least `trials`, that decides with probability [`POWER`] at the observed rate, while one run
-/// fewer does not; `None` beyond [`MAX_RUNS`]. The exact probability is not monotonic, since successes are whole: a
-/// slightly smaller number may decide as well.
+/// fewer does not; `None` beyond [`MAX_RUNS`]. Since successes are whole, a slightly smaller number may decide as well.
 fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<u64> {
     let (fraction, risk) = (successes as f64 / trials as f64, 1.0 - confidence);
     let power = |runs: u64| {

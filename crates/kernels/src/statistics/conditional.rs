@@ -2,8 +2,8 @@
 //! Shah & J. Peters, *Ann. Stat.* 48 (2020) 1514.
 //!
 //! If the input has no effect of its own, the residuals of both columns, after lines through cells of the other inputs,
-//! are uncorrelated. This needs no model of the observable, and errs as stated as long as the lines follow it: only the
-//! product of both errors counts. Each line takes two degrees of freedom, else 30 to 60 runs err twice as often.
+//! are uncorrelated. The test needs no model of the observable: only the product of both errors of the lines counts.
+//! Each line takes two degrees of freedom, else 30 to 60 runs err twice as often.
 
 use super::rank_tests::two_sided;
 use super::sensitivity::{cells, left_by_lines};

@@ -21,7 +21,7 @@ pub struct Occurrence {
 const SAME: f64 = 1e-7;
 
 /// Two-sided p-value if the event does not depend on the group: the exact sum over all tables with these margins that
-/// are at most as likely, in a time that grows with the number of events.
+/// are at most as likely. The time grows with the number of events.
 pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     let events = one.events + other.events;
     let (first, last) = (events.saturating_sub(other.runs), events.min(one.runs));
@@ -97,8 +97,6 @@ mod tests {
         (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
     }
 
-    /// Law: the p-value is the sum of the probabilities, by binomial coefficients, of all tables with these margins
-    /// that are at most as likely.
     #[test]
     fn fisher_is_the_sum_over_tables() {
         for (a, m, b, n) in [(3, 4, 1, 4), (14, 14, 2, 20), (0, 5, 7, 9), (2, 30, 9, 25), (1, 1, 0, 40), (6, 12, 6, 12)]

@@ -2,11 +2,11 @@
 //! ([`ranks`]).
 //!
 //! A bucket holds the deviations that share sign, exponent and the leading [`MANTISSA_BITS`] bits of the mantissa, as
-//! in [`super::sketch`], but fits into 16 bits, so that hundreds of millions can be counted. Its middle is within
-//! [`RELATIVE_ERROR`] of any deviation in it. Magnitudes below 2^-512 (7e-155) count as zero; the last bucket holds all
-//! from 2^512 (1.3e154) on.
+//! in [`super::sketch`], in 16 bits, so that hundreds of millions can be counted. Its middle is within
+//! [`RELATIVE_ERROR`] of any deviation in it. Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512
+//! (1.3e154) on in the last bucket.
 
-use super::sketch::Ranks;
+use super::ranks::Ranks;
 
 /// Leading mantissa bits of a bucket.
 pub const MANTISSA_BITS: u32 = 5;

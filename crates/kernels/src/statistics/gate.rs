@@ -1,9 +1,9 @@
 //! Decisions on requirements: met, missed, or undecided with the number of runs that would decide.
 //!
 //! Fractions and quantiles share one exact binomial test ([`super::binomial::decide`]): the `p`-quantile is at most a
-//! limit if at least the fraction p of runs is. Means have bounds that allow for skewness ([`super::mean`]); designs in
-//! replicates have their own ([`super::replicates`]). A wrong pass or a wrong failure has at most the probability 1 -
-//! confidence. For several requirements see [`failing_at`] and [`failing_together`].
+//! limit if at least the fraction p of runs is. Means have bounds that allow for skewness ([`super::mean`]), designs in
+//! replicates their own ([`super::replicates`]). A pass or a failure is wrong with at most the probability 1 -
+//! confidence. Several requirements: [`failing_at`], [`failing_together`].
 
 use super::binomial::{Decision, MAX_RUNS, POWER, decide, lower_bound, upper_bound};
 use super::looks::adjusted;
@@ -238,8 +238,8 @@ fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Law: several points pass if each does, and fail if one does at the corrected confidence; bounds of the number of
-    /// successes decide only if all numbers in between do.
+    /// Law: several points pass if each does, and fail if one does at the corrected confidence; bounds decide only if
+    /// all numbers in between do.
     #[test]
     fn every_point_must_pass() {
         let of = |successes: &[u64]| {
@@ -262,8 +262,8 @@ mod tests {
         }
     }
 
-    /// Law: a mean decides if both bounds lie on one side of the limit; otherwise it predicts how many runs decide.
-    /// Nothing decides at the limit, without spread, or with too few runs.
+    /// Law: a mean decides if both bounds lie on one side of the limit, else it predicts how many runs decide; nothing
+    /// decides at the limit, without spread, or with too few runs.
     #[test]
     fn known_gates_on_a_mean() {
         let values = [1.0, 2.0, 3.0, 4.0].repeat(5);

@@ -3,7 +3,7 @@
 //!
 //! The influence of a row is n - 1 times the change of the estimate without it. The estimate varies as the mean of the
 //! influences, for any distribution, and has the bounds of such a mean ([`super::mean`]). Of many rows evenly spaced
-//! ones are used. Rejected: resampling, which takes hundreds of estimates and covers heavy tails no better. The tests
+//! ones are used. Resampling takes hundreds of estimates and covers heavy tails no better. The tests
 //! `coverage_of_sensitivities` measure the coverage.
 
 use super::mean::mean_bounds;

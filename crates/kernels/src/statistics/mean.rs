@@ -7,7 +7,7 @@
 //! bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). If that logarithm does not exist, there are too few runs for their
 //! skewness, and no bound.
 //!
-//! These bounds hold unless an event seen fewer than some ten times contributes much to the mean. For bounded numbers
+//! These bounds hold unless an event seen fewer than some ten times contributes much to the mean;
 //! [`bounded_mean_bounds`] need no such assumption. The tests `coverage_of_means` measure the coverage. For dependent
 //! numbers see [`super::replicates`].
 
@@ -172,7 +172,7 @@ mod tests {
     }
 
     /// Known: 50 numbers 0, 50 numbers 1 and one 1/2, of variance 1/4, have the half-width 1/2 sqrt(4/101) + 14/300 at
-    /// 1 - 2/e^2; few numbers have the range as bounds; numbers without spread have its term alone.
+    /// 1 - 2/e^2; few numbers have the range, numbers without spread its term alone.
     #[test]
     fn the_bounds_of_bounded_numbers_are_bernsteins() {
         let values = [0.0, 1.0].repeat(50).into_iter().chain([0.5]);

@@ -13,6 +13,7 @@ pub mod mean;
 pub mod moments;
 pub mod quantile;
 pub mod rank_tests;
+pub(crate) mod ranks;
 pub mod regression;
 pub mod replicates;
 pub mod sensitivity;

@@ -27,8 +27,8 @@ fn quantile_of(count: usize, p: f64, at: impl Fn(usize) -> f64) -> Option<f64> {
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
 }
 
-/// Values with their order statistics ([`f64::total_cmp`]). The announced ones are found together, a few in a third of
-/// the time of a sort; others are found in a copy.
+/// Values with their order statistics ([`f64::total_cmp`]): the announced ones are found together, a few in a third of
+/// the time of a sort, others in a copy.
 #[derive(Clone, Debug)]
 pub struct OrderStatistics {
     /// Partitioned at each of `places`.

@@ -72,7 +72,7 @@ pub fn spearman_test(x_ranks: &[f64], y_ranks: &[f64]) -> [f64; 2] {
 }
 
 /// True if `y` both rises and falls with `x`, by rank correlations within the halves and quarters of the rows, in
-/// ascending `order` of `x`. `alpha` bounds the probability of a false result for a monotonic influence.
+/// ascending `order` of `x`; false results have at most the probability `alpha` for a monotonic influence.
 pub fn turns(order: &[usize], x: &[f64], y: &[f64], alpha: f64) -> bool {
     const PARTS: [usize; 2] = [2, 4];
     let level = alpha / PARTS.iter().sum::<usize>() as f64;

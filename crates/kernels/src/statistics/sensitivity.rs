@@ -71,8 +71,8 @@ pub enum Samples {
     /// Independent, or stratified in each input separately (Latin hypercube).
     Independent,
     /// Even in several inputs together (Sobol and Halton sequences). The other inputs are then even within a cell, too,
-    /// and its line has less noise than with independent rows, or none. The index lies between those with and without
-    /// correction for that noise: the estimate is their middle, the interval spans both.
+    /// and its line has less noise than with independent rows, or none: the estimate is the middle of the indices with
+    /// and without correction for that noise, the interval spans both.
     Even,
 }
 
@@ -171,8 +171,8 @@ pub const MIN_ROWS: usize = 64;
 /// Rows of the two outermost cells, where the input has its tails and the observable is steep.
 const FEWEST: usize = 5;
 /// End of the cell that begins at `start`; equal values share a cell. Cells grow by half from both ends up to the root
-/// of the number of rows. Smaller cells have more noise, larger ones more curvature: of 1,000 rows, cells of 20 to 45
-/// are equally good.
+/// of the number of rows: smaller ones have more noise, larger ones more curvature (of 1,000 rows, 20 to 45 are equally
+/// good).
 fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
     let (rows, rest) = (order.len(), order.len() - start);
     let largest = libm::sqrt(rows as f64) as usize;

@@ -104,8 +104,8 @@ pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
 /// P-value of the test of equal spread in both places of `pairs`, without NaN; `None` if no pair differs.
 ///
 /// If the numbers of a pair are exchangeable, the sign of their difference is a fair coin, given its magnitude and
-/// their sum. If the second numbers spread more, differences are positive for large sums and negative for small ones.
-/// Each sign is weighted by the rank of the magnitude times the centred rank of the sum.
+/// their sum. If the second numbers spread more, differences are positive for large sums and negative for small ones:
+/// each sign is weighted by the rank of the magnitude times the centred rank of the sum.
 pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     let differing: Vec<[f64; 2]> = pairs.iter().copied().filter(|[first, second]| first != second).collect();
     if differing.is_empty() {
