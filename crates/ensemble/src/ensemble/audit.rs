@@ -2,8 +2,8 @@
 //!
 //! The reference is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]), without
 //! the audited run's method and periodic folding. Long runs use the Taylor method at 1e-16 in plain doubles, as noted
-//! in the row ([`AuditValue::Tolerance`]); drag and sunlight have no Taylor series. The audited run is repeated with
-//! the states of the comparison; the campaign's row stays unchanged.
+//! in the row ([`AuditValue::Tolerance`]). The audited run is repeated with the states of the comparison; the
+//! campaign's row stays unchanged.
 //!
 //! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]); the limit
 //! counts the motion's units of time, not seconds.

@@ -2,7 +2,7 @@
 //!
 //! Deviations from the nominal run are counted in buckets at some observation points
 //! ([`crate::statistics::deviation`]): the relative error of a large energy would hide its spread. Counts of parts add
-//! up in any order, in memory that does not grow with the number of runs. Only dispersed `ok` runs count.
+//! up in any order and take the same memory for any number of runs. Only dispersed `ok` runs count.
 //!
 //! Extremes and numbers of values cover all runs, quantiles of a large campaign its first ones
 //! ([`crate::campaign::Plan::last_counted`]).

@@ -1,7 +1,7 @@
 //! [`EventFinder`]: times and numbers of crossings.
 //!
 //! A crossing shows between two neighbouring observation points and is then located in repeated flights (`lookup`,
-//! `crossing`), so that a run without one costs nothing. Time and count are null if the quantity is NaN at some point.
+//! `crossing`); a run without one costs nothing. Time and count are null if the quantity is NaN at some point.
 //!
 //! A run with a [`RunEnd`] is flown again up to there: its row is that of a campaign of this duration, with the same
 //! points and its end.

@@ -1,8 +1,8 @@
 //! [`Parts`]: a campaign's parts of consecutive samples.
 //!
 //! A part is a thread's work, a file's content and the unit of resuming and sharding. Its boundaries do not depend on
-//! threads, machine, shards or the number of samples: a longer campaign only adds parts. Sizes grow, so that all
-//! threads share a small campaign and a large one has few files.
+//! threads, machine, shards or the number of samples. Sizes grow, so that all threads share a small campaign and a
+//! large one has few files.
 
 use crate::sampling::SampleId;
 

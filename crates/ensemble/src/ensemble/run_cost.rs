@@ -1,5 +1,5 @@
 //! [`parts`]: a plan's parts, sized by the cost of its runs: the counted work of the nominal run times the time of a
-//! unit on a slow core. A clock would give different parts on another machine or an hour later.
+//! unit on a slow core, since a clock would give different parts elsewhere.
 
 use crate::campaign::Plan;
 use crate::ensemble::flights::Flights;

@@ -1,7 +1,7 @@
 //! [`run`]: parts of a campaign over threads.
 //!
 //! A free thread takes the next part and works in its own memory; no row depends on the thread. Rayon's parallel
-//! iterators, which halve ranges, would scatter completed parts over the campaign.
+//! iterators halve ranges, which would scatter completed parts over the campaign.
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use std::num::NonZeroUsize;

@@ -1,5 +1,4 @@
-//! [`SingleRun`]: a sample with all its states; [`run_each`]: several. They are drawn and propagated as in campaigns,
-//! so that the states are those behind the row.
+//! [`SingleRun`]: a sample with all its states; [`run_each`]: several. They are drawn and propagated as in campaigns.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,7 +1,7 @@
 //! Tables as aligned text for terminals.
 //!
-//! Cells are never broken: a number stays whole and next to its unit. If lines are too narrow, names are shortened,
-//! then the right columns continue on lines below the row.
+//! Cells are never broken: a number stays next to its unit. If lines are too narrow, names are shortened, then the
+//! right columns continue on lines below the row.
 
 use std::borrow::Cow;
 

@@ -1,8 +1,7 @@
 //! Actuation of a spacecraft, arc by arc.
 //!
-//! At the end of an *arc* of constant actuation the engine passes the state to the run's [`ActuationLaw`], which
-//! returns the next actuation and its end. A law sees its own run only, although engines propagate several runs
-//! together. Any closure `|time, body, wheels| -> Actuation` is a law.
+//! At the end of an *arc* of constant actuation the engine passes the state of the run to its [`ActuationLaw`], which
+//! returns the next actuation and its end. Any closure `|time, body, wheels| -> Actuation` is a law.
 //!
 //! Values are *applied* values: a law models the scales, delays and limits of its actuators itself.
 

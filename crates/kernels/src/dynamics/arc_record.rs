@@ -1,5 +1,5 @@
-//! [`ArcRecord`]: the arcs of a run, stored as differences. A control loop has an arc per tick and changes few numbers:
-//! 40 bytes per arc with three wheels instead of 264 for an [`Arc`].
+//! [`ArcRecord`]: the arcs of a run, stored as differences: a control loop has an arc per tick and changes few numbers
+//! (40 bytes per arc with three wheels instead of 264 for an [`Arc`]).
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 

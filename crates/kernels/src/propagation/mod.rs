@@ -1,5 +1,5 @@
-//! Layer 3: engines that integrate scenes to the components at the observation times, and complete these to the
-//! physical [`crate::run::StateTable`]. Runs are in lanes that share no decision.
+//! Layer 3: engines that integrate scenes to the components at the observation times and complete these to the physical
+//! [`crate::run::StateTable`]. Lanes share no decision.
 
 pub(crate) mod arc_source;
 pub mod engine;

@@ -56,8 +56,8 @@ impl Ranks {
         Some(([near(below + 1)?, near(below + 2)?], place - below as f64))
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1, within [`super::sketch::RELATIVE_ERROR`] of the larger neighbour's magnitude and
-    /// deviation from the reference.
+    /// The `p`-quantile of type 7, 0 <= p <= 1, within [`super::sketch::RELATIVE_ERROR`] of the larger neighbour's
+    /// magnitude and deviation from the reference.
     pub fn quantile(&self, p: f64) -> Option<f64> {
         let (neighbours, part) = self.neighbours(p)?;
         super::quantile::quantile(&neighbours, part)

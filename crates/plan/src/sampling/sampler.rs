@@ -1,6 +1,6 @@
 //! [`Sampler`]: draws samples of [`Dispersions`] into scenes, in blocks of eight.
 //!
-//! Recorded values are read back from the scene after quaternions are renormalised. An unphysical draw is not repeated:
+//! Recorded values are read back from the scene after quaternions are renormalised. An unphysical draw is not repeated;
 //! the scene refuses it later.
 
 use super::design::{BLOCK, PointSource};

@@ -9,9 +9,8 @@
 //! | 8..24 | FNV-1a, 128 bits, of the component's name (`initial.angular_velocity_rad_s.y`), little-endian |
 //! | 24..32 | the ASCII text `sampling` |
 //!
-//! Sample k takes the k-th little-endian 64-bit word of the key stream: a draw depends on (seed, sample, name) alone,
-//! and eight neighbours share a block. Counters of sample and parameter under one key were rejected, since a new
-//! parameter would renumber the others.
+//! Sample k takes the k-th little-endian 64-bit word of the key stream: a draw depends on (seed, sample, name) alone, a
+//! new parameter renumbers no other, and eight neighbours share a block.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
@@ -65,21 +64,23 @@ impl Stream {
 
     #[inline]
     pub fn bits(&mut self, sample: SampleId) -> u64 {
-        if sample.0 != self.next {
-            self.generator.set_word_pos(2 * u128::from(sample.0));
-        }
-        self.next = sample.0.wrapping_add(1);
+        self.seek(sample.0, 1);
         self.generator.next_u64()
+    }
+
+    /// Goes to `place`, from which `count` words are read.
+    #[inline]
+    fn seek(&mut self, place: u64, count: u64) {
+        if place != self.next {
+            self.generator.set_word_pos(2 * u128::from(place));
+        }
+        self.next = place.wrapping_add(count);
     }
 
     /// The numbers u of the eight samples of `block`, 8 `block` and after: one block of ChaCha.
     #[inline]
     pub fn uniforms(&mut self, block: u64, u: &mut [f64; 8]) {
-        let first = block.wrapping_mul(8);
-        if first != self.next {
-            self.generator.set_word_pos(2 * u128::from(first));
-        }
-        self.next = first.wrapping_add(8);
+        self.seek(block.wrapping_mul(8), 8);
         let mut bytes = [0; 64];
         self.generator.fill_bytes(&mut bytes);
         for (u, word) in u.iter_mut().zip(bytes.as_chunks().0) {
@@ -104,25 +105,18 @@ pub(super) fn unit(bits: u64) -> f64 {
 /// (seed, name, `noise`) with the sample as ChaCha's stream number, the k-th word for tick k. Reading ticks in order is
 /// fastest.
 #[derive(Debug)]
-pub struct Noise {
-    generator: ChaCha8Rng,
-    next: u64,
-}
+pub struct Noise(Stream);
 
 impl Noise {
     pub fn new(seed: u64, name: &str, sample: SampleId) -> Self {
         let mut generator = generator(seed, name, *b"noise\0\0\0");
         generator.set_stream(sample.0);
-        Noise { generator, next: 0 }
+        Noise(Stream { generator, next: 0 })
     }
 
     /// The number u of `tick`, 0 < u < 1.
     pub fn uniform(&mut self, tick: u64) -> f64 {
-        if tick != self.next {
-            self.generator.set_word_pos(2 * u128::from(tick));
-        }
-        self.next = tick.wrapping_add(1);
-        unit(self.generator.next_u64())
+        self.0.uniform(SampleId(tick))
     }
 
     pub fn normal(&mut self, tick: u64) -> f64 {

@@ -3,7 +3,7 @@
 //! An effect is one file and one row of the list below; its parameters are keys of `[environment]` and `[orbit]`
 //! ([`crate::scene::schema`]). Every engine declares the [`Form`]s that it integrates
 //! (`propagation::integrated_effects`) and refuses a run with any other. Kernels for scenes without effects are
-//! compiled without them, and an orbit is evaluated only if an acting effect needs it.
+//! compiled without them.
 
 mod changing_effects;
 pub(crate) mod plates;

@@ -1,5 +1,5 @@
 //! Effects that change within an arc: their arguments ([`Motion`], [`MotionSeries`]) and their interface to the
-//! equations of motion, [`NoEffects`] or [`Acting`].
+//! equations of motion ([`NoEffects`], [`Acting`]).
 
 use super::ChangingEffects;
 use super::ChangingSeries;

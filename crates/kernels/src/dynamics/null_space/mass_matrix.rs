@@ -1,8 +1,8 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
 //! M-hat has the blocks spacecraft (v_p, omega_s, wheel rates), m_d 1 and J_d. The spacecraft's v_p block m 1 has the
-//! factor sqrt(m) 1, so that only omega_s and the wheel rates are factored. A wheel of constant speed has the row and
-//! column of the unit matrix: its acceleration is zero.
+//! factor sqrt(m) 1; only omega_s and the wheel rates are factored. A wheel of constant speed has the row and column of
+//! the unit matrix.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 

@@ -1,7 +1,7 @@
 //! [`integrate`]: runs in lanes, each with its own step, arc, period and end.
 //!
-//! A step is a few vector operations for all lanes; a single lane is examined only at events: an observation point, a
-//! return of omega, the end of an arc, a failure.
+//! A step is a few vector operations for all lanes; a single lane is examined only at an observation point, a return of
+//! omega, the end of an arc or a failure.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;

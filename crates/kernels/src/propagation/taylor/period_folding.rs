@@ -1,8 +1,8 @@
 //! Points of waiting runs with a known period: folded, evaluated together, unfolded.
 //!
-//! Folded points are scattered over the few steps of a period. They are sorted by series and evaluated eight at a time,
-//! series by series for all waiting lanes, so that a series stays in the first-level cache; rotation by whole periods
-//! and growth of the integrals follow in order of time.
+//! Folded points are scattered over the few steps of a period. They are sorted by series and evaluated eight at a time
+//! for all waiting lanes, so that a series stays in the first-level cache; rotation by whole periods and growth of the
+//! integrals follow in order of time.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;

@@ -1,7 +1,7 @@
 //! [`Levels`]: the levels of the designs `grid` and `one_at_a_time`.
 //!
-//! A level is a value of u: the midpoints of n equally likely intervals, (i + 1/2)/n, or the listed quantiles. Levels
-//! are computed on demand, so their number costs no memory.
+//! A level is a value of u: the midpoints of n equally likely intervals, (i + 1/2)/n, or the listed quantiles, computed
+//! on demand.
 
 use super::traits::{Dimensions, MAX_SAMPLES};
 use crate::sampling::error::{DispersionError, Table, error_of};

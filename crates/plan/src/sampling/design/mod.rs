@@ -1,5 +1,5 @@
-//! [`Design`]: the samples in the unit cube; [`PointSource`]: u in (0, 1) of each sample and random dimension, which
-//! distributions map to values. A new design needs its file and a row of the list below.
+//! [`Design`]: the samples in the unit cube; [`PointSource`]: u in (0, 1) of each sample and random dimension. A new
+//! design needs its file and a row of the list below.
 //!
 //! Sample 0 is the nominal scene, sample k >= 1 is point k - 1. Numbers follow from the sample's id alone, without
 //! stored permutations or earlier points.

@@ -1,8 +1,8 @@
 //! [`REPLICATES`]: several designs of one kind, scrambled independently.
 //!
-//! Points of one net or hypercube depend on each other, so intervals for independent runs do not hold; the spread of
-//! the means of independent replicates gives one (A. B. Owen, *Scrambled net variance for integrals of smooth
-//! functions*, Ann. Statist. 25 (1997) 1541, section 1; *Monte Carlo theory, methods and examples*, chapter 17.4).
+//! Points of one net or hypercube depend on each other: intervals come from the spread of the means of independent
+//! replicates (A. B. Owen, *Scrambled net variance for integrals of smooth functions*, Ann. Statist. 25 (1997) 1541,
+//! section 1; *Monte Carlo theory, methods and examples*, chapter 17.4).
 //!
 //! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R.
 

@@ -1,8 +1,8 @@
 //! `uniform_direction`, `cone`, `von_mises_fisher`: direction and magnitude of a vector separately, with `axis`
 //! (default: the nominal vector) and `[disperse.magnitude]` (default: the nominal length).
 //!
-//! Isotropic means uniform in solid angle, that is in the cosine of the angle to the axis, and not in components or the
-//! angle (test `usual_mistakes_are_caught`).
+//! Isotropic means uniform in the cosine of the angle to the axis, not in components or the angle (test
+//! `usual_mistakes_are_caught`).
 
 use super::prelude::*;
 use crate::math::vector::{cross, norm, scaled};

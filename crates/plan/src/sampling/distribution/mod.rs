@@ -2,8 +2,8 @@
 //!
 //! A distribution of one number ([`Scalar`]) becomes a quantile function of u in (0, 1) for each component
 //! ([`Quantile`]), a joint one ([`Together`]) a map from several u to all components ([`Map`]). Every sample takes the
-//! same number of u, so that a distribution means the same in every design and u can be correlated; rejection and polar
-//! methods, which take a random number of u, are excluded.
+//! same number of u, so that a distribution means the same in every design and u can be correlated; this excludes
+//! rejection and polar methods.
 //!
 //! A new distribution needs its file and a row of the list below; [`target`] has the common checks.
 
