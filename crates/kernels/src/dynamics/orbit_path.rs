@@ -2,7 +2,7 @@
 //! flattened body.
 //!
 //! Steps depend on the orbit alone and are kept, so that a time always gives the same bits. Each is the series of
-//! [`super::orbit_series`] to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental
+//! `orbit_series` to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental
 //! Mathematics 14, 2005): the first neglected term is e^-44.
 
 use std::sync::{Arc, OnceLock};

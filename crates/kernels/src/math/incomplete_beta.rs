@@ -1,7 +1,7 @@
 //! The regularised incomplete beta function I_x(a, b) and its inverse, for shapes from 1e-3 to 1e15.
 //!
 //! I_x by a continued fraction (Lentz's method modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986)
-//! 490) on the side on which it converges; its factor x^a (1-x)^b / B(a, b) in [`super::saddle_point`] form.
+//! 490) on the side on which it converges; its factor x^a (1-x)^b / B(a, b) in `saddle_point` form.
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};

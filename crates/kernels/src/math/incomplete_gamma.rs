@@ -2,7 +2,7 @@
 //! 1e6.
 //!
 //! P by its series for x < a + 1 (DLMF 8.11.4), else Q by its continued fraction (DLMF 8.9.2, Lentz's method modified
-//! by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490); their factor in [`super::saddle_point`] form.
+//! by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490); their factor in `saddle_point` form.
 
 use super::probability::{Probability, log_of_quantile};
 use super::saddle_point::{deviance, stirling_error};

@@ -11,7 +11,7 @@ pub enum Method {
     Auto,
     /// Gyrostat, Taylor series, order and step from the tolerance (Jorba & Zou 2005).
     Taylor,
-    /// Gyrostat, an integrator of [`crate::ode::integrators`].
+    /// Gyrostat, an integrator of `ode::integrators`.
     Gyrostat(Integrator),
     /// Berdoz's 62-state null-space formulation, Dormand-Prince 5(4).
     NullSpace,

@@ -1,5 +1,5 @@
 //! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids
-//! ([`super::solids`]): Berdoz, *Final Report - ADR Spacecraft*, (60)-(67); bodies are joined by sums over pairs, as in
+//! (`solids`): Berdoz, *Final Report - ADR Spacecraft*, (60)-(67); bodies are joined by sums over pairs, as in
 //! [`super::mass`].
 
 use super::input::SceneInput;

@@ -1,4 +1,4 @@
-//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels ([`super::wheel`]). Sums over
+//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels (`wheel`). Sums over
 //! bodies use distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation. Generic
 //! over the number type, for reference solutions in more digits.
 
