@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use crate::dynamics::earth_rotation::{TURNS_PER_SECOND, turns_at};
-use crate::dynamics::effects::Light;
+use crate::dynamics::environment::light::Light;
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dot, norm, scaled};

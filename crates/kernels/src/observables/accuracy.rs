@@ -1,10 +1,10 @@
 //! [`Accuracy`]: limits of error beyond which a completed run is of no use.
 
-use super::columns::{ColumnId, Series, error_id};
 use super::group::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use super::reduction::ErrorStatistic;
 use super::request::Request;
+use super::table::{ColumnId, Series, error_id};
 
 /// Estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) from which a
 /// run is `inaccurate`.

@@ -1,7 +1,7 @@
 use fearless_simd::Simd;
 
-use super::columns::Series;
 use super::points::{Column, MeasuredRun, SeriesTable, columns, constant, constant_matrix, first_vector, four, three};
+use super::table::Series;
 use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};

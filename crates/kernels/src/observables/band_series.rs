@@ -1,12 +1,11 @@
 //! [`BandSeries`]: quantities over time whose quantiles over a campaign form bands: series of the table of observables,
 //! and changes of series since the start. Only |omega| needs a computation beyond the observed columns.
 
-use super::columns::{Column, Series};
 use super::group::Group;
 use super::law_columns::LawSeries;
 use super::reduction::{Reduction, Stored};
 use super::request::Request;
-use super::table::CHANGES;
+use super::table::{CHANGES, Column, Series};
 use super::window::Window;
 use crate::run::{Quantity, StateField, StateTable};
 

@@ -8,10 +8,10 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::columns::Series;
 use super::points::{
     Column, MeasuredRun, SeriesTable, columns, constant, count_of_wheels, each, first, needed, of_wheels, only, three,
 };
+use super::table::Series;
 use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};

@@ -1,10 +1,9 @@
 //! [`HEADLINES`]: columns of a summary.
 
-use super::columns::{ColumnId, Series, direct_id, error_id, series_id};
 use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ValueStatistic};
 use super::request::Request;
-use super::table::DirectValue;
+use super::table::{ColumnId, DirectValue, Series, direct_id, error_id, series_id};
 
 /// Estimated error of the rotational state.
 pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);

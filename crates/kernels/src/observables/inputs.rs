@@ -1,9 +1,8 @@
 //! Inputs of each value of the table: statistics, scales, fields of the state table.
 
-use super::columns::{Series, Value};
 use super::reduction::{OrderStatistic, Reduction};
 use super::rows::Need;
-use super::table::FRACTION_SCALE;
+use super::table::{FRACTION_SCALE, Series, Value};
 
 impl Value {
     pub(super) fn of_wheel(self, wheel: usize) -> Self {

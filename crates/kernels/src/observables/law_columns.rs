@@ -3,9 +3,9 @@
 
 use std::sync::Mutex;
 
-use super::columns::{Column, ColumnId, Series, Value};
 use super::group::Group;
 use super::rows::{ColumnKind, Scenes};
+use super::table::{Column, ColumnId, Series, Value};
 use crate::run::Quantity;
 use crate::scene::MAX_WHEELS;
 use crate::scene::schema::numbers::interned;

@@ -3,7 +3,6 @@
 use fearless_simd::Simd;
 
 use super::attitude::attitude_series;
-use super::columns::Series;
 use super::energies::energies;
 use super::law_columns::LawSeries;
 use super::momenta::{angular_momentum, debris_momenta, linear_momentum};
@@ -12,6 +11,7 @@ use super::orbit::orbit;
 use super::points::{Column, MeasuredRun, SeriesTable, needed};
 use super::rows::SeriesSource;
 use super::surroundings::surroundings;
+use super::table::Series;
 use crate::run::StateField;
 
 #[inline(always)]

@@ -10,11 +10,11 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::columns::Series;
 use super::points::{
     Column, MeasuredRun, SeriesTable, columns, constant, constant_matrix, count_of_wheels, first_vector, four, needed,
     of_wheels, three,
 };
+use super::table::Series;
 use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::StateField;

@@ -3,9 +3,9 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::columns::Series;
 use super::motion::angle;
 use super::points::{Magnetism, MeasuredRun, SeriesTable, constant_matrix, needed, three};
+use super::table::Series;
 use crate::dynamics::effects::gravity_gradient::GravityGradient;
 use crate::math::prelude::*;
 use crate::math::{Lanes, Real};

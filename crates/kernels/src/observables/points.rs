@@ -3,10 +3,10 @@ use core::ops::Range;
 use fearless_simd::Simd;
 
 use super::acting::Acting;
-use super::columns::Series;
 use super::nominal_attitude::NominalAttitude;
 use super::request::SeriesSet;
 use super::rows::SeriesSource;
+use super::table::Series;
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};

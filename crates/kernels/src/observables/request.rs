@@ -2,12 +2,11 @@
 
 use core::ops::Range;
 
-use super::columns::{Column, ColumnId, Series};
 use super::group::{Group, Groups};
 use super::law_columns::LawColumns;
 use super::reduction::{Passes, Reduction, Stored};
 use super::rows::{Facts, SeriesSource};
-use super::table;
+use super::table::{self, Column, ColumnId, Series};
 use super::window::Windows;
 use crate::dynamics::effects::ForceModel;
 use crate::math::list::List;

@@ -1,9 +1,8 @@
 //! [`RowPlan`]: the columns of a request as flat index lists, resolved once per worker.
 
-use super::columns::{Series, Value};
 use super::reduction::Reduction;
 use super::request::Request;
-use super::table::DirectValue;
+use super::table::{DirectValue, Series, Value};
 
 #[derive(Clone, Debug)]
 pub(super) struct Statistics(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);

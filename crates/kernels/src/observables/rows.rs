@@ -137,14 +137,14 @@ macro_rules! series {
         #[derive(Clone, Copy)]
         enum SeriesKind { $($($name,)*)* }
 
-        pub(super) const PLACES: &[usize] = &[$($($count),*),*];
+        const PLACES: &[usize] = &[$($($count),*),*];
 
         #[expect(non_upper_case_globals, reason = "names of series are written like variants")]
         impl Series {
             $($(#[doc = $meaning] pub const $name: Series = Series::first(SeriesKind::$name as usize);)*)*
         }
 
-        pub(super) static SERIES: [SeriesRow; PLACES.len()] = [
+        static SERIES: [SeriesRow; PLACES.len()] = [
             $($(SeriesRow {
                 source: SeriesSource::$source,
                 stored: Stored::$stored,

@@ -3,11 +3,12 @@
 use fearless_simd::Simd;
 
 use super::attitude::Attitude;
-use super::columns::Series;
 use super::points::{MeasuredRun, SeriesTable, needed, three};
+use super::table::Series;
 use crate::dynamics::effects::drag::{self, Drag};
-use crate::dynamics::effects::solar_pressure::{self, Light, SolarPressure};
+use crate::dynamics::effects::solar_pressure::{self, SolarPressure};
 use crate::dynamics::environment::air::Air;
+use crate::dynamics::environment::light::Light;
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::prelude::*;
 use crate::run::StateField;

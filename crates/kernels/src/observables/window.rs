@@ -2,10 +2,10 @@
 
 use core::ops::Range;
 
-use super::columns::{Column, ColumnId, Series, Value};
 use super::group::Group;
 use super::reduction::Stored;
 use super::rows::{ColumnKind, Scenes};
+use super::table::{Column, ColumnId, Series, Value};
 use crate::math::list::List;
 use crate::run::{Quantity, points_before, points_to};
 use crate::scene::Name;

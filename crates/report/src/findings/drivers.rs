@@ -10,15 +10,14 @@ use crate::analysis::observed::Observed;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, ShownUnit};
 use crate::findings::finding::{Figures, Finding, Kind, Number};
-use crate::findings::number::{self, brief, counted, outward, share, short};
+use crate::findings::number::{self, brief, counted, outward, short};
 use crate::findings::requirement;
-use crate::findings::{loss, names};
+use crate::findings::{loss, names, noise};
 use crate::math::normal;
 use crate::sampling::Design;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::quantile::percent;
-use crate::statistics::share_within::FEWEST_OTHERS;
 
 const NAMED: usize = 2;
 
@@ -393,7 +392,7 @@ pub(super) fn findings(
         let said = "noise in the loop is no input: spindrift report . --noise 256 measures its share";
         found.push(about("noise", "", 1, said.to_owned()));
     }
-    found.extend(noise.iter().map(|one| noise_finding(plan, one)));
+    found.extend(noise.iter().map(|one| noise::finding(plan, one)));
     found
 }
 
@@ -452,38 +451,6 @@ pub fn part(event: &Event) -> String {
         Occurs::Missed { requirement, is_only: false } => format!("_event_{}", requirement + 1),
         _ if event.has_few_values => String::new(),
         _ => "_event".to_owned(),
-    }
-}
-
-fn noise_finding(plan: &Plan, one: &NoiseShare) -> Finding {
-    let observed = Observed::named(plan, core::iter::once(one.observable.as_str()));
-    let name = observed.first().map_or(one.observable.clone(), |observed| names::of_quantity(&observed.quantity));
-    let shares =
-        one.share.map(|of| Number::share("share of noise", of.value, [of.lower, of.upper], 2 * one.scenes as u64));
-    let found = Finding::new(Kind::Driver, format!("noise_{}", one.observable), name, noise_sentence(one));
-    Finding { numbers: shares.into_iter().collect(), rank: 1, ..found }
-}
-
-pub fn noise_sentence(one: &NoiseShare) -> String {
-    let scenes = one.scenes;
-    match one.share {
-        // a probability of differences cannot be estimated from none
-        Some(share) if share.value == 0.0 => {
-            format!("noise within the loop changes it in none of {scenes} scenes, each flown twice")
-        }
-        Some(of) => {
-            let said = share([of.value; 2], [of.lower, of.upper]);
-            format!("noise within the loop is {said} of the variance ({scenes} scenes, each flown twice)")
-        }
-        None if one.others > 0 => format!(
-            "the share of noise within the loop is not known: {} of {} runs have another value than the others, and it \
-             takes {FEWEST_OTHERS} ({scenes} scenes, each flown twice)",
-            one.others,
-            2 * scenes
-        ),
-        None => format!(
-            "noise within the loop has no share of a variance ({scenes} scenes with a value, which do not vary)"
-        ),
     }
 }
 

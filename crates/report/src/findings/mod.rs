@@ -14,6 +14,7 @@ pub mod finding;
 pub mod known_truth;
 pub mod loss;
 pub mod names;
+mod noise;
 pub mod number;
 pub mod numerics;
 pub mod origin;

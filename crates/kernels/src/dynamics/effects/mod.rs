@@ -9,7 +9,6 @@ mod changing_effects;
 pub(crate) mod plates;
 pub mod within_arcs;
 
-pub use self::solar_pressure::Light;
 use super::actuation::sum;
 use crate::math::enumeration::bit_set;
 use crate::math::vector::norm;

@@ -8,12 +8,11 @@
 
 use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
-use crate::dynamics::environment::shadow::{Zone, lit};
-use crate::dynamics::environment::sun::{Sun, sun};
+use crate::dynamics::environment::light::Light;
+use crate::dynamics::environment::shadow::Zone;
+use crate::dynamics::environment::sun::Sun;
 use crate::math::prelude::*;
 use crate::scene::{Scene, Shadow};
-
-const DAY: f64 = 1.0 / 86_400.0;
 
 /// Lower bound of the Sun's distance in the series, au.
 const NEAREST: f64 = 0.983;
@@ -24,41 +23,6 @@ pub struct SolarPressure<R> {
     plates: PlatesInLanes<R, 3>,
     light: Light<R>,
     zone: Zone<R>,
-}
-
-/// Date, Earth radius and shadow model, one run per lane.
-#[derive(Clone, Copy, Debug)]
-pub struct Light<R> {
-    /// Days from J2000.0 to time zero.
-    epoch: R,
-    /// Radius of the Earth, m.
-    radius: R,
-    shadow: Shadow,
-}
-
-impl<R: Real> Light<R> {
-    /// The light on `scene`, if its orbit has an epoch.
-    pub fn of(zero: R, scene: &Scene) -> Option<Self> {
-        let orbit = scene.orbit.as_ref()?;
-        let shadow = scene.environment.shadow;
-        Some(Light {
-            epoch: zero.splat(orbit.epoch?.days_since_j2000()),
-            radius: zero.splat(orbit.body_radius),
-            shadow,
-        })
-    }
-
-    /// The Sun at `time` (s), and the share of its disc visible from `position`, F_e, m.
-    #[inline(always)]
-    pub fn at(&self, time: R, position: [R; 3]) -> (Sun<R>, R) {
-        let sun = self.sun(time);
-        (sun, lit(self.shadow, position, &sun, self.radius))
-    }
-
-    #[inline(always)]
-    fn sun(&self, time: R) -> Sun<R> {
-        sun(time.mul_add(time.splat(DAY), self.epoch))
-    }
 }
 
 impl<R: Real> SolarPressure<R> {

@@ -4,7 +4,8 @@ use crate::analysis::spectrum::{amplitudes, dominant};
 use crate::findings::number::short;
 use crate::observables::Series;
 use crate::report::figure::{Axis, Dash, Figure, FigureSection, Hue, Mark};
-use crate::report::over_time::curves::{Curves, changes, over_time};
+use crate::report::over_time::aliasing::changes;
+use crate::report::over_time::curves::{Curves, over_time};
 use crate::report::over_time::figure_list::ListedFigure;
 
 /// Relative changes below this are the rounding errors of thousands of operations.
