@@ -1,4 +1,5 @@
-//! Surroundings of a spacecraft on an Earth orbit: [`air`], direction of the [`sun`], the Earth's [`shadow`], and [`light`].
+//! Surroundings of a spacecraft on an Earth orbit: [`air`], direction of the [`sun`], the Earth's [`shadow`], and
+//! [`light`].
 //!
 //! In F_e the third axis is the Earth's axis of rotation, the first points to the mean equinox of date. Functions
 //! beyond [`Real`] operations are evaluated in `f64`, lane by lane, so that a lane has the bits of a scalar.
