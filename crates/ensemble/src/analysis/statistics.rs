@@ -113,7 +113,8 @@ impl Statistics {
                     true => " of estimates; intervals hold whatever values they would have",
                     false => "",
                 };
-                format!("{failed} of {} dispersed runs were not computed and are left out{intervals}", self.samples())
+                let verb = if failed == 1 { "was not computed and is" } else { "were not computed and are" };
+                format!("{failed} of {} dispersed runs {verb} left out{intervals}", self.samples())
             }
         }
     }

@@ -65,8 +65,8 @@ impl Plan {
         let [first, second, third] = self.design.bound(names.len(), runs)?.map(|dimension| names[dimension].as_str());
         let others = if second == third { second.to_owned() } else { format!("{second} and {third} together") };
         Some(format!(
-            "design \"{}\": in {runs} runs {first} may vary as {others}, so that no driver is tested; design \
-            \"random\" or \"latin_hypercube\" tests them",
+            "design \"{}\": {runs} runs do not tell {first} from {others}, so no driver is tested; write design \
+            \"random\" or \"latin_hypercube\"",
             self.design.name()
         ))
     }

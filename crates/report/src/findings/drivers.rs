@@ -40,7 +40,10 @@ pub fn refused(plan: &Plan, all: &[InputSensitivity]) -> Option<String> {
     let rows = all.first()?.rows;
     plan.bound_inputs(rows)?;
     let design = plan.design.name();
-    Some(format!("no driver was tested: {rows} runs of design {design} bind inputs to each other, random ones do not"))
+    Some(format!(
+        "no driver was tested: in {rows} runs of design {design} some inputs vary together; design random tells them \
+        apart"
+    ))
 }
 
 pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Vec<Ranking<'a>> {
@@ -378,7 +381,7 @@ pub(super) fn findings(
         first.rank = 0;
     }
     if let Some(runs) = few.iter().map(|(_, runs)| *runs).max() {
-        let said = format!("{} are too few to say how much of its variance an input explains", counted(runs, "run"));
+        let said = format!("{} are too few for shares of the variance", counted(runs, "run"));
         let is_shown = |one: &Finding| one.rank == 0 && few.iter().any(|(title, _)| *title == one.title);
         let rank = u8::from(!found.iter().any(is_shown));
         let more = if few.len() > 1 { format!(" and {} more", few.len() - 1) } else { String::new() };

@@ -133,8 +133,10 @@ pub(super) fn missions(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     let all = Finding::new(Kind::Mission, "missions", "missions", said.join("; "));
     let all = (!said.is_empty()).then_some(all);
     let lost = (*missing > 0).then(|| {
-        let said =
-            format!("{missing} of {runs} dispersed runs were not computed: each share is between none and all of them");
+        let verb = if *missing == 1 { "was" } else { "were" };
+        let said = format!(
+            "{missing} of {runs} dispersed runs {verb} not computed: each share is between none and all of them"
+        );
         Finding { rank: 1, ..Finding::new(Kind::Mission, "missing", "", said) }
     });
     all.into_iter().chain(missions.iter().map(of)).chain(lost).collect()

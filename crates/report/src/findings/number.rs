@@ -238,14 +238,19 @@ const MOST_JOINED: usize = 6;
 
 /// No line break between a number and its unit, for texts of pages.
 pub fn unbroken(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for word in text.split(' ') {
-        let is_joined = out.ends_with(|letter: char| letter.is_numeric() || letter == ']')
+    let mut words = text.split(' ');
+    let mut last = words.next().unwrap_or_default();
+    let mut out = last.to_owned();
+    for word in words {
+        // a name may end in a digit
+        let is_joined = !last.starts_with(char::is_alphabetic)
+            && out.ends_with(|letter: char| letter.is_numeric() || letter == ']')
             && word.chars().count() <= MOST_JOINED
             && word.starts_with(char::is_alphabetic)
             && word != "of";
-        out += if out.is_empty() { "" } else { [" ", "\u{a0}"][usize::from(is_joined)] };
+        out += [" ", "\u{a0}"][usize::from(is_joined)];
         out += word;
+        last = word;
     }
     out
 }
@@ -360,6 +365,7 @@ mod tests {
         assert_eq!(apart([0.5, 0.5]), ["0.500", "0.500"]);
         assert_eq!([90.0, 7200.0, 172_800.0, 12_345.6].map(time), ["90 s", "2 h", "2 days", "12345.6 s"]);
         assert_eq!(unbroken("2 deg/s, 3 [1, 4] N m, 3 of 5"), "2\u{a0}deg/s, 3 [1, 4]\u{a0}N m, 3 of 5");
+        assert_eq!(unbroken("density_kg_m3 from s3 at"), "density_kg_m3 from s3 at");
         assert_eq!(typeset("-3e-13 [-4, 5-6]"), "\u{2212}3\u{202f}\u{d7}\u{202f}10⁻¹³ [\u{2212}4, 5-6]");
     }
 }

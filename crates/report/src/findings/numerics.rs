@@ -262,7 +262,7 @@ pub(super) fn beyond_tolerance(plan: &Plan, analysed: &Analysed) -> Option<Findi
         let name = names::of_quantity(&outcome.quantity);
         let reached = short(ratio * limit);
         let promised = if limit == SEEN {
-            format!("{} would not be seen", number::written(SEEN))
+            format!("a thousandth of a degree is {}", number::written(SEEN))
         } else {
             format!("tolerance {} allows about {}", number::written(plan.tolerance.relative), number::trimmed(limit, 3))
         };

@@ -39,11 +39,13 @@ fn coded(said: &str) -> String {
 fn with_keys(said: &str) -> String {
     let said = text(said);
     let word = |word: &str| {
-        let key = word.trim_matches(|letter: char| !letter.is_ascii_alphanumeric());
+        // escaped quotation marks are no part of a key
+        let parts =
+            word.split(['&', ';']).map(|part| part.trim_matches(|letter: char| !letter.is_ascii_alphanumeric()));
         // frames such as F_e are no keys
-        match key.contains('_') && key.len() > "omega_es".len() {
-            true => word.replace(key, &format!("<code>{key}</code>")),
-            false => word.to_owned(),
+        match parts.into_iter().find(|part| part.contains('_') && part.len() > "omega_es".len()) {
+            Some(key) => word.replace(key, &format!("<code>{key}</code>")),
+            None => word.to_owned(),
         }
     };
     said.split(' ').map(word).collect::<Vec<_>>().join(" ")
@@ -113,10 +115,14 @@ pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
         question.map_or_else(String::new, |said| format!("<p class=\"question\">{}</p>", coded(&sentence(said))));
     let hash = plan.hash();
     let duration = time(plan.grid.duration());
+    let (each, design) = match plan.samples {
+        1 => ("", String::new()),
+        _ => (" each", format!("{} design, ", plan.design.name())),
+    };
     let facts = [
         runs,
-        format!("{duration} each"),
-        format!("{} design, seed {}", plan.design.name(), plan.seed),
+        format!("{duration}{each}"),
+        format!("{design}seed {}", plan.seed),
         format!("method {}, {steps}", plan.method.name()),
         format!("spindrift {}", env!("CARGO_PKG_VERSION")),
     ];
@@ -210,9 +216,11 @@ impl<'f> Row<'f> {
         let said = number.text();
         let (value, rest) =
             said.split_once(" [").map_or((said.as_str(), String::new()), |(value, rest)| (value, format!("[{rest}")));
-        // a verdict on a mean assumes something about rare events
-        let assumed = self.finding.notes.first().filter(|_| self.is_of_mean);
-        let below = core::iter::once(&number.name).chain(assumed);
+        // the assumption of a verdict on a mean, or the bound on one side that decides where the interval does not
+        let is_decided = matches!(self.finding.verdict, Some(Verdict::Pass | Verdict::Fail));
+        let why = self.finding.notes.first().filter(|_| self.is_of_mean || is_decided);
+        let name = Some(&number.name).filter(|_| self.is_of_mean || why.is_none());
+        let below = name.into_iter().chain(why);
         let below: String = below.map(|line| format!("<br><span class=\"quiet\">{}</span>", text(line))).collect();
         format!("<b>{}</b> <span class=\"quiet\">{}</span>{below}", text(value), text(&rest))
     }
@@ -270,12 +278,12 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
     let (title, heads, example) = match has_verdicts {
         true => (
             "Requirements, by verdict, then nearest to their limit first",
-            ["required", "found", "dashed: limit; shaded: required side", "runs; hatched: they miss the limit"],
+            ["required", "found", "dashed: limit; shaded: required side", "runs (hatched: beyond the limit)"],
             String::new(),
         ),
         false => (
             "What was found",
-            ["outcome", "found", "interval within all values", "runs"],
+            ["outcome", "found", "interval, on the scale of all values", "runs"],
             format!(
                 "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict \
                 here</summary>\
@@ -336,4 +344,21 @@ pub fn ended(found: &Findings, nominal_end: Option<&str>) -> String {
         return String::new();
     }
     format!("<section id=\"status\">{missions}{nominal}<p class=\"lead\">{all}{errors}</p></section>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: a key is code, without the marks around it.
+    #[test]
+    fn keys_are_code() {
+        for (said, html) in [
+            ("write body.mass_kg.", "write <code>body.mass_kg</code>."),
+            ("design \"latin_hypercube\"; or", "design &quot;<code>latin_hypercube</code>&quot;; or"),
+            ("`a & b` in F_e", "<code>a &amp; b</code> in F_e"),
+        ] {
+            assert_eq!(coded(said), html);
+        }
+    }
 }

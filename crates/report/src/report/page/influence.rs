@@ -112,7 +112,7 @@ fn tornado(
         true => ("total Sobol index", "What each input explains together with its interactions"),
         false => (
             "share of the variance",
-            "What each input explains alone; an interval from 0 to 1: the runs do not show it",
+            "What each input explains alone; an interval from 0 to 1 means that the runs do not show it",
         ),
     };
     let strongest =
