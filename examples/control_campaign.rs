@@ -97,7 +97,7 @@ at_most = "0.1 deg"
 fraction = 0.95
 "#;
 
-/// What the law declares.
+/// Parameters and columns that the law declares.
 static PARAMETERS: [LawParameter; 4] = [
     LawParameter::number(
         "stiffness_n_m",
@@ -166,7 +166,7 @@ pub fn campaign<'a>(session: Session<'a>) -> Campaign<'a> {
 /// Runs and stores the campaign, opens it again, and replays its fastest run.
 ///
 /// # Errors
-/// Where the result cannot be written or read.
+/// A result that cannot be written or read.
 pub fn run(folder: &std::path::Path) -> Result<(), WorkflowError> {
     let (watch, law) = (Quiet::default(), law());
     let session = Session::new(&watch)?.under(&law);

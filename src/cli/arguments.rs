@@ -110,7 +110,7 @@ impl Changed {
     }
 }
 
-/// How many threads work.
+/// Number of threads.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Number of threads, at most four per core [default: one per core]; nothing that is computed depends on it.
@@ -417,7 +417,7 @@ pub struct ColumnsOptions {
     pub campaign: Option<PathBuf>,
 }
 
-/// What `words` mean, the name of the program first; invalid ones end the process with a message and code 2, and a
+/// Parses `words`, the name of the program first; invalid ones end the process with a message and code 2, and a
 /// request for help ends it with code 0.
 pub fn arguments(words: impl Iterator<Item = OsString>) -> Arguments {
     Arguments::try_parse_from(words).unwrap_or_else(|error| {

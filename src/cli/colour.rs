@@ -60,7 +60,7 @@ impl Colour {
         asked
     }
 
-    /// Whether a stream gets colour; `variable` reads the environment.
+    /// True if a stream gets colour; `variable` reads the environment.
     fn is_on(self, is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> bool {
         let is_set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
         match self {

@@ -24,12 +24,12 @@ pub enum CommandOutcome {
 }
 
 impl CommandOutcome {
-    /// Of a single run.
+    /// The outcome of a single run.
     pub fn of(status: Status) -> Self {
         Self::of_campaign(u64::from(status != Status::Done), 0, 0)
     }
 
-    /// Of a finished result.
+    /// The outcome of a finished result.
     pub fn of_end(end: &SummaryEnd) -> Self {
         let undecided = end.count("UNDECIDED") + usize::from(!end.is_reached);
         Self::of_campaign(end.failed + end.not_covered, end.count("FAIL"), undecided)

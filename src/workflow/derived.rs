@@ -33,7 +33,7 @@ pub(super) struct Derivation<'a> {
     pub ensemble: &'a Ensemble<'a>,
     pub reader: &'a RowsReader,
     pub records: &'a [PartRecord],
-    /// Whether there is a page, and its number of scenes flown twice to measure noise.
+    /// The page, if any, with its number of scenes flown twice to measure noise.
     pub page: Option<Option<u64>>,
     /// Samples with time series.
     pub retained: &'a [SampleId],

@@ -27,7 +27,7 @@ use crate::workflow::source::{at_rows_of, claimed, data_copies, plan_in};
 /// Outputs besides tables and summary.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
-    /// Whether to omit the page.
+    /// True to omit the page.
     pub without_page: bool,
     /// Folder of the page's figures.
     pub figures: Option<PathBuf>,

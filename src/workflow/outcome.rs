@@ -36,7 +36,7 @@ pub enum CampaignOutcome {
     FailedFast(FailedRun),
 }
 
-/// Where to read the result in `root`: its page, if any.
+/// The path at which to read the result in `root`: its page, if any.
 pub fn place(root: &Path) -> PathBuf {
     Some(root.join(REPORT)).filter(|page| page.is_file()).unwrap_or_else(|| root.to_owned())
 }

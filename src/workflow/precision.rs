@@ -28,10 +28,10 @@ pub struct Wanted {
     pub tolerances: Option<Vec<f64>>,
     /// Number of first samples.
     pub samples: u64,
-    /// Whether to integrate only states needed by the observables.
+    /// True to integrate only states needed by the observables.
     pub is_observed: bool,
     pub limits: Limits,
-    /// Whether much work is allowed.
+    /// True if much work is allowed.
     pub is_allowed: bool,
 }
 

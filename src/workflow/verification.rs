@@ -33,7 +33,7 @@ pub struct Verified {
 pub struct Verification {
     /// Fraction of the parts to compute again.
     pub fraction: f64,
-    /// Whether to repair damaged and missing parts and derived files.
+    /// True to repair damaged and missing parts and derived files.
     pub repair: bool,
 }
 

@@ -15,7 +15,7 @@ const LEFT: f64 = 0.1745;
 
 /// Relative distance of the largest angle from the reach of the ellipse. Measured: 9.1e-4.
 const ELLIPSE: f64 = 2e-3;
-/// Of the boundary found, kg m^2. Measured: 0.05.
+/// Tolerance of the boundary, kg m^2. Measured: 0.05.
 const FOUND: f64 = 0.5;
 
 /// From this distance on, kg m^2, a stable spin stays within the first angle and an unstable one exceeds the second,

@@ -13,7 +13,7 @@ const SCENES: u64 = 64;
 /// rms |dE/E| after N steps, over sqrt(N).
 const ENERGY: f64 = 1.5e-16;
 const MAGNITUDE: f64 = 1.5e-16;
-/// The same of the vector L in F_e.
+/// Bound for the vector L in F_e.
 const MOMENTUM: f64 = 3e-16;
 /// Median error of the attitude quaternion's norm, which nothing renormalises, over sqrt(N).
 const NORM: f64 = 1.5e-16;

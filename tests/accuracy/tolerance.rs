@@ -24,7 +24,7 @@ const PROPORTIONS: [(Method, u64, f64, f64); 5] = [
     (Method::NullSpace, 4, 1.0, 2.0),
 ];
 const PROPORTIONAL: f64 = 0.05;
-/// The same of the Taylor method, whose order changes in whole numbers.
+/// Slope of the Taylor method, whose order changes in whole numbers.
 const STAIRCASE: f64 = 0.15;
 const FLOOR: f64 = 2e-14;
 

@@ -7,7 +7,7 @@ use spindrift::control::tables::Loops;
 
 use crate::support::every_key::every_loop;
 
-/// Whether `value` obeys `schema`, whose keywords must be of draft 4.
+/// True if `value` obeys `schema`, whose keywords must be of draft 4.
 fn obeys(schema: &Value, value: &Value) -> bool {
     is_valid(schema, schema, value)
 }

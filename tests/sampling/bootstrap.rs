@@ -62,7 +62,7 @@ fn drawn<const N: usize>(plan: &Plan, names: [&str; N], samples: std::ops::Range
 const NAMES: [&str; 3] =
     ["initial.angular_velocity_rad_s.x", "initial.angular_velocity_rad_s.y", "initial.position_m.x"];
 
-/// How often each row was drawn, and how many draws are no row.
+/// Number of draws of each row, and of draws that are no row.
 fn counts(rows: &[[f64; 3]], drawn: &[[f64; 3]]) -> (Vec<u64>, usize) {
     let bits = |row: &[f64; 3]| row.map(f64::to_bits);
     let index: BTreeMap<[u64; 3], usize> = rows.iter().enumerate().map(|(k, row)| (bits(row), k)).collect();

@@ -1,4 +1,4 @@
-//! What may be dispersed: every key that the scene has.
+//! Dispersion of every key that the scene has.
 
 use crate::prelude::*;
 use spindrift::ensemble::influence;

@@ -1,4 +1,4 @@
-//! How often an input that does nothing is named as a driver, design by design.
+//! Rate at which an input without effect is named as a driver, by design.
 
 use crate::prelude::*;
 use spindrift::{

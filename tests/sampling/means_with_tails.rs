@@ -146,7 +146,7 @@ fn bounded_means_miss_as_seldom_as_stated() {
     assert!(worst > 0.3, "the counter-test: {worst}");
 }
 
-/// Whether a campaign of the runs named decides; `None` where the first is decided, or names no number up to [`MOST`].
+/// True if a campaign of the runs named decides; `None` where the first is decided, or names no number up to [`MOST`].
 fn followed(
     gate: impl Fn(&[f64]) -> Decision,
     draw: fn(&mut Uniform) -> f64,

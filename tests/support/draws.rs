@@ -16,7 +16,7 @@ pub fn seen<T>(
     ids.into_iter().map(draw).collect()
 }
 
-/// Of the least-squares line through `points`.
+/// Slope of the least-squares line through `points`.
 pub fn slope(points: &[[f64; 2]]) -> f64 {
     let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(0), mean(1));

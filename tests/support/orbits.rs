@@ -68,7 +68,7 @@ pub fn plated(count: u64, seed: u64, rates: [f64; 2]) -> Vec<Scene> {
     inputs(count, seed, rates).into_iter().map(plates).map(|input| resolved(&input)).collect()
 }
 
-/// Those of [`plated`] without wheels, whose air and light move them.
+/// The scenes of [`plated`] without wheels, whose air and light move them.
 pub fn coupled(count: u64, seed: u64) -> Vec<Scene> {
     let mut scenes = plated(2 * count, seed, [0.5, 20.0]);
     scenes.retain(|scene| scene.mass.wheels.is_empty());

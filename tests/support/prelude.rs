@@ -1,4 +1,4 @@
-//! What most tests use.
+//! Imports that most tests use.
 #![allow(unused_imports)] // each program uses a part
 
 pub use super::{

@@ -19,7 +19,7 @@ use spindrift::{
 
 /// A right-hand side with `P` parameters; `arc` counts the arcs, and of a law with a switch it is its side, 1 or -1.
 pub trait Law<const N: usize, const P: usize>: Copy {
-    /// Whether it has a switch.
+    /// True if it has a switch.
     const SWITCHES: bool = false;
 
     fn derivative<R: Real>(time: R, state: &[R; N], parameters: &[R; P], arc: R) -> [R; N];

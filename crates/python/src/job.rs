@@ -14,32 +14,32 @@ use crate::campaign_source::{CampaignSource, prepared};
 use crate::law::{Law, refuse_unnamed};
 use crate::{SpindriftError, raised};
 
-/// What is run.
+/// A campaign to run, with its options.
 pub struct Run {
     /// The campaign.
     pub source: CampaignSource,
-    /// With so many samples.
+    /// Number of samples, if not that of the campaign.
     pub samples: Option<u64>,
     /// The folder of the result.
     pub out: PathBuf,
-    /// On so many threads.
+    /// Number of threads; `None`: one per core.
     pub threads: Option<NonZeroUsize>,
-    /// In place of whatever result is there.
+    /// True if it replaces an existing result.
     pub overwrite: bool,
-    /// With a report page.
+    /// True if it writes a report page.
     pub page: bool,
-    /// Also where it takes long or much of the disk.
+    /// True if it starts even if it takes long or much of the disk.
     pub yes: bool,
-    /// The law of Python that it flies.
+    /// The control law written in Python, if any.
     pub law: Option<Arc<Law>>,
 }
 
-/// What the thread tells, and is told.
+/// State shared with the thread that runs the campaign.
 #[derive(Default)]
 struct Shared {
     stop: AtomicBool,
     abandon: AtomicBool,
-    /// Runs that were begun, and that have ended.
+    /// Number of started runs; `done`: of ended ones.
     samples: AtomicU64,
     done: AtomicU64,
     notes: Mutex<Vec<String>>,
@@ -47,7 +47,7 @@ struct Shared {
     ended: Condvar,
 }
 
-/// What is in `mutex`; nothing that a panic could leave half done is.
+/// Locks `mutex`, also after a panic, which leaves none of these values half changed.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -84,10 +84,10 @@ impl Drop for Ends {
     }
 }
 
-/// How the campaign ended: `None` where all rows are there, else the samples of the campaign and those that are left.
+/// End of the campaign: `None` if it is complete, else its number of samples and the number of missing ones.
 type Ended = Result<Option<(u64, u64)>, WorkflowError>;
 
-/// A campaign that runs.
+/// A running campaign.
 #[pyclass(module = "spindrift._native", frozen)]
 pub struct Job {
     shared: Arc<Shared>,
@@ -96,10 +96,10 @@ pub struct Job {
 }
 
 impl Job {
-    /// Starts to run.
+    /// Starts the campaign.
     ///
     /// # Errors
-    /// Where there is no thread for it.
+    /// A thread that cannot be started.
     pub fn start(run: Run) -> PyResult<Self> {
         let shared = Arc::new(Shared::default());
         let (ends, law) = (Ends(shared.clone()), run.law.clone());
@@ -149,17 +149,17 @@ impl Job {
         })
     }
 
-    /// How many runs were begun, and how many have ended.
+    /// Number of started runs, and of ended ones.
     fn progress(&self) -> (u64, u64) {
         (self.shared.samples.load(Ordering::Relaxed), self.shared.done.load(Ordering::Relaxed))
     }
 
-    /// What a person should know since the last call.
+    /// Messages since the last call.
     fn notes(&self) -> Vec<String> {
         std::mem::take(&mut *locked(&self.shared.notes))
     }
 
-    /// Lets parts under way end, and starts no further one.
+    /// Starts no further part; parts under way are finished.
     fn stop(&self) {
         self.shared.stop.store(true, Ordering::SeqCst);
     }
@@ -170,8 +170,8 @@ impl Job {
         self.shared.abandon.store(true, Ordering::SeqCst);
     }
 
-    /// How it ended, once: `None` where all rows are there; the samples of the campaign and those that are left where
-    /// it was stopped.
+    /// Waits for the end, once: `None` if the campaign is complete; its number of samples and the number of missing
+    /// ones if it was stopped.
     fn ended(&self, py: Python<'_>) -> PyResult<Option<(u64, u64)>> {
         let thread = locked(&self.thread).take();
         let Some(thread) = thread else { return Ok(None) };

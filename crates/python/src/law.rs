@@ -45,7 +45,7 @@ fn write(call: &Call<'_>, numbers: &mut Vec<f64>) {
 /// Refuses a law for a plan whose phases do not name it.
 ///
 /// # Errors
-/// Where none does.
+/// A plan without such a phase.
 pub fn refuse_unnamed(plan: &Plan) -> Result<(), WorkflowError> {
     if plan.loop_spec().is_some_and(is_law_of) {
         return Ok(());
@@ -97,18 +97,18 @@ impl Law {
     /// The function `control` as a law.
     ///
     /// # Errors
-    /// Where NumPy is not there.
+    /// NumPy is not installed.
     pub fn new(py: Python<'_>, control: &Bound<'_, PyAny>) -> PyResult<Arc<Self>> {
         let ask = py.import("spindrift._law")?.getattr("answered")?.call1((control,))?;
         Ok(Arc::new(Law { ask: ask.unbind(), sensors: OnceLock::new(), raised: Mutex::new(None) }))
     }
 
-    /// Whether the function has raised an exception: what is flown now has no law.
+    /// True if the function has raised an exception, after which runs have no law.
     pub fn has_raised(&self) -> bool {
         self.raised.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
 
-    /// What the function has raised, once.
+    /// The exception raised by the function; taken once.
     pub fn raised(&self) -> Option<PyErr> {
         self.raised.lock().unwrap_or_else(PoisonError::into_inner).take()
     }

@@ -28,7 +28,7 @@ use crate::toml_values::{table, value};
 pub struct Plan(CampaignSource);
 
 impl Plan {
-    /// What `work` makes of the plan, without Python's lock.
+    /// Applies `work` to the plan without holding Python's lock.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
@@ -43,7 +43,7 @@ impl Plan {
         })
     }
 
-    /// The same, where nothing is wrong with it.
+    /// This plan, if it is valid.
     fn checked(self, py: Python<'_>) -> PyResult<Self> {
         self.with(py, None, None, |_, _| Ok(()))?;
         Ok(self)
@@ -58,14 +58,14 @@ impl Plan {
         Plan(CampaignSource::of_file(path)).checked(py)
     }
 
-    /// The campaign file that `tables` are.
+    /// The campaign given by `tables`, nested as in a file.
     #[staticmethod]
     fn from_dict(py: Python<'_>, tables: &Bound<'_, PyDict>) -> PyResult<Self> {
         let text = table("", tables)?.to_string();
         Plan(CampaignSource::of_text(text)).checked(py)
     }
 
-    /// The same with other values of these dotted keys.
+    /// A copy with other values of dotted keys.
     fn set(&self, py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut plan = self.clone();
         for (key, item) in values.iter() {
@@ -86,7 +86,7 @@ impl Plan {
         self.with(py, None, None, |plan, _| Ok(plan.text()))
     }
 
-    /// What would run, in words.
+    /// A description of the campaign before it runs, as text.
     fn check(&self, py: Python<'_>, samples: Option<u64>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         self.with(py, samples, control, |plan, isa| {
             let ensemble = Ensemble::new(plan, isa);

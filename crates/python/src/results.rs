@@ -35,7 +35,7 @@ fn text(results: &workflow::Results<'_>, name: &str) -> Result<Option<String>, W
 }
 
 impl Results {
-    /// What `work` finds in the result, without Python's lock.
+    /// Applies `work` to the result without holding Python's lock.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
@@ -100,7 +100,7 @@ impl Results {
         self.with(py, None, |results| derived(results, STATISTICS))
     }
 
-    /// What drives the main observables.
+    /// Drivers of the main observables.
     fn sensitivity(&self, py: Python<'_>) -> PyResult<ArrowTable> {
         self.with(py, None, |results| derived(results, SENSITIVITY))
     }

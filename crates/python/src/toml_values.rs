@@ -13,12 +13,12 @@ const MOST_NESTED: usize = 64;
 /// it in messages.
 ///
 /// # Errors
-/// Where it is something else.
+/// An object of another type.
 pub fn value(key: &str, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     nested(key, object, 0)
 }
 
-/// The same of what is within so many lists and dicts.
+/// [`value`] within `depth` lists and dicts.
 fn nested(key: &str, object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     if depth > MOST_NESTED {
         let top = key.split(['.', '[']).next().unwrap_or_default();
@@ -66,7 +66,7 @@ fn nested(key: &str, object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value>
 /// The dict `object` as a table.
 ///
 /// # Errors
-/// Where a key is no text, or a value is none of TOML.
+/// A key that is not text, or a value that TOML does not have.
 pub fn table(key: &str, object: &Bound<'_, PyDict>) -> PyResult<Table> {
     entries(key, object, 0)
 }

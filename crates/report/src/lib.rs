@@ -1,4 +1,4 @@
-//! What a spindrift campaign has found, in words and figures: findings, screens and report pages.
+//! Findings of a spindrift campaign in words and figures, on screens and report pages.
 
 #![forbid(unsafe_code)]
 #![warn(clippy::unwrap_used, clippy::print_stdout)]

@@ -168,7 +168,7 @@ pub fn send(signal: &str, process: u32) {
     assert!(Command::new("sh").args(["-c", &command]).status().unwrap().success());
 }
 
-/// Whether this process ignores a signal.
+/// True if this process ignores a signal.
 #[cfg(unix)]
 pub fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -62,7 +62,7 @@ pub struct AuditTally {
     pub state: Spread,
     /// Relative to the run's maximum |omega|.
     pub omega: Spread,
-    /// Of the attitude, rad.
+    /// Error of the attitude, rad.
     pub attitude: Spread,
     pub debris: Spread,
     pub observables: Vec<Spread>,

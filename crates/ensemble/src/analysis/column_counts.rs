@@ -96,7 +96,7 @@ pub fn references<P: PartColumns>(
 
 pub const MOST_EXACT: u64 = 100_000;
 
-/// Whether the quantiles of `plan` come from the values themselves.
+/// True if the quantiles of `plan` come from the values themselves.
 pub fn is_exact(plan: &Plan) -> bool {
     plan.dispersed_rows() <= MOST_EXACT
 }

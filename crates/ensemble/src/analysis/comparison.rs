@@ -89,7 +89,7 @@ pub struct ColumnComparison {
     pub quantity: Quantity,
     /// Unit of shifts: the standard deviation in the first result, else the magnitude of its mean, else 1.
     pub scale: f64,
-    /// Of the statistics that both results have.
+    /// Comparisons of the statistics that both results have.
     pub shifts: Vec<Shift>,
     /// Shift of the mean with its interval, of pairs or by Welch's test.
     pub mean: Option<Difference>,
@@ -103,7 +103,7 @@ pub struct ColumnComparison {
     /// Dispersed `ok` runs without a value.
     pub absence: Absence,
     pub differing_pairs: u64,
-    /// Whether a requirement of either plan is on the observable.
+    /// True if a requirement of either plan is on the observable.
     pub is_required: bool,
     /// Decides whether the observable is shifted.
     pub p_value: Option<f64>,
@@ -119,7 +119,7 @@ impl ColumnComparison {
         self.largest().map_or(0.0, |shift| shift.relative)
     }
 
-    /// Whether a statistic, or the share of runs without a value, shifts by more than `tolerance`, or is NaN in only
+    /// True if a statistic, or the share of runs without a value, shifts by more than `tolerance`, or is NaN in only
     /// one result.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         let [first, second] = self.absence.shares();
@@ -132,7 +132,7 @@ impl ColumnComparison {
         Some((2.0 * signs.min(spread)).min(1.0))
     }
 
-    /// Whether the spread of the pairs changed more clearly than their location.
+    /// True if the spread of the pairs changed more clearly than their location.
     pub fn moves_apart(&self) -> bool {
         self.moved_p_value.zip(self.spread_p_value).is_some_and(|(signs, spread)| spread < signs)
     }
@@ -157,7 +157,7 @@ impl Comparison {
         second - first
     }
 
-    /// Whether a statistic, or the fraction of `ok` runs, shifts by more than `tolerance`, or is NaN in only one
+    /// True if a statistic, or the fraction of `ok` runs, shifts by more than `tolerance`, or is NaN in only one
     /// result.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         self.shift_of_ok().abs() > tolerance || self.columns.iter().any(|column| column.is_beyond(tolerance))
@@ -168,18 +168,18 @@ impl Comparison {
         (1.0 - self.statistics[0].confidence).min(MOST_LEVEL)
     }
 
-    /// Whether the shift of an observable exceeds chance.
+    /// True if the shift of an observable exceeds chance.
     pub fn is_shifted(&self, column: &ColumnComparison) -> bool {
         column.largest_relative() > 0.0 && column.adjusted_p_value.is_some_and(|p| p <= self.level())
     }
 
-    /// Whether the runs of an observable moved or spread beyond chance, although the test of distributions does not
+    /// True if the runs of an observable moved or spread beyond chance, although the test of distributions does not
     /// show it.
     pub fn is_moved(&self, column: &ColumnComparison) -> bool {
         !self.is_shifted(column) && column.adjusted_moved_p_value.is_some_and(|p| p <= self.level())
     }
 
-    /// Whether two shares differ beyond chance.
+    /// True if two shares differ beyond chance.
     pub fn is_changed(&self, absence: &Absence) -> bool {
         absence.adjusted_p_value <= self.level()
     }

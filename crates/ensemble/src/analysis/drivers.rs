@@ -19,7 +19,7 @@ impl InputSensitivity {
         self.total.or(self.first_order)
     }
 
-    /// Whether the rows show a notable effect on the spread at level `alpha`. Without a population, and so without
+    /// True if the rows show a notable effect on the spread at level `alpha`. Without a population, and so without
     /// tests and intervals, the shares decide.
     pub fn drives_spread(&self, alpha: f64) -> bool {
         let rank = self.spearman.map_or(0.0, |r| r.value * r.value);
@@ -63,7 +63,7 @@ impl Ranked<'_> {
         self.effect.map_or(&self.input.instead, |effect| &effect.instead).as_deref()
     }
 
-    /// Whether its share is known, or has no interval.
+    /// True if its share is known, or has no interval.
     fn has_share(&self) -> bool {
         self.share.is_some_and(|share| is_known(&share) || share.lower.is_nan())
     }

@@ -44,7 +44,7 @@ impl Occurs {
 pub struct Event {
     pub occurs: Occurs,
     pub of: Occurrence,
-    /// Whether the outcome has few values, so that the event is its spread.
+    /// True if the outcome has few values, so that the event is its spread.
     pub has_few_values: bool,
 }
 

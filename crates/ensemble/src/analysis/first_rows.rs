@@ -50,7 +50,7 @@ pub struct FirstRows {
     inputs: Vec<String>,
     pub(super) observed: Vec<Observed>,
     most: usize,
-    /// Whether all rows are collected.
+    /// True if all rows are collected.
     is_full: AtomicBool,
 }
 

@@ -39,7 +39,7 @@ pub struct Gathered {
     /// Observables of the first of the [`batches`].
     pub columns: Collected,
     pub requirements: RequirementCounts,
-    /// Of the observable of `[stop]`, if any.
+    /// Values of the observable of `[stop]`, if any.
     pub stop_values: StopValues,
     pub first_rows: RowTable,
     pub retained: Vec<SampleId>,

@@ -19,7 +19,7 @@ pub struct InputSensitivity {
     /// Rank correlation with the other inputs held fixed.
     pub partial_rank: Option<Estimate>,
     pub regression: Option<Estimate>,
-    /// Of the regression on all inputs, corrected for their number.
+    /// R^2 of the regression on all inputs, corrected for their number.
     pub r_squared: Option<Estimate>,
     /// First-order index.
     pub first_order: Option<Estimate>,

@@ -109,7 +109,7 @@ impl Observed {
         of_rows.chain(derived).collect()
     }
 
-    /// Those called `names`, in the order of [`Observed::all`].
+    /// The observables called `names`, in the order of [`Observed::all`].
     pub fn named<'a>(plan: &Plan, names: impl Iterator<Item = &'a str>) -> Vec<Observed> {
         let names: Vec<&str> = names.collect();
         let mut all = Self::all(plan);
@@ -117,7 +117,7 @@ impl Observed {
         all
     }
 
-    /// Whether every run has the same value because no draw enters it.
+    /// True if every run has the same value because no draw enters it.
     pub fn is_constant(&self, plan: &Plan) -> bool {
         self.sources.is_empty() || plan.dispersions.columns().is_empty()
     }

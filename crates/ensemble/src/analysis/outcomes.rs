@@ -47,7 +47,7 @@ pub fn outcomes(plan: &Plan) -> Vec<String> {
     OF_MOTION.iter().filter(has).take(FEW).map(|name| (*name).to_owned()).collect()
 }
 
-/// Whether small values of `name` are bad: all its limits are lower ones.
+/// True if small values of `name` are bad: all its limits are lower ones.
 pub fn is_worst_when_low(plan: &Plan, name: &str) -> bool {
     let mut of =
         plan.analysis.requirements.iter().filter(|requirement| requirement.observable() == Some(name)).peekable();

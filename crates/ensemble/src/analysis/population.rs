@@ -36,7 +36,7 @@ impl Loss {
         format!("{} of {} dispersed runs{which}", self.missing, self.runs)
     }
 
-    /// Whether the remaining runs say little about all.
+    /// True if the remaining runs say little about all.
     pub fn is_big(self) -> bool {
         self.missing > 0 && self.missing as f64 >= Self::BIG * self.runs as f64
     }

@@ -51,7 +51,7 @@ impl RequirementRuns {
 #[derive(Clone, Copy)]
 pub(super) struct Judged<'r> {
     pub requirement: &'r Requirement,
-    /// Of a pass and of a failure.
+    /// Confidence of a pass and of a failure.
     pub confidences: [f64; 2],
     pub interval: f64,
     pub failed: u64,

@@ -94,7 +94,7 @@ pub struct Prepared {
     values: Vec<Vec<f64>>,
     standardised: Vec<Vec<f64>>,
     ranks: Vec<Vec<f64>>,
-    /// Of the kept inputs, as values and as ranks.
+    /// Regressors of the kept inputs, as values and as ranks.
     regressors: [Option<Regressors>; 2],
     orders: Vec<Vec<usize>>,
     tested: Vec<Option<TestedInput>>,
@@ -152,7 +152,7 @@ impl Prepared {
         }
     }
 
-    /// Whether two inputs have a notable correlation, by `[[correlate]]` or beyond chance.
+    /// True if two inputs have a notable correlation, by `[[correlate]]` or beyond chance.
     fn is_notable(&self, plan: &Plan, names: &[String], [one, other]: [usize; 2]) -> bool {
         let is_written = || {
             plan.correlated.iter().any(|table| {
@@ -327,13 +327,13 @@ impl Prepared {
     }
 }
 
-/// Whether an input has many values, and tails. Limits are higher than for the outcome, since one of many inputs may
+/// True if an input has many values, and tails. Limits are higher than for the outcome, since one of many inputs may
 /// exceed them by chance.
 fn tails_of(values: &[f64], tested: Option<&TestedInput>) -> bool {
     tested.is_some_and(|tested| !tested.has_few_values()) && has_tails(values, [1.5; 2])
 }
 
-/// How evenly the samples of `plan` fill the space of inputs.
+/// Evenness with which the samples of `plan` fill the space of inputs.
 fn samples(plan: &Plan) -> Samples {
     match plan.design {
         Design::Sobol(_) | Design::Halton(_) => Samples::Even,

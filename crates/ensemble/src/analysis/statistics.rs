@@ -332,7 +332,7 @@ fn with_lost_runs(lost: u64, mean_interval: [Option<f64>; 2]) -> String {
     }
 }
 
-/// Whether all values are 0 or 1: the mean of x (1 - x), positive in between, is 0.
+/// True if all values are 0 or 1: the mean of x (1 - x), positive in between, is 0.
 pub fn is_yes_or_no(moments: &Moments) -> bool {
     let (Some(mean), Some(deviation)) = (moments.mean(), moments.standard_deviation()) else { return false };
     let count = moments.count() as f64;

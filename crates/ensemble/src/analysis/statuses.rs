@@ -78,7 +78,7 @@ impl Statuses {
         self.list.each_ref().map(|ended| ended.of_population)
     }
 
-    /// Whether the nominal run is `ok` and not counted.
+    /// True if the nominal run is `ok` and not counted.
     pub fn has_nominal(&self) -> bool {
         self.list.iter().any(|ended| ended.status == Status::Done && ended.of_population < ended.count)
     }

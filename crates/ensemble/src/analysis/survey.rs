@@ -43,7 +43,7 @@ const FIRST_GROWTH: u64 = 16;
 pub struct SurveyedOutcome {
     /// Name, unit, meaning.
     pub quantity: Quantity,
-    /// Whether it is an outcome of the campaign.
+    /// True if it is an outcome of the campaign.
     pub is_outcome: bool,
     pub is_error: bool,
     /// Values over the dispersed `ok` runs.
@@ -51,7 +51,7 @@ pub struct SurveyedOutcome {
     pub worst: WorstRuns,
     /// Value in the nominal run, or NaN.
     pub nominal: f64,
-    /// Of its intervals.
+    /// Confidence of its intervals.
     pub confidence: f64,
     /// Quantiles of the first runs: number of runs, median, 99%-quantile with the ends of its interval, runs above a
     /// half, runs lost so far.
@@ -154,7 +154,7 @@ pub struct Surveyor {
 pub struct SurveyedPart {
     counted: Vec<SampleId>,
     outcomes: Vec<Vec<f64>>,
-    /// Those of the nominal run.
+    /// Values of the nominal run.
     nominal: Option<Vec<f64>>,
     thinned: Thinned,
     audits: Vec<[f64; 3]>,
@@ -310,7 +310,7 @@ impl Survey {
 }
 
 impl SurveyedOutcome {
-    /// Whether every value is 1 or 0.
+    /// True if every value is 1 or 0.
     pub fn is_yes_or_no(&self, values: &[f64]) -> bool {
         let are_ends =
             self.sketch.min().is_some_and(|min| min >= 0.0) && self.sketch.max().is_some_and(|max| max <= 1.0);

@@ -37,9 +37,9 @@ pub struct Worst {
 #[derive(Clone, Debug)]
 pub struct Tally {
     pub statuses: Statuses,
-    /// Whether statistics leave out the nominal sample; else it is the only one.
+    /// True if statistics leave out the nominal sample; else it is the only one.
     pub without_nominal: bool,
-    /// Of observed errors and required observables.
+    /// The worst runs of observed errors and required observables.
     pub worst: Vec<Worst>,
     pub audits: Option<AuditTally>,
     /// Runs beyond the heights of the air table; `None` without a table or observed distances.

@@ -33,7 +33,7 @@ pub struct Verdicts {
     pub samples: u64,
     /// One without `[stop]`.
     pub looks: usize,
-    /// Of the two-sided intervals.
+    /// Confidence of the two-sided intervals.
     pub confidence: f64,
 }
 

@@ -36,7 +36,7 @@ impl WorstRuns {
         WorstRuns { most, is_low, runs: Vec::new() }
     }
 
-    /// Whether other runs may be as bad as the last one.
+    /// True if other runs may be as bad as the last one.
     pub fn is_full(&self) -> bool {
         self.runs.len() >= self.most
     }

@@ -31,7 +31,7 @@ pub(super) struct Wanted {
 }
 
 impl Wanted {
-    /// Whether a quantity leaves zero in the wanted direction between these values.
+    /// True if a quantity leaves zero in the wanted direction between these values.
     fn is_between(self, before: f64, after: f64) -> bool {
         if self.is_rising { before <= 0.0 && after > 0.0 } else { before >= 0.0 && after < 0.0 }
     }

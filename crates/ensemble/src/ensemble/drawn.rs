@@ -13,7 +13,7 @@ use crate::scene::{Scene, SceneInput};
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScenes {
     pub first: SampleId,
-    /// Whether each scene is physical, or its row `invalid_sample`.
+    /// True if each scene is physical, or its row `invalid_sample`.
     pub physical: Vec<bool>,
     /// In the order of [`crate::sampling::Dispersions::columns`].
     pub columns: Vec<Vec<f64>>,

@@ -89,7 +89,7 @@ pub fn without_effect(plan: &Plan, drawn: &DrawnScenes, isa: Isa) -> Option<Vec<
     Some(unseen)
 }
 
-/// Whether a row differs if `parameter` takes its value among `applied` in the nominal scene, whose row is `nominal`,
+/// True if a row differs once `parameter` takes its value among `applied` in the nominal scene, whose row is `nominal`,
 /// or its nominal value in that sample. An unphysical scene is an effect.
 fn is_seen(plan: &Plan, isa: Isa, parameter: Parameter, applied: &[f64], nominal: &[u64]) -> bool {
     let row_with = |is_applied: &dyn Fn(Parameter) -> bool| row_with(plan, isa, applied, is_applied);

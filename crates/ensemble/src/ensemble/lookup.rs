@@ -26,7 +26,7 @@ struct WatchedQuantity {
     expression: Expression,
     /// Indices of its variables among the sources.
     variables: Vec<usize>,
-    /// Whether they only change at ticks of a control loop.
+    /// True if they only change at ticks of a control loop.
     changes_at_ticks: bool,
 }
 

@@ -64,7 +64,7 @@ impl Percentiles {
         self.invalid
     }
 
-    /// Whether quantiles are exact, or within 0.05% of their distance from nominal
+    /// True if quantiles are exact, or within 0.05% of their distance from nominal
     /// ([`crate::statistics::sketch::RELATIVE_ERROR`]).
     pub fn is_exact(&self) -> bool {
         matches!(self.columns, HeldColumns::Values(_))

@@ -101,7 +101,7 @@ impl RunProbe {
         if self.too_long.is_some() { 0 } else { failed }
     }
 
-    /// Whether all runs failed, or all but the nominal.
+    /// True if all runs failed, or all but the nominal.
     pub fn is_hopeless(&self) -> bool {
         self.failed() == self.count()
             || self.failed() > 0

@@ -34,7 +34,7 @@ const AUDIT: f64 = 300.0;
 /// Samples of a part under a callback that serves many runs at once: more parts make larger calls.
 const SERVED: u64 = 64;
 
-/// Whether the law is a callback of unknown work.
+/// True if the law is a callback of unknown work.
 fn has_callback(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-/// Where a result is in an object store: `s3://bucket/prefix`.
+/// Address of a result in an object store: `s3://bucket/prefix`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
     pub bucket: String,

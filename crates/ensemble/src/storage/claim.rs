@@ -27,7 +27,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Whether it computes the part.
+    /// True if it computes the part.
     pub fn has(self, part: PartId) -> bool {
         part.0 % self.of == self.number - 1
     }

@@ -33,7 +33,7 @@ pub struct FileRecord {
     pub name: String,
     /// Bytes.
     pub bytes: u64,
-    /// Of its content, hexadecimal.
+    /// SHA-256 of its content, hexadecimal.
     pub sha256: String,
 }
 
@@ -141,7 +141,7 @@ pub struct Dataset {
     store: Arc<dyn Store>,
     head: Head,
     plan: String,
-    /// Whether the last part may still grow.
+    /// True if the last part may still grow.
     grows: bool,
     state: Mutex<Files>,
 }

@@ -160,7 +160,7 @@ fn written(path: &Path, bytes: &[u8], create: &dyn Fn(&Path, &[u8]) -> io::Resul
 /// Bytes compared at a time, in the second-level cache.
 const PIECE: usize = 1 << 16;
 
-/// Whether a file has the content `bytes`, read in pieces: a part is not in memory twice.
+/// True if a file has the content `bytes`, read in pieces: a part is not in memory twice.
 fn has(mut file: &File, bytes: &[u8]) -> io::Result<bool> {
     if file.metadata()?.len() != bytes.len() as u64 {
         return Ok(false);
@@ -179,7 +179,7 @@ fn unless_absent(error: io::Error) -> io::Result<()> {
     if error.kind() == ErrorKind::NotFound { Ok(()) } else { Err(error) }
 }
 
-/// Whether `error` means that a file system has no locks.
+/// True if `error` means that a file system has no locks.
 fn has_no_locks(error: &io::Error) -> bool {
     #[cfg(unix)]
     {
@@ -193,7 +193,7 @@ fn has_no_locks(error: &io::Error) -> bool {
     }
 }
 
-/// Whether `path` still leads to the open `file`.
+/// True if `path` still leads to the open `file`.
 fn is_at(file: &File, path: &Path) -> bool {
     #[cfg(unix)]
     {

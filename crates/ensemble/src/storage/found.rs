@@ -62,7 +62,7 @@ impl Found {
         self.manifest.iter().flat_map(|manifest| &manifest.files)
     }
 
-    /// Whether there is, or was, a page.
+    /// True if there is, or was, a page.
     pub fn has_page(&self) -> bool {
         self.files.contains(REPORT) || self.listed().any(|file| file.name == REPORT)
     }

@@ -66,8 +66,8 @@ pub fn sha256(bytes: &[u8]) -> String {
     hexadecimal(Sha256::new().chain_update(bytes))
 }
 
-/// Where the digits of the seal begin, after the key and two bytes of Parquet or up to four of JSON, none of them a
-/// hexadecimal digit.
+/// Position of the first digit of the seal, after the key and two bytes of Parquet or up to four of JSON, none of them
+/// a hexadecimal digit.
 fn digits_of_seal(bytes: &[u8]) -> Option<usize> {
     let key = bytes.windows(SEAL_KEY.len()).rposition(|window| window == SEAL_KEY.as_bytes())? + SEAL_KEY.len();
     let start = (key..key + 5).find(|at| bytes.get(*at).is_some_and(u8::is_ascii_hexdigit))?;

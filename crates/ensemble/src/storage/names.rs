@@ -53,7 +53,7 @@ pub fn part_of(name: &str) -> Option<PartId> {
     Some(PartId(number)).filter(|part| rows_of(*part) == name)
 }
 
-/// Whether the file `name` belongs to a part.
+/// True if the file `name` belongs to a part.
 pub fn is_of_part(name: &str) -> bool {
     [RUNS, PART_BANDS].contains(&name.split('/').next().unwrap_or_default())
 }
@@ -65,12 +65,12 @@ pub fn unfinished(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Whether `text` is 16 hexadecimal digits.
+/// True if `text` is 16 hexadecimal digits.
 pub fn is_digits(text: &str) -> bool {
     text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }
 
-/// Whether a dataset may have a file `name`, whole or not.
+/// True if a dataset may have a file `name`, whole or not.
 pub fn is_ours(name: &str) -> bool {
     let whole = match name.strip_suffix(UNFINISHED).and_then(|name| name.rsplit_once('.')) {
         Some((whole, digits)) if is_digits(digits) => whole,

@@ -72,7 +72,7 @@ pub(super) fn begin(folders: &OpenFolder<'_>, root: &Path, head: &Head) -> Resul
     Ok(folders(&beside(root, &own, "new")))
 }
 
-/// Whether `root` can be renamed: not a mount point, nor a folder in use.
+/// True if `root` can be renamed: not a mount point, nor a folder in use.
 fn check_movable(root: &Path) -> io::Result<()> {
     if let (Ok(here), Ok(there)) = (std::env::current_dir(), root.canonicalize())
         && here.starts_with(there)

@@ -54,7 +54,7 @@ pub trait Store: Debug + Send + Sync {
     /// Renames the folder to `to`.
     fn rename(&self, to: &Path) -> io::Result<()>;
 
-    /// Whether files can be replaced and removed.
+    /// True if files can be replaced and removed.
     fn replaces(&self) -> bool {
         true
     }
@@ -103,7 +103,7 @@ impl dyn Store + '_ {
         }
     }
 
-    /// Whether `error` means that `name` is absent, confirmed by the listing of its folder.
+    /// True if `error` means that `name` is absent, confirmed by the listing of its folder.
     ///
     /// # Errors
     /// A failed listing.
@@ -135,9 +135,9 @@ impl dyn Store + '_ {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
     pub name: String,
-    /// Whether it is a folder, and not a link.
+    /// True if it is a folder, and not a link.
     pub is_folder: bool,
-    /// Whether it is a regular file, and not a link.
+    /// True if it is a regular file, and not a link.
     pub is_file: bool,
     /// Bytes.
     pub size: u64,

@@ -29,7 +29,7 @@ pub enum Content {
 pub struct Column {
     pub quantity: Quantity,
     pub content: Content,
-    /// Whether values may be absent.
+    /// True if values may be absent.
     pub nullable: bool,
     /// Alignment as text.
     pub align: Align,

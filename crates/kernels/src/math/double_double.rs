@@ -142,7 +142,8 @@ impl Real for DoubleDouble {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
-    /// Of the value rounded to `f64`: adding a large number would keep the fraction of a double-double.
+    /// The integer nearest to the value rounded to `f64`: adding a large number would keep the fraction of a
+    /// double-double.
     #[inline(always)]
     fn nearest_integer(self) -> Self {
         DoubleDouble::exact(self.high.nearest_integer())

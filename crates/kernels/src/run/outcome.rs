@@ -94,13 +94,13 @@ pub fn rate_scale(largest: f64, duration: f64) -> f64 {
 /// the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalErrors {
-    /// Of omega, rad/s, proportional to its rate of change: truncation.
+    /// Error of omega, rad/s, proportional to its rate of change: truncation.
     pub truncation: f64,
-    /// Of omega, relative, proportional to its components: rounding.
+    /// Relative error of omega, proportional to its components: rounding.
     pub rounding: f64,
-    /// Of omega, rad/s, in any direction: feedback from other states.
+    /// Error of omega, rad/s, in any direction: feedback from other states.
     pub feedback: f64,
-    /// Of the attitude alone, rad: truncation, rounding and dense output.
+    /// Error of the attitude alone, rad: truncation, rounding and dense output.
     pub attitude: f64,
 }
 

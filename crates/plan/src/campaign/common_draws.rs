@@ -2,7 +2,7 @@
 
 use super::plan::Plan;
 
-/// Whether equal samples of two plans share random numbers: seed and design are equal, and so is a dispersed dimension,
+/// True if equal samples of two plans share random numbers: seed and design are equal, and so is a dispersed dimension,
 /// or nothing is dispersed. Distributions may differ: larger values still mostly go with larger ones.
 pub fn draw_alike(first: &Plan, second: &Plan) -> bool {
     let [one, other] = [first, second].map(|plan| plan.dispersions.dimensions());

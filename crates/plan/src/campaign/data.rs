@@ -50,7 +50,7 @@ pub type Refusal = (String, String, String);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unused {
     pub refusal: Refusal,
-    /// Whether the only problem is that it is unreadable now.
+    /// True if the only problem is that it is unreadable now.
     pub is_unreadable: bool,
 }
 

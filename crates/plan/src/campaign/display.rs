@@ -122,7 +122,7 @@ impl Display {
     }
 }
 
-/// Whether a quantity in rad/s is a wheel speed: `rate_<wheel>_...`, `speed_<wheel>_...` or a key of the wheel. The
+/// True if a quantity in rad/s is a wheel speed: `rate_<wheel>_...`, `speed_<wheel>_...` or a key of the wheel. The
 /// rates of estimates belong to the body.
 fn is_wheel_speed(name: &str) -> bool {
     let is_rate = name.starts_with("rate_") && !name.starts_with("rate_estimate") && !name.starts_with("rate_expected");

@@ -75,7 +75,7 @@ pub struct Document<'a> {
     pub law: Option<ControlLaw>,
     /// The calling program's law of attitude.
     pub attitude_law: Option<&'static LawKind>,
-    /// Whether problems of the control loop leave its columns and parameters unknown.
+    /// True if problems of the control loop leave its columns and parameters unknown.
     pub is_loop_unknown: bool,
     /// One sentence for each key without effect.
     pub(super) ignored: Vec<String>,
@@ -178,7 +178,7 @@ impl<'a> Document<'a> {
         Ok(if self.sources.list.len() == 1 { table } else { moved_table(table, source.range.start) })
     }
 
-    /// Whether `key`, a table around it or a key in it has a problem.
+    /// True if `key`, a table around it or a key in it has a problem.
     pub fn is_reported(&self, key: &str) -> bool {
         let contains = |outer: &str, inner: &str| {
             inner == outer || inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with(['.', '[']))
@@ -242,7 +242,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Whether `name` may be a parameter of an unreadable control loop.
+    /// True if `name` may be a parameter of an unreadable control loop.
     pub(super) fn may_be_of_loop(&self, name: &str) -> bool {
         self.is_loop_unknown && ["control.", "sensors.", "guidance."].iter().any(|table| name.starts_with(table))
     }

@@ -56,7 +56,7 @@ impl Display for Excerpt {
     }
 }
 
-/// Whether a terminal may obey `letter` or change the reading order for it.
+/// True if a terminal may obey `letter` or change the reading order for it.
 fn is_unsafe(letter: char) -> bool {
     letter.is_control() || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

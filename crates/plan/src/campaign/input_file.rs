@@ -17,7 +17,7 @@ pub enum InputError {
     Io(#[from] io::Error),
 }
 
-/// Whether the file may exist but cannot be read now.
+/// True if the file may exist but cannot be read now.
 pub fn is_unreadable(error: &io::Error) -> bool {
     use io::ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
     ![NotFound, NotADirectory, InvalidInput, InvalidFilename].contains(&error.kind())

@@ -289,7 +289,7 @@ impl Section<'_, '_> {
         Some(Value::Numbers(Values::Each(direction).map(|x| if is_unit { *x } else { x / length })))
     }
 
-    /// Whether the table obeys `rule`; a violation is noted. `is_right`: it obeys the rules before.
+    /// True if the table obeys `rule`; a violation is noted. `is_right`: it obeys the rules before.
     pub fn obeys(&mut self, rule: &Rule, is_right: bool) -> bool {
         let only = |table: &mut Self, written: &[&'static str], all: &[&'static str], remedy: &str| {
             let Some(second) = written.get(1) else { return true };

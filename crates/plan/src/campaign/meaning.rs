@@ -263,7 +263,7 @@ pub fn meant<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) -
     in_unit().or_else(by_a_letter).or_else(other).or_else(near)
 }
 
-/// Whether `unit` differs from the unit at the end of `name` but has its dimension.
+/// True if `unit` differs from the unit at the end of `name` but has its dimension.
 fn is_other_unit(name: &str, unit: &str) -> bool {
     let own = units::in_name(name);
     unit != own && units::named(unit).is_some_and(|unit| unit.of == own)
@@ -297,7 +297,7 @@ fn own_part(written: &str, candidate: &str) -> usize {
     shared.map_or(written, |(_, key)| key).chars().count()
 }
 
-/// Whether a word of `written` is exchanged for one that it does not misspell: `min` for `max`, `inner` for `outer`.
+/// True if a word of `written` is exchanged for one that it does not misspell: `min` for `max`, `inner` for `outer`.
 fn is_another_word(written: &str, candidate: &str) -> bool {
     let words = |name: &str| name.split(['_', '.']).map(str::to_owned).collect::<Vec<_>>();
     let (written, candidate) = (words(written), words(candidate));

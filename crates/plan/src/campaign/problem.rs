@@ -18,7 +18,7 @@ pub struct Problem {
     /// Follows `must be`; for an unknown key, `not a key of`.
     pub allowed: String,
     pub remedy: String,
-    /// Whether the key is unknown.
+    /// True if the key is unknown.
     pub is_unknown: bool,
     pub excerpt: Option<Excerpt>,
 }
@@ -50,7 +50,7 @@ pub struct CampaignError {
     pub more: usize,
     /// A probable cause of all.
     pub note: Option<&'static str>,
-    /// Whether all problems are files that are unreadable now.
+    /// True if all problems are files that are unreadable now.
     pub is_unreadable: bool,
 }
 

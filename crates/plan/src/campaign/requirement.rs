@@ -41,7 +41,7 @@ pub struct BandSubject {
 }
 
 impl BandSubject {
-    /// Whether the interval contains `time`, s.
+    /// True if the interval contains `time`, s.
     pub fn contains(&self, time: f64) -> bool {
         self.from_s.is_none_or(|from| points_before(&[time], from) == 0)
             && self.to_s.is_none_or(|to| points_to(&[time], to) == 1)
@@ -164,7 +164,7 @@ impl Requirement {
         }
     }
 
-    /// Whether a run with this value of the observable, which may be NaN, meets it.
+    /// True if a run with this value of the observable, which may be NaN, meets it.
     pub fn is_met(&self, value: f64) -> bool {
         self.limit.is_met(value) || self.never_meets && value.is_nan()
     }

@@ -31,7 +31,7 @@ pub struct SceneTable {
     pub most: Option<usize>,
     /// Adds a table to a scene that need not have it.
     add: Option<Add>,
-    /// Whether canonical text shows it.
+    /// True if canonical text shows it.
     is_shown: fn(&SceneInput) -> bool,
     /// Checks several keys together.
     check: fn(&mut Section<'_, '_>, &mut SceneInput, usize),

@@ -203,7 +203,7 @@ fn single(text: &str, unit: &str, may_be_plain: bool) -> Result<f64, UnitProblem
     }
 }
 
-/// Whether the character at `at` belongs to the leading number.
+/// True if the character at `at` belongs to the leading number.
 fn is_of_number(text: &str, at: usize, c: char) -> bool {
     match c {
         '0'..='9' | '.' | '+' | '-' | '_' => true,

@@ -37,7 +37,7 @@ pub struct Correlation {
     pub measure: Measure,
     /// In the order of the parameters and their components.
     pub numbers: Values,
-    /// Whether to replace a matrix that is not positive semidefinite by the nearest one.
+    /// True to replace a matrix that is not positive semidefinite by the nearest one.
     pub nearest_psd: bool,
     /// The table as in canonical text.
     pub written: Written,

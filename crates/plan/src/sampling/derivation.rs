@@ -39,7 +39,7 @@ pub struct Derived {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DerivedInput {
     Column(usize),
-    /// The same in every sample.
+    /// A number that is equal in every sample.
     Nominal(f64),
 }
 

@@ -62,7 +62,7 @@ pub struct TextLimit {
 
 pub const ANY_TEXT: TextLimit = TextLimit { allowed: "text", remedy: "write it in quotes", test: |_| true };
 
-/// Whether `text` is at most `most` lower-case letters, digits and underscores, the first a letter.
+/// True if `text` is at most `most` lower-case letters, digits and underscores, the first a letter.
 pub fn is_name(text: &str, most: usize) -> bool {
     let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     text.starts_with(|c: char| c.is_ascii_lowercase()) && text.chars().all(is_letter) && text.len() <= most
@@ -140,7 +140,7 @@ pub enum Kind {
     Columns,
 }
 
-/// Whether a key is required, and its default.
+/// A key is required, or has a default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
     Required {
@@ -167,7 +167,7 @@ pub struct Row {
     /// For a multiple of another key: that key and the divisor.
     pub multiple_of: Option<(&'static str, f64)>,
     pub meaning: &'static str,
-    /// Whether canonical text omits its default.
+    /// True if canonical text omits its default.
     pub is_sparse: bool,
 }
 
@@ -285,7 +285,7 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Whether it holds in a table with these keys and words.
+    /// True if it holds in a table with these keys and words.
     pub fn holds<'t>(&self, has: impl Fn(&str) -> bool, word: impl Fn(&str) -> Option<&'t str>) -> bool {
         match self {
             Condition::Has(key) => has(key),
@@ -315,7 +315,7 @@ impl<T: Debug> Debug for Values<T> {
 }
 
 impl<T: Clone> Values<T> {
-    /// Whether they are a number, three rows of three, or a list of `count` numbers.
+    /// True if they are a number, three rows of three, or a list of `count` numbers.
     pub fn are(&self, count: usize) -> bool {
         match (count, self) {
             (1, values) => matches!(values, Values::One(_)),
@@ -373,7 +373,7 @@ pub enum Value {
     /// Name and keys.
     Distribution(&'static str, Written),
     Column(DataColumn),
-    /// Of one file, each for one number of the scene.
+    /// Columns of one file, each for one number of the scene.
     Columns(Vec<DataColumn>),
     Flag(bool),
     ByName(Vec<(Name, f64)>),
@@ -518,7 +518,7 @@ impl Written {
         if let Value::Counts(Values::One(count)) = self.get(key)? { Some(*count) } else { None }
     }
 
-    /// Whether `key` is true.
+    /// True if `key` is true.
     pub fn flag(&self, key: &str) -> bool {
         self.get(key) == Some(&Value::Flag(true))
     }

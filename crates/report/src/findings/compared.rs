@@ -19,7 +19,7 @@ pub struct ComparedVerdict {
     /// Probability that two results of one campaign differ this much by chance, adjusted for the number of requirements
     /// (Holm); `None` if no test applies.
     pub p_value: Option<f64>,
-    /// Whether the verdicts differ but the data differ no more than chance allows.
+    /// True if the verdicts differ but the data differ no more than chance allows.
     pub is_within_chance: bool,
 }
 
@@ -64,7 +64,7 @@ fn p_of_change((first, second): (&EndVerdict, &EndVerdict), comparison: &Compari
 }
 
 impl ComparedVerdict {
-    /// Whether the second verdict is worse, in the order FAIL, UNDECIDED, PASS; ignores chance.
+    /// True if the second verdict is worse, in the order FAIL, UNDECIDED, PASS; ignores chance.
     pub fn is_worse(&self) -> bool {
         self.change() == Some(Ordering::Less)
     }
@@ -109,7 +109,7 @@ pub struct Compared<'c> {
     pub verdicts: Vec<ComparedVerdict>,
     /// Allowed shift, as a share of the spread.
     pub tolerance: Option<f64>,
-    /// Whether worse verdicts count even if chance explains them.
+    /// True if worse verdicts count even if chance explains them.
     pub is_strict: bool,
 }
 

@@ -404,7 +404,7 @@ fn is_met(verdicts: &Verdicts, outcome: &str) -> bool {
     of.all(|one| one.gate.decision == Decision::Pass)
 }
 
-/// Whether a ranking matters less: the requirement is met, or it explains only the spread.
+/// True if a ranking matters less: the requirement is met, or it explains only the spread.
 fn is_settled(verdicts: &Verdicts, ranking: &Ranking<'_>) -> bool {
     match ranking.question {
         Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {

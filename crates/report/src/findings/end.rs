@@ -19,7 +19,7 @@ pub struct SummaryEnd {
     /// Warnings as the summary shows them.
     pub warnings: Vec<String>,
     pub verdicts: Vec<EndVerdict>,
-    /// Whether a campaign with `[stop]` reached its goal; `true` without `[stop]`.
+    /// True if a campaign with `[stop]` reached its goal; `true` without `[stop]`.
     pub is_reached: bool,
 }
 

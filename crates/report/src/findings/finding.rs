@@ -89,11 +89,6 @@ impl Number {
         Number { interval: [f64::NAN; 2], ..self.clone() }.bare()
     }
 
-    /// As in [`Number::text`], without the interval and its unit.
-    pub fn value_text(&self) -> String {
-        self.bare().split(" [").next().unwrap_or_default().to_owned()
-    }
-
     /// With interval and unit: "98.40% [91.45, 99.96]", "0.938 [0.901, 0.994] deg".
     pub fn text(&self) -> String {
         match (self.value.is_finite(), self.unit == SHARE) {

@@ -76,14 +76,14 @@ pub struct AuditSummary {
     pub state_error: Quantiles,
     /// Relative to the run's maximum |omega|.
     pub omega_error: Quantiles,
-    /// Of the attitude, rad.
+    /// Error of the attitude, rad.
     pub attitude_error_rad: Quantiles,
-    /// Of the rotation of the debris.
+    /// Error of the rotation of the debris.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub debris_error: Option<Quantiles>,
-    /// Of `state_error_estimate`.
+    /// Coverage of `state_error_estimate`.
     pub estimate: Estimate,
-    /// Of `debris_state_error_estimate`.
+    /// Coverage of `debris_state_error_estimate`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub debris_estimate: Option<Estimate>,
 }

@@ -86,7 +86,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     found
 }
 
-/// Whether a run has it, or failed runs determine its quantiles.
+/// True if a run has it, or failed runs determine its quantiles.
 fn says_something(column: &ColumnStatistics) -> bool {
     column.moments.count() > 0
         || column.without_value > 0

@@ -270,7 +270,7 @@ fn notes(one: &Assessment) -> Vec<String> {
     notes
 }
 
-/// What a decision on a mean assumes about unseen rare events.
+/// The assumption of a decision on a mean about unseen rare events.
 pub fn assumed(one: &Assessment) -> Option<String> {
     let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
     Some(format!(

@@ -37,7 +37,7 @@ impl IndexEntry {
         if counts.is_empty() { "-".to_owned() } else { counts.join(", ") }
     }
 
-    /// Whether the folder has the name of the campaign.
+    /// True if the folder has the name of the campaign.
     pub fn is_named(&self) -> bool {
         self.folder.file_name().is_some_and(|name| name == self.campaign.as_str())
     }

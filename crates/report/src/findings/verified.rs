@@ -9,7 +9,7 @@ pub struct Checked {
     pub what: String,
     /// Number of problems, all repaired.
     pub problems: usize,
-    /// Whether the result is finished.
+    /// True if the result is finished.
     pub is_finished: bool,
     /// Missing parts of an unfinished result.
     pub missing: usize,

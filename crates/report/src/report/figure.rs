@@ -319,7 +319,7 @@ pub struct Figure {
     pub caption: String,
     /// Width in columns of twelve.
     pub columns: u8,
-    /// Whether the abscissa is the time of a run: the replay moves a cursor there.
+    /// True if the abscissa is the time of a run: the replay moves a cursor there.
     pub is_over_time: bool,
     pub x: Axis,
     pub y: Axis,
@@ -363,7 +363,7 @@ impl Figure {
         Figure { columns, ..self }
     }
 
-    /// Whether any mark shows; pages omit other figures.
+    /// True if any mark shows; pages omit other figures.
     pub fn is_visible(&self) -> bool {
         self.marks.iter().any(Mark::is_visible)
     }

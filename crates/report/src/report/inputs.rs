@@ -190,7 +190,7 @@ fn of_input(name: &str, unit: &str, samples: &[f64], nominal: f64, asked: Option
     Figure { columns: 3, ..Figure::new(name, x, Axis::linear("samples", ""), marks) }
 }
 
-/// Whether the nominal value would leave most of the axis empty; false for a single value.
+/// True if the nominal value would leave most of the axis empty; false for a single value.
 fn is_far(nominal: f64, (low, high): (f64, f64)) -> bool {
     let reach = FAR * (high - low);
     high > low && (low - nominal > reach || nominal - high > reach)

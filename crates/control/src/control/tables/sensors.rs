@@ -87,7 +87,7 @@ fn check_times(section: &mut Section<'_, '_>, period: f64, own: f64, latency: f6
     }
 }
 
-/// Whether a ratio of two times is whole, up to rounding.
+/// True if a ratio of two times is whole, up to rounding.
 fn is_whole(ratio: f64) -> bool {
     (ratio - ratio.round()).abs() < 1e-9 * ratio.max(1.0) && ratio.round() >= 1.0
 }

@@ -27,7 +27,7 @@ pub const ONE_OF_LEVELS: Rule = Rule::One(&[&["levels"], &["quantiles"]], "5", A
 pub enum Levels {
     /// Their number (`levels = 5`, or `levels = [5, 3]` in the order of the file).
     Counts(Values<u64>),
-    /// The same quantiles in each dimension (`quantiles = [0.05, 0.5, 0.95]`).
+    /// Equal quantiles in each dimension (`quantiles = [0.05, 0.5, 0.95]`).
     Quantiles(Vec<f64>),
 }
 

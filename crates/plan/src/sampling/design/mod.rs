@@ -127,7 +127,7 @@ impl Design {
         self.facts().name
     }
 
-    /// Whether the number of samples follows from the design.
+    /// True if the number of samples follows from the design.
     pub fn has_size(&self) -> bool {
         self.size(0) != Size::Any
     }
@@ -142,7 +142,7 @@ impl Design {
         replicates::count(self.written())
     }
 
-    /// Whether the first samples represent the population as well as all samples do.
+    /// True if the first samples represent the population as well as all samples do.
     pub fn begins_as_it_goes_on(&self) -> bool {
         match self {
             Design::Random(_) | Design::LatinHypercube(_) | Design::Sobol(_) | Design::Halton(_) => true,

@@ -39,7 +39,7 @@ pub struct Facts {
     pub name: &'static str,
     pub keys: &'static [Row],
     pub rules: &'static [Rule],
-    /// Whether a dimension may keep its nominal value ([`NOMINAL`]).
+    /// True if a dimension may keep its nominal value ([`NOMINAL`]).
     pub leaves_nominal: bool,
     pub max_dimensions: usize,
     /// Why every row depends on the number of samples, and the remedy.

@@ -96,7 +96,7 @@ fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3], DispersionE
     Ok([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]])
 }
 
-/// Of the rotation vector `theta`, rad.
+/// The quaternion of the rotation vector `theta`, rad.
 pub fn rotation(theta: [f64; 3]) -> [f64; 4] {
     let half = 0.5 * norm(theta);
     let (sine, cosine) = libm::sincos(half);

@@ -21,7 +21,7 @@ macro_rules! distributions {
             pub const NAMES: &'static [&'static str] =
                 &[$(<$Scalar as Scalar>::NAME,)* $(<$Together as Together>::NAME,)*];
 
-            /// Whether each component of a parameter has this distribution by itself.
+            /// True if each component of a parameter has this distribution by itself.
             pub const fn is_of_one_number(self) -> bool {
                 matches!(self, $(Self::$Scalar)|*)
             }

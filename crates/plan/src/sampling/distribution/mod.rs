@@ -98,7 +98,7 @@ impl DistributionKind {
         self.table().1
     }
 
-    /// Whether its file names the parameters, instead of the key `parameter`.
+    /// True if its file names the parameters, instead of the key `parameter`.
     pub fn names_parameters(self) -> bool {
         self.keys().iter().any(|row| matches!(row.kind, Kind::Columns))
     }

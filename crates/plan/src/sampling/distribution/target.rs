@@ -166,7 +166,7 @@ impl Target<'_> {
         }
     }
 
-    /// Whether only the direction counts: of a wheel's axis, a thruster's direction.
+    /// True if only the direction counts: of a wheel's axis, a thruster's direction.
     pub(super) fn is_direction(&self) -> bool {
         self.parameter.facts().limit == Limit::Direction
     }

@@ -5,7 +5,7 @@ use super::{Binary, Expression, Function, Step};
 const ANYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 impl Expression {
-    /// Whether it is a condition: comparisons, joined by `and` and `or`, chosen by `if`, or the numbers 0 and 1.
+    /// True if it is a condition: comparisons, joined by `and` and `or`, chosen by `if`, or the numbers 0 and 1.
     pub fn is_condition(&self) -> bool {
         let are_conditions = |operands: &[bool]| operands.iter().all(|is_condition| *is_condition);
         let of = |step: &Step, operands: &[bool]| match step {
@@ -17,7 +17,7 @@ impl Expression {
         self.fold(of) == Some(true)
     }
 
-    /// Whether it is a number wherever its variables are (barring overflow): it has no quotient, power, root or
+    /// True if it is a number wherever its variables are (barring overflow): it has no quotient, power, root or
     /// logarithm.
     pub fn is_total(&self) -> bool {
         const TOTAL: [&str; 5] = ["sin", "cos", "tan", "atan", "abs"];
@@ -51,7 +51,7 @@ impl Expression {
 }
 
 impl Binary {
-    /// Whether its value is 1 or 0 by comparison.
+    /// True if its value is 1 or 0 by comparison.
     fn compares(self) -> bool {
         use Binary::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
         matches!(self, Less | LessOrEqual | Greater | GreaterOrEqual | Equal | NotEqual)

@@ -12,7 +12,7 @@ const PER_TURN: usize = 4;
 const SEEN_SWING: f64 = 0.05;
 
 impl<'a> Curves<'a> {
-    /// Whether the nominal run oscillates visibly, but too fast for the times of the bands.
+    /// True if the nominal run oscillates visibly, but too fast for the times of the bands.
     pub(super) fn is_aliased(&self, bands: &TimeBands, nominal: &[f64]) -> bool {
         let ends = bands.quantiles[0].iter().zip(&bands.quantiles[4]);
         let width = ends.map(|(low, high)| high - low).fold(0.0, f64::max);
@@ -97,12 +97,13 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Whether `times` samples give fewer than [`PER_TURN`] per oscillation (two turns).
+/// True if `times` samples give fewer than [`PER_TURN`] per oscillation (two turns).
 fn is_coarse(turns: usize, times: usize) -> bool {
     PER_TURN * turns > 2 * times.saturating_sub(1)
 }
 
-/// Those of `times` between which `values` swing at least once: shorter intervals would have parts of a swing in turns.
+/// The members of `times` between which `values` swing at least once: shorter intervals would have parts of a swing in
+/// turns.
 fn whole_swings(times: &[f64], values: &[f64]) -> Vec<f64> {
     let intervals = times.len().saturating_sub(1);
     // three turns are one and a half oscillations

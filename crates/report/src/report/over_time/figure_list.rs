@@ -46,7 +46,7 @@ impl Traits {
         }
     }
 
-    /// Whether a requirement is on one of `names` (see [`Traits::judged`]).
+    /// True if a requirement is on one of `names` (see [`Traits::judged`]).
     fn asked(&self, names: &[&str]) -> bool {
         self.judged(names).any(|name| self.asked.contains(&name))
     }
@@ -122,7 +122,7 @@ pub struct ListedFigure {
     pub title: &'static str,
     pub quantity: &'static str,
     pub hue: Hue,
-    /// Whether a scene calls for it.
+    /// True if a scene calls for it.
     called: fn(&Traits, Place) -> bool,
     /// Observables whose requirements call for it too; their limits are drawn.
     pub judged_by: &'static [&'static str],

@@ -171,7 +171,7 @@ struct Row<'f> {
     figure: Option<&'f Figure>,
     /// The limit of single runs, and its name in the figure.
     limit: Option<(GateLimit, String)>,
-    /// Whether no single run can violate the requirement.
+    /// True if no single run can violate the requirement.
     is_of_mean: bool,
     drivers: Vec<&'f Finding>,
 }

@@ -44,7 +44,7 @@ pub struct PageSection {
     pub lead: String,
     pub html: String,
     pub has_figures: bool,
-    /// Whether the content is folded, and initially open.
+    /// True if the content is folded, and initially open.
     pub fold: Option<bool>,
 }
 

@@ -86,7 +86,7 @@ fn shares(ranking: &Ranking<'_>) -> Vec<(String, [f64; 3])> {
     ranking.inputs.iter().map(|one| (one.input.input.clone(), of(one.share))).collect()
 }
 
-/// Whether a scatter plot has different abscissae.
+/// True if a scatter plot has different abscissae.
 fn is_spread(figure: &Figure) -> bool {
     let points = figure.marks.iter().filter_map(|mark| if let Mark::Points { x, .. } = mark { Some(x) } else { None });
     let mut all = points.flatten();

@@ -72,7 +72,7 @@ pub struct Page {
     pub left_out: Option<String>,
 }
 
-/// Whether the dispersed runs are independent: order statistics need that for intervals.
+/// True if the dispersed runs are independent: order statistics need that for intervals.
 pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
 }

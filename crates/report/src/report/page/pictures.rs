@@ -242,7 +242,7 @@ pub fn shares(yes: &Number) -> String {
 pub fn said_of(outcome: &Finding) -> String {
     let numbers = ["median", "p95", "max"].iter().filter_map(|name| outcome.number(name));
     let known = numbers.filter(|number| number.value.is_finite());
-    let said = known.map(|number| (number, format!("{} {}", number.name, number.value_text())));
+    let said = known.map(|number| (number, format!("{} {}", number.name, number.alone())));
     let (numbers, said): (Vec<&Number>, Vec<String>) = said.unzip();
     let unit = numbers.last().map_or("", |number| &number.shown.unit);
     // the title ends with the number of runs that have it

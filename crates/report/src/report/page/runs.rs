@@ -46,7 +46,7 @@ pub struct ShownRun {
 }
 
 impl ShownRun {
-    /// Whether it was not computed, or its mission failed.
+    /// True if it was not computed, or its mission failed.
     pub fn has_failed(&self) -> bool {
         let is =
             |name: &str, fails: fn(f64) -> bool| self.row.iter().any(|(column, value)| column == name && fails(*value));
