@@ -1,6 +1,5 @@
-//! Exact inference about a success rate from independent trials: binomial distribution, Clopper-Pearson bounds (C. J.
-//! Clopper & E. S. Pearson, *The use of confidence or fiducial limits illustrated in the case of the binomial*,
-//! Biometrika 26 (1934) 404), and the test behind a requirement.
+//! Exact inference about a success rate from independent trials: binomial tails, the bounds of C. J. Clopper & E. S.
+//! Pearson, *Biometrika* 26 (1934) 404, and the test behind a requirement.
 
 use crate::math::incomplete_beta::{incomplete_beta, inverse_incomplete_beta};
 use crate::math::normal;
@@ -19,7 +18,7 @@ pub fn at_least(k: u64, trials: u64, p: f64) -> f64 {
     }
 }
 
-/// One-sided lower bound (Clopper-Pearson): at most the true rate with probability `confidence` or more.
+/// One-sided lower bound (Clopper-Pearson) of the true rate.
 pub fn lower_bound(successes: u64, trials: u64, confidence: f64) -> f64 {
     if successes == 0 {
         return 0.0;
@@ -48,8 +47,7 @@ pub enum Decision {
     Pass,
     /// The upper bound misses it.
     Fail,
-    /// Neither, with a number of runs, if any, that decides with probability [`POWER`] if the true rate is the observed
-    /// one.
+    /// Neither; with a number of runs, if any, that decides with probability [`POWER`] at the observed rate.
     Undecided(Option<u64>),
 }
 
@@ -58,10 +56,8 @@ pub const POWER: f64 = 0.9;
 /// Runs beyond which a requirement counts as undecidable.
 pub const MAX_RUNS: u64 = 10_000_000_000;
 
-/// Decides whether the success rate is at least `target` in (0, 1), at `confidence`.
-///
-/// No rounding of an inverse decides: the lower bound reaches the target exactly if P(X >= successes) at the target is
-/// at most 1 - confidence; likewise the upper one.
+/// Decides whether the success rate is at least `target` in (0, 1), at `confidence`. The tails decide, not the rounding
+/// of a bound: the lower bound reaches the target if and only if P(X >= successes) there is at most 1 - confidence.
 pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Decision {
     let risk = 1.0 - confidence;
     if trials == 0 {
@@ -75,8 +71,8 @@ pub fn decide(successes: u64, trials: u64, target: f64, confidence: f64) -> Deci
     }
 }
 
-/// A number of runs, at least `trials`, that decides with probability [`POWER`] at the observed rate, while one run
-/// fewer does not; `None` beyond [`MAX_RUNS`]. Since successes are whole, a slightly smaller number may decide as well.
+/// A number of runs, at least `trials`, that decides with probability [`POWER`] at the observed rate; one run fewer
+/// does not. `None` beyond [`MAX_RUNS`].
 fn deciding_runs(successes: u64, trials: u64, target: f64, confidence: f64) -> Option<u64> {
     let (fraction, risk) = (successes as f64 / trials as f64, 1.0 - confidence);
     let power = |runs: u64| {
@@ -185,8 +181,7 @@ mod tests {
         assert!((upper - (1.0 - libm::pow(0.05, 1.0 / 59.0))).abs() < 1e-15, "{upper}");
     }
 
-    /// Published: 59 runs without a failure show 95% with 95% confidence (S. S. Wilks, Ann. Math. Statist. 12 (1941)
-    /// 91).
+    /// Published: 59 runs without a failure show 95% at 95% (S. S. Wilks, *Ann. Math. Stat.* 12 (1941) 91).
     #[test]
     fn fifty_nine_successes_decide_95_95() {
         for (successes, trials, decision) in [

@@ -28,10 +28,7 @@ impl Carries {
 
     /// Value of the counter `key` with the lower 32 bits `low`.
     pub fn whole(&self, key: u32, low: u32) -> u64 {
-        match self.0.get(&key) {
-            Some(carried) => carried << 32 | u64::from(low),
-            None => u64::from(low),
-        }
+        self.0.get(&key).map_or(0, |carried| carried << 32) | u64::from(low)
     }
 }
 

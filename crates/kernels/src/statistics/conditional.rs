@@ -1,9 +1,9 @@
-//! Test of the effect of an input on an observable given correlated inputs: the generalised covariance measure of R. D.
-//! Shah & J. Peters, *Ann. Stat.* 48 (2020) 1514.
+//! Effect of an input on an observable given correlated inputs: the generalised covariance measure of R. D. Shah & J.
+//! Peters, *Ann. Stat.* 48 (2020) 1514.
 //!
-//! If the input has no effect of its own, the residuals of both columns, after lines through cells of the other inputs,
-//! are uncorrelated. The test needs no model of the observable: only the product of both errors of the lines counts.
-//! Each line takes two degrees of freedom, else 30 to 60 runs err twice as often.
+//! Without an effect of its own, the residuals of both columns, after lines through cells of the other inputs, are
+//! uncorrelated, whatever the model of the observable. Each line takes two degrees of freedom, else 30 to 60 runs err
+//! twice as often.
 
 use super::rank_tests::two_sided;
 use super::sensitivity::{cells, left_by_lines};

@@ -1,9 +1,8 @@
 //! Tables of two groups of runs and an event.
 //!
-//! - Exact test: R. A. Fisher, *The logic of inductive inference*, J. Roy. Stat. Soc. 98 (1935) 39; two-sided by the
-//!   probabilities of the tables, as R's `fisher.test`.
-//! - Interval of the risk ratio, also for counts of zero: P. A. R. Koopman, *Confidence intervals for the ratio of two
-//!   binomial proportions*, Biometrics 40 (1984) 513, the ratios that the score test does not reject.
+//! - Exact test: R. A. Fisher, *J. Roy. Stat. Soc.* 98 (1935) 39; two-sided as R's `fisher.test`.
+//! - Interval of the risk ratio, also for counts of zero: P. A. R. Koopman, *Biometrics* 40 (1984) 513, the ratios that
+//!   the score test does not reject.
 
 use super::jackknife::Estimate;
 use crate::math::normal;
@@ -20,8 +19,8 @@ pub struct Occurrence {
 /// Relative difference of probabilities that counts as rounding, as in R.
 const SAME: f64 = 1e-7;
 
-/// Two-sided p-value if the event does not depend on the group: the exact sum over all tables with these margins that
-/// are at most as likely. The time grows with the number of events.
+/// Two-sided p-value if the event does not depend on the group: the sum over all tables with these margins that are at
+/// most as likely. The time grows with the number of events.
 pub fn fisher(one: Occurrence, other: Occurrence) -> f64 {
     let events = one.events + other.events;
     let (first, last) = (events.saturating_sub(other.runs), events.min(one.runs));

@@ -1,8 +1,7 @@
 //! Correlation of two columns, or of their ranks, with a confidence interval for independent rows.
 //!
-//! The interval is that of R. A. Fisher's atanh r (*Metron* 1 (1921) 3) with the width of the [`super::jackknife`]: the
-//! usual variance 1/(n - 3) holds for normal numbers only (for y = x z, x and z normal, it covers 0.75 instead of
-//! 0.95).
+//! The interval is that of R. A. Fisher's atanh r (*Metron* 1 (1921) 3) with the width of the [`super::jackknife`]: for
+//! y = x z, x and z normal, the usual variance 1/(n - 3) covers 0.75 instead of 0.95.
 
 use super::jackknife;
 pub use super::jackknife::Estimate;

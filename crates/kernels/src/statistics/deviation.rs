@@ -1,17 +1,15 @@
-//! Histogram of deviations from a nominal value: codes of buckets ([`code`], [`ends`]) and order statistics
-//! ([`ranks`]).
+//! Histogram of deviations from a nominal value.
 //!
-//! A bucket holds the deviations that share sign, exponent and the leading [`MANTISSA_BITS`] bits of the mantissa, as
-//! in [`super::sketch`], in 16 bits, so that hundreds of millions can be counted. Its middle is within
-//! [`RELATIVE_ERROR`] of any deviation in it. Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512
-//! (1.3e154) on in the last bucket.
+//! Buckets are those of [`super::sketch`] with [`MANTISSA_BITS`] bits of the mantissa, coded in 16 bits, so that
+//! hundreds of millions can be counted. Magnitudes below 2^-512 (7e-155) count as zero, those from 2^512 (1.3e154) on
+//! in the last bucket.
 
 use super::ranks::Ranks;
 
 /// Leading mantissa bits of a bucket.
 pub const MANTISSA_BITS: u32 = 5;
 
-/// Largest relative error of a deviation: half a bucket.
+/// Largest relative error of the middle of a bucket: half its width.
 pub const RELATIVE_ERROR: f64 = 1.0 / 64.0;
 
 /// A bucket: twice the index of its magnitude, from 1, plus one for negative deviations.

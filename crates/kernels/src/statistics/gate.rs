@@ -2,8 +2,7 @@
 //!
 //! Fractions and quantiles share one exact binomial test ([`super::binomial::decide`]): the `p`-quantile is at most a
 //! limit if at least the fraction p of runs is. Means have bounds that allow for skewness ([`super::mean`]), designs in
-//! replicates their own ([`super::replicates`]). A pass or a failure is wrong with at most the probability 1 -
-//! confidence. Several requirements: [`failing_at`], [`failing_together`].
+//! replicates their own ([`super::replicates`]). A decision is wrong with at most the probability 1 - confidence.
 
 use super::binomial::{Decision, MAX_RUNS, POWER, decide, lower_bound, upper_bound};
 use super::looks::adjusted;
@@ -37,7 +36,7 @@ impl GateLimit {
         }
     }
 
-    /// The limit itself.
+    /// The limit.
     pub fn value(self) -> f64 {
         match self {
             GateLimit::AtMost(limit) | GateLimit::AtLeast(limit) => limit,
@@ -56,8 +55,7 @@ pub struct Gate {
     pub bounds: [f64; 2],
 }
 
-/// The gate `at` a confidence, but failing only at the higher confidence `fails_at`; `is_met` compares an estimate with
-/// the limit.
+/// The gate `at` a confidence, but failing at the higher confidence `fails_at` only.
 pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool, at: impl Fn(f64) -> Gate) -> Gate {
     let gate = at(confidence);
     if gate.decision == Decision::Pass || is_met(gate.estimate) {
@@ -66,12 +64,11 @@ pub fn failing_at([confidence, fails_at]: [f64; 2], is_met: impl Fn(f64) -> bool
     Gate { decision: at(fails_at).decision, ..gate }
 }
 
-/// Decisions on several requirements, of which a met one fails with at most the risk 1 - c of the (lowest) confidence:
-/// `at(m)` fails at the confidence 1 - (1 - c)/m only.
+/// Decisions on several requirements, of which a met one fails with at most the risk 1 - c: `at(m)` fails at the
+/// confidence 1 - (1 - c)/m.
 ///
-/// S. Holm, *A simple sequentially rejective multiple test procedure*, Scand. J. Statist. 6 (1979) 65: m counts the
-/// requirements that have not failed yet. A pass of all needs no correction, since it is wrong only if a missed one
-/// passes (R. L. Berger, *Technometrics* 24 (1982) 295).
+/// By S. Holm, *Scand. J. Stat.* 6 (1979) 65, m counts the requirements that have not failed yet. A pass of all is
+/// wrong only if a missed one passes, and needs no correction (R. L. Berger, *Technometrics* 24 (1982) 295).
 pub fn failing_together<T>(count: usize, at: impl Fn(usize) -> Vec<T>, has_failed: impl Fn(&T) -> bool) -> Vec<T> {
     let mut open = count;
     loop {
@@ -96,7 +93,7 @@ pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) 
     }
 }
 
-/// [`fraction_gate`] for a number of successes known to lie within bounds: the decision common to both.
+/// [`fraction_gate`] for a number of successes within bounds: the decision common to both.
 pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confidence: f64) -> Gate {
     let [least, most] = successes.map(|successes| fraction_gate(successes, trials, target, confidence));
     let decision = match (least.decision, most.decision) {
@@ -114,9 +111,8 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
 /// Gate on a success rate of at least `target` at each of several points of the same runs, each with bounds of the
 /// successes and a number of runs.
 ///
-/// It passes if every point does, without correction: a missed point passes with at most 1 - confidence (R. L. Berger,
-/// *Technometrics* 24 (1982) 295). It fails if a point does at the confidence 1 - (1 - `fails_at`)/points (Bonferroni).
-/// Estimate, bounds and index are those of the first point with the smallest estimate.
+/// It passes if every point does ([`failing_together`]), and fails if a point does at the confidence 1 - (1 -
+/// `fails_at`)/points (Bonferroni). Estimate, bounds and index are those of the first point with the smallest estimate.
 pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_at]: [f64; 2]) -> (Gate, Option<usize>) {
     let confidences = [confidence, adjusted(fails_at, points.len())];
     let gate = |(counts, runs): &([u64; 2], u64)| {
@@ -134,7 +130,7 @@ pub fn points_gate(points: &[([u64; 2], u64)], target: f64, [confidence, fails_a
         Decision::Fail
     } else {
         match worst.decision {
-            Decision::Undecided(runs) => Decision::Undecided(runs),
+            Decision::Undecided(_) => worst.decision,
             _ => Decision::Undecided(None),
         }
     };
@@ -238,8 +234,7 @@ fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Law: several points pass if each does, and fail if one does at the corrected confidence; bounds decide only if
-    /// all numbers in between do.
+    /// Law: several points pass if each does, and fail if one does at the corrected confidence; bounds decide together.
     #[test]
     fn every_point_must_pass() {
         let of = |successes: &[u64]| {
@@ -262,7 +257,7 @@ mod tests {
         }
     }
 
-    /// Law: a mean decides if both bounds lie on one side of the limit, else it predicts how many runs decide; nothing
+    /// Law: a mean decides if both bounds lie on one side of the limit, else it predicts the runs that decide; nothing
     /// decides at the limit, without spread, or with too few runs.
     #[test]
     fn known_gates_on_a_mean() {

@@ -2,9 +2,8 @@
 //! *Ann. Math. Stat.* 29 (1958) 614; B. Efron & C. Stein, *Ann. Stat.* 9 (1981) 586).
 //!
 //! The influence of a row is n - 1 times the change of the estimate without it. The estimate varies as the mean of the
-//! influences, for any distribution, and has the bounds of such a mean ([`super::mean`]). Of many rows evenly spaced
-//! ones are used. Resampling takes hundreds of estimates and covers heavy tails no better. The tests
-//! `coverage_of_sensitivities` measure the coverage.
+//! influences and has its bounds ([`super::mean`]). Resampling takes hundreds of estimates and covers heavy tails no
+//! better. The tests `coverage_of_sensitivities` measure the coverage.
 
 use super::mean::mean_bounds;
 use super::moments::Moments;
@@ -29,7 +28,7 @@ pub fn spaced_rows(rows: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Ends of the interval of `estimate` from the influences of the [`spaced_rows`] of `rows`; infinite if nothing bounds
-/// it, of zero width if all influences are equal.
+/// it.
 pub fn ends(estimate: f64, rows: usize, influences: impl Iterator<Item = f64>, confidence: f64) -> [f64; 2] {
     let influences: Vec<f64> = influences.collect();
     let moments = Moments::of_block(&influences);

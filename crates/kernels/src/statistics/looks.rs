@@ -1,8 +1,7 @@
 //! Stopping once a quantile is known well enough, with looks at growing numbers of runs.
 //!
 //! Stopping at the first narrow interval covers less often than a single look. With L looks each interval has the
-//! confidence 1 - (1 - c)/L, so that all cover with c (C. E. Bonferroni 1936); the numbers of runs double to keep L
-//! small.
+//! confidence 1 - (1 - c)/L (Bonferroni); the numbers of runs double to keep L small.
 
 use super::quantile::{interval_ranks, quantile};
 
@@ -43,7 +42,7 @@ pub fn adjusted(confidence: f64, looks: usize) -> f64 {
     1.0 - (1.0 - confidence) / looks.max(1) as f64
 }
 
-/// Result of one of `looks` looks at the values so far, except NaN. The caller stops at the last look in any case.
+/// One of `looks` looks at the values so far, except NaN. The caller stops at the last look in any case.
 pub fn decision(values: &[f64], goal: Goal, looks: usize) -> Look {
     let mut ascending: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
     ascending.sort_unstable_by(f64::total_cmp);

@@ -1,15 +1,13 @@
 //! Bounds of a mean and of a standard deviation from the moments of independent numbers.
 //!
-//! For skewed numbers Student's bound on the side of the long tail misses several times as often as stated. Each bound
-//! is therefore the wider of Student's and one corrected for skewness (P. Hall, *On the removal of skewness by
-//! transformation*, J. R. Stat. Soc. B 54 (1992) 221, exponential transformation): with r, the skewness over sqrt(n),
-//! f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is closer to a t distribution than T = (mean - mu)/(s/sqrt(n)), and -T at the
-//! bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). If that logarithm does not exist, there are too few runs for their
-//! skewness, and no bound.
+//! Student's bound misses the long tail of skewed numbers several times as often as stated. Each bound is therefore the
+//! wider of Student's and one corrected for skewness (P. Hall, *J. R. Stat. Soc. B* 54 (1992) 221, exponential
+//! transformation): with r, the skewness over sqrt(n), f(T) = (e^(2 r T/3) - 1)/(2 r/3) + r/6 is closer to a t
+//! distribution than T = (mean - mu)/(s/sqrt(n)), and -T at the bound is -log(1 - (2 r/3)(t + r/6))/(2 r/3). Without
+//! that logarithm there are too few runs for their skewness, and no bound.
 //!
 //! These bounds hold unless an event seen fewer than some ten times contributes much to the mean;
-//! [`bounded_mean_bounds`] need no such assumption. The tests `coverage_of_means` measure the coverage. For dependent
-//! numbers see [`super::replicates`].
+//! [`bounded_mean_bounds`] need no such assumption. The tests `coverage_of_means` measure the coverage.
 
 use core::cell::Cell;
 
@@ -51,7 +49,7 @@ pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     t
 }
 
-/// One-sided bounds of the mean, each at `confidence`; infinite for fewer than three numbers, without spread (which may
+/// One-sided bounds of the mean, each at `confidence`; infinite for fewer than three numbers, without spread (it may
 /// hide a rare event), or with too few numbers for their skewness.
 pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some((mean, error)) = moments.mean().zip(spread_error(moments)) else {
@@ -64,8 +62,7 @@ pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
 }
 
 /// One-sided bounds of the mean of independent numbers in `[low, high]`, each at `confidence`, for any distribution:
-/// the empirical Bernstein bound (A. Maurer & M. Pontil, *Empirical Bernstein bounds and sample-variance penalization*,
-/// COLT 2009, theorem 4).
+/// the empirical Bernstein bound (A. Maurer & M. Pontil, COLT 2009, theorem 4).
 pub fn bounded_mean_bounds(moments: &Moments, [low, high]: [f64; 2], confidence: f64) -> [f64; 2] {
     let Some((mean, deviation)) = moments.mean().zip(moments.standard_deviation()) else { return [low, high] };
     let half = bernstein_reach(moments.count(), high - low, deviation, confidence);
@@ -89,9 +86,8 @@ pub fn distance_towards(limit: f64, moments: &Moments, count: u64, confidence: f
     reach(count, side * skewness(moments), t) * deviation / libm::sqrt(count as f64)
 }
 
-/// One-sided bounds of the standard deviation, each at `confidence`, from those of the mean squared deviation. The
-/// upper one is infinite for too few runs (some 70 normal ones), or if one run has more than [`MOST_SHARE`] of the
-/// fourth powers.
+/// One-sided bounds of the standard deviation, each at `confidence`, from those of the mean squared deviation. Too few
+/// runs (some 70 normal ones), or one run with more than [`MOST_SHARE`] of the fourth powers, have no upper bound.
 pub fn deviation_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some(((deviation, kurtosis), _)) =
         moments.standard_deviation().zip(moments.kurtosis()).zip(spread_error(moments))
@@ -152,9 +148,8 @@ mod tests {
         assert!((unskewed(2.0, 1e-6) - 2.0 - 1.5e-6).abs() < 1e-11);
     }
 
-    /// Law: a standard deviation has an upper bound unless one number has more than a third of the fourth powers.
-    /// Known: next to 10,000 numbers 1 and -1, the number d has d^4/(10,000 + d^4) of the fourth powers, a third at d^4
-    /// = 5,000, but less than a hundredth of the squares.
+    /// Law: a standard deviation has an upper bound unless one number has more than a third of the fourth powers: next
+    /// to 10,000 numbers 1 and -1, d has d^4/(10,000 + d^4) of them, but less than a hundredth of the squares.
     #[test]
     fn one_number_may_make_a_third_of_the_fourth_powers() {
         let of = |fourth: f64| {

@@ -1,9 +1,8 @@
 //! [`Moments`]: count, extremes, mean and central moments up to order four of a stream of numbers, mergeable.
 //!
 //! A block is reduced in two passes, with a correction for the rounding of its mean (T. F. Chan, G. H. Golub & R. J.
-//! LeVeque, *Am. Stat.* 37 (1983) 242). Blocks are merged by P. Pébay, *Formulas for Robust, One-Pass Parallel
-//! Computation of Covariances and Arbitrary-Order Statistical Moments*, SAND2008-6212 (2008); merged in order they give
-//! the same bits for any number of threads.
+//! LeVeque, *Am. Stat.* 37 (1983) 242), and merged by P. Pébay, SAND2008-6212 (2008); in order, for the same bits with
+//! any number of threads.
 
 use fearless_simd::Simd;
 
@@ -39,7 +38,7 @@ impl Moments {
         moments
     }
 
-    /// Moments of a block: [`Moments::of`] to rounding, but several times as fast and more accurate.
+    /// Moments of a block: [`Moments::of`] to rounding, but faster and more accurate.
     pub fn of_block(values: &[f64]) -> Self {
         Isa::best().run(Block(values))
     }
@@ -189,8 +188,7 @@ impl Work for Block<'_> {
 /// Number of independent accumulators, which hide the latency of a sum.
 const LANES: usize = 8;
 
-/// Folds number k of `values` into accumulator k mod [`LANES`], then the accumulators in order: the same bits on any
-/// instruction set.
+/// Folds number k of `values` into accumulator k mod [`LANES`], then the accumulators in order.
 #[inline(always)]
 fn in_lanes<const N: usize>(
     values: &[f64],

@@ -1,9 +1,9 @@
 //! Sample quantiles, and distribution-free confidence intervals for quantiles from independent runs.
 //!
-//! Quantiles are of type 7 of R. J. Hyndman & Y. Fan, *Sample quantiles in statistical packages*, Am. Stat. 50 (1996)
-//! 361, the default of R, NumPy, polars and DuckDB (`quantile_cont`). Intervals are [x_(r), x_(s)], with ranks from the
-//! binomial distribution of the number of values below the quantile (S. S. Wilks, *Order statistics*, Bull. Am. Math.
-//! Soc. 54 (1948) 6); they cover discrete distributions at least as often.
+//! Quantiles are of type 7 of R. J. Hyndman & Y. Fan, *Am. Stat.* 50 (1996) 361, the default of R, NumPy, polars and
+//! DuckDB (`quantile_cont`). Intervals are [x_(r), x_(s)], with ranks from the binomial distribution of the number of
+//! values below the quantile (S. S. Wilks, *Bull. Am. Math. Soc.* 54 (1948) 6); they cover discrete distributions at
+//! least as often.
 
 use super::binomial::{at_least, at_most, lower_rank, upper_rank};
 
@@ -28,7 +28,7 @@ fn quantile_of(count: usize, p: f64, at: impl Fn(usize) -> f64) -> Option<f64> {
 }
 
 /// Values with their order statistics ([`f64::total_cmp`]): the announced ones are found together, a few in a third of
-/// the time of a sort, others in a copy.
+/// the time of a sort.
 #[derive(Clone, Debug)]
 pub struct OrderStatistics {
     /// Partitioned at each of `places`.
@@ -38,7 +38,7 @@ pub struct OrderStatistics {
 }
 
 impl OrderStatistics {
-    /// Announces order statistics at `places`, from zero, in any order; those out of range are ignored.
+    /// Announces order statistics at `places`, from zero; those out of range are ignored.
     pub fn new(mut values: Vec<f64>, places: impl IntoIterator<Item = usize>) -> Self {
         let mut places: Vec<usize> = places.into_iter().filter(|place| *place < values.len()).collect();
         places.sort_unstable();
@@ -52,7 +52,7 @@ impl OrderStatistics {
         &self.values
     }
 
-    /// The order statistic at `place`, from zero, if there are that many values.
+    /// The order statistic at `place`, from zero, if any.
     pub fn at(&self, place: usize) -> Option<f64> {
         if place >= self.values.len() || self.places.binary_search(&place).is_ok() {
             return self.values.get(place).copied();
@@ -82,15 +82,16 @@ pub fn percent(p: f64) -> String {
     // the fewest digits that read back as p, with the point shifted by two places
     let digits = p.to_string();
     let (whole, fraction) = digits.split_once('.').unwrap_or((&digits, ""));
-    let fraction = format!("{fraction:0<2}");
-    let whole = format!("{whole}{}", &fraction[..2]);
-    let whole = whole.trim_start_matches('0');
-    let fraction = fraction[2..].trim_end_matches('0');
-    let whole = if whole.is_empty() { "0" } else { whole };
-    if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
+    let shifted = format!("{whole}{fraction:0<2}");
+    let (whole, fraction) = shifted.split_at(whole.len() + 2);
+    let whole = match whole.trim_start_matches('0') {
+        "" => "0",
+        whole => whole,
+    };
+    format!("{whole}.{fraction}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Ranks, from 1, of the ends of an interval; `None` if the sample is too small for that end.
+/// Ranks, from 1, of the ends of an interval; `None` if the sample is too small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ranks {
     /// Rank r of the lower end.
@@ -114,16 +115,14 @@ pub fn coverage(count: u64, p: f64, ranks: Ranks) -> f64 {
     1.0 - below - above
 }
 
-/// Smallest number of runs whose maximum (p >= 1/2) or minimum is a one-sided bound of the `p`-quantile (Wilks 1941):
-/// 59 for p = 0.95 at 95%.
+/// Smallest number of runs whose maximum (p >= 1/2) or minimum is a one-sided bound of the `p`-quantile (Wilks 1941).
 pub fn runs_for_bound(p: f64, confidence: f64) -> u64 {
     // p^n <= 1 - confidence
-    smallest(libm::log(1.0 - confidence) / libm::log(p.max(1.0 - p)), |n| {
-        libm::pow(p.max(1.0 - p), n as f64) <= 1.0 - confidence
-    })
+    let (p, risk) = (p.max(1.0 - p), 1.0 - confidence);
+    smallest(libm::log(risk) / libm::log(p), |n| libm::pow(p, n as f64) <= risk)
 }
 
-/// Smallest number of runs with an equal-tailed interval for the `p`-quantile: 72 for p = 0.95 at 95%.
+/// Smallest number of runs with an equal-tailed interval for the `p`-quantile.
 pub fn runs_for_interval(p: f64, confidence: f64) -> u64 {
     runs_for_bound(p, 0.5 + 0.5 * confidence)
 }
@@ -141,8 +140,7 @@ fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
 mod tests {
     use super::*;
 
-    /// Law: order statistics at any places, announced or not, are those of a sort, to the bit; the values stay the
-    /// same.
+    /// Law: order statistics at any places, announced or not, are those of a sort, to the bit.
     #[test]
     fn order_statistics_are_those_of_a_sort() {
         let numbers = [0.0, -0.0, 1.5, f64::INFINITY, -3.0, 1e-310, 2.0];

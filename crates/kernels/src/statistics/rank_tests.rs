@@ -4,9 +4,8 @@
 //! - W. H. Kruskal & W. A. Wallis, *J. Am. Stat. Assoc.* 47 (1952) 583: groups.
 //! - C. Spearman, *Am. J. Psychol.* 15 (1904) 72: monotonic dependence of two columns.
 //!
-//! All are two-sided and for independent rows, with the limiting distributions and the variance of the actual ranks,
-//! ties included. For few events the true tails are shorter, so that the tests err less often than stated; fewer than
-//! four events show nothing at 1e-3.
+//! All are two-sided and for independent rows, with the limiting distributions and the variance of the actual ranks.
+//! Few events err less often than stated; fewer than four show nothing at 1e-3.
 
 use super::correlation::{mid_ranks, pearson};
 use crate::math::incomplete_gamma::incomplete_gamma;
@@ -25,7 +24,7 @@ pub(super) fn two_sided(z: f64) -> f64 {
     libm::erfc(z.abs() * core::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Mean of `ranks` and sum of squared deviations.
+/// Mean of `ranks`, sum of squared deviations.
 fn moments(ranks: &[f64]) -> [f64; 2] {
     let mean = ranks.iter().sum::<f64>() / ranks.len() as f64;
     [mean, ranks.iter().map(|rank| (rank - mean) * (rank - mean)).sum()]
@@ -48,8 +47,8 @@ pub fn mann_whitney(ranks: &[f64], marked: &[bool]) -> Option<RankShift> {
     })
 }
 
-/// P-value of Kruskal and Wallis' test. `ranks` are [`mid_ranks`] of the observable, `group` is the group of each row,
-/// from 0 to `groups` - 1, none empty. `None` for fewer than two groups, or equal ranks.
+/// P-value of Kruskal and Wallis' test for the [`mid_ranks`] of the observable and the `group` of each row, from 0 to
+/// `groups` - 1, none empty. `None` for fewer than two groups, or equal ranks.
 pub fn kruskal_wallis(ranks: &[f64], group: &[usize], groups: usize) -> Option<f64> {
     let [mean, squares] = moments(ranks);
     if groups < 2 || squares == 0.0 {

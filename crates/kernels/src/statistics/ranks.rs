@@ -1,4 +1,4 @@
-//! [`Ranks`]: order statistics, read from the buckets of a sketch.
+//! [`Ranks`]: order statistics from the buckets of a sketch.
 
 /// A nonempty bucket.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +46,8 @@ impl Ranks {
         Some([bucket.low, bucket.high])
     }
 
-    /// Middles of the buckets of the two order statistics around the `p`-quantile of type 7, 0 <= p <= 1, and the
-    /// weight of the second, if any.
+    /// Middles of the buckets of the two order statistics around the `p`-quantile of type 7, and the weight of the
+    /// second, if any.
     pub fn neighbours(&self, p: f64) -> Option<([f64; 2], f64)> {
         let last = self.count.checked_sub(1)?;
         let place = last as f64 * p;

@@ -6,8 +6,8 @@
 //! 27.5). With ranks this is the rank regression of R. L. Iman & W. J. Conover, *Technometrics* 21 (1979) 499.
 //!
 //! Intervals come from the [`super::jackknife`] with leave-one-out regressions (R. D. Cook & S. Weisberg, *Residuals
-//! and Influence in Regression*, 1982, (2.2.1)), for any distribution. Since the scales of input and observable are
-//! estimated, coefficients of an exact sum have intervals, too.
+//! and Influence in Regression*, 1982, (2.2.1)). The scales of input and observable are estimated, so that coefficients
+//! of an exact sum have intervals, too.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -79,8 +79,7 @@ impl Regressors {
         self.inputs.len()
     }
 
-    /// Regression of a [`standardised`](super::correlation::standardised) `y`; `None` unless there are at least two
-    /// more rows than inputs.
+    /// Regression of a standardised `y`; `None` unless there are at least two more rows than inputs.
     pub fn regression<'a>(&'a self, y: &'a [f64]) -> Option<Regression<'a>> {
         if y.len() < self.count() + 2 {
             return None;
@@ -128,8 +127,7 @@ impl Regression<'_> {
         correlation(&unit(alone), &unit(&rest), self.of.count() - 1, confidence)
     }
 
-    /// R^2, the share of the variance that the linear terms explain, corrected for the number of inputs (M. Ezekiel
-    /// 1930).
+    /// R^2, the share of the variance that the linear terms explain, corrected for the number of inputs (Ezekiel 1930).
     pub fn r_squared(&self, confidence: f64) -> Estimate {
         let (rows, square) = (self.y.len(), product(&self.rest, &self.rest));
         let freedom = (rows - self.of.count() - 1) as f64;

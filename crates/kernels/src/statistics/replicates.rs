@@ -1,6 +1,6 @@
 //! Intervals from replicates: independent scrambles of a design whose samples depend on each other (Latin hypercubes,
-//! scrambled sequences), each with its own estimate (A. B. Owen, *Scrambled net variance for integrals of smooth
-//! functions*, Ann. Stat. 25 (1997) 1541; M. Stein, *Technometrics* 29 (1987) 143).
+//! scrambled sequences), each with its own estimate (A. B. Owen, *Ann. Stat.* 25 (1997) 1541; M. Stein, *Technometrics*
+//! 29 (1987) 143).
 //!
 //! A mean has the bounds of the mean of the replicates' means ([`super::mean`]), or else those of independent runs,
 //! whose variance such designs do not exceed. A fraction has Student's bounds with a floor of the variance
@@ -9,8 +9,8 @@
 use super::mean::{self, one_sided};
 use super::moments::Moments;
 
-/// Least variance of a replicate's number of runs within a limit. Mostly equal counts would show too little: without
-/// this floor the interval of p05 of 16 scrambles covers 0.83 instead of 0.95.
+/// Least variance of a replicate's number of runs within a limit, as equal counts show too little: without it the
+/// interval of p05 of 16 scrambles covers 0.83 instead of 0.95.
 pub const COUNT_VARIANCE: f64 = 0.5;
 
 /// One-sided bounds of a mean, each at `confidence`, from the `means` of replicates and the moments of all runs.
@@ -46,7 +46,7 @@ pub struct Step {
 }
 
 /// Interval of the `p`-quantile, 0 < p < 1, from steps in ascending order of `value` and the `sizes` of the replicates.
-/// Ends are rounded outward to those of buckets; `None` for an end beyond all values.
+/// Ends are rounded outward to those of buckets; `None` beyond all values.
 pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64) -> [Option<f64>; 2] {
     let replicates = sizes.len() as f64;
     if sizes.len() < 2 || sizes.contains(&0) {
@@ -124,20 +124,12 @@ mod tests {
     #[test]
     fn a_quantile_interval_inverts_that_of_fractions() {
         let replicates: Vec<Vec<f64>> = (0..8)
-            .map(|r| {
-                let mut values: Vec<f64> =
-                    (0..50).map(|k| libm::fmod(0.618_034 * f64::from(k) + 0.37 * f64::from(r * r), 1.0)).collect();
-                values.sort_by(f64::total_cmp);
-                values
-            })
+            .map(|r| (0..50).map(|k| libm::fmod(0.618_034 * f64::from(k) + 0.37 * f64::from(r * r), 1.0)).collect())
             .collect();
-        let mut steps: Vec<Step> = replicates
-            .iter()
-            .enumerate()
-            .flat_map(|(replicate, values)| {
-                values.iter().map(move |value| Step { value: *value, lower: *value, replicate, count: 1 })
-            })
-            .collect();
+        let of = |(replicate, values): (usize, &Vec<f64>)| {
+            values.clone().into_iter().map(move |value| Step { value, lower: value, replicate, count: 1 })
+        };
+        let mut steps: Vec<Step> = replicates.iter().enumerate().flat_map(of).collect();
         steps.sort_by(|a, b| a.value.total_cmp(&b.value));
         for p in [0.1, 0.5, 0.9] {
             let [lower, upper] = quantile_interval(&steps, &[50; 8], p, 0.95).map(|end| end.expect("an end"));

@@ -4,9 +4,9 @@
 //! - Saltelli designs: first-order index by A. Saltelli et al., *Comput. Phys. Commun.* 181 (2010) 259, table 2 (b), of
 //!   centred values; total index by M. J. W. Jansen, *ibid.* 117 (1999) 35.
 //! - Plain samples: 1 minus the residual variance of lines fitted in cells of neighbouring inputs (the correlation
-//!   ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as in E. Plischke, E.
-//!   Borgonovo & C. L. Smith, *Eur. J. Oper. Res.* 226 (2013) 536). Rejected: ranks (F. Gamboa et al., *Bernoulli* 28
-//!   (2022) 2345), whose bias for x^3 + y and 100 runs is 0.13, with a coverage of 0.15.
+//!   ratio of K. Pearson, *Drapers' Co. Res. Mem.* 2 (1905), with lines in place of means; cells as in E. Plischke et
+//!   al., *Eur. J. Oper. Res.* 226 (2013) 536). Rejected: ranks (F. Gamboa et al., *Bernoulli* 28 (2022) 2345), whose
+//!   bias for x^3 + y and 100 runs is 0.13, with a coverage of 0.15.
 //!
 //! Intervals come from the [`jackknife`](super::jackknife) for independent blocks or rows; for sequences see
 //! [`Samples`]. For plain samples they also allow for features that the rows do not show: `UNSEEN` more extreme rows,
@@ -19,7 +19,7 @@ use super::mean::one_sided;
 use super::moments::Moments;
 
 /// Share of the variance of `y` explained by a line in `x`, or by a parabola if its bend is significant; zero if one of
-/// these zero-mean columns does not vary. It ranks inputs, but is no first-order index.
+/// these zero-mean columns does not vary. No first-order index, but it ranks inputs.
 pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -65,14 +65,14 @@ pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 
     Some([of_whole(ratio(&first, &variance, confidence)?), of_whole(ratio(&total, &variance, confidence)?)])
 }
 
-/// Joint distribution of the samples in the space of the inputs.
+/// Joint distribution of the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Samples {
     /// Independent, or stratified in each input separately (Latin hypercube).
     Independent,
-    /// Even in several inputs together (Sobol and Halton sequences). The other inputs are then even within a cell, too,
-    /// and its line has less noise than with independent rows, or none: the estimate is the middle of the indices with
-    /// and without correction for that noise, the interval spans both.
+    /// Even in several inputs together (Sobol and Halton sequences). A cell is then even in the other inputs, too, and
+    /// its line has less noise than with independent rows, or none: the estimate is the middle of the indices with and
+    /// without correction for that noise, the interval spans both.
     Even,
 }
 
@@ -137,20 +137,20 @@ pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples
     Some(Estimate { value, lower: lower.max(0.0).min(value), upper: upper.min(1.0).max(value) })
 }
 
-/// Parts of the risk 1 - confidence taken by the lower and the upper end. Reported inputs are mostly strong ones, whose
-/// lower ends miss more often. Measured (`drivers_of_structures`): at most 5% in all.
+/// Parts of the risk 1 - confidence of the lower and the upper end: lower ends of strong inputs miss more often.
+/// Measured (`drivers_of_structures`): at most 5% in all.
 const RISKS: [f64; 2] = [0.1, 0.6];
 /// Unseen rows as far from the mean as the farthest: of 4.7 expected rows at most one occurs in 5% of all cases. The
-/// lower end takes them as unexplained by the input, the upper one as explained.
+/// lower end takes them as unexplained, the upper one as explained.
 const UNSEEN: f64 = 3.0;
 /// Residual share below which the residual may be due to curves and jumps alone.
 const ALMOST_ALL: f64 = 0.06;
 /// Kurtosis (normal 3, Laplace 6) above which unseen rows may decide. Tails of the input or observable may raise the
-/// share to 1; tails of the residual may lower it to 0, unless the observable has two values. With more than
-/// [`MIN_ROWS`] rows the limit rises with the fourth root of their number, as more of the tails is seen.
+/// share to 1; tails of the residual may lower it to 0, unless the observable has two values. The limit rises with the
+/// fourth root of the number of rows over [`MIN_ROWS`].
 const MOST_KURTOSIS: f64 = 4.5;
 
-/// Skewness above which unseen rows may decide, for one-sided tails without far rows. It rises in the same way.
+/// Skewness above which unseen rows may decide; rises in the same way.
 const MOST_SKEWNESS: f64 = 0.6;
 
 /// True if unseen rows may decide the variance of `column`: its kurtosis or skewness exceeds these multiples of the
@@ -171,8 +171,8 @@ pub const MIN_ROWS: usize = 64;
 /// Rows of the two outermost cells, where the input has its tails and the observable is steep.
 const FEWEST: usize = 5;
 /// End of the cell that begins at `start`; equal values share a cell. Cells grow by half from both ends up to the root
-/// of the number of rows: smaller ones have more noise, larger ones more curvature (of 1,000 rows, 20 to 45 are equally
-/// good).
+/// of the number of rows (of 1,000 rows, 20 to 45 are equally good): smaller ones have more noise, larger ones more
+/// curvature.
 fn cell_end(order: &[usize], x: &[f64], start: usize) -> usize {
     let (rows, rest) = (order.len(), order.len() - start);
     let largest = libm::sqrt(rows as f64) as usize;
@@ -228,8 +228,8 @@ impl Rest {
         Rest { values, correction: n / (n - if varies { 2.0 } else { 1.0 }), varies }
     }
 
-    /// Lower bound of the noise, a sum of squares: half the squared differences of neighbours, which are small on a
-    /// smooth curve, or all squares times `factor` if less.
+    /// Lower bound of the noise, a sum of squares: half the squared differences of neighbours, small on a smooth curve,
+    /// or all squares times `factor` if less.
     fn noise(&self, factor: f64) -> f64 {
         let all = factor * self.values.iter().map(|value| value * value).sum::<f64>();
         if !self.varies {

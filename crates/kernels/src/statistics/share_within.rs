@@ -4,10 +4,10 @@
 //! intraclass correlation): the variance within pairs, the mean of (a - b)^2/2, over the variance about the mean of
 //! all, with the interval of [`super::jackknife`].
 //!
-//! The jackknife ignores unseen events, so yes-or-no values have another interval. Let r be the share of pairs with two
-//! events among pairs with any, and m the share of the latter among all; both have Clopper-Pearson intervals. The share
-//! within is (1 - r)/(1 + r)/(1 - p), p = m (1 + r)/2, and its ends combine the distances of those of r and m as root
-//! sum of squares (G. Y. Zou & A. Donner, *Stat. Med.* 27 (2008) 1693).
+//! Unseen events ask for another interval of yes-or-no values. Let r be the share of pairs with two events among pairs
+//! with any, and m the share of the latter among all; both have Clopper-Pearson intervals. The share within is (1 -
+//! r)/(1 + r)/(1 - p), p = m (1 + r)/2, and its ends combine the distances of those of r and m as root sum of squares
+//! (G. Y. Zou & A. Donner, *Stat. Med.* 27 (2008) 1693).
 
 use super::binomial;
 use super::jackknife::{Estimate, explained_share};
@@ -22,8 +22,8 @@ pub fn others(pairs: &[[f64; 2]]) -> usize {
     values.len() - values.chunk_by(|a, b| a == b).map(<[f64]>::len).max().unwrap_or(0)
 }
 
-/// Share of the variance within `pairs`, with its interval; `None` if all values are equal, or if some, but fewer than
-/// [`FEWEST_OTHERS`], differ.
+/// Share of the variance within `pairs`; `None` if all values are equal, or if some, but fewer than [`FEWEST_OTHERS`],
+/// differ.
 pub fn share_within(pairs: &[[f64; 2]], confidence: f64) -> Option<Estimate> {
     let count = pairs.len();
     let mean = pairs.iter().flatten().sum::<f64>() / (2 * count) as f64;

@@ -1,12 +1,11 @@
 //! [`Sketch`]: a mergeable histogram from which order statistics of any number of samples are read.
 //!
 //! A bucket holds the numbers that share sign, exponent and the leading [`MANTISSA_BITS`] bits of the mantissa (after
-//! HdrHistogram, G. Tene 2012, and DDSketch, Masson, Rim & Lee 2019). It is at most 2^-10 of its value wide, so its
-//! middle is within 0.05% of any quantile in it. Merging adds counts, whatever the order, threads or parts.
+//! HdrHistogram, G. Tene 2012, and DDSketch, Masson, Rim & Lee 2019). Its middle is within 0.05% of any quantile in it.
+//! Merging adds counts, whatever the order, threads or parts.
 //!
-//! A sketch about a reference ([`Sketch::about`]) resolves a small spread about a large number: numbers nearer to the
-//! reference than to zero are counted by their deviation, and quantiles are within 0.05% of the magnitude and of the
-//! deviation. Magnitudes below 2^-1022 count as zero.
+//! A sketch about a reference ([`Sketch::about`]) counts numbers nearer to the reference than to zero by their
+//! deviation; quantiles are within 0.05% of the magnitude and of the deviation. Magnitudes below 2^-1022 count as zero.
 
 use fearless_simd::Simd;
 
@@ -71,7 +70,7 @@ impl Places {
         Places { reference, sign, half: 0.5 * reference.abs() }
     }
 
-    /// Key of `value`. Keys ascend with numbers: numbers by themselves come before deviations from a positive
+    /// Key of `value`; keys ascend with numbers. Numbers by themselves come before deviations from a positive
     /// reference, and after those from a negative one. Branch-free, so that loops vectorise.
     #[inline(always)]
     fn of(self, value: f64) -> u32 {
@@ -308,8 +307,8 @@ mod tests {
         if bits & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// Law: bounds of a rank enclose the order statistic, counts at a limit enclose the true count, quantiles are
-    /// within the relative error of their neighbours, extremes are exact.
+    /// Law: bounds enclose order statistics and counts at a limit, quantiles are within the relative error of their
+    /// neighbours, extremes are exact.
     #[test]
     fn ranks_are_bounded() {
         let mut values: Vec<f64> = (0..20_000).map(spread).collect();

@@ -1,6 +1,6 @@
 //! Two-sided tests of differences between two campaigns, for independent runs or pairs.
 //!
-//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28, for unequal variances; Student's t of paired differences.
+//! - Means: B. L. Welch, *Biometrika* 34 (1947) 28; Student's t of paired differences.
 //! - Distributions: Kolmogorov and Smirnov's largest difference of the empirical distribution functions, with the
 //!   limiting tail corrected by M. A. Stephens, *J. Roy. Stat. Soc. B* 32 (1970) 115.
 //! - Pairs: Q. McNemar's exact test (*Psychometrika* 12 (1947) 153) at several limits; F. Wilcoxon's signed ranks
@@ -28,9 +28,6 @@ pub fn welch(first: &Moments, second: &Moments, confidence: f64) -> Option<Diffe
     let (a, b) = (first.mean_error()?, second.mean_error()?);
     let (a, b) = (a * a, b * b);
     let error = libm::sqrt(a + b);
-    if error == 0.0 {
-        return Some(certain(shift));
-    }
     let degrees = (a + b) * (a + b) / (a * a / (first.count() - 1) as f64 + b * b / (second.count() - 1) as f64);
     Some(difference(shift, error, degrees, confidence))
 }
@@ -38,18 +35,15 @@ pub fn welch(first: &Moments, second: &Moments, confidence: f64) -> Option<Diffe
 /// Student's test of the mean of paired differences, second minus first; `None` for fewer than two.
 pub fn paired(differences: &Moments, confidence: f64) -> Option<Difference> {
     let (shift, error) = (differences.mean()?, differences.mean_error()?);
-    if error == 0.0 {
-        return Some(certain(shift));
-    }
     Some(difference(shift, error, (differences.count() - 1) as f64, confidence))
 }
 
-fn certain(shift: f64) -> Difference {
-    let p_value = if shift == 0.0 { 1.0 } else { 0.0 };
-    Difference { shift: Estimate { value: shift, lower: shift, upper: shift }, p_value }
-}
-
+/// Student's test of `shift` with its standard error; certain without error.
 fn difference(shift: f64, error: f64, degrees: f64, confidence: f64) -> Difference {
+    if error == 0.0 {
+        let p_value = if shift == 0.0 { 1.0 } else { 0.0 };
+        return Difference { shift: Estimate { value: shift, lower: shift, upper: shift }, p_value };
+    }
     let half = two_sided_quantile(confidence, degrees) * error;
     let shift = Estimate { value: shift, lower: shift - half, upper: shift + half };
     Difference { shift, p_value: two_sided_tail(shift.value.abs() / error, degrees) }
@@ -104,8 +98,8 @@ pub fn signed_ranks(differences: &[f64]) -> Option<f64> {
 /// P-value of the test of equal spread in both places of `pairs`, without NaN; `None` if no pair differs.
 ///
 /// If the numbers of a pair are exchangeable, the sign of their difference is a fair coin, given its magnitude and
-/// their sum. If the second numbers spread more, differences are positive for large sums and negative for small ones:
-/// each sign is weighted by the rank of the magnitude times the centred rank of the sum.
+/// their sum. Each sign is weighted by the rank of the magnitude times the centred rank of the sum, since differences
+/// are positive for large sums if the second numbers spread more.
 pub fn spread_of_pairs(pairs: &[[f64; 2]]) -> Option<f64> {
     let differing: Vec<[f64; 2]> = pairs.iter().copied().filter(|[first, second]| first != second).collect();
     if differing.is_empty() {
@@ -135,9 +129,8 @@ const LIMITS: usize = 15;
 /// P-value of the test of equal distributions in both places of `pairs`, without NaN; `None` without pairs.
 ///
 /// If both distributions are equal, a pair that crosses a limit goes up or down with probability one half, for any
-/// dependence within pairs. Unlike signed ranks, this test needs no symmetric differences: a phase that advances a
-/// little and is wrapped to one period keeps its distribution. The result is the smallest p-value over the limits times
-/// their number (Bonferroni).
+/// dependence within pairs, symmetric or not (a phase that advances a little and is wrapped to one period). The result
+/// is the smallest p-value over the limits times their number (Bonferroni).
 pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     let mut all: Vec<f64> = pairs.iter().flatten().copied().collect();
     all.sort_unstable_by(f64::total_cmp);
@@ -160,8 +153,8 @@ pub fn mcnemar(alone: [u64; 2]) -> f64 {
     (2.0 * at_most(alone[0].min(alone[1]), alone[0] + alone[1], 0.5)).min(1.0)
 }
 
-/// P-values adjusted for their number (Holm 1979): true hypotheses yield any adjusted value of alpha or less with at
-/// most the probability alpha.
+/// P-values adjusted for their number (Holm 1979): true hypotheses yield any of alpha or less with at most the
+/// probability alpha.
 pub fn holm(p_values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|a, b| p_values[*a].total_cmp(&p_values[*b]));
@@ -239,7 +232,6 @@ mod tests {
 
     /// Known: of a hundred pairs (k, k + 10) ten cross each limit upward and none downward: p is 15 times 2/2^10 =
     /// 15/512; pairs (k, k + 10 modulo 100) cross both ways equally, although nine in ten differences are positive.
-    /// Equal numbers do not differ; without pairs there is no test.
     #[test]
     fn pairs_go_through_limits_up_and_down() {
         let pairs = |wrap: f64| -> Vec<[f64; 2]> {
