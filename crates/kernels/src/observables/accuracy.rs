@@ -1,4 +1,4 @@
-//! [`Accuracy`]: limits of error beyond which a completed run is of no use.
+//! [`Accuracy`]: limits of error of a completed run.
 
 use super::group::Group;
 use super::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
@@ -9,10 +9,10 @@ use super::table::{ColumnId, Series, error_id};
 /// Estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) from which a
 /// run is `inaccurate`.
 pub const INACCURATE_STATE: f64 = 0.1;
-/// Relative error of a balance (energy, linear or angular momentum) from which a run is `inaccurate`.
+/// Relative error of a balance (energy, momentum) from which a run is `inaccurate`.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
 
-/// Relative errors of the balances, whose maximum is the conservation error of a run.
+/// Relative errors of the balances; their maximum is the conservation error of a run.
 pub const BALANCES: [ColumnId; 5] = [
     error_id(Group::EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
     error_id(Group::MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),

@@ -6,7 +6,7 @@ use crate::math::prelude::*;
 use crate::scene::{Arc, Scene};
 
 #[derive(Clone, Copy)]
-pub(super) struct Acting<'a> {
+pub struct Acting<'a> {
     scene: &'a Scene,
     arcs: Arcs<'a>,
 }
@@ -20,14 +20,14 @@ enum Arcs<'a> {
 }
 
 /// Dipoles of torque rods over time.
-pub(super) struct Rods<I> {
+pub struct Rods<I> {
     later: I,
     last: Option<Arc>,
 }
 
 impl<I: Iterator<Item = Arc>> Rods<I> {
     /// Dipole at `time` in F_s, A m^2, before a switch at that time; times must not decrease.
-    pub(super) fn dipole(&mut self, time: f64) -> [f64; 3] {
+    pub fn dipole(&mut self, time: f64) -> [f64; 3] {
         while self.last.is_none_or(|arc| arc.end() < time)
             && let Some(next) = self.later.next()
         {
@@ -38,28 +38,28 @@ impl<I: Iterator<Item = Arc>> Rods<I> {
 }
 
 impl<'a> Acting<'a> {
-    pub(super) fn scheduled(scene: &'a Scene) -> Self {
+    pub fn scheduled(scene: &'a Scene) -> Self {
         Acting { scene, arcs: Arcs::Scheduled(&scene.schedule) }
     }
 
-    pub(super) fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
+    pub fn flown(scene: &'a Scene, arcs: &'a ArcRecord) -> Self {
         Acting { scene, arcs: Arcs::Flown(arcs) }
     }
 
     /// Dipoles of torque rods, if a law drives any.
-    pub(super) fn rods(&self) -> Option<Rods<impl Iterator<Item = Arc> + use<'a>>> {
+    pub fn rods(&self) -> Option<Rods<impl Iterator<Item = Arc> + use<'a>>> {
         match self.arcs {
             Arcs::Flown(arcs) if !self.scene.torque_rods.is_empty() => Some(Rods { later: arcs.iter(), last: None }),
             _ => None,
         }
     }
 
-    pub(super) fn scene(&self) -> &'a Scene {
+    pub fn scene(&self) -> &'a Scene {
         self.scene
     }
 
     /// Time at which a law ended the run, s.
-    pub(super) fn end(&self) -> Option<f64> {
+    pub fn end(&self) -> Option<f64> {
         let last = match self.arcs {
             Arcs::Scheduled(arcs) => arcs.last(),
             Arcs::Flown(arcs) => arcs.last(),
@@ -68,7 +68,7 @@ impl<'a> Acting<'a> {
     }
 
     /// True if nothing acts in the first `duration` seconds.
-    pub(super) fn is_free(&self, duration: f64) -> bool {
+    pub fn is_free(&self, duration: f64) -> bool {
         match self.arcs {
             Arcs::Scheduled(arcs) => !self.scene.environment.acts() && arcs.iter().all(|arc| arc.start >= duration),
             Arcs::Flown(arcs) => arcs.is_empty() || duration <= 0.0,
@@ -76,7 +76,7 @@ impl<'a> Acting<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn acts(&self, time: f64) -> bool {
+    pub fn acts(&self, time: f64) -> bool {
         match self.arcs {
             Arcs::Scheduled(arcs) => {
                 self.scene.environment.acts() || arcs.iter().any(|arc| arc.start <= time && time <= arc.end())
@@ -87,7 +87,7 @@ impl<'a> Acting<'a> {
 
     /// Upper bound of the torque on the body, N m.
     #[inline(always)]
-    pub(super) fn largest_torque(&self) -> f64 {
+    pub fn largest_torque(&self) -> f64 {
         let changing = largest_changing_torque(self.scene);
         match self.arcs {
             Arcs::Scheduled(arcs) => {

@@ -6,10 +6,9 @@ use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{StateField, StateTable};
 
-/// Source of C_es: the DCM if integrated, else the quaternion in homogeneous form, so that an error of its norm shows
-/// in every rotated vector.
+/// Source of C_es: the DCM if integrated, else the quaternion in homogeneous form, so that an error of its norm shows.
 #[derive(Clone, Copy)]
-pub(super) enum Attitude<'a> {
+pub enum Attitude<'a> {
     Dcm([Column<'a>; 9]),
     Quaternion([Column<'a>; 4]),
     None,
@@ -17,7 +16,7 @@ pub(super) enum Attitude<'a> {
 
 impl<'a> Attitude<'a> {
     #[inline(always)]
-    pub(super) fn of(table: &'a StateTable, vectors: usize) -> Self {
+    pub fn of(table: &'a StateTable, vectors: usize) -> Self {
         if let Some(dcm) = columns(table, StateField::Dcm, vectors) {
             Attitude::Dcm(dcm)
         } else if let Some(quaternion) = columns(table, StateField::Attitude, vectors) {
@@ -28,12 +27,10 @@ impl<'a> Attitude<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn c_es<S: Simd>(self, simd: S, at: usize) -> [[Lanes<S>; 3]; 3] {
+    pub fn c_es<S: Simd>(self, simd: S, at: usize) -> [[Lanes<S>; 3]; 3] {
         match self {
-            Attitude::Dcm([a, b, c, d, e, f, g, h, i]) => {
-                let x = three(simd, [a, b, c], at);
-                let y = three(simd, [d, e, f], at);
-                let z = three(simd, [g, h, i], at);
+            Attitude::Dcm(columns) => {
+                let [x, y, z] = axes(simd, columns, at);
                 [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
             }
             Attitude::Quaternion(columns) => dcm_from_quaternion(four(simd, columns, at)),
@@ -46,10 +43,8 @@ impl<'a> Attitude<'a> {
     fn orthonormality<S: Simd>(self, simd: S, at: usize) -> Lanes<S> {
         let one = Lanes::broadcast(simd, 1.0);
         match self {
-            Attitude::Dcm([a, b, c, d, e, f, g, h, i]) => {
-                let x = three(simd, [a, b, c], at);
-                let y = three(simd, [d, e, f], at);
-                let z = three(simd, [g, h, i], at);
+            Attitude::Dcm(columns) => {
+                let [x, y, z] = axes(simd, columns, at);
                 let on = unit_error(x, one).larger(unit_error(y, one)).larger(unit_error(z, one));
                 on.larger(dot(x, y).abs()).larger(dot(x, z).abs().larger(dot(y, z).abs()))
             }
@@ -63,13 +58,19 @@ impl<'a> Attitude<'a> {
     }
 }
 
+/// Columns of a DCM, stored one after another.
+#[inline(always)]
+fn axes<S: Simd>(simd: S, [a, b, c, d, e, f, g, h, i]: [Column<'_>; 9], at: usize) -> [[Lanes<S>; 3]; 3] {
+    [three(simd, [a, b, c], at), three(simd, [d, e, f], at), three(simd, [g, h, i], at)]
+}
+
 #[inline(always)]
 fn unit_error<R: Real>(a: [R; 3], one: R) -> R {
     (dot(a, a) - one).abs()
 }
 
 #[inline(always)]
-pub(super) fn attitude_series<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn attitude_series<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let vectors = run.vectors();
     let attitude = Attitude::of(run.table, vectors);
     if run.observed.has(Series::Orthonormality) {

@@ -1,7 +1,7 @@
 //! [`BandReader`]: values of a run at the points of its bands, and buckets of their deviations from the nominal run.
 //!
-//! Branch-free loops over flat arrays handle the hundreds of values per run, compiled for each instruction set
-//! ([`crate::math::isa::Work`]) with the same buckets on all. Buckets are counted in `ensemble`.
+//! Branch-free loops over flat arrays, with the same buckets on all instruction sets ([`crate::math::isa::Work`]).
+//! Buckets are counted in `ensemble`.
 
 use fearless_simd::Simd;
 
@@ -37,7 +37,7 @@ pub struct BandColumns<'a> {
 }
 
 impl BandReader {
-    /// Reads `sources` at `points`, ascending; the reference is zero until [`BandReader::compare_with`].
+    /// Reads `sources` at `points`, ascending.
     pub fn new(sources: Vec<BandSeries>, points: Vec<usize>) -> Self {
         let columns = sources.len() * points.len();
         BandReader {
@@ -64,7 +64,7 @@ impl BandReader {
         self.reference.len()
     }
 
-    /// Sets the reference of deviations to kept numbers, with zero for NaN.
+    /// Sets the reference of deviations, with zero for NaN; zero until then.
     pub fn compare_with(&mut self, nominal: &[f64]) {
         for (reference, nominal) in self.reference.iter_mut().zip(nominal) {
             *reference = if nominal.is_nan() { 0.0 } else { *nominal };

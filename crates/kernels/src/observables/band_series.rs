@@ -1,5 +1,5 @@
-//! [`BandSeries`]: quantities over time whose quantiles over a campaign form bands: series of the table of observables,
-//! and changes of series since the start. Only |omega| needs a computation beyond the observed columns.
+//! [`BandSeries`]: quantities over time whose quantiles over a campaign form bands. Only |omega| needs a computation
+//! beyond the observed columns.
 
 use super::group::Group;
 use super::law_columns::LawSeries;
@@ -9,7 +9,7 @@ use super::table::{CHANGES, Column, Series};
 use super::window::Window;
 use crate::run::{Quantity, StateField, StateTable};
 
-/// Kept form of a quantity, cheap at every point of every run.
+/// Kept form of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The quantity itself.
@@ -60,20 +60,22 @@ pub struct BandSeries {
 /// The series that has bands even if no column needs it:
 const OWN: Series = Series::RateSquare;
 
-/// Quantities with bands in runs of `request`: conservation errors, energy of each body, energy transfer, angles,
-/// |omega|, wheel speeds, records of a control loop, orbit and surroundings.
+/// Quantities with bands in runs of `request`.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
-    let errors = [Series::EnergyError, Series::LinearMomentumError, Series::AngularMomentumError];
-    let energies = [Series::EnergyBody, Series::EnergyWheel];
-    let motion = [
+    let values = [
+        Series::EnergyError,
+        Series::LinearMomentumError,
+        Series::AngularMomentumError,
+        Series::EnergyBody,
+        Series::EnergyWheel,
+    ];
+    let others = [
         Series::SpinAxisAngle,
         Series::FromNominal,
         Series::Nutation,
         Series::DebrisDirection,
         Series::RateSquare,
         Series::WheelSpeed,
-    ];
-    let of_loops = [
         Series::PointingError,
         Series::AttitudeEstimateError,
         Series::RateEstimateError,
@@ -83,18 +85,20 @@ pub fn band_series(request: &Request) -> Vec<BandSeries> {
         Series::DebrisSpeed,
         Series::Impulse,
         Series::MotorTorque,
+        Series::OrbitDistance,
+        Series::NadirAngle,
+        Series::FieldStrength,
+        Series::AirDensity,
+        Series::SunHidden,
     ];
-    let around =
-        [Series::OrbitDistance, Series::NadirAngle, Series::FieldStrength, Series::AirDensity, Series::SunHidden];
-    let of_values = errors.into_iter().chain(energies).map(|series| (series, false));
-    let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
-    let others = motion.into_iter().chain(of_loops).chain(around).map(|series| (series, false));
-    let kinds = of_values.chain(of_changes).chain(others);
+    let changes = CHANGES.iter().map(|(series, ..)| (*series, true));
+    let kinds = values.map(|series| (series, false)).into_iter().chain(changes);
+    let kinds = kinds.chain(others.map(|series| (series, false)));
     kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
 }
 
-/// Quantities for events in runs of `request`: all observed ones except errors relative to the largest value of a run,
-/// which depend on the observation points.
+/// Quantities for events in runs of `request`: all observed ones except relative errors, whose scale depends on the
+/// observation points.
 pub fn event_series(request: &Request) -> Vec<BandSeries> {
     let of_values = Series::all().filter(|series| series.wheel().is_none_or(|wheel| wheel == 0));
     let of_changes = CHANGES.iter().map(|(series, ..)| (*series, true));
@@ -115,7 +119,7 @@ impl BandSeries {
         self.series == Series::FromNominal
     }
 
-    /// Largest or smallest value in runs of `request` over a closed interval of time, s.
+    /// Largest or smallest value over a closed interval of time, s.
     pub fn window(&self, request: &Request, is_highest: bool, [from_s, to_s]: [Option<f64>; 2]) -> Window {
         let shows = |column: &Column| column.value.of(self.series);
         let otherwise = if LawSeries::place(self.series).is_some() { Group::Control } else { Group::Motion };
@@ -124,7 +128,7 @@ impl BandSeries {
     }
 }
 
-/// Bands of `series`, or of its change since the start, for each wheel if there is one per wheel, if observed.
+/// Bands of `series`, or of its change since the start, for each wheel, if observed.
 fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeries> {
     let places = if series.wheel().is_some() { request.wheels.len() } else { 1 };
     let observed = request.series();
@@ -143,7 +147,7 @@ fn of_series(request: &Request, series: Series, is_change: bool) -> Vec<BandSeri
     (0..places).filter_map(of_place).collect()
 }
 
-/// Kept numbers of |omega|, rad/s, at `points`, from the states.
+/// Kept numbers of |omega|, rad/s, from the states.
 #[inline(always)]
 pub(super) fn keep_own(table: &StateTable, points: &[usize], out: &mut [f64]) {
     let [x, y, z] = [0, 1, 2].map(|component| table.column(StateField::Rate, component));
@@ -154,7 +158,7 @@ pub(super) fn keep_own(table: &StateTable, points: &[usize], out: &mut [f64]) {
     out.iter_mut().for_each(|out| *out = out.sqrt());
 }
 
-/// Kept numbers at `points` of a stored `column`; relative errors are divided by `scale`.
+/// Kept numbers of a stored `column`; relative errors are divided by `scale`.
 #[inline(always)]
 pub(super) fn keep(band: &BandSeries, column: &[f64], scale: f64, points: &[usize], out: &mut [f64]) {
     for (out, point) in out.iter_mut().zip(points) {

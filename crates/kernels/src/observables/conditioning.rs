@@ -1,22 +1,22 @@
 //! [`Conditioning`]: estimated error of a run, and amplification of small errors of its rotational state.
 //!
-//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys
-//! eta' = eta x omega + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the
-//! energy T; Zhukovskii's gyrostat is integrable: V. Volterra, Acta Math. 22, 1899), which gives the error across the
-//! curve of H at any time; only the shift along the curve is integrated. With w, the part of omega across H, and
-//! v = H x w, eta = X H/|H| + Y w/|w| + Z v/|v|:
+//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys eta' = eta x omega
+//! + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the energy T;
+//! Zhukovskii's gyrostat: V. Volterra, Acta Math. 22, 1899), which gives the error across the curve of H at any time;
+//! only the shift along the curve is integrated. With w, the part of omega across H, and v = H x w, eta = X H/|H| + Y
+//! w/|w| + Z v/|v|:
 //!
 //! ```text
 //! X constant;   |w_i| Y_i = |w_k| Y_k + (mu_k - mu_i) |H| X,   mu = omega . H/|H|^2;   Z = alpha |H| |w|,
 //! alpha' = X A_wH/|w| + Y (A_ww - A_vv)/|w|      (alpha: the shift in time, s)
 //! ```
 //!
-//! Near an unstable equilibrium (a separatrix) |w| stays small for long, and the shift grows like 1/|w|^2. The error
-//! of the attitude across L follows from eta, since L is constant in F_e. The error about L is the integral of H . A
+//! Near an unstable equilibrium (a separatrix) |w| stays small for long, and the shift grows like 1/|w|^2. The error of
+//! the attitude across L follows from eta, since L is constant in F_e. The error about L is the integral of H . A
 //! eta/|H|, with the part of alpha, a derivative, integrated by parts. [`super::error_sums`] has the sums, over:
 //! - truncation of any method: changes of |H|^2 and of T - mu_0 |H|^2/2 (which is |w| Y) since point 0 beyond rounding.
-//!   mu_0 is mu at minimal |w|, so that near a separatrix the second invariant is the distance from it;
-//! - rounding of each component, which the states do not show;
+//!   mu_0 is mu at minimal |w|: near a separatrix this invariant is the distance from it;
+//! - rounding of each component;
 //! - with feedback of other states into omega, and near a separatrix: errors along the curve, and errors too small to
 //!   show in the invariants;
 //! - rounding of the wheels' momentum, which turns omega about it;
@@ -24,9 +24,9 @@
 //!   the torque causes within a radian of rotation.
 //!
 //! If H is small (at rest, or with cancelling wheel momenta), no curve is well conditioned, but errors hardly grow:
-//! |eta| grows by the symmetric part of H x A, at most |H| s with the distance s of A from a multiple of one. So |eta|
-//! is at most e^(integral of |H| s) times the sum of all errors, and the attitude's error |A| times its integral. The
-//! estimate is the smaller of both. Rounded quantities are K omega and, in H x omega, the wheels' momenta, sum |h_i|.
+//! |eta| grows by the symmetric part of H x A, at most |H| s with the distance s of A from a multiple of one. |eta| is
+//! at most e^(integral of |H| s) times the sum of all errors, the attitude's error |A| times its integral. The estimate
+//! is the smaller of both.
 //!
 //! Magnitudes are added; errors are assumed to arise evenly along the run. The method's own estimates are
 //! [`crate::run::Outcome::local_errors`].
@@ -42,10 +42,10 @@ use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 
-/// Most points examined first, which mostly show an approach to a separatrix.
+/// Most points examined first.
 const POINTS: usize = 32;
 
-/// Most points examined near a separatrix, where |w| varies by orders of magnitude between points.
+/// Most points examined near a separatrix, where |w| varies by orders of magnitude.
 const MOST_POINTS: usize = 128;
 
 /// Smallest over largest |w| below which a motion is near a separatrix.
@@ -74,30 +74,30 @@ const HALF_ROUNDING: f64 = 0.5 * f64::EPSILON;
 const TURNED: f64 = 4.0;
 
 #[derive(Clone, Copy)]
-pub(super) struct ObservedStates<'a> {
-    pub(super) table: &'a StateTable,
-    pub(super) times: &'a [f64],
-    pub(super) filled: usize,
-    pub(super) local: &'a LocalErrors,
+pub struct ObservedStates<'a> {
+    pub table: &'a StateTable,
+    pub times: &'a [f64],
+    pub filled: usize,
+    pub local: &'a LocalErrors,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ErrorEstimate {
+pub struct ErrorEstimate {
     /// Estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
-    pub(super) error: f64,
+    pub error: f64,
     /// Largest growth factor, from one to 1e200, of relative errors of omega that arise evenly along the run and in
     /// every direction.
-    pub(super) amplification: f64,
+    pub amplification: f64,
 }
 
 impl ErrorEstimate {
     /// For a run that was not observed.
-    pub(super) const UNKNOWN: ErrorEstimate = ErrorEstimate { error: f64::NAN, amplification: f64::NAN };
+    pub const UNKNOWN: ErrorEstimate = ErrorEstimate { error: f64::NAN, amplification: f64::NAN };
 }
 
 /// Operands of the sums at each examined point.
 #[derive(Clone, Debug)]
-pub(super) struct Conditioning {
+pub struct Conditioning {
     times: [f64; MOST_POINTS],
     scale: f64,
     /// |H|, N m s.
@@ -127,7 +127,7 @@ pub(super) struct Conditioning {
 }
 
 impl Conditioning {
-    pub(super) fn new() -> Self {
+    pub fn new() -> Self {
         let zero = [0.0; MOST_POINTS];
         Conditioning {
             times: zero,
@@ -148,12 +148,7 @@ impl Conditioning {
     }
 
     #[inline(always)]
-    pub(super) fn estimate<S: Simd>(
-        &mut self,
-        simd: S,
-        acting: Acting<'_>,
-        states: ObservedStates<'_>,
-    ) -> ErrorEstimate {
+    pub fn estimate<S: Simd>(&mut self, simd: S, acting: Acting<'_>, states: ObservedStates<'_>) -> ErrorEstimate {
         let ObservedStates { table, times, filled, local } = states;
         let body = Body::of(acting, table, times[filled - 1]);
         let Some(growth) = torque_growth::growth(acting.scene(), table, times, filled) else {
@@ -173,7 +168,7 @@ impl Conditioning {
     }
 
     #[inline(always)]
-    pub(super) fn estimate_debris<S: Simd>(
+    pub fn estimate_debris<S: Simd>(
         &mut self,
         simd: S,
         inertia: [[f64; 3]; 3],

@@ -4,7 +4,7 @@ use crate::math::Real;
 
 /// Accumulated errors of one kind.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Sums {
+pub struct Sums {
     along: f64,
     /// |w| Y.
     across: f64,
@@ -14,32 +14,32 @@ pub(super) struct Sums {
     shift: f64,
     /// Rotation about L, without the shift.
     about: f64,
-    pub(super) most: f64,
+    pub most: f64,
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct Here {
+pub struct Here {
     /// Time since the previous point and since the start, s.
-    pub(super) step: f64,
-    pub(super) since: f64,
-    pub(super) h: f64,
-    pub(super) w: f64,
+    pub step: f64,
+    pub since: f64,
+    pub h: f64,
+    pub w: f64,
     /// |mu - mu_0| |H|.
-    pub(super) tilt: f64,
-    pub(super) axial: f64,
-    pub(super) twist: f64,
-    pub(super) shear: f64,
+    pub tilt: f64,
+    pub axial: f64,
+    pub twist: f64,
+    pub shear: f64,
     /// Largest difference of mu |H| so far.
-    pub(super) range: f64,
+    pub range: f64,
     /// Momentum of a unit error, and reference rate of omega.
-    pub(super) unit: f64,
-    pub(super) largest: f64,
+    pub unit: f64,
+    pub largest: f64,
 }
 
 impl Sums {
     /// Advances to a point with a known error along H and a known change of the balance.
     #[inline(always)]
-    pub(super) fn set(&mut self, at: &Here, along: f64, balance: f64) {
+    pub fn set(&mut self, at: &Here, along: f64, balance: f64) {
         let per_w = 1.0 / at.w;
         let sideways = at.tilt.mul_add(along, balance) * per_w;
         self.shift += at.step * per_w * along.mul_add(at.twist, sideways * at.shear);
@@ -57,7 +57,7 @@ impl Sums {
 
     /// Advances to a point with new errors of magnitude `made` along H, w and v.
     #[inline(always)]
-    pub(super) fn advance(&mut self, at: &Here, made: [f64; 3]) {
+    pub fn advance(&mut self, at: &Here, made: [f64; 3]) {
         let per_w = 1.0 / at.w;
         let crossing = at.tilt.mul_add(self.along, self.across + self.tilted) * per_w;
         self.shift += at.step * per_w * self.along.mul_add(at.twist, crossing * at.shear);
@@ -71,14 +71,13 @@ impl Sums {
     }
 }
 
-/// Between points more e-foldings of |w| apart no dip is assumed: a body at 1e4 rad/s, sampled once a second, would
-/// have dips of thousands.
+/// Most e-foldings of |w| between two points with a dip in between.
 const FOLLOWED: f64 = 16.0;
 
 /// Dip of |w| between two points `step` seconds apart, if it falls after the first and rises before the second:
 /// duration of its bottom, s, and |w| there. `across` is |w| at both points, `widening` its relative slope, 1/s. Near
 /// an unstable equilibrium |w| = c cosh(lambda t), and 1/|w|^2 integrates to 2/(lambda c^2).
-pub(super) fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f64; 2]> {
+pub fn dip(across: [f64; 2], widening: [f64; 2], step: f64) -> Option<[f64; 2]> {
     let (falls, rises) = (-widening[0], widening[1]);
     if !(falls > 0.0 && rises > 0.0) {
         return None;

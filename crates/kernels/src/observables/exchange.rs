@@ -1,5 +1,4 @@
-//! Exchange of kinetic energy between body and wheels about the spacecraft's centre of mass: correlations and dominant
-//! frequency.
+//! Exchange of kinetic energy between body and wheels about the centre of mass: correlations and dominant frequency.
 
 use fearless_simd::Simd;
 
@@ -8,8 +7,7 @@ use super::weights::{Weights, total, vectors};
 use crate::math::{Lanes, Real};
 use crate::scene::MAX_WHEELS;
 
-/// Swing of a body's energy, over the largest total about the centre of mass, below which it counts as constant: dozens
-/// of roundings of the total.
+/// Swing of a body's energy, over the largest total, below which it counts as constant: dozens of roundings.
 pub const EXCHANGE_FLOOR: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Clone, Copy)]

@@ -7,34 +7,34 @@ use crate::math::symmetric::principal_axes;
 use crate::run::{Outcome, StateField, StateTable};
 use crate::scene::MassProperties;
 
-/// Error of the rotational state, rad or relative to the rate, by rounding of the input alone, above which a run is ill
+/// Error of the rotational state, rad or relative to the rate, by rounding of the input above which a run is ill
 /// conditioned.
 const MEANINGLESS: f64 = 1e-3;
 
-pub(super) struct FinishedRun<'a> {
-    pub(super) table: &'a StateTable,
-    pub(super) outcome: &'a Outcome,
-    pub(super) time_reached: f64,
-    pub(super) filled: usize,
-    pub(super) times: &'a [f64],
+pub struct FinishedRun<'a> {
+    pub table: &'a StateTable,
+    pub outcome: &'a Outcome,
+    pub time_reached: f64,
+    pub filled: usize,
+    pub times: &'a [f64],
     /// Last point with finite rotational states; `None` if the final state is not observed.
-    pub(super) final_point: Option<usize>,
-    pub(super) exchange: Exchange,
-    pub(super) estimate: ErrorEstimate,
-    pub(super) debris_estimate: ErrorEstimate,
-    pub(super) mass: &'a MassProperties,
-    pub(super) moments: [f64; 3],
+    pub final_point: Option<usize>,
+    pub exchange: Exchange,
+    pub estimate: ErrorEstimate,
+    pub debris_estimate: ErrorEstimate,
+    pub mass: &'a MassProperties,
+    pub moments: [f64; 3],
 }
 
 /// Principal moments of inertia about the centre of mass with locked wheels, ascending, kg m^2.
-pub(super) fn principal_moments(mass: &MassProperties) -> [f64; 3] {
+pub fn principal_moments(mass: &MassProperties) -> [f64; 3] {
     let (mut moments, _) = principal_axes(mass.inertia);
     moments.sort_by(f64::total_cmp);
     moments
 }
 
 /// Last of the first `filled` points of `table` with finite rotational states.
-pub(super) fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
+pub fn final_point(table: &StateTable, filled: usize) -> Option<usize> {
     let finite = |point: &usize| {
         table.at::<3>(StateField::Rate, *point).iter().all(|x| x.is_finite())
             && table.at::<4>(StateField::Attitude, *point).iter().all(|x| x.is_finite())
@@ -50,7 +50,7 @@ fn is_ill_conditioned(estimate: &ErrorEstimate) -> f64 {
 
 impl FinishedRun<'_> {
     #[inline]
-    pub(super) fn value(&self, value: DirectValue, wheel: usize) -> f64 {
+    pub fn value(&self, value: DirectValue, wheel: usize) -> f64 {
         match value {
             DirectValue::WorkThrusters => self.last(StateField::Work, 0),
             DirectValue::WorkMotors => self.last(StateField::Work, 1),

@@ -2,7 +2,7 @@
 
 use crate::math::enumeration::bit_set;
 
-/// The groups, each `Group: "name";`: defaults of a campaign, those requested by name, and those of other tables.
+/// The groups, each `Group: "name";`: defaults of a campaign, others by name, those of other tables.
 macro_rules! groups {
     (
         default { $($(#[$default_doc:meta])* $Default:ident: $default:literal;)* }
@@ -21,8 +21,8 @@ macro_rules! groups {
             /// All groups that campaigns can name, in order of the columns.
             pub const ALL: [Group; [$($default,)* $($named),*].len()] = [$(Group::$Default,)* $(Group::$Named),*];
 
-            /// Groups of a campaign that chooses none. [`Group::Motion`] and [`Group::Orbit`] cost about as much as a
-            /// run; [`Group::MassProperties`] follow from the dispersed values.
+            /// Groups of a campaign that chooses none: [`Group::Motion`] and [`Group::Orbit`] cost about as much as a
+            /// run.
             pub const DEFAULT: [Group; [$($default),*].len()] = [$(Group::$Default),*];
 
             /// Name in campaign files.

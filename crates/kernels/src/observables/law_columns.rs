@@ -1,5 +1,5 @@
-//! [`LawColumns`]: columns that a control law reports at the end of a run; [`LawSeries`]: its records over time. The
-//! values come from [`crate::dynamics::actuation::ActuationLaw::report`].
+//! [`LawColumns`]: columns that a control law reports ([`crate::dynamics::actuation::ActuationLaw::report`]);
+//! [`LawSeries`]: its records over time.
 
 use std::sync::Mutex;
 
@@ -21,7 +21,7 @@ pub struct LawColumn {
     pub codes: &'static [&'static str],
 }
 
-/// Set of series that a control loop records at the observation points.
+/// Series that a control loop records at the observation points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LawSeries(u32);
 
@@ -30,7 +30,7 @@ impl LawSeries {
     pub const NONE: LawSeries = LawSeries(0);
     /// Every series.
     pub const ALL: LawSeries = LawSeries(u32::MAX);
-    /// Number of such series, with one per possible wheel: columns of a record, in the order of the table.
+    /// Columns of a record, in the order of the table, with one per possible wheel.
     pub const COUNT: usize = Series::MotorTorque.index() + MAX_WHEELS - Series::PointingError.index();
 
     /// This set and `series`.
@@ -42,7 +42,7 @@ impl LawSeries {
         LawSeries(self.0 | 1 << Self::place(series).expect("a control loop records the series"))
     }
 
-    /// Column of `series` in a record; `None` if no control loop records it.
+    /// Column of `series` in a record, if a control loop records it.
     pub fn place(series: Series) -> Option<usize> {
         series.index().checked_sub(Series::PointingError.index()).filter(|place| *place < Self::COUNT)
     }
@@ -52,12 +52,12 @@ impl LawSeries {
     }
 }
 
-/// Reports of a control law: columns of rows, and records over time. NaN means no value.
+/// Reports of a control law; NaN means no value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LawColumns {
     /// The columns.
     pub list: &'static [LawColumn],
-    /// Number of these columns, at the end, that are times of events and failures.
+    /// Number of columns, at the end, that are times of events and failures.
     pub of_events: usize,
     /// Recorded series.
     pub over_time: LawSeries,
@@ -67,7 +67,7 @@ impl LawColumns {
     /// No reports.
     pub const NONE: LawColumns = LawColumns { list: &[], of_events: 0, over_time: LawSeries::NONE };
 
-    /// Columns known at run time only. A list is kept forever, once for each kind of campaign that a program opens.
+    /// Columns known at run time only; a list is kept forever, once for each kind of campaign.
     pub fn kept(list: Vec<LawColumn>) -> Self {
         static KEPT: Mutex<Vec<&'static [LawColumn]>> = Mutex::new(Vec::new());
         LawColumns { list: interned(&KEPT, list, |a, b| a == b), ..LawColumns::NONE }

@@ -15,7 +15,7 @@ use super::table::Series;
 use crate::run::StateField;
 
 #[inline(always)]
-pub(super) fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn measure<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     for source in run.sources {
         match source {
             SeriesSource::Energies => energies(simd, run, out),

@@ -1,5 +1,5 @@
 //! Layer 3: observables of a run, by Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
-//! (Zhukovskii; Volterra 1899). Nothing is assumed to be conserved: every error is measured from the computed states.
+//! (Zhukovskii; Volterra 1899). Every error is measured from the computed states; nothing is assumed to be conserved.
 
 #[macro_use]
 mod rows;

@@ -1,10 +1,9 @@
 //! Linear and angular momenta of spacecraft and debris, and their departures from the first value.
 //!
 //! p = m v_c minus the thrusters' impulse; L = C_es (J omega + sum J_i Omega_i a_i) about c, with locked wheels in J,
-//! minus the angular impulse of thrusters and body torques; for the debris m_d v_d and C_ed J_d omega_d.
-//!
-//! Errors are relative to the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| + |impulse|
-//! and, if the velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
+//! minus the angular impulse of thrusters and body torques; for the debris m_d v_d and C_ed J_d omega_d. Errors are
+//! relative to the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| + |impulse| and, if the
+//! velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
 #![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -62,7 +61,7 @@ fn balanced<S: Simd>(
 }
 
 #[inline(always)]
-pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (mass, table, vectors) = (&run.scene.mass, run.table, run.vectors());
     let velocity: [_; 3] = needed(table, StateField::ComVelocity, vectors);
     let impulse: Option<[_; 3]> = columns(table, StateField::Impulse, vectors);
@@ -87,7 +86,7 @@ pub(super) fn linear_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut
 }
 
 #[inline(always)]
-pub(super) fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn angular_momentum<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     match run.scene.mass.wheels.len() {
         0 => with_wheels::<S, 0>(simd, run, out),
         1 => with_wheels::<S, 1>(simd, run, out),
@@ -137,7 +136,7 @@ fn with_wheels<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mu
 }
 
 #[inline(always)]
-pub(super) fn debris_momenta<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn debris_momenta<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());
     let Some(body) = run.debris else { return };
     let velocity: [_; 3] = needed(table, StateField::DebrisVelocity, vectors);

@@ -1,6 +1,5 @@
-//! Angles between vectors are atan2(|a x b|, a . b), accurate to rounding (W. Kahan, *How Futile are Mindless
-//! Assessments of Roundoff*, 2006, section 12). The angle between attitudes is stored as tan^2 of its half, |v|^2/s^2
-//! of the quaternion conj(q_nominal) q = (s, v).
+//! Angles between vectors are atan2(|a x b|, a . b), accurate to rounding (W. Kahan 2006, see `attitude`). The angle
+//! between attitudes is stored as tan^2 of its half, |v|^2/s^2 of the quaternion conj(q_nominal) q = (s, v).
 
 use fearless_simd::Simd;
 
@@ -15,7 +14,7 @@ use crate::run::StateField;
 use crate::scene::MAX_WHEELS;
 
 #[inline(always)]
-pub(super) fn motion<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn motion<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let observed = run.observed;
     if observed.has(Series::RateSquare) {
         rate(simd, run, out);
@@ -135,7 +134,7 @@ fn debris_direction<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
 }
 
 #[inline(always)]
-pub(super) fn angle<S: Simd>(y: Lanes<S>, x: Lanes<S>, out: &mut [f64; WIDTH]) {
+pub fn angle<S: Simd>(y: Lanes<S>, x: Lanes<S>, out: &mut [f64; WIDTH]) {
     for ((out, y), x) in out.iter_mut().zip(y.to_array()).zip(x.to_array()) {
         *out = libm::atan2(y, x);
     }

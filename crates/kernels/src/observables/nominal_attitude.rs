@@ -3,7 +3,7 @@
 use crate::math::lanes::WIDTH;
 use crate::run::{Outcome, StateField, StateTable};
 
-/// Attitude quaternion q_es of the nominal run, eight points at a time; NaN at points not reached.
+/// Attitude quaternion q_es of the nominal run; NaN at points not reached.
 #[derive(Clone, Debug)]
 pub struct NominalAttitude([Vec<[f64; WIDTH]>; 4]);
 

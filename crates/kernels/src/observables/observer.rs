@@ -96,7 +96,7 @@ impl Observer {
         }
     }
 
-    /// Adds the attitude of the nominal run on the same grid, without which angles from it are NaN.
+    /// Adds the attitude of the nominal run on the same grid; angles from it are NaN otherwise.
     #[must_use]
     pub fn with_nominal(self, nominal: Option<NominalAttitude>) -> Self {
         Observer { nominal, ..self }
@@ -111,8 +111,8 @@ impl Observer {
     ///
     /// Returns the status of `outcome`, or [`Status::Inaccurate`] for a complete run with errors beyond any use
     /// ([`super::accuracy`]), whose row is complete. A run ended by its law ([`crate::scene::Actuation::ends_run`])
-    /// counts up to there. For any other status than [`Status::Done`] only step statistics, mass properties and the
-    /// final state (at the last finite point) are numbers, everything else is NaN.
+    /// counts up to there. Runs of any other status than [`Status::Done`] have step statistics, mass properties and the
+    /// last finite state only, else NaN.
     ///
     /// # Panics
     /// If the table lacks a field of [`Request::fields`] or differs from the grid in its points, if the requested
@@ -183,7 +183,7 @@ impl Observer {
         self.plan.fill(&self.statistics, |value, wheel| run.value(value, usize::from(wheel)), row);
         let of_windows = row.len() - self.windows.len();
         for (value, (window, points)) in row[of_windows..].iter_mut().zip(&self.windows) {
-            let scale = window.series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
+            let scale = self.statistics.scale(window.series.row().scale);
             let column = &self.series.column(window.series)[..self.filled];
             *value = window.extreme(column, points.start..points.end.min(self.filled), scale);
         }
@@ -194,7 +194,7 @@ impl Observer {
         if self.accuracy.holds(row) { Status::Done } else { Status::Inaccurate }
     }
 
-    /// Reason, in words, why the run of `row`, with the status from [`Observer::observe`], is not `ok`; else empty.
+    /// Why the run of `row`, with the status from [`Observer::observe`], is not `ok`; else empty.
     pub fn reason(&self, status: Status, outcome: &Outcome, row: &[f64]) -> String {
         match status {
             Status::Inaccurate => self.accuracy.reason(row),
@@ -202,11 +202,11 @@ impl Observer {
         }
     }
 
-    /// Series of the last run, in the order of [`Request::series`], at the points reached; relative errors are divided
-    /// by their scales.
+    /// Series of the last run, as [`Request::series`], at the points reached; relative errors are divided by their
+    /// scales.
     pub fn series(&self) -> impl Iterator<Item = (Series, impl ExactSizeIterator<Item = f64> + '_)> + '_ {
         self.shown.iter().map(|series| {
-            let scale = series.row().scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
+            let scale = self.statistics.scale(series.row().scale);
             let stored = series.row().stored;
             let values = &self.series.column(*series)[..self.filled];
             (*series, values.iter().map(move |value| stored.shown(*value) / scale))
@@ -221,15 +221,14 @@ impl Observer {
     /// Stored numbers of a series at the points reached, and their divisor.
     #[inline(always)]
     pub(super) fn observed_column(&self, band: &BandSeries) -> (&[f64], f64) {
-        let scale = band.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
-        (&self.series.column(band.series)[..self.filled], scale)
+        (&self.series.column(band.series)[..self.filled], self.statistics.scale(band.scale))
     }
 
     #[inline(always)]
     fn reduce<S: Simd>(&mut self, simd: S) {
         let weights = self.ended_weights.as_ref().unwrap_or(&self.weights);
         for task in &self.tasks {
-            let scale = task.scale.map_or(1.0, |scale| self.statistics.scale(Slot::of(scale)));
+            let scale = self.statistics.scale(task.scale);
             let out = self.statistics.of(task.series);
             reduce(simd, weights, self.series.column(task.series), task.passes, task.stored, scale, out);
         }

@@ -12,7 +12,7 @@ use crate::math::{Lanes, Real};
 use crate::run::StateField;
 
 #[inline(always)]
-pub(super) fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn orbit<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());
     let position: [_; 3] = needed(table, StateField::ComPosition, vectors);
     let attitude = Attitude::of(table, vectors);

@@ -14,80 +14,78 @@ use crate::run::{StateField, StateTable};
 use crate::scene::mass::Body;
 use crate::scene::{MAX_WHEELS, Scene};
 
-/// A component of a field, as vectors of eight neighbouring points; columns of one length need no bounds checks in
-/// loops.
-pub(super) type Column<'a> = &'a [[f64; WIDTH]];
+/// A component of a field, in vectors of eight points; columns of one length need no bounds checks in loops.
+pub type Column<'a> = &'a [[f64; WIDTH]];
 
 /// Input of the measurement of a run.
-pub(super) struct MeasuredRun<'a> {
+pub struct MeasuredRun<'a> {
     /// Series to compute.
-    pub(super) observed: SeriesSet,
-    pub(super) sources: &'a [SeriesSource],
+    pub observed: SeriesSet,
+    pub sources: &'a [SeriesSource],
     /// Debris, if observed.
-    pub(super) debris: Option<&'a Body>,
-    pub(super) nominal: Option<&'a NominalAttitude>,
+    pub debris: Option<&'a Body>,
+    pub nominal: Option<&'a NominalAttitude>,
     /// Axis of nutation in F_s, if not s3.
-    pub(super) nutation_axis: Option<[f64; 3]>,
+    pub nutation_axis: Option<[f64; 3]>,
     /// Magnetic field and dipoles.
-    pub(super) magnetism: Option<Magnetism<'a>>,
-    pub(super) scene: &'a Scene,
-    pub(super) times: &'a [f64],
+    pub magnetism: Option<Magnetism<'a>>,
+    pub scene: &'a Scene,
+    pub times: &'a [f64],
     /// Records of the control law, by series ([`super::law_columns::LawSeries`]) and point; may be empty.
-    pub(super) of_law: &'a [f64],
-    pub(super) table: &'a StateTable,
-    pub(super) points: usize,
+    pub of_law: &'a [f64],
+    pub table: &'a StateTable,
+    pub points: usize,
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct Magnetism<'a> {
-    pub(super) field: MagneticField<f64>,
+pub struct Magnetism<'a> {
+    pub field: MagneticField<f64>,
     /// Residual dipole in F_s, A m^2.
-    pub(super) dipole: [f64; 3],
+    pub dipole: [f64; 3],
     /// Source of the dipoles of torque rods.
-    pub(super) acting: Acting<'a>,
+    pub acting: Acting<'a>,
 }
 
 impl MeasuredRun<'_> {
     #[inline(always)]
-    pub(super) fn vectors(&self) -> usize {
+    pub fn vectors(&self) -> usize {
         self.points.div_ceil(WIDTH)
     }
 }
 
-/// Values of every series, padded by one more vector than a column of states, so that every point has a readable
-/// neighbour.
+/// Values of every series, padded by one vector, so that every point has a readable neighbour.
 #[derive(Clone, Debug)]
-pub(super) struct SeriesTable {
+pub struct SeriesTable {
     columns: [Vec<[f64; WIDTH]>; Series::COUNT],
 }
 
 impl SeriesTable {
     /// `points` points per series, NaN at first.
-    pub(super) fn new(points: usize) -> Self {
+    pub fn new(points: usize) -> Self {
         let vectors = points.div_ceil(WIDTH) + 1;
         SeriesTable { columns: std::array::from_fn(|_| vec![[f64::NAN; WIDTH]; vectors]) }
     }
 
     #[inline(always)]
-    pub(super) fn column(&self, series: Series) -> &[f64] {
+    pub fn column(&self, series: Series) -> &[f64] {
         self.columns[series.index()].as_flattened()
     }
 
     #[inline(always)]
-    pub(super) fn write<const N: usize>(&mut self, series: [Series; N], vectors: usize) -> [&mut [[f64; WIDTH]]; N] {
+    pub fn write<const N: usize>(&mut self, series: [Series; N], vectors: usize) -> [&mut [[f64; WIDTH]]; N] {
         let columns = self.columns.get_disjoint_mut(series.map(Series::index));
         columns.expect("no series is written twice at once").map(|column| &mut column[..vectors])
     }
 
     /// Columns of disjoint blocks ([`Series::block`]), writable.
     #[inline(always)]
-    pub(super) fn blocks<const N: usize>(&mut self, blocks: [Range<usize>; N]) -> [&mut [Vec<[f64; WIDTH]>]; N] {
+    pub fn blocks<const N: usize>(&mut self, blocks: [Range<usize>; N]) -> [&mut [Vec<[f64; WIDTH]>]; N] {
         self.columns.get_disjoint_mut(blocks).expect("no series is written twice at once")
     }
 
     /// Repeats point `points - 1` in the padding.
     #[inline(always)]
-    pub(super) fn pad(&mut self, observed: SeriesSet, points: usize) {
+    pub fn pad(&mut self, observed: SeriesSet, points: usize) {
         for (series, column) in Series::all().zip(&mut self.columns) {
             if observed.has(series) {
                 let (whole, rest) = (points / WIDTH, points % WIDTH);
@@ -102,61 +100,57 @@ impl SeriesTable {
 }
 
 #[inline(always)]
-pub(super) fn only(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> &mut [[f64; WIDTH]] {
+pub fn only(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> &mut [[f64; WIDTH]] {
     &mut block[0][..vectors]
 }
 
 #[inline(always)]
-pub(super) fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> [&mut [[f64; WIDTH]]; W] {
+pub fn each<const W: usize>(block: &mut [Vec<[f64; WIDTH]>], vectors: usize) -> [&mut [[f64; WIDTH]]; W] {
     let columns: &mut [Vec<[f64; WIDTH]>; W] = block.try_into().expect("a block of so many series");
     columns.each_mut().map(|column| &mut column[..vectors])
 }
 
-/// Loop count over wheels: `W` if known at compile time, else the number of wheels.
+/// Loop count over wheels: `W` if known at compile time.
 #[inline(always)]
-pub(super) fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
+pub fn count_of_wheels<const W: usize>(wheels: usize) -> usize {
     if W < MAX_WHEELS { W } else { wheels }
 }
 
 #[inline(always)]
-pub(super) fn three<S: Simd>(simd: S, [x, y, z]: [Column<'_>; 3], at: usize) -> [Lanes<S>; 3] {
+pub fn three<S: Simd>(simd: S, [x, y, z]: [Column<'_>; 3], at: usize) -> [Lanes<S>; 3] {
     [Lanes::load(simd, &x[at]), Lanes::load(simd, &y[at]), Lanes::load(simd, &z[at])]
 }
 
 #[inline(always)]
-pub(super) fn four<S: Simd>(simd: S, [w, x, y, z]: [Column<'_>; 4], at: usize) -> [Lanes<S>; 4] {
+pub fn four<S: Simd>(simd: S, [w, x, y, z]: [Column<'_>; 4], at: usize) -> [Lanes<S>; 4] {
     let [x, y, z] = three(simd, [x, y, z], at);
     [Lanes::load(simd, &w[at]), x, y, z]
 }
 
 #[inline(always)]
-pub(super) fn constant<S: Simd>(simd: S, a: [f64; 3]) -> [Lanes<S>; 3] {
+pub fn constant<S: Simd>(simd: S, a: [f64; 3]) -> [Lanes<S>; 3] {
     [Lanes::broadcast(simd, a[0]), Lanes::broadcast(simd, a[1]), Lanes::broadcast(simd, a[2])]
 }
 
 #[inline(always)]
-pub(super) fn constant_matrix<S: Simd>(simd: S, m: [[f64; 3]; 3]) -> [[Lanes<S>; 3]; 3] {
+pub fn constant_matrix<S: Simd>(simd: S, m: [[f64; 3]; 3]) -> [[Lanes<S>; 3]; 3] {
     [constant(simd, m[0]), constant(simd, m[1]), constant(simd, m[2])]
 }
 
 /// Lane 0 in all lanes: the value at point 0 in the first vector of a column.
 #[inline(always)]
-pub(super) fn first<S: Simd>(simd: S, a: Lanes<S>) -> Lanes<S> {
+pub fn first<S: Simd>(simd: S, a: Lanes<S>) -> Lanes<S> {
     Lanes::broadcast(simd, a.lane(0))
 }
 
 #[inline(always)]
-pub(super) fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] {
+pub fn first_vector<S: Simd>(simd: S, a: [Lanes<S>; 3]) -> [Lanes<S>; 3] {
     [first(simd, a[0]), first(simd, a[1]), first(simd, a[2])]
 }
 
 /// The first `vectors` vectors of the components of a field; `None` if the table lacks it.
 #[inline(always)]
-pub(super) fn columns<const N: usize>(
-    table: &StateTable,
-    field: StateField,
-    vectors: usize,
-) -> Option<[Column<'_>; N]> {
+pub fn columns<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> Option<[Column<'_>; N]> {
     if !table.has(field) {
         return None;
     }
@@ -169,7 +163,7 @@ pub(super) fn columns<const N: usize>(
 
 /// Columns of a field, one per wheel, from component `first` on; empty beyond the existing wheels.
 #[inline(always)]
-pub(super) fn of_wheels<const W: usize>(
+pub fn of_wheels<const W: usize>(
     table: &StateTable,
     field: StateField,
     first: usize,
@@ -183,6 +177,6 @@ pub(super) fn of_wheels<const W: usize>(
 }
 
 #[inline(always)]
-pub(super) fn needed<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> [Column<'_>; N] {
+pub fn needed<const N: usize>(table: &StateTable, field: StateField, vectors: usize) -> [Column<'_>; N] {
     columns(table, field, vectors).expect("the state table has the fields that the request needs")
 }

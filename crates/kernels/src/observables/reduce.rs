@@ -1,8 +1,8 @@
 //! Passes over a series: extremes, means, errors, transfers, in a fixed order of operations.
 //!
-//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ..., and the eight are joined as a fixed tree, so that bits
-//! depend on the values alone. Means are of departures from the first value: with n points the rounding error is at
-//! most n/8 + 4 roundings of the largest *departure*. Weights are zero in the padding.
+//! Lane `i` of an accumulator gathers points `i`, `i + 8`, ..., and the eight are joined as a fixed tree. Means are of
+//! departures from the first value: the rounding error of n points is at most n/8 + 4 roundings of the largest
+//! *departure*. Weights are zero in the padding.
 
 use fearless_simd::Simd;
 
@@ -11,9 +11,9 @@ use super::weights::{Weights, largest, smallest, total, vectors};
 use crate::math::{Lanes, Real};
 
 /// Reduces a series of numbers `stored` and writes the values to `out` at [`Reduction::index`]; errors and fraction are
-/// divided by `scale`. `column` has one vector more than the weights, with the last point repeated.
+/// divided by `scale`. `column` has one vector more than the weights.
 #[inline(always)]
-pub(super) fn reduce<S: Simd>(
+pub fn reduce<S: Simd>(
     simd: S,
     weights: &Weights,
     column: &[f64],

@@ -1,8 +1,8 @@
-//! [`Reduction`]: kinds of numbers from a series, by the pass over it (`reduce`). A pass returns one value per
-//! statistic of its list, so that a statistic without a computation does not compile.
+//! [`Reduction`]: kinds of numbers from a series, by the pass over it (`reduce`). A statistic without a computation
+//! does not compile.
 
 listed! {
-    /// A statistic that is one of the values, so that a function of the values may be applied to it afterwards.
+    /// A statistic that is one of the values: a function of the values may be applied to it afterwards.
     pub enum OrderStatistic {
         /// First value.
         Initial,
@@ -114,7 +114,7 @@ impl Passes {
 }
 
 /// Stored form of a series: a monotone function of the quantity, cheap at every point, whose inverse is applied to
-/// order statistics and time series. The table has no other statistics of such series.
+/// order statistics and time series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stored {
     Quantity,

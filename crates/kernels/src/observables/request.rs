@@ -37,7 +37,7 @@ pub struct Request {
     pub windows: Windows,
 }
 
-/// Axis whose angle from the spacecraft's angular momentum is the nutation.
+/// Axis whose angle from the angular momentum is the nutation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum NutationAxis {
     /// s3.
@@ -114,7 +114,7 @@ impl Request {
         Facts { debris, actuated, effects, constrained, wheels: self.wheels.len() }
     }
 
-    /// Columns of a row, in order: those of the requested groups that exist in this kind of scene.
+    /// Columns of a row, in order: those of the requested groups that exist in this scene.
     pub fn columns(&self) -> Vec<Column> {
         let shown = |(column, wheel): (&Column, Option<usize>)| match wheel {
             Some(index) => column.of_wheel(index, self.wheels[index]),
@@ -136,7 +136,7 @@ impl Request {
         start..start + self.of_law.of_events
     }
 
-    /// Position of a column in a row, if present.
+    /// Position of a column in a row, if any.
     pub fn position(&self, id: ColumnId) -> Option<usize> {
         self.ids().position(|other| other == id)
     }
@@ -173,7 +173,7 @@ impl Request {
         Series::all().filter(|series| observed.has(*series) && series.quantity(&self.wheels).is_some()).collect()
     }
 
-    /// Fields of the state table that the columns need; no others are read.
+    /// Fields of the state table that the columns need.
     pub fn fields(&self) -> StateFields {
         self.needs().into_iter().fold(StateFields::NONE, |fields, (_, field, _)| fields.with(field))
     }
@@ -198,7 +198,7 @@ impl Request {
         of_columns.chain(self.of_law.over_time.series()).fold(SeriesSet::default(), SeriesSet::with)
     }
 
-    /// Passes over the observed series; those that are scales of others come first.
+    /// Passes over the observed series; scales of others come first.
     pub(super) fn tasks(&self) -> Vec<SeriesTask> {
         let (observed, values) = (self.observed(), self.ids().map(|id| id.value).collect::<Vec<_>>());
         let passes = |series: Series| {

@@ -5,26 +5,26 @@ use crate::math::prelude::*;
 use crate::run::{StateField, StateTable};
 use crate::scene::mass::MassProperties;
 
-pub(super) struct Body<'a> {
+pub struct Body<'a> {
     /// `None` for the debris.
-    pub(super) mass: Option<&'a MassProperties>,
-    pub(super) rates: StateField,
+    pub mass: Option<&'a MassProperties>,
+    pub rates: StateField,
     /// K, kg m^2, its inverse A, and a third of the trace of K.
-    pub(super) inertia: [[f64; 3]; 3],
-    pub(super) inverse: [[f64; 3]; 3],
-    pub(super) size: f64,
+    pub inertia: [[f64; 3]; 3],
+    pub inverse: [[f64; 3]; 3],
+    pub size: f64,
     /// Upper bounds of |A| and of the distance of A from a multiple of one, 1/(kg m^2).
-    pub(super) stiffness: f64,
-    pub(super) spread: f64,
-    pub(super) is_principal: bool,
+    pub stiffness: f64,
+    pub spread: f64,
+    pub is_principal: bool,
     /// The wheels' momentum H - K omega if constant, without actuation.
-    pub(super) offset: Option<[f64; 3]>,
+    pub offset: Option<[f64; 3]>,
     /// sum |J_i Omega_i| at the first point, N m s.
-    pub(super) wheels: f64,
+    pub wheels: f64,
 }
 
 impl<'a> Body<'a> {
-    pub(super) fn of(acting: Acting<'a>, table: &StateTable, duration: f64) -> Self {
+    pub fn of(acting: Acting<'a>, table: &StateTable, duration: f64) -> Self {
         let mass = &acting.scene().mass;
         let inertia = mass.inertia_rotating();
         let offset = acting.is_free(duration).then(|| {
@@ -42,7 +42,7 @@ impl<'a> Body<'a> {
     }
 
     /// The debris, without wheels and torque.
-    pub(super) fn debris(inertia: [[f64; 3]; 3]) -> Self {
+    pub fn debris(inertia: [[f64; 3]; 3]) -> Self {
         Body::alone(inertia, Some([0.0; 3]))
     }
 
@@ -76,6 +76,6 @@ impl<'a> Body<'a> {
 }
 
 /// Adjugate of a symmetric matrix, by rows.
-pub(super) fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+pub fn adjugate(m: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])]
 }

@@ -1,47 +1,49 @@
-//! [`RowPlan`]: the columns of a request as flat index lists, resolved once per worker.
+//! [`RowPlan`]: the columns of a request as index lists, resolved once per worker.
 
 use super::reduction::Reduction;
 use super::request::Request;
 use super::table::{DirectValue, Series, Value};
 
 #[derive(Clone, Debug)]
-pub(super) struct Statistics(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
+pub struct Statistics(Box<[[f64; Reduction::COUNT]; Series::COUNT]>);
 
 /// Index of a statistic in [`Statistics`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Slot(u16);
+pub struct Slot(u16);
 
 impl Slot {
-    pub(super) const fn of((series, reduction): (Series, Reduction)) -> Self {
+    pub const fn of((series, reduction): (Series, Reduction)) -> Self {
         Slot((series.index() * Reduction::COUNT + reduction.index()) as u16)
     }
 }
 
 impl Statistics {
-    pub(super) fn unknown() -> Self {
+    pub fn unknown() -> Self {
         Statistics(Box::new([[f64::NAN; Reduction::COUNT]; Series::COUNT]))
     }
 
     #[inline(always)]
-    pub(super) fn get(&self, slot: Slot) -> f64 {
+    pub fn get(&self, slot: Slot) -> f64 {
         self.0.as_flattened()[usize::from(slot.0)]
     }
 
-    /// A scale, or one if it is zero: errors are then absolute.
+    /// A scale; one if it is zero (errors are then absolute) or there is none.
     #[inline(always)]
-    pub(super) fn scale(&self, slot: Slot) -> f64 {
-        let scale = self.get(slot);
-        if scale == 0.0 { 1.0 } else { scale }
+    pub fn scale(&self, of: Option<(Series, Reduction)>) -> f64 {
+        match of.map(|of| self.get(Slot::of(of))) {
+            None | Some(0.0) => 1.0,
+            Some(scale) => scale,
+        }
     }
 
     #[inline(always)]
-    pub(super) fn of(&mut self, series: Series) -> &mut [f64; Reduction::COUNT] {
+    pub fn of(&mut self, series: Series) -> &mut [f64; Reduction::COUNT] {
         &mut self.0[series.index()]
     }
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct RowPlan {
+pub struct RowPlan {
     /// Statistic of each column; arbitrary for a direct value or a window.
     slots: Vec<Slot>,
     direct_values: Vec<(usize, DirectValue, u8)>,
@@ -50,7 +52,7 @@ pub(super) struct RowPlan {
 }
 
 impl RowPlan {
-    pub(super) fn of(request: &Request) -> Self {
+    pub fn of(request: &Request) -> Self {
         let values: Vec<Value> = request.ids().map(|id| id.value).collect();
         let known_after_failure = values.iter().map(|value| value.is_known_after_failure()).collect();
         let mut plan = RowPlan { slots: Vec::new(), direct_values: Vec::new(), known_after_failure };
@@ -67,12 +69,12 @@ impl RowPlan {
         plan
     }
 
-    pub(super) fn columns(&self) -> usize {
+    pub fn columns(&self) -> usize {
         self.slots.len()
     }
 
     #[inline(always)]
-    pub(super) fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue, u8) -> f64, row: &mut [f64]) {
+    pub fn fill(&self, statistics: &Statistics, direct: impl Fn(DirectValue, u8) -> f64, row: &mut [f64]) {
         for (value, slot) in row.iter_mut().zip(&self.slots) {
             *value = statistics.get(*slot);
         }
@@ -82,7 +84,7 @@ impl RowPlan {
     }
 
     /// Sets the values that a failed run does not have to NaN.
-    pub(super) fn clear_unknown(&self, row: &mut [f64]) {
+    pub fn clear_unknown(&self, row: &mut [f64]) {
         for (value, known) in row.iter_mut().zip(&self.known_after_failure) {
             *value = if *known { *value } else { f64::NAN };
         }

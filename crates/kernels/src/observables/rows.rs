@@ -127,8 +127,8 @@ macro_rules! optional {
     };
 }
 
-/// The table of series: `source { name [places] stored form / scale [needs] [column of a time series] meaning; }`. A
-/// series of wheels has a place per possible wheel, and `{wheel}` in its name and meaning.
+/// The table of series: `source { name [places] stored form / scale [needs] [column of a time series] meaning; }`; for
+/// wheels a place per possible wheel, and `{wheel}` in name and meaning.
 macro_rules! series {
     ($($source:ident {
         $($name:ident [$count:expr] $stored:ident $(/ $scale:ident)? [$($need:ident),*]
@@ -227,8 +227,8 @@ macro_rules! reduction {
     };
 }
 
-/// Columns of reduced series: `group scenes: series [reduction] "column" "unit" meaning;`. Column and meaning may be
-/// given in parts, in brackets.
+/// Columns of reduced series: `group scenes: series [reduction] "column" "unit" meaning;`; column and meaning may be in
+/// parts, in brackets.
 macro_rules! columns {
     ($group:ident $scenes:ident:
     $($series:ident [$($reduction:ident)+] $name:literal $unit:literal $meaning:literal;)*) => {

@@ -6,7 +6,7 @@
 //! stage reads two halves and writes them interleaved, so that all vectorise. FFT crates choose their algorithm by the
 //! machine, and their bits differ.
 //!
-//! Tones between one cycle per duration and half a cycle per interval are found within 0.05/duration; slower changes
+//! Tones between one cycle per duration and half a cycle per interval are found within 0.05/duration; slower ones
 //! appear as about one cycle per duration.
 
 use fearless_simd::Simd;
@@ -21,7 +21,7 @@ const FEWEST: usize = 8;
 const UNEVENNESS: f64 = 1e-6;
 
 #[derive(Clone, Debug)]
-pub(super) struct Spectrum {
+pub struct Spectrum {
     points: usize,
     step: f64,
     /// Hann's window, zero in the padding.
@@ -43,7 +43,7 @@ pub(super) struct Spectrum {
 
 impl Spectrum {
     /// Transform for series on `grid`; `None` if it is too short or uneven.
-    pub(super) fn of(grid: &Grid) -> Option<Self> {
+    pub fn of(grid: &Grid) -> Option<Self> {
         let times = grid.times();
         let points = times.len();
         if points < FEWEST {
@@ -90,10 +90,10 @@ impl Spectrum {
         })
     }
 
-    /// Dominant frequency, Hz, of `column` minus the line `mean + slope * (time - mean time)`; the column is padded to
-    /// a multiple of sixteen.
+    /// Dominant frequency, Hz, of `column` (padded to a multiple of sixteen) minus the line `mean + slope * (time -
+    /// mean time)`.
     #[inline(always)]
-    pub(super) fn peak<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) -> f64 {
+    pub fn peak<S: Simd>(&mut self, simd: S, column: &[f64], mean: f64, slope: f64) -> f64 {
         self.fill(simd, column, mean, slope);
         self.transform(simd);
         self.fill_power();

@@ -14,7 +14,7 @@ use crate::math::prelude::*;
 use crate::run::StateField;
 
 #[inline(always)]
-pub(super) fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
+pub fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let has = |series: [Series; 2]| series.into_iter().any(|series| run.observed.has(series));
     let zero = Lanes::broadcast(simd, 0.0);
     if let Some(drag) = drag::of(zero, run.scene, None).filter(|_| has([Series::AirDensity, Series::DragTorqueSquare]))

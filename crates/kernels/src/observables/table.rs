@@ -2,10 +2,9 @@
 //! table, name, unit and meaning.
 //!
 //! A new observable needs its rows here, and its series in the file of its `SeriesSource`. An error column belongs to a
-//! signed series e(t) (energy) or the norm e(t) of an error vector (momenta), measured from observation point 0. Errors
-//! are relative to the largest sum on the grid of the magnitudes of the balance's terms: energies of the bodies and
-//! work, momenta of body and wheels and impulse. This sum does not cancel with counter-rotating wheels; if it is zero
-//! nothing moves, and the error is zero.
+//! signed series e(t) (energy) or the norm e(t) of an error vector (momenta), measured from observation point 0,
+//! relative to the largest sum on the grid of the magnitudes of the balance's terms: energies and work, momenta of body
+//! and wheels and impulse. This sum does not cancel with counter-rotating wheels; if it is zero, nothing moves.
 
 use core::ops::Range;
 
@@ -22,7 +21,7 @@ pub struct Column {
     pub quantity: Quantity,
     /// Group by which a campaign requests it.
     pub group: Group,
-    /// Number or count.
+    /// Real number or count.
     pub kind: ColumnKind,
     pub(super) scenes: Scenes,
     pub(super) value: Value,
@@ -77,7 +76,7 @@ impl ColumnId {
         all().any(|column| column.id() == self && column.is_of_wheel())
     }
 
-    /// The handle for wheel `wheel`; itself if there is no such column per wheel.
+    /// The handle for wheel `wheel`; itself if it does not depend on wheels.
     #[must_use]
     pub fn of_wheel(self, wheel: usize) -> Self {
         let value = match self.value {
@@ -96,7 +95,7 @@ impl ColumnId {
     }
 }
 
-/// Placeholder of a wheel's name in the name or meaning of a column.
+/// Placeholder of a wheel's name.
 const WHEEL: &str = "{wheel}";
 
 fn named(quantity: &Quantity, name: Name) -> Quantity {
@@ -160,7 +159,7 @@ impl Series {
         &SERIES[self.place().0]
     }
 
-    /// Column of a time series for a spacecraft with these wheels; `None` for the scale of another series.
+    /// Column of a time series with these wheels; `None` for the scale of another series.
     pub fn quantity(self, wheels: &[Name]) -> Option<Quantity> {
         let shown = self.row().shown.as_ref()?;
         match self.wheel() {
@@ -648,7 +647,7 @@ static FAMILIES: &[&[Column]] = &[
     },
 ];
 
-/// Families of columns in order of a row; a family with columns per wheel is repeated for each wheel.
+/// The families; one with columns per wheel is repeated for each wheel.
 pub(super) fn families() -> impl Iterator<Item = &'static [Column]> {
     FAMILIES.iter().copied()
 }

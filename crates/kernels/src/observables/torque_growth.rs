@@ -1,13 +1,12 @@
 //! [`growth`]: amplification of small errors of the rotational state by effects that change within an arc.
-//!
 //! A rotation of the body by theta changes the torque by M theta. With K omega' = tau - omega x H, H = K omega +
 //! wheels' momentum, small errors theta (body frame) and delta of omega obey theta' = delta - omega x theta, K delta' =
 //! M theta + H x delta - omega x K delta. If the points of a run follow its rotation, these equations carry the
 //! covariance of errors that arise evenly along the run and in every direction; its largest root is the amplification.
 //! On an eccentric orbit growth is a product over orbits, although the torque is unstable for minutes only.
 //!
-//! If the body turns too fast, the torque changes sign many times between points and hardly amplifies: growth is that
-//! of the free motion ([`super::conditioning`]) times the exponential of [`exponent`].
+//! If the body turns faster, the torque changes sign many times between points and hardly amplifies: growth is that of
+//! the free motion ([`super::conditioning`]) times the exponential of [`exponent`].
 
 use crate::dynamics::effects::within_arcs::Motion;
 use crate::dynamics::effects::{ChangingEffects, ForceModel};
@@ -19,10 +18,10 @@ use crate::run::{StateField, StateTable, rate_scale};
 use crate::scene::Scene;
 
 /// ln 1e200.
-pub(super) const LARGEST_EXPONENT: f64 = 460.5;
+pub const LARGEST_EXPONENT: f64 = 460.5;
 
 /// Largest amplification; more counts as infinite.
-pub(super) const MOST: f64 = 1e200;
+pub const MOST: f64 = 1e200;
 
 /// Most examined points: several in each half of a libration up to some orbits, a fair sample beyond.
 const POINTS: usize = 128;
@@ -30,8 +29,8 @@ const POINTS: usize = 128;
 /// Rotation for finite differences of a torque, rad: its size is the error, rounding is 1e-12.
 const ROTATION: f64 = 1e-4;
 
-/// Largest change of an error over a step of the covariance, for which the classical Runge-Kutta method errs by less
-/// than a percent.
+/// Largest change of an error over a step of the covariance: the classical Runge-Kutta method errs by less than a
+/// percent.
 const STEP: f64 = 0.7;
 
 /// Most steps between two points that follow the rotation, with linear coefficients in between.
@@ -51,21 +50,21 @@ struct Station {
     slope: [[f64; 3]; 3],
 }
 
-pub(super) struct Growth {
-    /// Amplification of errors that arise evenly along the run (omega over its scale, attitude in rad); `None` if the
-    /// points do not follow the rotation.
-    pub(super) followed: Option<f64>,
+pub struct Growth {
+    /// Amplification of errors that arise evenly along the run (omega over its scale, attitude in rad), if the points
+    /// follow the rotation.
+    pub followed: Option<f64>,
     /// Otherwise: factor on the growth in the free motion.
-    pub(super) beside: f64,
-    /// Magnitude of the change of omega by the torque along the run, over its scale.
-    pub(super) stirred: f64,
+    pub beside: f64,
+    /// Change of omega by the torque along the run, over its scale.
+    pub stirred: f64,
 }
 
 // inlined with all callees, so that fused operations are instructions: torques at a thousand states would otherwise
 // cost as much as the steps of a run
 /// Growth over the first `filled` points of `table` of a run of `scene`; `None` if no effect changes within an arc.
 #[inline(always)]
-pub(super) fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -> Option<Growth> {
+pub fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -> Option<Growth> {
     if !ForceModel::of(scene).changes_within_arcs() {
         return None;
     }
@@ -263,9 +262,9 @@ fn moved(a: &Covariance, by: f64, slope: &Covariance) -> Covariance {
 /// If the body does not turn relative to the reference direction of the torque, which turns with the orbit, an error
 /// grows as exp(lambda t) with lambda^2 the largest positive eigenvalue of the symmetric part of J^(-1/2) M J^(-1/2)
 /// (negative: libration). If it turns at a relative rate w, or is held by a momentum J w, M changes sign within 1/w,
-/// and growth is of second order, lambda^3/w^2. In between, the exponent is the integral of lambda^3/(lambda^2 + w^2).
-/// M and w^2 are first averaged over half periods pi/lambda_0 of an oscillation, lambda_0^2 being the largest magnitude
-/// of an eigenvalue.
+/// and growth is of second order, lambda^3/w^2. The exponent is the integral of lambda^3/(lambda^2 + w^2). M and w^2
+/// are first averaged over half periods pi/lambda_0 of an oscillation, lambda_0^2 being the largest magnitude of an
+/// eigenvalue.
 fn exponent(stations: &[Station], moments: [f64; 3]) -> f64 {
     let duration = stations[stations.len() - 1].time;
     let size = (moments[0] + moments[1] + moments[2]) / 3.0;

@@ -8,22 +8,22 @@ use crate::run::Grid;
 
 /// Constants of a grid, zero in the padding.
 #[derive(Clone, Debug)]
-pub(super) struct Weights {
-    pub(super) points: usize,
+pub struct Weights {
+    pub points: usize,
     /// One at every point.
-    pub(super) one: Vec<[f64; WIDTH]>,
+    pub one: Vec<[f64; WIDTH]>,
     /// Weights of the values whose sum is the least-squares slope, 1/s.
-    pub(super) slope: Vec<[f64; WIDTH]>,
+    pub slope: Vec<[f64; WIDTH]>,
     /// 1/step to the next point, 1/s.
-    pub(super) inverse_step: Vec<[f64; WIDTH]>,
+    pub inverse_step: Vec<[f64; WIDTH]>,
 }
 
 impl Weights {
-    pub(super) fn of(grid: &Grid) -> Self {
+    pub fn of(grid: &Grid) -> Self {
         Self::at(grid.times())
     }
 
-    pub(super) fn at(times: &[f64]) -> Self {
+    pub fn at(times: &[f64]) -> Self {
         let points = times.len();
         let mean = times.iter().sum::<f64>() / points as f64;
         let centered: Vec<f64> = times.iter().map(|t| t - mean).collect();
@@ -44,9 +44,9 @@ impl Weights {
     }
 }
 
-/// The first `count` vectors of a column; columns of one length need no bounds checks in loops.
+/// The first `count` vectors of a column.
 #[inline(always)]
-pub(super) fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
+pub fn vectors(column: &[f64], count: usize) -> &[[f64; WIDTH]] {
     &column.as_chunks().0[..count]
 }
 
@@ -57,16 +57,16 @@ fn joined(lanes: [f64; WIDTH], join: impl Fn(f64, f64) -> f64) -> f64 {
 }
 
 #[inline(always)]
-pub(super) fn total<S: Simd>(lanes: Lanes<S>) -> f64 {
+pub fn total<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a + b)
 }
 
 #[inline(always)]
-pub(super) fn largest<S: Simd>(lanes: Lanes<S>) -> f64 {
+pub fn largest<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a.larger(b))
 }
 
 #[inline(always)]
-pub(super) fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
+pub fn smallest<S: Simd>(lanes: Lanes<S>) -> f64 {
     joined(lanes.to_array(), |a, b| a.smaller(b))
 }
