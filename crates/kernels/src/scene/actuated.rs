@@ -6,9 +6,9 @@ use super::schema::{Device, FailureInput, WheelInput, WheelMode};
 /// Kinds of actuation during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Actuated {
-    /// Thrusters: the schedule commands a thrust, or one may be stuck on.
+    /// The schedule commands a thrust, or a thruster may be stuck on.
     pub thrusters: bool,
-    /// Motors of wheels: the schedule commands a torque, or a motor holds the speed of its wheel.
+    /// The schedule commands a motor torque, or a motor holds the speed of its wheel.
     pub motors: bool,
     /// Torques on the body, of the environment or of a control law, or the force of gravity on an orbit.
     pub body_torque: bool,

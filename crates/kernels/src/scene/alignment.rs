@@ -20,7 +20,7 @@ pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     turned(nominal(direction), theta, one)
 }
 
-/// Two unit vectors of F_s for an alignment error of `direction`: for an axis of F_s the two others, in order; for an
+/// Two unit vectors of F_s for an alignment error of `direction`: for an axis of F_s the others, in order; for an
 /// oblique direction a the axis of F_s farthest from it, orthogonalised, and a x that.
 pub fn across(direction: [f64; 3]) -> [[f64; 3]; 2] {
     if let Some((axis, _)) = along_axis(direction) {

@@ -1,6 +1,5 @@
-//! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids
-//! (`solids`): Berdoz, *Final Report - ADR Spacecraft*, (60)-(67); bodies are joined by sums over pairs, as in
-//! [`super::mass`].
+//! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids (`solids`):
+//! Berdoz, *Final Report - ADR Spacecraft*, (60)-(67).
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, MAX_WHEELS, PartInput, PartShape, WheelMode};
@@ -87,10 +86,8 @@ impl<R: Real> Body<R> {
         Body { mass, center, inertia }
     }
 
-    /// The body of `input`: its parts, the overrides, its errors.
-    ///
-    /// A mass alone scales the inertia of the parts; a centre of mass moves the centre and leaves the inertia about it
-    /// unchanged; errors come last. Wheels that the mass properties include are removed; locked wheels are added.
+    /// The body of `input`: its parts, the overrides ([`super::BodyInput`]), its errors. Wheels that the mass
+    /// properties include are removed; locked wheels are added.
     pub fn of_input(input: &SceneInput, one: R) -> Self {
         let (body, k) = (&input.body, |value: f64| one.splat(value));
         let mut whole = match &input.parts[..] {
@@ -121,14 +118,13 @@ impl<R: Real> Body<R> {
                 whole = whole.without(&Wheel::new(wheel, one).body());
             }
         }
-        if input.wheels.iter().all(|wheel| wheel.mode != WheelMode::Locked) {
+        let locked = || input.wheels.iter().filter(|wheel| wheel.mode == WheelMode::Locked);
+        if locked().next().is_none() {
             return whole;
         }
         let mut bodies = List::<Self, { 1 + MAX_WHEELS }>::empty(Body::point(one));
         bodies.push(whole);
-        for wheel in input.wheels.iter().filter(|wheel| wheel.mode == WheelMode::Locked) {
-            bodies.push(Wheel::new(wheel, one).body());
-        }
+        locked().for_each(|wheel| bodies.push(Wheel::new(wheel, one).body()));
         Body::together(&bodies)
     }
 
@@ -164,8 +160,7 @@ mod tests {
 
     const ULPS: f64 = 1e-15;
 
-    /// Law: joined parts have the inertia by parallel axes, at any attitude; halves of a box are the box. Known: the
-    /// moments of a sphere.
+    /// Law: joined parts have the inertia by parallel axes, at any attitude; halves of a box are the box.
     #[test]
     fn halves_of_a_box_are_the_box() {
         let part = |size: [f64; 3], position_m: [f64; 3], attitude: [f64; 4]| PartInput {

@@ -1,6 +1,5 @@
 //! Conditions on a scene beyond the limits of single keys ([`super::schema`]): `written` checks the input, `derived`
-//! its consequences (masses and inertias that overflow, vanish or are not positive definite). Both collect all
-//! problems.
+//! its consequences (masses and inertias that overflow, vanish or are not positive definite).
 
 use super::Name;
 use super::error::Problems;
@@ -114,8 +113,7 @@ pub(super) fn written(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Refuses states given twice (in F_e and relative to the local orbital frame or, for debris, to the spacecraft), and
-/// states relative to a missing orbit.
+/// Refuses states given twice, and states relative to a missing orbit.
 fn initial_states(initial: &InitialInput, has_orbit: bool, has_debris: bool, problems: &mut Problems) {
     const DEFAULT: InitialInput = InitialInput::DEFAULT;
     macro_rules! refuse_twice {
@@ -163,7 +161,7 @@ fn walls(part: &PartInput, problems: &mut Problems) {
     }
 }
 
-/// Checks that the axial moment of a wheel is at most twice the transverse one, as for any body of revolution.
+/// Checks that the axial moment of a wheel is at most twice the transverse one.
 fn wheel_inertia(wheel: &WheelInput, problems: &mut Problems) {
     let (Some(axial), Some(transverse)) = (wheel.axial_inertia_kg_m2, wheel.transverse_inertia_kg_m2) else { return };
     if transverse > 0.0 && axial > 2.0 * transverse * (1.0 + INERTIA_SLACK) {
@@ -204,7 +202,7 @@ fn arcs(input: &SceneInput, problems: &mut Problems) {
     }
 }
 
-/// Refuses negative thrusts in arc `index`, and motor torques on wheels that take none.
+/// Refuses negative thrusts, and motor torques on wheels that take none.
 fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
     let arc = &input.actuation[index];
     for (thruster, thrust) in input.thrusters.iter().zip(arc.thrust_n) {
@@ -235,8 +233,8 @@ fn commands(input: &SceneInput, index: usize, problems: &mut Problems) {
     }
 }
 
-/// Checks for arcs that end before they start, or overlap, because of delays. Only the first is reported, since most
-/// delays are common, under the key of the arc if its own delays, or the next arc's, are the cause.
+/// Checks for arcs that end before they start, or overlap, because of delays. Only the first is reported, under the key
+/// of the arc if its own delays, or the next arc's, are the cause.
 fn switches(input: &SceneInput, problems: &mut Problems) {
     let delays = &input.actuators;
     let commanded = |index: usize| {
@@ -256,7 +254,7 @@ fn switches(input: &SceneInput, problems: &mut Problems) {
         let with = |errors: &ArcErrors| {
             (delays.switch_on_delay_s + errors.switch_on_delay_s, delays.switch_off_delay_s + errors.switch_off_delay_s)
         };
-        let [own, common] = [&input.actuation[index].errors, &ArcErrors::NONE].map(with);
+        let [own, common] = [&input.actuation[index].errors, &ArcErrors::DEFAULT].map(with);
         let of_next = input.actuation.get(index + 1).map_or(common, |next| with(&next.errors));
         let key = if own == common && of_next == common {
             "actuators.switch_off_delay_s".to_owned()
@@ -291,8 +289,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     if !input.body.includes_wheels || is_large {
         passed &= body(&|| "body".to_owned(), own, diagonal(inertia));
     }
-    let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
-    for (written, wheel) in turning.zip(&mass.wheels) {
+    for (written, wheel) in input.turning().zip(&mass.wheels) {
         let name = || format!("wheels.{}", written.name);
         passed &= body(&name, wheel.mass, [wheel.axial, wheel.transverse, wheel.transverse]);
     }
@@ -307,7 +304,7 @@ pub(super) fn derived(input: &SceneInput, mass: &MassProperties, problems: &mut 
     }
 }
 
-/// Checks that mass properties which include the wheels leave a body.
+/// Checks that mass properties with the wheels leave a body.
 fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems: &mut Problems) -> bool {
     if !(own.is_finite() && own > 0.0) {
         let allowed = "such that the body without its wheels has a mass above zero (the value shown, kg)";
@@ -338,8 +335,8 @@ fn without_wheels(input: &SceneInput, own: f64, inertia: [[f64; 3]; 3], problems
     true
 }
 
-/// Centre of mass and its distance from the farthest wheel, m, if that is beyond any body of that mass and inertia:
-/// three times the largest radius of gyration.
+/// Centre of mass and its distance from the farthest wheel, m, if beyond any body of that mass and inertia: three times
+/// the largest radius of gyration.
 fn distant_centre(input: &SceneInput) -> Option<([f64; 3], f64)> {
     let (centre, mass, tensor) = (input.body.center_of_mass_m?, input.body.mass_kg?, input.body.inertia_kg_m2?);
     let (moments, _) = principal_axes(tensor);

@@ -48,7 +48,7 @@ impl Epoch {
         (is_date && is_time).then(|| Epoch { day, minute: (60 * hour + minute) as u16, second })
     }
 
-    /// Julian date in UTC: of the midnight before, and the fraction of the day.
+    /// Julian date in UTC: the midnight before, and the fraction of the day.
     pub fn julian_date(self) -> [f64; 2] {
         [Self::JULIAN_DATE + f64::from(self.day), (60.0 * f64::from(self.minute) + self.second) / 86_400.0]
     }
@@ -78,7 +78,7 @@ impl fmt::Display for Epoch {
     }
 }
 
-/// Days from 2000-01-01 to a date of the Gregorian calendar; `None` for an impossible month or day.
+/// Days from 2000-01-01 to a date; `None` for an impossible month or day.
 fn day_of(year: i32, month: i32, day: i32) -> Option<i32> {
     if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
         return None;

@@ -6,9 +6,9 @@ use std::borrow::Cow;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key} = {value}: must be {allowed}; {remedy}")]
 pub struct SceneError {
-    /// The dotted path as in a campaign file, e.g. `body.parts.b1.length_m` or `actuation[1].start_s`.
+    /// The dotted path, e.g. `body.parts.b1.length_m` or `actuation[1].start_s`.
     pub key: Cow<'static, str>,
-    /// The refused value or values.
+    /// The refused values.
     pub value: String,
     /// Allowed values, with bounds.
     pub allowed: String,

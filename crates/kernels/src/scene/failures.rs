@@ -1,4 +1,4 @@
-//! Failures of wheels and thrusters in a schedule: from then on, devices deviate from their commands.
+//! Failures of wheels and thrusters in a schedule.
 
 use super::schedule::{Actuation, Arc};
 use super::schema::failure::{Device, FailureInput};

@@ -1,5 +1,5 @@
-//! [`SceneInput`]: the scene of a campaign file as written, before checks and derivation, changed by dispersions. Plain
-//! SI numbers; structures and defaults come from [`super::schema`].
+//! [`SceneInput`]: the scene of a campaign file as written, before checks and derivation, changed by dispersions. SI;
+//! structures and defaults come from [`super::schema`].
 
 use super::name::Name;
 use super::schema::{
@@ -8,8 +8,7 @@ use super::schema::{
 };
 use crate::math::list::List;
 
-/// A scene as written. By default a box of 1 m and 100 kg/m^3 at rest at the inertial origin, without devices, debris
-/// and actuation.
+/// A scene as written. By default a box of 1 m and 100 kg/m^3 at rest, without devices, debris and actuation.
 ///
 /// ```
 /// # extern crate spindrift_kernels as spindrift;
@@ -90,7 +89,7 @@ impl SceneInput {
     }
 
     /// The spacecraft of the paper (F. Berdoz, *Final Report - ADR Spacecraft*, Table II) at rest: a hollow cylinder,
-    /// wheels w1 about s2 and w2 about s3, thrusters p1, p2, p3; without debris.
+    /// wheels w1 about s2 and w2 about s3, thrusters p1, p2, p3.
     pub fn report() -> Self {
         let fuselage = PartInput {
             name: Name::of("fuselage"),
@@ -138,11 +137,15 @@ impl SceneInput {
         self
     }
 
-    /// Names of the turning wheels, in order.
+    /// The turning wheels, in order.
+    pub fn turning(&self) -> impl Iterator<Item = &WheelInput> {
+        self.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked)
+    }
+
+    /// Their names.
     pub fn turning_wheels(&self) -> List<Name, MAX_WHEELS> {
         let mut names = List::empty(Name::NONE);
-        let turning = self.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
-        turning.for_each(|wheel| names.push(wheel.name));
+        self.turning().for_each(|wheel| names.push(wheel.name));
         names
     }
 }

@@ -1,6 +1,6 @@
-//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels (`wheel`). Sums over
-//! bodies use distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation. Generic
-//! over the number type, for reference solutions in more digits.
+//! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels (`wheel`). Sums over bodies use
+//! distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation. Generic over the
+//! number type.
 
 use super::input::SceneInput;
 use super::schema::{MAX_WHEELS, WheelMode};
@@ -30,11 +30,11 @@ pub struct MassProperties<R = f64> {
 }
 
 impl<R: Real> MassProperties<R> {
-    /// Mass properties of `input` in the type of `one`; meaningful if [`super::Scene::resolve`] accepts the input.
+    /// Mass properties of `input` in the type of `one`.
     pub fn of(input: &SceneInput, one: R) -> Self {
         let body = Body::of_input(input, one);
         let mut wheels = List::empty(Wheel::blank(one));
-        for wheel in input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked) {
+        for wheel in input.turning() {
             wheels.push(Wheel::new(wheel, one));
         }
         let debris = input.debris.as_ref().map(|debris| Body::debris(debris, one));

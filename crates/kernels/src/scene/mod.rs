@@ -71,7 +71,7 @@ pub struct Scene {
     pub commands_thrust: bool,
     /// True if the schedule commands motor torque.
     pub commands_torque: bool,
-    /// Actuator models for commands of a control law; the schedule already includes them.
+    /// Actuator models for commands of a control law.
     pub actuators: ActuatorModels,
     /// Failures during a run; the schedule already includes them.
     pub failures: Vec<FailureInput>,
@@ -157,8 +157,7 @@ impl ActuatorModels {
                 min_on_time: thruster.min_on_time_s.unwrap_or(0.0),
             };
         }
-        let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
-        for (model, wheel) in models.wheels.iter_mut().zip(turning) {
+        for (model, wheel) in models.wheels.iter_mut().zip(input.turning()) {
             *model = WheelModel {
                 torque_scale: wheel.torque_scale,
                 torque_bias: wheel.torque_bias_n_m,
@@ -183,9 +182,9 @@ pub struct InitialState {
     pub q_es: [f64; 4],
     /// Angular velocity of the body, rad/s.
     pub omega_se_s: [f64; 3],
-    /// Wheel angles relative to the body, in the order of the wheels, rad; zero beyond.
+    /// Wheel angles relative to the body, rad; zero beyond the wheels.
     pub wheel_angles: [f64; MAX_WHEELS],
-    /// Wheel rates relative to the body, in the order of the wheels, rad/s; zero beyond.
+    /// Wheel rates relative to the body, rad/s; zero beyond the wheels.
     pub wheel_rates: [f64; MAX_WHEELS],
     /// Position of the debris's centre, m.
     pub r_gdo_e: [f64; 3],
@@ -203,7 +202,7 @@ impl Scene {
         thruster::force_s(&self.thrusters, thrust)
     }
 
-    /// Torque of the thrusts `thrust` (N, in order of the thrusters) about the centre of mass c, F_s, N m (72).
+    /// Torque of the thrusts `thrust` about the centre of mass c, F_s, N m (72).
     pub fn thruster_torque_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
         thruster::torque_s(&self.thrusters, thrust, self.mass.center)
     }

@@ -5,8 +5,7 @@ use std::fmt::{self, Debug, Display, Formatter};
 /// Largest number of letters of a name.
 pub const MAX_LETTERS: usize = 23;
 
-/// A lower-case letter, then lower-case letters, digits and underscores; in place, so that scenes are copied without
-/// allocation.
+/// A lower-case letter, then lower-case letters, digits and underscores; in place, without allocation.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Name {
     bytes: [u8; MAX_LETTERS],
@@ -50,7 +49,7 @@ impl Name {
         }
     }
 
-    /// The digits of `number`, for lists without names; other names do not start with a digit.
+    /// The digits of `number`, for lists without names.
     pub fn number(number: usize) -> Name {
         let mut name = Name::NONE;
         for digit in number.to_string().bytes().take(MAX_LETTERS) {

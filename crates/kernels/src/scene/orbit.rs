@@ -1,5 +1,5 @@
 //! [`Orbit`]: the orbit at time zero, from position and velocity or Keplerian elements (D. Vallado, *Fundamentals of
-//! Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6). `dynamics::orbit` moves along it.
+//! Astrodynamics and Applications*, 4th ed., 2013, sections 2.4 to 2.6).
 
 use super::epoch::Epoch;
 use super::error::Problems;
@@ -60,8 +60,8 @@ impl Offsets {
     }
 }
 
-/// Local orbital frame F_o: o3 towards the central body, o2 against the orbit normal, o1 completes (ahead on a circular
-/// orbit): roll, pitch and yaw axes of J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 2.2.
+/// Local orbital frame F_o: o3 towards the central body, o2 against the orbit normal, o1 ahead on a circular orbit:
+/// roll, pitch and yaw axes of J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 2.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalFrame {
     /// Attitude, F_o -> F_e, scalar first.
@@ -158,7 +158,7 @@ impl Orbit {
     }
 }
 
-/// Checks the orbit `input` of `scene` beyond single keys.
+/// Checks the orbit beyond single keys.
 pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Problems) {
     let before = problems.0.len();
     of_keys(input, problems);
@@ -201,6 +201,7 @@ pub(super) fn check(scene: &SceneInput, input: &OrbitInput, problems: &mut Probl
 }
 
 fn of_keys(input: &OrbitInput, problems: &mut Problems) {
+    const HITS: &str = "raise the orbit: it hits the central body";
     let key = |name: &str| format!("orbit.{name}");
     if let Some(j2) = input.j2 {
         if j2 > LARGEST_J2 {
@@ -235,12 +236,7 @@ fn of_keys(input: &OrbitInput, problems: &mut Problems) {
             let radius = input.body_radius_m;
             let allowed =
                 format!("so large that the periapsis, here {lowest:?} m, is above body_radius_m = {radius:?}");
-            problems.add(
-                key("semi_major_axis_m"),
-                shown(&[axis]),
-                allowed,
-                "raise the orbit: it hits the central body",
-            );
+            problems.add(key("semi_major_axis_m"), shown(&[axis]), allowed, HITS);
         }
         return;
     }
@@ -264,6 +260,6 @@ fn of_keys(input: &OrbitInput, problems: &mut Problems) {
     } else if shape.periapsis <= input.body_radius_m {
         let (periapsis, radius) = (shape.periapsis, input.body_radius_m);
         let allowed = format!("on an orbit whose periapsis, here {periapsis:?} m, is above body_radius_m = {radius:?}");
-        problems.add(key("position_m"), shown(&position), allowed, "raise the orbit: it hits the central body");
+        problems.add(key("position_m"), shown(&position), allowed, HITS);
     }
 }

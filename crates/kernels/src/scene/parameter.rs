@@ -1,6 +1,5 @@
 //! [`Parameter`]: a dispersable numeric key of scene or initial state: a row of [`super::schema`] and an instance of
-//! its table. Commands of `[[actuation]]` are not dispersed, but distorted by the keys of `[actuators]` and the errors
-//! of an arc.
+//! its table. Commands of `[[actuation]]` are distorted by the keys of `[actuators]` and the errors of an arc instead.
 
 use super::input::SceneInput;
 use super::name::Name;
@@ -36,8 +35,7 @@ impl Parameter {
         })
     }
 
-    /// The parameter `name` of `scene`, and its component if the name ends in one (`.y`, or `.1` for numbered
-    /// components).
+    /// The parameter `name` of `scene`, and its component if the name ends in one (`.y`, or `.1` for numbered ones).
     pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
         let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
         if let Some(parameter) = whole(name) {
@@ -110,7 +108,7 @@ impl Parameter {
         self.key.read(scene, self.instance()).is_some()
     }
 
-    /// Adds the key to `scene`, if its table exists (an optional value, a way to describe a body), with NaN as numbers.
+    /// Adds the key to `scene`, if its table exists, with NaN as numbers.
     pub fn open(self, scene: &mut SceneInput) {
         if !self.exists(scene) {
             self.key.open(scene, self.instance());
@@ -164,9 +162,8 @@ impl Parameter {
     }
 
     /// Makes the value valid after its components were changed: a quaternion is divided by its norm (unless zero or not
-    /// finite, which the scene refuses), an attitude twice, which removes the rounding of the first division:
-    /// [`unit_quaternion`] then keeps the numbers, and recorded values are those used. Principal axes are used as
-    /// recorded.
+    /// finite, which the scene refuses), an attitude twice, so that [`unit_quaternion`] keeps the recorded numbers.
+    /// Principal axes are used as recorded.
     #[inline]
     pub fn normalise(self, scene: &mut SceneInput) {
         if self.shape() != Shape::Quaternion {

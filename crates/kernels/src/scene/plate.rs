@@ -1,8 +1,7 @@
 //! [`Plate`]: plates of a spacecraft's surface, as written or from the parts of its body.
 //!
 //! A box has its six sides; a cylinder its two ends and a prism of [`PRISM_SIDES`] plates of equal area, with the
-//! cylinder's projection within 2.3% at any angle and exactly on average. Parts neither shade nor hide each other;
-//! otherwise write `[[plates]]`.
+//! cylinder's projection within 2.3% at any angle and exactly on average. Parts neither shade nor hide each other.
 
 use super::alignment::aligned;
 use super::input::SceneInput;

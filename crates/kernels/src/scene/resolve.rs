@@ -4,7 +4,7 @@ use super::alignment::aligned;
 use super::error::Problems;
 use super::input::SceneInput;
 use super::mass::MassProperties;
-use super::schema::{Device, InitialInput, MAX_WHEELS, WheelMode};
+use super::schema::{Device, InitialInput, MAX_WHEELS};
 use super::unit_quaternion::unit_quaternion;
 use super::{
     ActuatorModels, InitialState, LocalFrame, Offsets, Orbit, Scene, SceneError, TorqueRod, check, failures, plate,
@@ -18,9 +18,7 @@ impl Scene {
     /// # Errors
     /// All problems of `input`.
     pub fn resolve(input: &SceneInput) -> Result<Self, Vec<SceneError>> {
-        gathered(|problems| check::written(input, problems))?;
-        let mass = MassProperties::of(input, 1.0);
-        gathered(|problems| check::derived(input, &mass, problems))?;
+        let mass = checked(input)?;
         let mut scene = Scene {
             mass,
             initial: initial_state(input, None),
@@ -45,9 +43,7 @@ impl Scene {
     /// # Errors
     /// All problems of `input`; the scene is then unchanged.
     pub fn resolve_into(&mut self, input: &SceneInput) -> Result<(), Vec<SceneError>> {
-        gathered(|problems| check::written(input, problems))?;
-        let mass = MassProperties::of(input, 1.0);
-        gathered(|problems| check::derived(input, &mass, problems))?;
+        let mass = checked(input)?;
         self.take(input, &mass);
         Ok(())
     }
@@ -93,15 +89,22 @@ impl Scene {
     }
 }
 
-fn gathered(check: impl FnOnce(&mut Problems)) -> Result<(), Vec<SceneError>> {
+/// Mass properties of a checked `input`.
+fn checked(input: &SceneInput) -> Result<MassProperties, Vec<SceneError>> {
     let mut problems = Problems::default();
-    check(&mut problems);
-    if problems.0.is_empty() { Ok(()) } else { Err(problems.0) }
+    check::written(input, &mut problems);
+    if problems.0.is_empty() {
+        let mass = MassProperties::of(input, 1.0);
+        check::derived(input, &mass, &mut problems);
+        if problems.0.is_empty() {
+            return Ok(mass);
+        }
+    }
+    Err(problems.0)
 }
 
 /// The state at time zero (59): q_ed = q_es (x) q_sd, omega^de = omega^ds + C_ds omega^se for debris, unless given;
-/// relative to the local orbital frame on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe. Zero
-/// (identity) for missing debris.
+/// relative to the local orbital frame on `orbit`: q_es = q_eo (x) q_os, omega^se = omega^so + C_es^T omega^oe.
 fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
     let InitialInput {
         position_m,
@@ -118,8 +121,7 @@ fn initial_state(input: &SceneInput, orbit: Option<&Orbit>) -> InitialState {
         debris_angular_velocity_rad_s,
     } = input.initial;
     let (mut wheel_angles, mut wheel_rates) = ([0.0; MAX_WHEELS], [0.0; MAX_WHEELS]);
-    let turning = input.wheels.iter().filter(|wheel| wheel.mode != WheelMode::Locked);
-    for (i, wheel) in turning.enumerate() {
+    for (i, wheel) in input.turning().enumerate() {
         (wheel_angles[i], wheel_rates[i]) = (wheel.angle_rad, wheel.rate_rad_s);
     }
     let frame = || orbit.map(|orbit| LocalFrame::at(orbit.position, orbit.velocity));
@@ -171,8 +173,8 @@ mod tests {
     use crate::scene::schema::OrbitInput;
 
     /// Law: without rotation in the local orbital frame s3 points down and s1 ahead, and without rate the body turns
-    /// once per orbit; offsets count. Independent truth: line of sight, direction of motion, central difference of the
-    /// line of sight.
+    /// once per orbit; offsets count. Truth: line of sight, direction of motion, central difference of the line of
+    /// sight.
     #[test]
     fn the_local_orbital_frame_is_that_of_the_motion() {
         for offset in [[0.0; 3], [4.0e5, -2.0e5, 1.0e5]] {

@@ -10,7 +10,7 @@ use super::thruster::Thruster;
 pub struct Actuation {
     /// End of the values since the start of the run, s; infinite if none.
     pub until: f64,
-    /// Thrusts along the directions of the thrusters, in order of [`super::Scene::thrusters`], N; zero beyond.
+    /// Thrusts of the thrusters, in order of [`super::Scene::thrusters`], N; zero beyond.
     pub thrust: [f64; MAX_THRUSTERS],
     /// Motor torques on the wheels about their axes, in order, N m; the body feels the opposite. Zero beyond.
     pub motor_torque: [f64; MAX_WHEELS],
@@ -36,8 +36,7 @@ fn meets_next(input: &SceneInput, index: usize) -> bool {
     input.actuation.get(index + 1).is_some_and(|next| next.start_s == input.actuation[index].end_s)
 }
 
-/// The arc of command `index` of `input`, with scales, bias and delays (motors of a control loop: `motor_torques`);
-/// [`super::check`] checks that the arcs are a schedule.
+/// The arc of command `index` of `input`, with scales, bias and delays (motors of a control loop: `motor_torques`).
 pub fn applied(input: &SceneInput, index: usize) -> Arc {
     let (actuators, command) = (&input.actuators, &input.actuation[index]);
     let start = |index: usize| {
@@ -76,8 +75,8 @@ fn thrusts(input: &SceneInput, index: usize) -> [f64; MAX_THRUSTERS] {
     thrust
 }
 
-/// Motor torques of command `index` on the turning wheels, in order, N m; under a control loop the commands, to which
-/// the loop's motor model applies scale and bias.
+/// Motor torques of command `index` on the turning wheels, N m; under a control loop the commands, to which the loop's
+/// motor model applies scale and bias.
 fn motor_torques(input: &SceneInput, index: usize) -> [f64; MAX_WHEELS] {
     let (mut torques, command) = ([0.0; MAX_WHEELS], &input.actuation[index]);
     let turning = input.wheels.iter().enumerate().filter(|(_, wheel)| wheel.mode != WheelMode::Locked);
@@ -97,8 +96,7 @@ pub fn thrusters(input: &SceneInput) -> impl Iterator<Item = Thruster> {
     })
 }
 
-/// Actuation of `schedule` (in order, not overlapping) at `time`; none between its arcs and after the last. At a
-/// boundary the later arc applies.
+/// Actuation of `schedule` (in order, not overlapping) at `time`; at a boundary the later arc applies.
 #[inline]
 pub fn actuation_at(schedule: &[Arc], time: f64) -> Actuation {
     match schedule.get(schedule.partition_point(|arc| arc.end() <= time)) {

@@ -1,8 +1,8 @@
 //! Inertia by second moments of mass: S, the integral of r r^T dm about the centre of mass, and J = tr(S) 1 - S.
 //!
 //! A symmetric J is the inertia of some body exactly if S is positive semidefinite (positive moments, none above the
-//! sum of the other two), which changes of S easily preserve (C. Rucker & P. M. Wensing, *Smooth Parameterization of
-//! Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022).
+//! sum of the other two), which changes of S easily preserve (C. Rucker & P. M. Wensing, IEEE Robotics and Automation
+//! Letters 7(2), 2022).
 
 use super::schema::{MassErrors, PrincipalInertia, PrincipalMoments};
 use super::solids::Body;
@@ -51,7 +51,7 @@ impl PrincipalInertia {
 impl MassErrors {
     /// `body` with these errors; the same bits without.
     pub fn applied<R: Real>(&self, body: Body<R>) -> Body<R> {
-        if *self == Self::NONE {
+        if *self == Self::DEFAULT {
             return body;
         }
         let one = body.mass.splat(1.0);

@@ -1,7 +1,7 @@
 //! Mass, centre and inertia of homogeneous solids in closed form: Berdoz, *Final Report - ADR Spacecraft*, (60)-(67).
 //!
-//! Formulas are sums of positive parts (shell and end plates, never a large solid minus a small one), good to a few
-//! units in the last place: after thousands of radians an error of J is amplified in the attitude.
+//! Formulas are sums of positive parts (never a large solid minus a small one), good to a few units in the last place:
+//! after thousands of radians an error of J is amplified in the attitude.
 
 use crate::math::Real;
 
@@ -31,8 +31,8 @@ fn diagonal<R: Real>(diagonal: [R; 3]) -> [[R; 3]; 3] {
 }
 
 /// A hollow cylinder with closed ends, axis s3, base centre at the origin (60)-(67): `wall` t_s of shell and end
-/// plates, outer `radius` rho_o, outer `length` l_s in m, `density` in kg/m^3. Shell and full plates are added; rho_o^2
-/// - rho_i^2 = t (2 rho_o - t). About ten roundings, none amplified.
+/// plates, outer `radius` rho_o, outer `length` l_s in m, `density` in kg/m^3. rho_o^2 - rho_i^2 = t (2 rho_o - t).
+/// About ten roundings, none amplified.
 pub fn hollow_cylinder<R: Real>(wall: R, radius: R, length: R, density: R) -> Body<R> {
     let k = |value: f64| wall.splat(value);
     let (bore, height) = (radius - wall, length - k(2.0) * wall);

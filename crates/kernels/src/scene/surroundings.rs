@@ -87,11 +87,8 @@ fn check_air_table(environment: &EnvironmentInput, problems: &mut Problems) {
     let [heights, densities] = match lists {
         [None, None] => return,
         [first, _] if !environment.drag => {
-            return refuse(
-                usize::from(first.is_none()),
-                "left out without drag",
-                "add drag = true, or delete the table",
-            );
+            let key = usize::from(first.is_none());
+            return refuse(key, "left out without drag", "add drag = true, or delete the table");
         }
         [first, _] if environment.exponential().iter().any(Option::is_some) => {
             let allowed = "left out where base_density_kg_m3, base_height_m and scale_height_m are given";

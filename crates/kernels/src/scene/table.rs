@@ -61,8 +61,8 @@ const fn count_of<T>(parts: &[&[Row<T>]]) -> usize {
     count
 }
 
-/// For each table, in order of the dispersable parameters: variant, header, rows in parts, and the
-/// table in `scene`, shared and mutable.
+/// For each table, in order of the dispersable parameters: variant, header, rows in parts, and the table in `scene`,
+/// shared and mutable.
 macro_rules! tables {
     (|$scene:ident, $instance:ident| $($Table:ident, $header:literal, $parts:expr,
         $get:expr, $get_mut:expr;)+) => {
@@ -133,7 +133,7 @@ macro_rules! tables {
                 }
             }
 
-            /// Adds the key to the scene, if its table exists: an optional value, a way to describe a body.
+            /// Adds the key to the scene, if its table exists.
             pub fn open(self, $scene: &mut SceneInput, $instance: usize) {
                 match self.table {
                     $(Table::$Table => if let Some(table) = $get_mut { (row_of($parts,
@@ -201,16 +201,21 @@ impl Table {
 
     /// Names of the instances of the table in `scene`; [`Name::NONE`] for a table without a list.
     pub fn owners(self, scene: &SceneInput) -> Vec<Name> {
+        macro_rules! names {
+            ($list:expr) => {
+                $list.iter().map(|one| one.name).collect()
+            };
+        }
         match self {
-            Table::Part | Table::PartErrors => scene.parts.iter().map(|part| part.name).collect(),
-            Table::Wheel => scene.wheels.iter().map(|wheel| wheel.name).collect(),
-            Table::Thruster => scene.thrusters.iter().map(|thruster| thruster.name).collect(),
-            Table::Plate => scene.plates.iter().map(|plate| plate.name).collect(),
-            Table::TorqueRod => scene.torque_rods.iter().map(|rod| rod.name).collect(),
+            Table::Part | Table::PartErrors => names!(scene.parts),
+            Table::Wheel => names!(scene.wheels),
+            Table::Thruster => names!(scene.thrusters),
+            Table::Plate => names!(scene.plates),
+            Table::TorqueRod => names!(scene.torque_rods),
             Table::Actuation => vec![Name::NONE; scene.actuation.len()],
-            Table::Sensors => scene.control.sensors.iter().map(|sensor| sensor.name).collect(),
-            Table::Guidance => scene.control.guidance.iter().map(|phase| phase.name).collect(),
-            Table::Failure => scene.failures.iter().map(|failure| failure.name).collect(),
+            Table::Sensors => names!(scene.control.sensors),
+            Table::Guidance => names!(scene.control.guidance),
+            Table::Failure => names!(scene.failures),
             Table::ArcErrors => {
                 let name = |(index, name): (usize, Name)| if name == Name::NONE { Name::number(index) } else { name };
                 scene.actuation.iter().map(|arc| arc.name).enumerate().map(name).collect()
@@ -224,7 +229,7 @@ impl Table {
         (0..self.count()).map(move |row| Key { table: self, row: row as u8, facts: self.facts_at(row) })
     }
 
-    /// Keys of instance `instance` of the table in `scene`: those of [`Table::keys`], or the declared ones.
+    /// [`Table::keys`] of an instance of the table in `scene`, or its declared ones.
     pub fn keys_in(self, scene: &SceneInput, instance: usize) -> impl Iterator<Item = Key> + use<> {
         let declared = self.declared(scene, instance).map_or(&[][..], |table| table.declared.0);
         let of_law = move |(row, parameter): (usize, &'static LawParameter)| Key {

@@ -16,8 +16,7 @@ pub struct Thruster {
 pub const REPORT_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, -1.0]];
 
 /// Distance rho_p of P2 and P3 from s3, m, if `thrusters` are Berdoz's without alignment errors: P1 along s3 at p, P2
-/// and P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l). Force and torque are then written out as in (72), so that
-/// equal thrusts P2 and P3 give exactly zero torque.
+/// and P3 along -s3 at (0, -rho_p, l) and (0, +rho_p, l). Equal thrusts P2 and P3 then give exactly zero torque (72).
 pub fn report_offset(thrusters: &[Thruster]) -> Option<f64> {
     let [p1, p2, p3] = thrusters else { return None };
     let ([_, offset, station], [_, opposite, other]) = (p3.position, p2.position);
@@ -40,7 +39,7 @@ pub fn force_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS]) -> [f64; 3]
     total(thrusters.iter().zip(thrust).map(|(thruster, thrust)| scaled(thrust, thruster.direction)))
 }
 
-/// Torque of `thrusters` at the thrusts `thrust` (N, in order) about the point `center` (from p in F_s, m), F_s, N m.
+/// Torque of `thrusters` about the point `center` (from p in F_s, m), F_s, N m.
 pub fn torque_s(thrusters: &[Thruster], thrust: [f64; MAX_THRUSTERS], center: [f64; 3]) -> [f64; 3] {
     if thrusters.is_empty() {
         return [0.0; 3];

@@ -1,7 +1,6 @@
 //! [`unit_quaternion`]: normalisation that keeps recorded numbers.
 
-/// Tolerance of |q|^2 for numbers divided by their norm: 6 rounding units by the usual bounds (two for the sum, one and
-/// a half for root and division, counted twice in a square; two for the sum again), measured 3.
+/// Tolerance of |q|^2 for numbers divided by their norm: 6 rounding units by the usual bounds, measured 3.
 const ROUNDED_UNIT: f64 = 8.0 * f64::EPSILON;
 
 /// True if the norm of `q` is one to rounding.
@@ -11,8 +10,7 @@ pub(super) fn is_unit(q: &[f64]) -> bool {
     (square - 1.0).abs() <= ROUNDED_UNIT
 }
 
-/// `q` divided by its norm; unchanged if its norm is one to rounding, so that results of this function or of
-/// [`super::Parameter::normalise`] keep their bits when recorded and written again.
+/// `q` divided by its norm; unchanged if its norm is one to rounding, so that recorded numbers keep their bits.
 #[inline]
 pub fn unit_quaternion(q: [f64; 4]) -> [f64; 4] {
     if is_unit(&q) {

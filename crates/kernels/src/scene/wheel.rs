@@ -1,5 +1,4 @@
-//! A turning wheel: mass properties, and its axial and transverse inertia; solid cylinders by Berdoz, *Final Report -
-//! ADR Spacecraft*, (60)-(67) ([`super::solids`]).
+//! A turning wheel: mass properties, and its axial and transverse inertia.
 
 use super::alignment::aligned;
 use super::schema::{WheelInput, WheelMode};

@@ -113,7 +113,7 @@ impl SceneTable {
             lines.written(&header, &self.written(0, scene, place));
             for table in self.numbers {
                 // a schedule may have thousands of arcs, mostly without errors
-                if *table != Table::ArcErrors || scene.actuation[place].errors != ArcErrors::NONE {
+                if *table != Table::ArcErrors || scene.actuation[place].errors != ArcErrors::DEFAULT {
                     lines.keys(*table, place, scene);
                 }
             }

@@ -1,5 +1,4 @@
-//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; commands are not dispersed, errors of the
-//! arc are.
+//! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; only errors of an arc are dispersed.
 
 use super::numbers::Numbers;
 use super::rows::rows;
@@ -12,16 +11,16 @@ rows! {
     start_s: f64 = 0.0, "s", "Start of the arc", Finite, required "0.0";
     end_s: f64 = 1.0, "s", "End of the arc", Finite, required "1.0";
     } others {
-        /// Thrusts in the order of the thrusters, never negative, N; zero beyond. In a file a table by name,
-        /// `thrust_n = { p1 = 100.0 }`.
+        /// Thrusts in the order of the thrusters, N; zero beyond. In a file a table by name, `thrust_n = { p1 = 100.0
+        /// }`.
         thrust_n: [f64; MAX_THRUSTERS] = [0.0; MAX_THRUSTERS],
-        /// Motor torques on the wheels about their axes, in the order of the wheels, N m; the body feels the opposite.
-        /// In a file a table by name, `torque_n_m = { w1 = 0.5 }`.
+        /// Motor torques on the wheels about their axes, N m; the body feels the opposite. In a file a table by name,
+        /// `torque_n_m = { w1 = 0.5 }`.
         torque_n_m: [f64; MAX_WHEELS] = [0.0; MAX_WHEELS],
         /// The name; by default the arc's number, from 0.
         name: Name = Name::NONE,
         /// Errors of the arc.
-        errors: ArcErrors = ArcErrors::NONE,
+        errors: ArcErrors = ArcErrors::DEFAULT,
     }
 }
 
@@ -37,11 +36,6 @@ rows! {
         "Delay of the end of this arc, added to that of the actuators; no effect if the next arc starts as this one \
         ends", Finite;
     } others {}
-}
-
-impl ArcErrors {
-    /// No error.
-    pub const NONE: ArcErrors = ArcErrors::DEFAULT;
 }
 
 impl ActuationInput {

@@ -9,9 +9,9 @@ use super::rows::{row, rows};
 use crate::scene::error::Problems;
 
 rows! {
-    /// The body: everything of the spacecraft but the wheels that turn. With parts ([`super::PartInput`]), a given mass
-    /// scales their inertia, a centre of mass moves the body as it is, and a tensor or principal moments replace the
-    /// inertia. The errors are applied last.
+    /// The body: everything of the spacecraft but the wheels that turn. A given mass scales the inertia of the parts
+    /// ([`super::PartInput`]), a centre of mass moves the body as it is, and a tensor or principal moments replace the
+    /// inertia. Errors come last.
     pub struct BodyInput in BodyInput [table => table] {
     mass_kg: Option<f64> = None, "kg", "Mass, in place of that of the parts", Positive;
     center_of_mass_m: Option<[f64; 3]> = None, "m",
@@ -24,7 +24,7 @@ rows! {
         /// The mass properties are given for the whole spacecraft with its wheels, at rest relative to it.
         includes_wheels: bool = false,
         /// Errors of this distribution of mass.
-        errors: MassErrors = MassErrors::NONE,
+        errors: MassErrors = MassErrors::DEFAULT,
     }
 }
 
@@ -47,7 +47,7 @@ impl BodyInput {
     /// All rows of `[body]` but its errors, in parts.
     pub const PARTS: &'static [&'static [Row<BodyInput>]] = &[BodyInput::ROWS, PRINCIPAL];
 
-    /// Notes what violates its limit in the whole table.
+    /// Notes violated limits in the whole table.
     #[inline(always)]
     pub(in crate::scene) fn check_all(&self, problems: &mut Problems) {
         let name = |key: &'static str| format!("body.{key}").into();

@@ -1,6 +1,5 @@
 //! `[control]`, `[[sensors]]`, `[[guidance]]`: the parameters of a control law, as the law and its parts declare them,
-//! in the terms of every other key of a scene: unit, meaning, limit, default. They are read, checked, dispersed and
-//! written alike, under names such as `control.gain_n_m`.
+//! in the terms of every other key of a scene, under names such as `control.gain_n_m`.
 
 use std::sync::Mutex;
 
@@ -20,7 +19,7 @@ pub struct LawParameter {
 }
 
 impl LawParameter {
-    /// A number that a campaign file must give; `unit` as in the key's name (`gain_n_m`: `N m`), `1` for a pure number.
+    /// A number that a campaign file must give; `unit` as in the key's name (`gain_n_m`: `N m`).
     pub const fn number(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> Self {
         let facts = Facts {
             key,
@@ -43,7 +42,7 @@ impl LawParameter {
         self
     }
 
-    /// A parameter with the default `default`, one number for each component.
+    /// A parameter with a default, one number for each component.
     #[must_use]
     pub const fn or(mut self, default: &'static [f64]) -> Self {
         self.facts.required = None;
@@ -52,7 +51,7 @@ impl LawParameter {
     }
 }
 
-/// The list of the parameters of `parts`, one after the other, kept for good.
+/// The parameters of `parts`, one after the other, kept for good.
 pub fn kept(parts: &[&[LawParameter]]) -> &'static [LawParameter] {
     static KEPT: Mutex<Vec<&'static [LawParameter]>> = Mutex::new(Vec::new());
     let facts = |parameter: &LawParameter| (parameter.facts.key, parameter.facts.meaning, parameter.default);
@@ -118,7 +117,7 @@ impl DeclaredTable {
         self.numbers(self.declared.0.iter().position(|parameter| parameter.facts.key == key)?)
     }
 
-    /// Notes which numbers violate their limits; `header` is the table's.
+    /// Notes violated limits; `header` is the table's.
     fn check(&self, header: &str, problems: &mut Problems) {
         for (index, parameter) in self.declared.0.iter().enumerate() {
             if let Some(numbers) = self.numbers(index) {
@@ -159,7 +158,7 @@ impl ControlInput {
         ControlInput { law: DeclaredTable::of(Name::NONE, declared), ..Self::NONE }
     }
 
-    /// True for the loop of a campaign file, which has phases and models of its motors, unlike the law of a program.
+    /// True for the loop of a campaign file, with phases and models of its motors.
     pub fn has_loop(&self) -> bool {
         !self.guidance.is_empty()
     }
@@ -176,7 +175,7 @@ impl ControlInput {
         self.law.named(key)
     }
 
-    /// Takes the values of `other`, which has the same tables, without allocating.
+    /// Takes the values of `other`, which has the same tables, without allocation.
     pub fn take_values(&mut self, other: &ControlInput) {
         self.law.values.clone_from(&other.law.values);
         let own = self.sensors.iter_mut().chain(&mut self.guidance);

@@ -84,7 +84,7 @@ impl DebrisInput {
     /// The rows of the schema.
     pub const ROWS: &'static [Row<DebrisInput>] = ROWS;
 
-    /// Notes what violates its limit.
+    /// Notes violated limits.
     pub(in crate::scene) fn check(&self, problems: &mut Problems) {
         check_rows(ROWS, self, problems, |key| format!("debris.{key}").into());
     }

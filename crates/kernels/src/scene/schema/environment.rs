@@ -29,7 +29,7 @@ rows! {
         solar_pressure: bool = false,
         /// The forces of air and light move the spacecraft off its orbit.
         coupled: bool = false,
-        /// Heights above `body_radius_m` of given air densities, m, in place of Vallado's table; kept for good
+        /// Heights above `body_radius_m` of given air densities, m, in place of Vallado's table
         /// ([`super::numbers::kept`]).
         air_heights_m: Option<&'static [f64]> = None,
         /// The density at each of them, kg/m^3.

@@ -5,12 +5,10 @@ use crate::scene::error::Problems;
 use crate::scene::tensor::extremes;
 use std::borrow::Cow;
 
-/// Largest deviation from one of the norm of a written attitude quaternion, which is then normalised: six digits make
-/// 1e-6.
+/// Largest deviation from one of the norm of a written attitude quaternion: six digits make 1e-6.
 pub const UNIT_NORM_TOLERANCE: f64 = 1e-6;
 
-/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor computed elsewhere
-/// (rotated, shifted to another centre).
+/// Slack of symmetry and triangle inequality, relative to the trace: the rounding of a tensor computed elsewhere.
 pub const INERTIA_SLACK: f64 = 16.0 * f64::EPSILON;
 
 /// A condition on the numbers of a key; all must be finite.
@@ -94,7 +92,7 @@ impl Limit {
     }
 }
 
-/// Notes that numbers of `key` have the wrong sign. Out of line, so that a valid draw runs straight through.
+/// Out of line, so that a valid draw runs straight through.
 #[cold]
 #[inline(never)]
 fn signs(limit: Limit, key: Cow<'static, str>, numbers: &[f64], problems: &mut Problems) {

@@ -1,4 +1,4 @@
-//! [`MassErrors`]: the difference of a true distribution of mass from the nominal one, of the body or of a part.
+//! [`MassErrors`]: the difference of a true distribution of mass from the nominal one.
 
 use super::numbers::Numbers;
 use super::rows::rows;
@@ -12,8 +12,7 @@ rows! {
     /// The second moments of mass about the centre become S' = k A S A^T with k = `mass_scale` times `inertia_scale`
     /// and A lower triangular, exp(`stretch_log`) on its diagonal and `shear` below: positive definite whatever the
     /// numbers. With S = L L^T, S' = k (A L)(A L)^T: the coordinates of the log-Cholesky form (C. Rucker & P. M.
-    /// Wensing, *Smooth Parameterization of Rigid-Body Inertia*, IEEE Robotics and Automation Letters 7(2), 2022) about
-    /// the nominal body; with mass and centre of mass they couple all ten numbers of a rigid body.
+    /// Wensing, IEEE Robotics and Automation Letters 7(2), 2022) about the nominal body.
     pub struct MassErrors in MassErrors [table => table] {
     mass_scale: f64 = 1.0, "1", "Scale factor for all masses", Positive;
     inertia_scale: f64 = 1.0, "1",
@@ -26,9 +25,4 @@ rows! {
     center_offset_m: [f64; 3] = [0.0; 3], "m",
         "Offset of the centre of mass, in F_s (for a part: in the frame of the part)", Finite;
     } others {}
-}
-
-impl MassErrors {
-    /// No difference.
-    pub const NONE: MassErrors = MassErrors::DEFAULT;
 }

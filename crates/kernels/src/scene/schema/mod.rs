@@ -4,8 +4,8 @@
 //! reading, canonical text and checks, the dispersable [`super::Parameter`]s and the table of keys in the documents. A
 //! new parameter is a new row here, and its field used where it acts.
 //!
-//! A row knows its own table only; [`super::table`] places the tables, and their instances, in a scene. Conditions on
-//! several keys are in [`super::check`]; keys that are not numbers (`mode`, `shape`, names) have no rows.
+//! [`super::table`] places the tables, and their instances, in a scene. Conditions on several keys are in
+//! [`super::check`]; keys that are not numbers (`mode`, `shape`, names) have no rows.
 
 pub mod actuation;
 pub mod actuators;

@@ -10,7 +10,7 @@ pub(in crate::scene) trait Numbers {
     const COMPONENTS: &'static [&'static str];
     /// Arrangement of its numbers.
     const SHAPE: Shape = Shape::Plain;
-    /// The value of a key that is not read yet: not a number.
+    /// The value of a key that is not read yet: NaN.
     const BLANK: Self;
     /// The numbers; `None` where there is no value.
     fn numbers(&self) -> Option<&[f64]>;
@@ -27,7 +27,7 @@ pub fn kept(numbers: &[f64]) -> &'static [f64] {
     interned(&KEPT, numbers.to_vec(), |a, b| a.iter().map(bits).eq(b.iter().map(bits)))
 }
 
-/// The list in `pool` that equals `list` by `is_same`, or `list` itself, leaked into `pool`; a program has few lists.
+/// The list in `pool` that equals `list` by `is_same`, or `list` itself, leaked into `pool`.
 pub(crate) fn interned<T>(
     pool: &Mutex<Vec<&'static [T]>>,
     list: Vec<T>,
@@ -42,51 +42,32 @@ pub(crate) fn interned<T>(
     list
 }
 
-impl Numbers for f64 {
-    const COMPONENTS: &'static [&'static str] = SCALAR;
-    const BLANK: Self = f64::NAN;
-    #[inline(always)]
-    fn numbers(&self) -> Option<&[f64]> {
-        Some(std::slice::from_ref(self))
-    }
-    #[inline(always)]
-    fn numbers_mut(&mut self) -> Option<&mut [f64]> {
-        Some(std::slice::from_mut(self))
-    }
-}
-
-macro_rules! arrays {
-    ($($n:literal $components:ident $shape:ident)*) => { $(
-        impl Numbers for [f64; $n] {
+macro_rules! numbers {
+    ($($type:ty: $components:ident $shape:ident, $blank:expr, |$value:ident| $read:expr, $write:expr;)*) => { $(
+        impl Numbers for $type {
             const COMPONENTS: &'static [&'static str] = $components;
             const SHAPE: Shape = Shape::$shape;
-            const BLANK: Self = [f64::NAN; $n];
+            const BLANK: Self = $blank;
             #[inline(always)]
             fn numbers(&self) -> Option<&[f64]> {
-                Some(self)
+                let $value = self;
+                Some($read)
             }
             #[inline(always)]
             fn numbers_mut(&mut self) -> Option<&mut [f64]> {
-                Some(self)
+                let $value = self;
+                Some($write)
             }
         }
     )* };
 }
 
-arrays! { 2 ACROSS Plain 3 XYZ Plain 4 WXYZ Quaternion }
-
-impl Numbers for [[f64; 3]; 3] {
-    const COMPONENTS: &'static [&'static str] = SYMMETRIC;
-    const SHAPE: Shape = Shape::Symmetric;
-    const BLANK: Self = [[f64::NAN; 3]; 3];
-    #[inline(always)]
-    fn numbers(&self) -> Option<&[f64]> {
-        Some(self.as_flattened())
-    }
-    #[inline(always)]
-    fn numbers_mut(&mut self) -> Option<&mut [f64]> {
-        Some(self.as_flattened_mut())
-    }
+numbers! {
+    f64: SCALAR Plain, f64::NAN, |value| std::slice::from_ref(value), std::slice::from_mut(value);
+    [f64; 2]: ACROSS Plain, [f64::NAN; 2], |value| value, value;
+    [f64; 3]: XYZ Plain, [f64::NAN; 3], |value| value, value;
+    [f64; 4]: WXYZ Quaternion, [f64::NAN; 4], |value| value, value;
+    [[f64; 3]; 3]: SYMMETRIC Symmetric, [[f64::NAN; 3]; 3], |value| value.as_flattened(), value.as_flattened_mut();
 }
 
 impl<T: Numbers> Numbers for Option<T> {

@@ -27,7 +27,7 @@ rows! {
         /// The shape, which decides its sizes.
         shape: PartShape = PartShape::Box,
         /// Errors of this distribution of mass.
-        errors: MassErrors = MassErrors::NONE,
+        errors: MassErrors = MassErrors::DEFAULT,
     }
 }
 

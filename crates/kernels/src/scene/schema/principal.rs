@@ -14,8 +14,8 @@ pub struct PrincipalInertia {
 pub enum PrincipalMoments {
     /// Moments of inertia J_1, J_2, J_3, kg m^2: none above the sum of the other two.
     Inertia([f64; 3]),
-    /// Second moments of mass P_i, the integrals of x_i^2 dm, kg m^2: J_1 = P_2 + P_3 and so on, so that any positive
-    /// three are the inertia of some body.
+    /// Second moments of mass P_i, the integrals of x_i^2 dm, kg m^2: J_1 = P_2 + P_3 and so on, for any positive
+    /// three.
     Second([f64; 3]),
 }
 

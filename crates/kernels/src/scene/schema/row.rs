@@ -11,8 +11,7 @@ pub enum Shape {
     Plain,
     /// A unit quaternion, scalar first: normalised after its components were changed.
     Quaternion,
-    /// A symmetric 3x3 tensor by rows; its components are the six entries on and above the diagonal, each changed with
-    /// its mirror image.
+    /// A symmetric 3x3 tensor by rows; its components are the six entries on and above the diagonal.
     Symmetric,
 }
 
@@ -29,7 +28,7 @@ pub(super) const fn first<T: Copy>(tokens: &[T]) -> Option<T> {
 pub struct Facts {
     /// The key within its table.
     pub key: &'static str,
-    /// The unit, as people write it; `1` for a pure number.
+    /// The unit, as in text; `1` for a pure number.
     pub unit: &'static str,
     /// Meaning, without the unit.
     pub meaning: &'static str,
@@ -37,7 +36,7 @@ pub struct Facts {
     pub components: &'static [&'static str],
     /// Relation between the components.
     pub shape: Shape,
-    /// Example for messages, if the key is required; otherwise the input structure has a default.
+    /// Example for messages, if the key is required.
     pub required: Option<&'static str>,
     /// True if the key exists only with debris.
     pub needs_debris: bool,
@@ -50,15 +49,15 @@ pub struct Facts {
 pub struct Row<T: 'static> {
     /// Facts about the key.
     pub facts: Facts,
-    /// The numbers; `None` if the table has no such key. A symmetric tensor has nine.
+    /// The numbers, if the table has the key; nine for a symmetric tensor.
     pub read: fn(&T) -> Option<&[f64]>,
-    /// The numbers, to be changed.
+    /// The numbers, mutable.
     pub write: fn(&mut T) -> Option<&mut [f64]>,
-    /// Adds the key to the table: an optional value, a way to describe a body.
+    /// Adds the key to the table.
     pub open: fn(&mut T),
 }
 
-/// Notes which values of the rows that `table` has violate their limits.
+/// Notes violated limits of the rows that `table` has.
 pub(super) fn check_rows<T>(
     rows: &'static [Row<T>],
     table: &T,

@@ -1,4 +1,4 @@
-//! Macros that turn rows of the schema into an input structure, its defaults, its checks and its [`super::row::Row`]s.
+//! Macros that turn rows of the schema into an input structure, its defaults, checks and [`super::row::Row`]s.
 
 /// An input structure from its rows. A row reads
 ///
@@ -6,8 +6,7 @@
 /// key: type = default, "unit", "meaning", Limit [of COMPONENTS] [, required "example"] [, with debris];
 /// ```
 ///
-/// `in Table [table => table.part]` places the structure in that of the whole table; `others` lists fields that are not
-/// numbers.
+/// `in Table [table => table.part]` places the structure in that of the whole table; `others` are not numbers.
 macro_rules! rows {
     (
         $(#[$doc:meta])*
@@ -55,8 +54,7 @@ macro_rules! rows {
                 },
             )* ];
 
-            /// Notes which values violate their limits; `name` makes a dotted name of the key. Unrolled, since every
-            /// draw is checked.
+            /// Notes violated limits; `name` makes a dotted name of the key. Unrolled, since every draw is checked.
             #[inline(always)]
             pub(in crate::scene) fn check(
                 &self,

@@ -6,9 +6,8 @@ use crate::math::enumeration::named;
 use crate::scene::name::Name;
 
 rows! {
-    /// A balanced axisymmetric wheel that spins about an axis through its centre, which is fixed in the body.
-    ///
-    /// By radius, length and density it is a solid cylinder; otherwise mass and inertias are given.
+    /// A balanced axisymmetric wheel with its spin axis fixed in the body: a solid cylinder by radius, length and
+    /// density, otherwise by mass and inertias.
     pub struct WheelInput in WheelInput [table => table] {
     axis: [f64; 3] = [0.0, 0.0, 1.0], "1",
         "Spin axis in F_s; need not have length one", Direction, required "[0, 0, 1]";
@@ -76,12 +75,11 @@ named! {
     /// Motion of a wheel when no torque is scheduled for it.
     #[derive(Default)]
     pub enum WheelMode {
-        /// It turns freely in its bearing: its absolute axial momentum h_i is constant, and J* resists a change of
-        /// omega.
+        /// It turns freely: its absolute axial momentum h_i is constant, and J* resists a change of omega.
         #[default]
         Free = "free",
-        /// Its motor keeps its rate relative to the body at the initial value with any torque: its momentum relative to
-        /// the body, J_i Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
+        /// Its motor keeps its rate relative to the body with any torque: its momentum relative to the body, J_i
+        /// Omega_i, is constant, and its axial inertia resists a change of omega with the rest.
         SpeedHeld = "speed_held",
         /// It does not turn relative to the body: a part of it.
         Locked = "locked",
