@@ -1,9 +1,8 @@
 //! Actuation of a spacecraft, arc by arc.
 //!
 //! At the end of an *arc* of constant actuation the engine passes the state of the run to its [`ActuationLaw`], which
-//! returns the next actuation and its end. Any closure `|time, body, wheels| -> Actuation` is a law.
-//!
-//! Values are *applied* values: a law models the scales, delays and limits of its actuators itself.
+//! returns the next actuation and its end. Values are *applied* values: a law models the scales, delays and limits of
+//! its actuators itself.
 
 use crate::run::Telemetry;
 pub use crate::scene::schedule::actuation_at;
@@ -39,7 +38,7 @@ impl WheelState {
         WheelState { rates: [0.0; MAX_WHEELS], momenta: [0.0; MAX_WHEELS], angles: [0.0; MAX_WHEELS] };
 }
 
-/// Decides the actuation of one run, arc by arc, from its present and earlier arguments only.
+/// Decides the actuation of one run, arc by arc; any closure `|time, body, wheels| -> Actuation` does.
 pub trait ActuationLaw {
     /// Actuation from `time` (s since the start of the run) on. Called at time zero and at the end of every arc;
     /// `until` must exceed `time`, and another source or the end of the run may cut the arc short.
@@ -68,7 +67,7 @@ impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
     }
 }
 
-/// Samples a law at times 0, T, 2T, ... and holds each actuation for a whole period, whatever its `until`.
+/// Samples a law at times 0, T, 2T, ... and holds each actuation for a period, whatever its `until`.
 #[derive(Clone, Debug)]
 pub struct ZeroOrderHold<L> {
     period: f64,
@@ -153,7 +152,7 @@ impl Laws<'_> {
         }
     }
 
-    /// Reborrows the laws for a shorter time.
+    /// The same laws, for a shorter time.
     pub fn reborrow(&mut self) -> Laws<'_> {
         match self {
             Laws::OpenLoop => Laws::OpenLoop,

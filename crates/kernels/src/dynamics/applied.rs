@@ -13,7 +13,7 @@ pub fn scheduled_arc(scene: &Scene, time: f64, duration: f64) -> Arc {
     arc
 }
 
-/// The arc of a run of `scene` from `time` on: scheduled, or by `law` in the state `state`.
+/// The arc of a run of `scene` from `time` on: scheduled, or by `law` in `state`.
 ///
 /// # Panics
 /// If the law's arc ends before it starts: the run would never end.

@@ -1,5 +1,5 @@
-//! [`ArcRecord`]: the arcs of a run, stored as differences: a control loop has an arc per tick and changes few numbers
-//! (40 bytes per arc with three wheels instead of 264 for an [`Arc`]).
+//! [`ArcRecord`]: the arcs of a run as differences, since a control loop has an arc per tick and changes few numbers
+//! (40 bytes per arc with three wheels instead of 264).
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
@@ -75,7 +75,7 @@ impl ArcRecord {
     }
 }
 
-/// Reads a record arc by arc without copying unchanged numbers.
+/// Reads a record arc by arc.
 #[derive(Clone, Debug)]
 pub struct ArcReader<'a> {
     words: std::slice::Iter<'a, u64>,
@@ -105,7 +105,7 @@ impl Extend<Arc> for ArcRecord {
     }
 }
 
-/// Appends the numbers of `new` with other bits than in `last`, updates `last` and returns their mask.
+/// Appends the numbers of `new` with other bits than in `last`, updates `last`, returns their mask.
 #[inline]
 fn record<const K: usize>(words: &mut Vec<u64>, last: &mut [f64; K], new: &[f64; K]) -> u64 {
     // mostly nothing changes: one test of the whole array

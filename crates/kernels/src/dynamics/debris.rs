@@ -58,8 +58,7 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
     }
 }
 
-/// Fills position and velocity of a debris of `mass` kg on the path `relative`, and adds gravity's work on it to the
-/// spacecraft's.
+/// Fills position and velocity of a debris of `mass` kg on the path `relative`, and adds gravity's work on it.
 pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, table: &mut StateTable) {
     let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
     let has_work = table.has(StateField::Work);

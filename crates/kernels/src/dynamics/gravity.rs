@@ -16,7 +16,7 @@
 //! s = d + w5 r
 //! ```
 //!
-//! No terms cancel: an offset of metres keeps all its digits, although the last digit of 7000 km is a nanometre.
+//! No terms cancel: an offset of metres keeps all its digits.
 
 use super::orbit_state::OrbitState;
 use crate::math::prelude::*;

@@ -70,8 +70,7 @@ impl<R: Real> OffsetSeries<R> {
         }
     }
 
-    /// Starts a step with the reference point at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per
-    /// unit squared).
+    /// Starts a step, as [`OrbitSeries::begin`].
     #[inline(always)]
     pub fn begin(&mut self, gravity: Gravity<R>, position: [R; 3], velocity: [R; 3]) {
         self.orbit.begin(gravity, position, velocity);

@@ -10,8 +10,7 @@
 //! ```
 //!
 //! Circles are no special case, since no direction of a periapsis appears. E solves E - e sin E = M, M = M0 + 2 pi t/P,
-//! in turns reduced to half a turn: even a thousand orbits later only t/P is rounded. About a flattened body this is
-//! the osculating orbit at time zero ([`super::orbit_path`]).
+//! in turns reduced to half a turn. About a flattened body this is the osculating orbit at time zero.
 
 use super::gravity::Gravity;
 use super::orbit_state::OrbitState;
@@ -21,8 +20,7 @@ use crate::math::sine::sin_cos_turns;
 use crate::math::{Mask, Real};
 use crate::scene::Orbit;
 
-/// Convergence of Newton's method: the last correction of E, rad. The next one is e/(2 (1 - e)) times its square, below
-/// rounding up to e = 0.99.
+/// Convergence of Newton's method: the last correction of E, rad. The next one is e/(2 (1 - e)) times its square.
 const CONVERGED: f64 = 1e-9;
 
 /// Limit of corrections; up to e = 0.999 there are at most 9.
@@ -165,8 +163,7 @@ impl<R: Real> KeplerOrbit<R> {
         self.state_at([time, time.zero()])
     }
 
-    /// The state at a time that is a sum of two numbers, s: a single one rounds the position to 1e-12 rad after 1,000
-    /// orbits.
+    /// The state at a sum of two times, s: a single one rounds the position to 1e-12 rad after 1,000 orbits.
     #[inline(always)]
     pub fn state_at(&self, [time, low]: [R; 2]) -> OrbitState<R> {
         let one = time.splat(1.0);

@@ -1,13 +1,12 @@
 //! [`OrbitInBody`]: Taylor coefficients of the position from the central body in the body frame, and of its products.
 //!
-//! In the frame B with the rate omega, position r and velocity v on a two-body orbit follow
+//! In the frame B with the rate omega, position r and velocity v on a two-body orbit follow, with 15 products of series
 //!
 //! ```text
 //! r' = v - omega x r        v' = -s r - omega x v        s = mu rho^(-3/2)        rho = r . r
 //! ```
 //!
-//! with 15 products of series instead of the 32 that turn a position in F_e by the quaternion, q* (x) r (x) q, as is
-//! done about a flattened body or near the orbit; all runs of a plan agree in this.
+//! About a flattened body or near the orbit 32 products turn a position in F_e by the quaternion, q* (x) r (x) q.
 
 use super::effects::within_arcs::MotionSeries;
 use super::orbit_series::next_of_power;

@@ -2,8 +2,8 @@
 //! flattened body.
 //!
 //! Steps depend on the orbit alone and are kept, so that a time always gives the same bits. Each is the series of
-//! `orbit_series` to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental
-//! Mathematics 14, 2005): the first neglected term is e^-44.
+//! `orbit_series` to order 22 over e^-2 of its radius of convergence (A. Jorba & M. Zou, Experimental Mathematics 14,
+//! 2005).
 
 use std::sync::{Arc, OnceLock};
 
@@ -189,8 +189,8 @@ pub(super) fn state_within(coefficients: &[[f64; 3]], low: [[f64; 3]; 2], within
     [sum(coefficients[0], sum(position, low[0])), sum(coefficients[1], sum(velocity, low[1]))]
 }
 
-/// Change of position and velocity until `within` seconds after the start of a step; `low` is the rounding error of the
-/// velocity there.
+/// Change of position and velocity until `within` seconds after the start of a step; `low` is the velocity's rounding
+/// error.
 fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
     let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
     for (n, coefficients) in coefficients.iter().enumerate().skip(2).rev() {

@@ -1,5 +1,5 @@
 //! [`RelativeOrbit`]: a free body near a point on an orbit, at any time. The offset itself is integrated by its Taylor
-//! series (`offset_series`) in steps that depend on the run alone, so that a time always gives the same bits.
+//! series (`offset_series`) in steps that depend on the run alone.
 
 use super::gravity::Gravity;
 use super::offset_series::OffsetSeries;

@@ -8,14 +8,14 @@
 /// evaluated { Effect: file, [begin_arc, set_arc]?, key, condition; }
 /// ```
 ///
-/// An effect that changes within an arc is a type in `file` with `none(zero)`, `set_lane(lane,
-/// &Effect<f64>)` and `torque(&Motion<R>)` in B, N m; constants of an arc (the dipole of the torque rods) are set by
-/// `begin_arc(dipole)` and copied by `set_arc(lane, &Effect<f64>)`. The form `Evaluated` adds `force(&Motion<R>)` in B,
-/// N, and branches ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)`,
-/// `choose_branches(lanes, &Motion<R>)`. `Series<R>` has `new(zero, order)`, `NEEDS_POSITION`, `begin(&Effect<R>, time,
-/// unit)` and `extend(n, &MotionSeries<R>)`, the n-th coefficient of the torque in the unit of time. The file also has
-/// `of(zero, scene, c_sb)`, the constants in the frame B (`c_sb` maps it to F_s) or `None` if the effect does not act;
-/// `largest_torque(scene)`, an upper bound, N m; `largest_rate(scene)`, the fastest motion that it causes, rad/s.
+/// An effect that changes within an arc is a type in `file` with `none(zero)`, `set_lane(lane, &Effect<f64>)` and
+/// `torque(&Motion<R>)` in B, N m; constants of an arc (the dipole of the torque rods) are set by `begin_arc(dipole)`
+/// and copied by `set_arc(lane, &Effect<f64>)`. The form `Evaluated` adds `force(&Motion<R>)` in B, N, and branches
+/// ([`crate::ode::switches`]): `is_rough(zero)`, `switches(&[Motion<R>; M], visit)`, `choose_branches(lanes,
+/// &Motion<R>)`. `Series<R>` has `new(zero, order)`, `NEEDS_POSITION`, `begin(&Effect<R>, time, unit)` and `extend(n,
+/// &MotionSeries<R>)`, coefficient n of the torque in the unit of time, for ascending n. The file also has `of(zero,
+/// scene, c_sb)`, the constants in the frame B (`c_sb` maps it to F_s) if the effect acts; `largest_torque(scene)`, an
+/// upper bound, N m; `largest_rate(scene)`, the fastest motion that it causes, rad/s.
 macro_rules! effects {
     (
         constant { $($(#[$constant_doc:meta])* $Constant:ident: $constant_form:ident, $constant_key:literal,
@@ -93,7 +93,7 @@ macro_rules! effects {
                 least
             }
 
-            /// Fraction of a step at which a switch function that is positive at both ends may dip below zero
+            /// Fraction of a step at which a positive switch function may dip below zero
             /// ([`crate::ode::switches::dip`]).
             #[inline(always)]
             pub fn dip(&self, motions: &[within_arcs::Motion<R>; 4]) -> R {
@@ -147,7 +147,7 @@ macro_rules! effects {
             }
 
             /// Starts a step at `time` (s) in a unit of `unit` seconds. `place`: gravity and position on the orbit (m,
-            /// m/s), if needed; `may_leave`: the spacecraft may leave the orbit.
+            /// m/s), if needed; `may_leave`: the spacecraft may leave it.
             #[inline(always)]
             pub fn begin(
                 &mut self,
@@ -178,7 +178,7 @@ macro_rules! effects {
             }
 
             /// Coefficient n of the sum of the torques from those of attitude, rate and offset from the orbit (m), in
-            /// ascending order of `n`; [`ChangingSeries::torque`] also includes `constant`.
+            /// ascending order of `n`; [`ChangingSeries::torque`] includes `constant`.
             #[inline(always)]
             pub fn extend(
                 &mut self,

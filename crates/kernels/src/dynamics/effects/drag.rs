@@ -2,8 +2,7 @@
 //!
 //! f = -rho/2 C_d A max(0, n . v) v at the plate's centre, with the outward normal n and the velocity v relative to air
 //! that rotates with the Earth (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2.3).
-//! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), mutual shadowing. The force acts on the
-//! orbit if `environment.coupled` is set.
+//! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), mutual shadowing.
 
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -30,13 +29,11 @@ impl<R: Real> Drag<R> {
         self.air.set_lane(lane, &own.air);
     }
 
-    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         self.torque_at(self.air.density(motion.place.distance), flow(motion))
     }
 
-    /// Force on a body, B, N.
     #[inline(always)]
     pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
         let velocity = flow(motion);
@@ -55,7 +52,7 @@ impl<R: Real> Drag<R> {
         self.plates.choose_branches(lanes, flow(motion));
     }
 
-    /// No lane: drag is smooth for given plates and layer.
+    /// Drag is smooth for given plates and layer.
     #[inline(always)]
     pub fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()
@@ -80,7 +77,7 @@ impl<R: Real> Drag<R> {
         self.air.density(distance)
     }
 
-    /// Torque at the density `density` (kg/m^3) and the velocity `velocity` relative to the air, B, m/s.
+    /// Torque at `density` (kg/m^3) and the velocity relative to the air, B, m/s.
     #[inline(always)]
     pub fn torque_at(&self, density: R, velocity: [R; 3]) -> [R; 3] {
         let mut arm = [density.zero(); 3];

@@ -1,11 +1,12 @@
 //! Gravity gradient torque: tau = 3 mu/|r|^5 r x (J r).
 //!
-//! J is the inertia about the centre of mass with locked wheels, r the position from the central body, both in one
-//! frame (P. Hughes, *Spacecraft Attitude Dynamics*, 1986, section 8.1: first order in size over |r|).
+//! J is the inertia about the centre of mass with locked wheels, r the position from the central body (P. Hughes,
+//! *Spacecraft Attitude Dynamics*, 1986, section 8.1: first order in size over |r|).
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit_in_body::OrbitInBody;
 use crate::dynamics::orbit_state::OrbitState;
+use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;
@@ -25,14 +26,11 @@ impl<R: Real> GravityGradient<R> {
 
     pub fn set_lane(&mut self, lane: usize, gradient: &GravityGradient<f64>) {
         self.strength.set_lane(lane, gradient.strength);
-        for i in 0..3 {
-            for j in 0..3 {
-                self.inertia[i][j].set_lane(lane, gradient.inertia[i][j]);
-            }
+        for (row, own) in self.inertia.iter_mut().zip(&gradient.inertia) {
+            set_lanes(row, lane, own);
         }
     }
 
-    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         let OrbitState { position, distance, .. } = motion.place;
@@ -94,7 +92,6 @@ impl<R: Real> GradientSeries<R> {
         self.inertia = gradient.inertia;
     }
 
-    /// Coefficient n of the torque, B, N m in the unit of time; in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
         let GradientSeries { inertia, orbit, lever, strength } = self;

@@ -1,11 +1,10 @@
-//! Magnetic torque of the residual dipole and of the torque rods.
-//!
-//! tau = m x B (J. R. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2) with the dipole m
-//! constant in the body over an arc.
+//! Magnetic torque of the residual dipole and of the torque rods: tau = m x B (J. R. Wertz, *Spacecraft Attitude
+//! Determination and Control*, 1978, section 17.2) with the dipole m constant in the body over an arc.
 
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
 use crate::dynamics::magnetic_field::{MagneticField, largest};
+use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::scene::Scene;
 
@@ -29,18 +28,15 @@ impl<R: Real> MagneticTorque<R> {
     }
 
     pub fn set_arc(&mut self, lane: usize, own: &MagneticTorque<f64>) {
-        for i in 0..3 {
-            self.residual[i].set_lane(lane, own.residual[i]);
-            self.dipole[i].set_lane(lane, own.dipole[i]);
-        }
+        set_lanes(&mut self.residual, lane, &own.residual);
+        set_lanes(&mut self.dipole, lane, &own.dipole);
     }
 
-    /// Starts an arc with the dipole `rods` of the torque rods, B, A m^2.
+    /// Starts an arc with the dipole of the torque rods, B, A m^2.
     pub fn begin_arc(&mut self, rods: [R; 3]) {
         self.dipole = sum(self.residual, rods);
     }
 
-    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         let field_e = self.field.at(motion.time, motion.place.position);
@@ -83,7 +79,6 @@ impl<R: Real> MagneticSeries<R> {
         self.field.begin(&torque.field, time, unit);
     }
 
-    /// Coefficient n of the torque, B, N m in the unit of time; in ascending order of `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) -> [R; 3] {
         let MagneticSeries { dipole, field, turned, .. } = self;

@@ -1,9 +1,8 @@
-//! Effects: forces and torques on a spacecraft other than its actuators', under a schedule or a law.
+//! Effects: forces and torques on a spacecraft other than its actuators'.
 //!
-//! An effect is one file and one row of the list below; its parameters are keys of `[environment]` and `[orbit]`
-//! ([`crate::scene::schema`]). Every engine declares the [`Form`]s that it integrates
-//! (`propagation::integrated_effects`) and refuses a run with any other. Kernels for scenes without effects are
-//! compiled without them.
+//! An effect is one file and one row of the list below; its parameters are keys of `[environment]` and `[orbit]`. Every
+//! engine declares the [`Form`]s that it integrates (`propagation::integrated_effects`) and refuses a run with any
+//! other. Kernels for scenes without effects are compiled without them.
 
 mod changing_effects;
 pub(crate) mod plates;
@@ -105,7 +104,7 @@ impl ForceModel {
         self.effects().all(|effect| integrated(effect.form()))
     }
 
-    /// True if an effect changes within an arc and must be in the kernel, unlike those in closed form.
+    /// True if an effect must be in the kernel, unlike those in closed form.
     pub fn changes_within_arcs(self) -> bool {
         self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated | Form::Force))
     }

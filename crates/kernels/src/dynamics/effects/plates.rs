@@ -1,8 +1,9 @@
 //! [`PlatesInLanes`]: the plates of a spacecraft, one run per lane, in the frame B of the equations.
 //!
-//! The switch function of a plate is the cosine of its normal to the incoming direction, negative if it faces away. If
-//! steps end at switches, the chosen side is frozen.
+//! The switch function of a plate is the cosine of its normal to the incoming direction. If steps end at switches, the
+//! chosen side is frozen.
 
+use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
 use crate::scene::{MAX_PLATES, Plate, Scene};
@@ -49,16 +50,10 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
     pub fn set_lane(&mut self, lane: usize, own: &PlatesInLanes<f64, K>) {
         self.count = self.count.max(own.count);
         for (plate, own) in self.plates[..self.count].iter_mut().zip(&own.plates) {
-            for i in 0..3 {
-                plate.normal[i].set_lane(lane, own.normal[i]);
-                plate.arm[i].set_lane(lane, own.arm[i]);
-            }
-            for (number, own) in plate.numbers.iter_mut().zip(own.numbers) {
-                number.set_lane(lane, own);
-            }
-            for (limit, own) in plate.limits.iter_mut().zip(own.limits) {
-                limit.set_lane(lane, own);
-            }
+            set_lanes(&mut plate.normal, lane, &own.normal);
+            set_lanes(&mut plate.arm, lane, &own.arm);
+            set_lanes(&mut plate.numbers, lane, &own.numbers);
+            set_lanes(&mut plate.limits, lane, &own.limits);
         }
     }
 
@@ -94,16 +89,15 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
 }
 
 impl<R: Real, const K: usize> PlateInLanes<R, K> {
-    /// Effective cosine between the normal and the unit vector `direction`: zero if the plate faces away; on a chosen
-    /// side the cosine itself, or zero.
+    /// Effective cosine between the normal and the unit vector `direction`: zero if the plate faces away; the cosine
+    /// itself, or zero, on a chosen side.
     #[inline(always)]
     pub fn facing(&self, direction: [R; 3]) -> R {
         dot(self.normal, direction).larger(self.limits[0]).smaller(self.limits[1])
     }
 }
 
-/// Sum over the plates of `weight` times area times distance from the centre of mass, m^3: bounds the torque per unit
-/// pressure.
+/// Sum over the plates of `weight` times area times distance from the centre of mass, m^3.
 pub fn largest_lever(scene: &Scene, weight: impl Fn(&Plate) -> f64) -> f64 {
     let of = |plate: &Plate| weight(plate) * plate.area * norm(difference(plate.center, scene.mass.center));
     scene.plates.iter().map(of).sum()

@@ -4,7 +4,7 @@
 //! the unit vector s to the Sun and the shares c_s and c_d of specular and diffuse reflection (J. Wertz, *Spacecraft
 //! Attitude Determination and Control*, 1978, (17-27)..(17-30)). P falls with the square of the distance to the Sun and
 //! with the visible share of its disc ([`crate::dynamics::environment::shadow`]). Neglected: mutual shadowing, light
-//! from the Earth. The force acts on the orbit if `environment.coupled` is set.
+//! from the Earth.
 
 use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
@@ -40,14 +40,12 @@ impl<R: Real> SolarPressure<R> {
         self.light.shadow = own.light.shadow;
     }
 
-    /// Torque on a body, B, N m.
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
         let (share, direction) = self.light_on(motion);
         self.torque_at(share, direction)
     }
 
-    /// Force on a body, B, N.
     #[inline(always)]
     pub fn force(&self, motion: &Motion<R>) -> [R; 3] {
         let (share, direction) = self.light_on(motion);

@@ -18,7 +18,7 @@ pub struct Beside<R> {
     pub torque: [R; 3],
     /// Force on the body, B, N, if any.
     pub force: Option<[R; 3]>,
-    /// Motion of the point on an orbit to which the state is relative, if any.
+    /// Motion of the point on an orbit to which the state is relative.
     pub carrier: Option<Carrier<R>>,
 }
 
@@ -88,7 +88,7 @@ impl<R: Real> MotionSeries<R> {
     }
 
     /// Starts a step with the reference point at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per
-    /// unit squared). A two-body orbit has its coefficients computed only with `keeps_orbit`.
+    /// unit squared). Coefficients of a two-body orbit are computed with `keeps_orbit` only.
     #[inline(always)]
     pub fn begin_orbit(
         &mut self,
@@ -123,7 +123,6 @@ impl<R: Real> MotionSeries<R> {
         !self.may_leave && self.orbit.gravity().oblateness.is_none()
     }
 
-    /// True if the spacecraft may leave its orbit.
     #[inline(always)]
     pub fn may_leave(&self) -> bool {
         self.may_leave
@@ -180,8 +179,7 @@ pub trait WithinArcs<R: Real> {
         time.splat(f64::INFINITY)
     }
 
-    /// Fraction of a step at which a switch function that is positive at both ends may dip below zero
-    /// ([`crate::ode::switches::dip`]), from times and states at four fractions.
+    /// Dip of a switch function ([`crate::ode::switches::dip`]), from times and states at four fractions of a step.
     #[inline(always)]
     fn dip<const N: usize>(&self, [time, ..]: [R; 4], _states: [&[R; N]; 4]) -> R {
         time.splat(f64::INFINITY)
@@ -191,15 +189,13 @@ pub trait WithinArcs<R: Real> {
     #[inline(always)]
     fn choose_branches<const N: usize>(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 
-    /// Inverse time in which the offset from the orbit changes (1/s) and mass (kg), if the spacecraft may leave its
-    /// orbit.
+    /// Inverse time in which the offset from the orbit changes (1/s) and mass (kg), if the spacecraft may leave it.
     #[inline(always)]
     fn scales_of_offset(&self) -> Option<[R; 2]> {
         None
     }
 
-    /// The Taylor series from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds, held in
-    /// `memory`; `None` without effects.
+    /// The Taylor series from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds, in `memory`.
     #[inline(always)]
     fn series<'m>(
         &self,
@@ -255,8 +251,7 @@ impl<R: Real> Acting<R> {
     }
 }
 
-/// Position of a spacecraft with the integrated components `state` near the point `place` on its orbit, and the point's
-/// motion.
+/// Position of a spacecraft near the point `place` on its orbit, and the point's motion.
 #[inline(always)]
 pub fn beside_orbit<R: Real, const N: usize>(
     gravity: &Gravity<R>,

@@ -3,7 +3,7 @@
 //! Between two heights of an [`AirTable`] the density is exponential; the outermost layers extend beyond the table.
 //! [`AirTable::VALLADO`]: D. Vallado, *Fundamentals of Astrodynamics and Applications*, 4th ed., 2013, table 8-4 (US
 //! Standard Atmosphere 1976 up to 25 km, CIRA-72 above), without its rounded scale heights, by which the density would
-//! jump by up to 0.14% between layers and disturb step control.
+//! jump by up to 0.14% between layers.
 
 use super::{EARTH_RATE, each_lane};
 use crate::dynamics::orbit_state::OrbitState;
@@ -28,7 +28,7 @@ const OUTERMOST: f64 = 3.019e-15 / core::f64::consts::E;
 const SWITCH_UNIT: f64 = 100.0;
 
 /// A layer: base and thickness, km; density at its base, kg/m^3; logarithm of the density ratio of top to base; for
-/// base and top, infinity if the layer extends beyond, else zero.
+/// base and top, infinity if the layer extends beyond.
 type Layer<R> = [R; 6];
 
 impl AirTable {
@@ -122,8 +122,7 @@ impl<R: Real> Air<R> {
         }
     }
 
-    /// Calls `visit` with the switch functions of both ends of the chosen layer, at `M` distances from the Earth's
-    /// centre, m.
+    /// Calls `visit` with the switch functions of both ends of the chosen layer, at `M` distances, m.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, distances: &[R; M], visit: &mut impl FnMut([R; M])) {
         let number = |value: f64| self.scale.splat(value);

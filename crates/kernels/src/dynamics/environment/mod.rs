@@ -2,7 +2,7 @@
 //! [`light`].
 //!
 //! In F_e the third axis is the Earth's axis of rotation, the first points to the mean equinox of date. Functions
-//! beyond [`Real`] operations are evaluated in `f64`, lane by lane, so that a lane has the bits of a scalar.
+//! beyond [`Real`] operations are evaluated lane by lane, so that a lane has the bits of a scalar.
 
 pub mod air;
 pub mod light;

@@ -17,8 +17,7 @@ const SUN_RADIUS: f64 = 6.957e8;
 /// Upper bound of the tangent of the Sun's angular radius: 0.00473 at the smallest distance.
 const WIDEST: f64 = 0.005;
 
-/// Share of the Sun's disc visible from `position` (F_e, m) beyond an Earth of radius `radius`, m: 1 in light, 0 in
-/// umbra.
+/// Share of the Sun's disc visible from `position` (F_e, m) beyond an Earth of radius `radius`, m.
 #[inline(always)]
 pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
     let along = dot(position, sun.direction);
@@ -155,7 +154,7 @@ mod tests {
     }
 
     /// Law: the cylinder is as wide as the Earth; umbra and penumbra differ from it by |r| tan(0.2666 deg); half of the
-    /// disc is visible near the edge of the cylinder; the share never jumps.
+    /// disc is visible near its edge; the share never jumps.
     #[test]
     fn the_shadows_have_their_widths() {
         let behind = 7e6;
@@ -191,8 +190,8 @@ mod tests {
             [c * x + s * y, c * y - s * x, w]
         };
         let tilt = |[x, y, w]: [f64; 3], angle: f64| {
-            let (s, c) = libm::sincos(angle);
-            [c * x + s * w, y, c * w - s * x]
+            let [x, w, y] = turn([x, w, y], angle);
+            [x, y, w]
         };
         let direction = turn(tilt(turn(sun.direction, z), theta), zeta);
         let orbit = Orbit::of(&OrbitInput {

@@ -9,8 +9,7 @@
 //! R = 1.00014 - 0.01671 cos g - 0.00014 cos 2g  (au)
 //! ```
 //!
-//! Apparent direction in the mean equator and equinox of date, good to 0.01 deg from 1950 to 2050 (Almanac; measured
-//! below).
+//! Apparent direction in the mean equator and equinox of date, good to 0.01 deg from 1950 to 2050.
 
 use crate::math::Real;
 use crate::math::sine::sin_cos_turns;

@@ -20,7 +20,7 @@ const TRANSLATION: [StateField; 5] = [
     StateField::Work,
 ];
 
-/// The smallest number of integrated components from which the fields follow; `thrust` (or body torque) and `motors`
+/// The smallest number of integrated components from which the fields follow, if `thrust` (or body torque) and `motors`
 /// may act.
 pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) -> usize {
     if thrust && TRANSLATION.into_iter().any(&has) {
@@ -36,8 +36,8 @@ pub fn components(has: impl Fn(StateField) -> bool, thrust: bool, motors: bool) 
     }
 }
 
-/// Fills the spacecraft's fields of `table` from the integrated components; those beyond the components of
-/// `trajectory` are those of a run without thrust or motors.
+/// Fills the spacecraft's fields of `table` from the integrated components; missing ones are those of a run without
+/// thrust or motors.
 #[inline(always)]
 pub fn complete<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, grid: &Grid, table: &mut StateTable) {
     complete_rotation(simd, run, trajectory, table);
@@ -96,7 +96,7 @@ pub fn body_rate<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory,
     }
 }
 
-/// Attitude quaternion, body -> F_e, at the eight points from `first` on; needs the attitude among the components.
+/// Attitude quaternion, body -> F_e, at the eight points from `first` on.
 #[inline(always)]
 pub fn body_attitude<S: Simd>(simd: S, run: &Gyrostat<f64>, trajectory: &Trajectory, first: usize) -> [Lanes<S>; 4] {
     let chunk = Chunk { simd, run, trajectory, first, times: &[] };
@@ -150,7 +150,7 @@ impl<S: Simd> Chunk<'_, S> {
         }
     }
 
-    /// Work of thrusters, body torques, gravity and wheel motors, including motors that hold a speed.
+    /// Work of thrusters, body torques, gravity and wheel motors.
     #[inline(always)]
     fn complete_work(self, table: &mut StateTable) {
         if !table.has(StateField::Work) {

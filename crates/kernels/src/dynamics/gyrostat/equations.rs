@@ -53,7 +53,7 @@ impl<R: Real> Constants<R> {
         }
     }
 
-    /// Copies the constants of a run into lane `lane`; the lane's unit of time `unit`, s, is a power of two: exact.
+    /// Copies the constants of a run into lane `lane`; the lane's unit of time `unit`, s, is a power of two.
     #[inline(always)]
     pub fn set_run(&mut self, lane: usize, run: &Gyrostat<f64>, unit: f64) {
         let j = run.moments;
@@ -86,7 +86,7 @@ impl<R: Real> Constants<R> {
         self.start.set_lane(lane, arc.arc.start / unit);
     }
 
-    /// The constants of arc `arc` in the arithmetic of the run, equal to [`Constants::set_run`] and
+    /// The constants of arc `arc` in the arithmetic of the run, as by [`Constants::set_run`] and
     /// [`Constants::set_arc`].
     #[inline(always)]
     pub fn of(run: &Gyrostat<R>, arc: usize, unit: f64) -> Self {
@@ -139,8 +139,7 @@ impl<R: Real> Constants<R> {
         acceleration
     }
 
-    /// Derivative of the first `N` components, indexed as in the parent module. The torque of `beside` includes the
-    /// arc's.
+    /// Derivative of the first `N` components. The torque of `beside` includes the arc's.
     #[inline(always)]
     pub fn derivative<const N: usize>(&self, time: R, y: &[R; N], beside: &Beside<R>) -> [R; N] {
         let torque = beside.torque;

@@ -1,22 +1,21 @@
 //! The gyrostat: the spacecraft with its wheels, reduced to its independent motions.
 //!
-//! With balanced axisymmetric wheels on fixed centres the inertia in F_s is constant, and the spacecraft is a
-//! Zhukovskii-Volterra gyrostat (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of
-//! Multibody Systems*, 2008, section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over all wheels:
+//! With balanced axisymmetric wheels on fixed centres the inertia in F_s is constant: a Zhukovskii-Volterra gyrostat
+//! (N. E. Zhukovskii, 1885; V. Volterra, Acta Math. 22, 1899; J. Wittenburg, *Dynamics of Multibody Systems*, 2008,
+//! section 4.6). About the centre of mass c, with J* = J - sum J_i a_i a_i^T over all wheels:
 //!
 //! ```text
 //! H = J* omega + sum h_i a_i,    J* omega' = H x omega + tau_ext - sum tau_i a_i,    h_i' = tau_i
 //! ```
 //!
-//! The axial inertia of a wheel of constant speed stays in the body's: with K = J* + sum over held wheels of J_i a_i
-//! a_i^T the same equations hold for
+//! A wheel of constant speed adds its axial inertia to the body's: with K = J* + sum over held wheels of J_i a_i a_i^T
+//! the same equations hold for
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
 //! ```
 //!
-//! The motor of a held wheel exerts J_i omega' . a_i; its work Omega_i J_i (omega - omega(0)) . a_i needs no
-//! quadrature.
+//! The motor of a held wheel exerts J_i omega' . a_i; its work is Omega_i J_i (omega - omega(0)) . a_i.
 //!
 //! Everything is in the *principal frame* B of K (F_s if J* is diagonal), where omega_i' is one product of two rates
 //! plus linear terms. Torques and thrusts are constant between switches; h_i is linear in time and not integrated.
@@ -104,8 +103,8 @@ pub struct Gyrostat<R> {
     pub v_co_e: [R; 3],
     /// Path of the point on the orbit, if any.
     pub orbit: Option<OrbitPath>,
-    /// Position (m) and velocity (m/s) of c at time zero relative to a point on the orbit, F_e, if c may leave the
-    /// orbit. The impulse components then describe the relative motion, m d' and m d.
+    /// Position (m) and velocity (m/s) of c at time zero relative to a point on the orbit, F_e, if c may leave it. The
+    /// impulse components then describe the relative motion, m d' and m d.
     pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
@@ -272,7 +271,7 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.push(arc);
     }
 
-    /// Starts the next arc under a law, observed at `times`, from the wheels `wheels` at its start.
+    /// Starts the next arc under a law, observed at `times`, from the wheels at its start.
     #[inline(always)]
     pub fn begin_flown_arc(&mut self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS], times: &[f64]) {
         self.flown.push(&arc);
@@ -367,8 +366,7 @@ impl<R: Real> Gyrostat<R> {
         arc.wheels[index].after(&self.wheels[index], torque, since)
     }
 
-    /// The sum of J_i Omega_i a_i over wheels of constant speed, B, N m s, if any. The work of their motors since time
-    /// zero is this vector . (omega - omega(0)).
+    /// The sum of J_i Omega_i a_i over wheels of constant speed, B, N m s, if any.
     pub fn held_momentum_b(&self) -> Option<[R; 3]> {
         let of = |wheel: &GyrostatWheel<R>| wheel.held.map(|rate| scaled(wheel.axial * rate, wheel.axis_b));
         self.wheels.iter().filter_map(of).reduce(sum)

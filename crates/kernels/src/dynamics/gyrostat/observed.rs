@@ -7,8 +7,7 @@ use crate::dynamics::lane_of;
 use crate::math::prelude::*;
 use crate::scene::MAX_WHEELS;
 
-/// The state of `run` at `time`, the end of its last arc (or zero), from the integrated components in SI and the
-/// wheels' `motions`.
+/// The state of `run` at `time`, the end of its last arc (or zero), from the integrated components in SI.
 #[inline(always)]
 pub fn observed_state<R: Real>(
     run: &Gyrostat<R>,

@@ -16,7 +16,7 @@ fn smallest<R: Real>(moments: [R; 3]) -> f64 {
     moments[0].lane(0).min(moments[1].lane(0)).min(moments[2].lane(0))
 }
 
-/// Rate of the motion due to the wheels' momentum `momentum_b` (N m s) for the principal moments `moments`, rad/s.
+/// Rate of the motion due to the wheels' momentum (N m s), rad/s.
 #[inline(always)]
 pub(super) fn rate_of_momentum<R: Real>(moments: [R; 3], momentum_b: [R; 3]) -> f64 {
     largest(momentum_b) / smallest(moments)

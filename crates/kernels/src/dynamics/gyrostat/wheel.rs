@@ -22,7 +22,7 @@ pub struct GyrostatWheel<R> {
 /// Momentum and turn of a wheel at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelMotion<R> {
-    /// Momentum without K omega, N m s: h_i of a free wheel, J_i Omega_i of a held one.
+    /// Momentum as in [`GyrostatWheel::momentum`], N m s.
     pub momentum: R,
     /// Integral of h_i/J_i since time zero, rad (free wheels).
     pub turn: R,
@@ -76,8 +76,8 @@ impl<R: Real> GyrostatWheel<R> {
         }
     }
 
-    /// Angle relative to the body at `time` (s), rad, not wrapped, from the integrals `turn` of h_i/J_i and `turned_b`
-    /// of omega since time zero.
+    /// Angle relative to the body at `time` (s), rad, not wrapped, from the integrals of h_i/J_i and omega since time
+    /// zero.
     #[inline(always)]
     pub fn angle(&self, time: R, turn: R, turned_b: [R; 3]) -> R {
         match self.held {

@@ -3,7 +3,7 @@
 //!
 //! The field is minus the gradient of a sum of solid harmonics V_nm, W_nm (L. Cunningham, 1970, Celestial Mechanics 2,
 //! 207; O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.27 to 3.33), whose derivatives are harmonics of the
-//! next degree: a component of the field is a weighted sum of harmonics of degrees 2 to 14.
+//! next degree.
 
 use crate::scene::FieldModel;
 use std::sync::LazyLock;
@@ -28,7 +28,7 @@ pub const fn index(k: usize, j: usize) -> usize {
 /// Weights of V and W in the Earth-fixed x, y and z of the field, T or T/year.
 pub type Weights = [[f64; 6]; HARMONICS];
 
-/// Weights of the field in 2025 and their annual changes after and before.
+/// Weights of the field and their changes.
 #[derive(Debug)]
 pub struct Tables {
     /// In 2025, T.

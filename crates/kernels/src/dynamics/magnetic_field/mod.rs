@@ -1,9 +1,9 @@
 //! [`MagneticField`]: the Earth's magnetic field by IGRF-14 to degree 13, or its dipole (degree 1, tilted by 9
 //! degrees).
 //!
-//! The field turns with the Earth ([`super::earth_rotation`]) and is that of the date at time zero: secular variation
-//! during a run, 0.2 nT per day, is neglected. With X = a x/r^2 etc. and the reference radius a, the harmonics follow
-//! from V_00 = a/r (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.29 to 3.31):
+//! The field turns with the Earth ([`super::earth_rotation`]) and is that of the date at time zero: secular variation,
+//! 0.2 nT per day, is neglected. With X = a x/r^2 etc. and the reference radius a, the harmonics follow from V_00 = a/r
+//! (O. Montenbruck & E. Gill, *Satellite Orbits*, 2000, eqs. 3.29 to 3.31):
 //!
 //! ```text
 //! V_jj = (2j - 1) (X V_(j-1)(j-1) - Y W_(j-1)(j-1)),   W_jj = (2j - 1) (X W_(j-1)(j-1) + Y V_(j-1)(j-1))
@@ -161,8 +161,7 @@ fn turned<R: Real>(cos: R, sin: R, [x, y, z]: [R; 3]) -> [R; 3] {
     [cos * x - sin * y, sin * x + cos * y, z]
 }
 
-/// Upper bound of the field beyond `distance` m, T: 70,000 nT at the reference radius (IGRF-14: 67,000 nT), falling at
-/// least like a dipole.
+/// Upper bound of the field beyond `distance` m, T: 70,000 nT at the reference radius (IGRF-14: 67,000 nT).
 pub fn largest(distance: f64) -> f64 {
     let ratio = RADIUS / distance;
     let dipole = ratio * ratio * ratio;

@@ -9,10 +9,8 @@ use crate::math::prelude::*;
 use crate::run::{Grid, StateField, StateTable, Trajectory};
 use crate::scene::Scene;
 
-/// Fills and pads the fields of `table` from the integrated components of a run of `scene`.
-///
-/// Quaternions belong to the integrated DCMs, with unit norm and a continuous sign from the scene's on. Missing debris
-/// is at rest.
+/// Fills and pads the fields of `table` from the integrated components of a run of `scene`. Quaternions belong to the
+/// integrated DCMs, with unit norm and a continuous sign. Missing debris is at rest.
 #[inline(always)]
 pub fn complete<const W: usize, const N: usize>(
     scene: &Scene,
@@ -67,7 +65,7 @@ pub fn complete<const W: usize, const N: usize>(
     table.pad();
 }
 
-/// The state observed by an actuation law, with the attitude quaternion of the sign nearer to `near`.
+/// The state observed by an actuation law.
 #[inline(always)]
 pub fn observed_state<const W: usize>(
     parameters: &Parameters<W>,
@@ -91,8 +89,7 @@ pub fn observed_state<const W: usize>(
     (body, wheels)
 }
 
-/// Unit quaternion of a DCM by columns, of the sign nearer to `near`, by Shepperd's method; normalisation distributes
-/// the deviation of the DCM from orthonormality.
+/// Unit quaternion of a DCM by columns, of the sign nearer to `near`, by Shepperd's method.
 #[inline(always)]
 pub fn quaternion(c: Columns, near: [f64; 4]) -> [f64; 4] {
     let (_, q) = scaled_quaternion_from_dcm(transposed(c));

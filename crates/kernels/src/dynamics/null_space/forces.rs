@@ -1,7 +1,7 @@
 //! Non-inertial terms -M-dot nu - Omega M nu + a_non (39) and actuators B u (26), (72)-(74), body by body.
 //!
-//! The three non-inertial terms stay separate, for comparison with Berdoz's; their sum for the fuselage is -omega x J
-//! omega and C omega x (c x omega).
+//! The three non-inertial terms stay separate, as Berdoz's; their sum for the fuselage is -omega x J omega and C omega
+//! x (c x omega).
 
 use super::kinematics::WheelMotion;
 use super::parameters::{Parameters, WheelParameters};

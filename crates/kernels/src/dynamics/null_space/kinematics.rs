@@ -79,8 +79,7 @@ impl WheelMotion {
     }
 }
 
-/// Calls `body` for each of `W` wheels. Berdoz's two are written out: the compiler does not unroll so large a body, and
-/// indexed values stay in memory.
+/// Calls `body` for each of `W` wheels; Berdoz's two are written out, as the compiler does not unroll so large a body.
 #[inline(always)]
 pub fn for_each_wheel<const W: usize>(mut body: impl FnMut(usize)) {
     if W == 2 {

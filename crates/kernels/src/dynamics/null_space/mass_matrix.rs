@@ -1,8 +1,8 @@
 //! M-hat = Pi^T M Pi (25) and its solution by Cholesky's method.
 //!
-//! M-hat has the blocks spacecraft (v_p, omega_s, wheel rates), m_d 1 and J_d. The spacecraft's v_p block m 1 has the
-//! factor sqrt(m) 1; only omega_s and the wheel rates are factored. A wheel of constant speed has the row and column of
-//! the unit matrix.
+//! M-hat has the blocks spacecraft (v_p, omega_s, wheel rates), m_d 1 and J_d. The v_p block m 1 has the factor sqrt(m)
+//! 1; only omega_s and the wheel rates are factored. A wheel of constant speed has the row and column of the unit
+//! matrix.
 
 #![expect(clippy::needless_range_loop, reason = "indices of a matrix, as in the formulas")]
 
@@ -72,7 +72,7 @@ impl<const W: usize> SpacecraftMass<W> {
         }
     }
 
-    /// (v_p-dot, omega_s-dot, wheel accelerations) from the right-hand sides of v_p, omega_s and the wheel rates.
+    /// (v_p-dot, omega_s-dot, wheel accelerations) from their right-hand sides.
     #[inline(always)]
     pub fn solution(&self, force: [f64; 3], torque: [f64; 3], axial: [f64; W]) -> ([f64; 3], [f64; 3], [f64; W]) {
         let root = 1.0 / self.total.sqrt();
@@ -100,7 +100,7 @@ impl<const W: usize> SpacecraftMass<W> {
 }
 
 impl<const W: usize> RotationBlock<W> {
-    /// Cholesky factor with reciprocals on its diagonal, by the operations of [`cholesky`] in the same order.
+    /// Cholesky factor with reciprocals on its diagonal, by the operations of [`cholesky`].
     #[inline(always)]
     pub fn factor(&self) -> Self {
         let omega = cholesky(self.omega);

@@ -11,11 +11,10 @@
 //! - S (68) contains each body's own third column.
 //!
 //! States: q holds position (p, g_i, g_d) and C_eb by columns for S, the wheels and D; nu holds [velocity in F_e,
-//! angular velocity in the body's frame] per body; nu-hat = [v_p, omega_s, wheel rates, v_gd, omega_d]: 48, 24 and 14
-//! components with two wheels. A wheel's frame is F_s at angle zero, so that its axis has the same components in both.
-//! nu = Pi nu-hat (58), q-dot = Gamma nu (9), M-hat = Pi^T M Pi (25), and `M-hat nu-hat-dot = Pi^T (-M-dot nu - M
-//! Pi-dot nu-hat - Omega M nu + a_non + B u)` (39). `tests/accuracy/null_space.rs` proves that this block form equals
-//! Berdoz's printed matrices.
+//! angular velocity in the body's frame] per body; nu-hat = [v_p, omega_s, wheel rates, v_gd, omega_d]. A wheel's frame
+//! is F_s at angle zero. nu = Pi nu-hat (58), q-dot = Gamma nu (9), M-hat = Pi^T M Pi (25), and `M-hat nu-hat-dot =
+//! Pi^T (-M-dot nu - M Pi-dot nu-hat - Omega M nu + a_non + B u)` (39). `tests/accuracy/null_space.rs` proves that this
+//! block form equals Berdoz's printed matrices.
 
 pub(crate) mod completion;
 pub(crate) mod energy;

@@ -4,8 +4,8 @@ use crate::math::list::List;
 use crate::scene::mass::{Body, Wheel};
 use crate::scene::{MAX_THRUSTERS, Scene, Thruster, WheelMode};
 
-/// Constants of a scene for a kernel of `W` wheels. Missing bodies stay in the equations, decoupled: a wheel of zero
-/// mass and inertia with a unit on its diagonal of M-hat; debris of unit mass and inertia at rest.
+/// Constants of a scene for a kernel of `W` wheels. Missing bodies are decoupled: a wheel of zero mass and inertia with
+/// a unit on its diagonal of M-hat; debris of unit mass and inertia at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<const W: usize> {
     /// Mass m_s of the fuselage, kg.

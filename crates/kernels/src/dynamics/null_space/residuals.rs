@@ -1,5 +1,4 @@
-//! Residuals of the constraints (27)-(34): drift of the integrated coordinates, since the null space satisfies the
-//! speed constraints by construction.
+//! Residuals of the constraints (27)-(34): drift of the integrated coordinates.
 
 use super::kinematics::WheelMotion;
 use super::parameters::Parameters;
@@ -10,7 +9,7 @@ use crate::scene::Scene;
 /// Largest residuals in `state`: [kinematic, collocation, attitude]; missing bodies do not count.
 ///
 /// - kinematic (m/s, rad/s): Xi nu with nu = Pi nu-hat: the wheel's centre moves with the fuselage, and the wheel turns
-///   about its axis only (in F_s through the integrated DCMs);
+///   about its axis only;
 /// - collocation (m, sines of angles): the wheel's centre is at z_i, its axis along a_i;
 /// - attitude: entries of C^T C - 1 of all DCMs.
 #[inline(always)]

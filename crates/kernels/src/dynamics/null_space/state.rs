@@ -24,8 +24,8 @@ pub const fn states(wheels: usize) -> usize {
     coordinates(wheels) + speeds(wheels)
 }
 
-/// Number of integrated components with `wheels` wheels: states, then work of thrusters and motors, impulse (3),
-/// angular impulse (3), wheel angles.
+/// Number of integrated components with `wheels` wheels: states, work of thrusters and motors, impulse (3), angular
+/// impulse (3), wheel angles.
 pub const fn components(wheels: usize) -> usize {
     states(wheels) + 8 + wheels
 }
@@ -157,7 +157,7 @@ impl<const W: usize> State<W> {
 }
 
 /// Sigma (59): the full state from the measurable one. C_ew = C_es C_sw(angle) (42), (43); wheel centres r_p + C_es
-/// z_i; zero integrals. A missing wheel is at p and moves with the fuselage.
+/// z_i. A missing wheel is at p and moves with the fuselage.
 pub fn sigma<const W: usize>(scene: &Scene) -> State<W> {
     let initial = &scene.initial;
     let c_es = transposed(dcm_from_quaternion(initial.q_es));
