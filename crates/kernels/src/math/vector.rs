@@ -21,6 +21,18 @@ pub fn constant_matrix<R: Real>(like: R, m: [[f64; 3]; 3]) -> [[R; 3]; 3] {
     [constant(like, m[0]), constant(like, m[1]), constant(like, m[2])]
 }
 
+/// Three numbers of `all` from `first` on.
+#[inline(always)]
+pub fn three<R: Copy, const N: usize>(all: &[R; N], first: usize) -> [R; 3] {
+    [all[first], all[first + 1], all[first + 2]]
+}
+
+/// Four numbers of `all` from `first` on.
+#[inline(always)]
+pub fn four<R: Copy, const N: usize>(all: &[R; N], first: usize) -> [R; 4] {
+    [all[first], all[first + 1], all[first + 2], all[first + 3]]
+}
+
 /// q*.
 #[inline(always)]
 pub fn conjugate<R: Real>(q: [R; 4]) -> [R; 4] {
@@ -100,9 +112,9 @@ pub fn dcm_from_quaternion<R: Real>(q: [R; 4]) -> [[R; 3]; 3] {
     ]
 }
 
-/// A multiple of the quaternion of a DCM by rows (one number per entry, no lanes) by Shepperd's method (J. Guidance and
-/// Control 1(3), 1978), and the index of its largest component, whose positive value times four is the factor: nothing
-/// is divided and nothing cancels. The caller normalises, which distributes deviations from orthonormality.
+/// A multiple of the quaternion of a DCM by rows (no lanes) by Shepperd's method (J. Guidance and Control 1(3), 1978),
+/// and the index of its largest component, whose positive value times four is the factor: nothing is divided, nothing
+/// cancels. The caller normalises, which distributes deviations from orthonormality.
 #[inline(always)]
 pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     let (one, two) = (c[0][0].splat(1.0), c[0][0].splat(2.0));
@@ -121,7 +133,7 @@ pub fn scaled_quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> (usize, [R; 4]) {
     }
 }
 
-/// Quaternion of a DCM by rows (one number per entry, no lanes) by [`scaled_quaternion_from_dcm`]; scalar part >= 0.
+/// Quaternion of a DCM by [`scaled_quaternion_from_dcm`]; scalar part >= 0.
 pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
     let half = c[0][0].splat(0.5);
     let (largest, scaled) = scaled_quaternion_from_dcm(c);

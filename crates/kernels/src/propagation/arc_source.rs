@@ -30,14 +30,14 @@ impl<'a> ArcSource<'a> {
         self.duration
     }
 
-    /// Sets the time scale of `gyrostat` for run `run` before its first arc, from its schedule if it follows one.
+    /// Sets the time scale of `gyrostat` before its first arc, from its schedule if it follows one.
     pub fn prepare(&self, run: usize, gyrostat: &mut Gyrostat<f64>) {
         if let (Some(scene), Laws::OpenLoop) = (self.scenes.get(run), &self.laws) {
             gyrostat.expect_schedule(scene, self.duration);
         }
     }
 
-    /// Starts the next arc of run `run` at `time`. `components` evaluates the integrated components, SI, for a law.
+    /// Starts the next arc of run `run` at `time`. `components` evaluates the integrated components, SI.
     ///
     /// # Panics
     /// If a law's arc ends before it starts.

@@ -15,7 +15,7 @@ pub struct CompletedRun<'a> {
     /// Its outcome.
     pub outcome: &'a Outcome,
     /// The arcs in order, without gaps from time zero, with the effects that are constant over an arc. As a schedule,
-    /// with the other effects alone ([`crate::dynamics::effects::beside_arcs`]), they give the same run.
+    /// with the other effects ([`crate::dynamics::effects::beside_arcs`]), they give the same run.
     pub arcs: &'a ArcRecord,
 }
 
@@ -24,8 +24,7 @@ pub type CompletionCallback<'a> = dyn FnMut(CompletedRun<'_>) + 'a;
 
 /// Memory and code of a method for one worker and one instruction set.
 pub trait Engine: Send {
-    /// Runs every scene by its own schedule and passes it to `finish` in order of completion; results depend on the
-    /// scene alone.
+    /// Runs every scene by its own schedule and passes it to `finish` in order of completion.
     fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         self.propagate_under(Laws::OpenLoop, scenes, finish);
     }

@@ -34,8 +34,7 @@ impl PropagationSettings {
     }
 }
 
-/// The Taylor engine with the needed components. Forced runs always have the motors': fewer kernels to compile, and
-/// hardly slower.
+/// The Taylor engine with the needed components. Forced runs always have the motors': fewer kernels to compile.
 struct BuildTaylor<'a>(&'a PropagationSettings);
 
 impl LaneWork for BuildTaylor<'_> {

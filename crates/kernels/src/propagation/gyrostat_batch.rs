@@ -1,5 +1,5 @@
-//! [`GyrostatBatch`]: a batch of scenes as gyrostats: runs of the spacecraft, rotation of non-isotropic debris
-//! (integrated first, as gyrostats without wheels), and completion to state tables.
+//! [`GyrostatBatch`]: a batch of scenes as gyrostats: runs of the spacecraft, rotation of non-isotropic debris, and
+//! completion to state tables.
 
 use fearless_simd::Simd;
 
@@ -64,7 +64,7 @@ impl GyrostatBatch {
         (&mut self.runs[..scenes.len()], &mut self.completion)
     }
 
-    /// The debris of `scenes` as gyrostats without wheels; `None` if no rotation is integrated.
+    /// The debris of `scenes` as gyrostats without wheels, if a rotation is integrated.
     pub fn load_debris(&mut self, scenes: &[Scene]) -> Option<DebrisRuns<'_>> {
         let completion = &mut self.completion;
         let observes = completion.observes_debris_rotation;
@@ -100,7 +100,7 @@ pub struct DebrisRuns<'b> {
 }
 
 impl StateCompletion {
-    /// Completes run `index` with the components `trajectory` to physical states and passes it to `finish`.
+    /// Completes run `index` to physical states and passes it to `finish`.
     #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
     pub fn complete<S: Simd>(
         &mut self,

@@ -53,18 +53,17 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
     }
 
     /// The largest error of: the rate against |omega| (at least the time scale times absolute/relative), the attitude
-    /// against |q|, the offset from an orbit against itself. Quadrature states do not count; NaN if any component is
-    /// not finite.
+    /// against |q|, the offset from an orbit against itself; NaN if any component is not finite.
     #[inline(always)]
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R {
         let threshold = self.scale.splat(tolerance.absolute / tolerance.relative);
-        let rate = [old[OMEGA], old[OMEGA + 1], old[OMEGA + 2]];
-        let rate_new = [new[OMEGA], new[OMEGA + 1], new[OMEGA + 2]];
+        let rate = three(old, OMEGA);
+        let rate_new = three(new, OMEGA);
         let size = norm(rate).larger(norm(rate_new)).larger(threshold * self.scale);
         let off = error[OMEGA].abs().larger(error[OMEGA + 1].abs()).larger(error[OMEGA + 2].abs());
         let mut ratio = off / size;
         if N >= WITH_ATTITUDE {
-            let vector = [new[ATTITUDE + 1], new[ATTITUDE + 2], new[ATTITUDE + 3]];
+            let vector = three(new, ATTITUDE + 1);
             let size = new[ATTITUDE].mul_add(new[ATTITUDE], dot(vector, vector)).sqrt().larger(threshold);
             let mut off = error[ATTITUDE].abs();
             for i in 1..4 {
@@ -74,7 +73,6 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
         }
         if let (Some([rate, mass]), true) = (self.effects.scales_of_offset(), N >= WITH_THRUST) {
             let slowness = rate.splat(1.0) / rate;
-            let three = |of: &[R; N], first: usize| [of[first], of[first + 1], of[first + 2]];
             // the distance, or the velocity times the time of one radian of the orbit
             let reach = |of: &[R; N]| norm(three(of, IMPULSE_INTEGRAL)).larger(slowness * norm(three(of, IMPULSE)));
             let size = reach(old).larger(reach(new)).larger(rate.splat(SMALLEST_OFFSET) * mass);

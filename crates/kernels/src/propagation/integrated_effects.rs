@@ -1,10 +1,8 @@
-//! Forms of effects that each kind of engine integrates, by exhaustive `match`: a new form needs an answer from every
-//! engine.
+//! Forms of effects that each kind of engine integrates: a new form needs an answer from every engine.
 
 use crate::dynamics::effects::Form;
 
-/// Taylor methods, and Runge-Kutta methods without an error estimate, whose errors follow from the Taylor series of the
-/// motion: forms with a series.
+/// Taylor methods, and Runge-Kutta methods without an error estimate, whose errors follow from the Taylor series.
 pub const fn by_series(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Translation | Form::Force => true,
@@ -12,8 +10,7 @@ pub const fn by_series(form: Form) -> bool {
     }
 }
 
-/// Runge-Kutta methods on the gyrostat with an error estimate, and reference solutions: Taylor series, or extrapolation
-/// for effects without one.
+/// Runge-Kutta methods on the gyrostat with an error estimate, and reference solutions.
 pub const fn by_evaluation(form: Form) -> bool {
     match form {
         Form::Constant | Form::Series | Form::Evaluated | Form::Translation | Form::Force => true,

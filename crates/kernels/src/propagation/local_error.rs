@@ -1,14 +1,13 @@
 //! Estimated errors of a run from the steps of its method: the sums behind [`LocalErrors`].
 //!
-//! Errors of all steps (omega in rad/s, attitude in rad) add as if aligned; rounding accumulates as a random walk (H.
-//! Brouwer, Astron. J. 46, 1937).
+//! Errors of all steps (omega in rad/s, attitude in rad) add as if aligned; rounding is a random walk (H. Brouwer,
+//! Astron. J. 46, 1937).
 
 use crate::ode::{EndedRun, ErrorModel};
 use crate::run::LocalErrors;
 
-/// The sums for a run of a method with the error model `model` at the relative tolerance `tolerance`: only rounding
-/// without error estimates (see [`super::series_remainder`]). Truncation is relative to the states if step control is;
-/// see [`in_units`].
+/// The sums for a run of a method with this error model and relative tolerance: rounding alone without error estimates
+/// ([`super::series_remainder`]). Truncation is relative to the states if step control is ([`in_units`]).
 pub fn local_errors(model: &ErrorModel, tolerance: f64, completion: &EndedRun) -> LocalErrors {
     let rounding = rounding(completion.accepted);
     match model {
@@ -38,7 +37,7 @@ pub fn fastest(rates: impl Iterator<Item = [f64; 3]>) -> f64 {
     rates.map(|[x, y, z]| x * x + y * y + z * z).fold(0.0, f64::max).sqrt()
 }
 
-/// Error of points inside steps, in sums of the errors of the steps: measured in the campaigns of `at_rest.rs` and of
+/// Error of points inside steps, in sums of the errors of the steps, measured in the campaigns of `at_rest.rs` and of
 /// [`WALK`]; at 1 the estimate is below the error of `burn` by `dop853`.
 const DENSE: f64 = 1.6;
 

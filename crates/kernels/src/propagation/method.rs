@@ -56,8 +56,7 @@ impl Method {
         }
     }
 
-    /// The method used under the effects of `model`: `auto` becomes the fastest other method if Taylor series leave an
-    /// effect out.
+    /// The method used under the effects of `model`: `auto` becomes the fastest method that integrates all.
     #[must_use]
     pub fn chosen(self, model: ForceModel) -> Method {
         if self != Method::Auto || model.is_integrated(by_series) {

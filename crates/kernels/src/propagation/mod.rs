@@ -1,4 +1,4 @@
-//! Layer 3: engines that integrate scenes to the components at the observation times and complete these to the physical
+//! Layer 3: engines that integrate scenes at the observation times and complete the components to the physical
 //! [`crate::run::StateTable`]. Lanes share no decision.
 
 pub(crate) mod arc_source;

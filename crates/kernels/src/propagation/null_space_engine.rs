@@ -80,7 +80,7 @@ fn rates(table: &StateTable, field: StateField) -> impl Iterator<Item = [f64; 3]
     (0..if table.has(field) { table.points() } else { 0 }).map(move |point| table.at(field, point))
 }
 
-/// Errors of the debris, from the estimated `errors` of steps that follow the faster body.
+/// Errors of the debris, from those of steps that follow the faster body.
 fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     let ratio = fastest(rates(table, StateField::DebrisRate)) / fastest(rates(table, StateField::Rate));
     let share = if ratio < 1.0 { (0..ORDER).fold(1.0, |power, _| power * ratio) } else { 1.0 };
@@ -88,8 +88,8 @@ fn of_debris(errors: &LocalErrors, table: &StateTable) -> LocalErrors {
     in_units(errors, rates(table, StateField::DebrisRate), 0.0)
 }
 
-/// Errors of the body in a run of `duration` seconds, from the estimated `errors` of steps that mostly follow faster
-/// wheels: the attitude's is at most proportional to the body's turn, below a radian.
+/// Errors of the body in a run of `duration` seconds, from those of steps that mostly follow faster wheels: the
+/// attitude's is at most proportional to the body's turn, below a radian.
 fn of_body(errors: &LocalErrors, table: &StateTable, duration: f64) -> LocalErrors {
     let share = (fastest(rates(table, StateField::Rate)) * duration).min(1.0);
     let attitude = (share * errors.attitude).max(errors.rounding);

@@ -20,7 +20,7 @@ pub struct NullSpaceRuns<'a, const W: usize> {
 }
 
 impl<'a, const W: usize> NullSpaceRuns<'a, W> {
-    /// Runs of `scenes` under `laws` from zero to `duration`, s; arcs are recorded in the memory of `arcs`.
+    /// Runs of `scenes` under `laws` from zero to `duration`, s; `arcs` is memory.
     ///
     /// # Panics
     /// If there is no scene.

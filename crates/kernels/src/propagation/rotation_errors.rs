@@ -8,8 +8,7 @@ use crate::run::{Grid, StateField, StateTable, rate_scale};
 pub struct RotationError {
     /// omega - reference| over the largest |omega| of the run, at least one radian per duration ([`rate_scale`]).
     pub omega: f64,
-    /// Twice the distance of the attitude quaternions of nearer sign, rad: the angle between unit attitudes. Zero
-    /// without a reference attitude.
+    /// Twice the distance of the attitude quaternions of nearer sign, rad; zero without a reference attitude.
     pub attitude: f64,
 }
 
@@ -32,7 +31,7 @@ fn larger_or_nan(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
 }
 
-/// The error at each point of `table` on `grid`: of the rate, and of the attitude if `reference` has it.
+/// The error at each point of `table` on `grid`.
 pub fn rotation_errors<'a>(
     reference: &'a ReferenceSolution,
     grid: &Grid,

@@ -79,8 +79,8 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
     }
 }
 
-/// Errors of a run, in units; step control is relative to |omega|, or to absolute/relative tolerance times the rate of
-/// the time scale.
+/// Errors of a run, in units; step control is relative to |omega|, at least absolute/relative tolerance times the rate
+/// of the time scale.
 fn errors_of(
     remainders: &mut Option<Remainders>,
     run: &Gyrostat<f64>,
@@ -99,7 +99,7 @@ fn errors_of(
 /// Receives a completed run: runs, index, components at the observation points, outcome.
 type RunCallback<'a, R, E> = dyn FnMut(&GyrostatRuns<'_, R, E>, usize, &Trajectory, &Outcome) + 'a;
 
-/// The integration in its instruction set, compiled once for spacecraft and debris.
+/// The integration, compiled once for spacecraft and debris.
 #[inline(never)]
 fn integrate_on<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize>(
     simd: S,

@@ -5,7 +5,7 @@ use super::taylor::jet::{Reciprocals, Scratch, expand};
 use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_ATTITUDE, WITH_THRUST};
-use crate::math::vector::{scaled, sum};
+use crate::math::vector::{scaled, sum, three};
 use crate::ode::Remainder;
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 
@@ -72,8 +72,8 @@ impl Remainders {
                 let mut place = orbit.state(time);
                 if run.offset.is_some() {
                     let all = states.at::<WITH_THRUST>(point);
-                    let three = |first: usize| scaled(1.0 / run.mass, [all[first], all[first + 1], all[first + 2]]);
-                    place = place.displaced([three(IMPULSE_INTEGRAL), three(IMPULSE)]);
+                    let offset = [IMPULSE_INTEGRAL, IMPULSE].map(|first| scaled(1.0 / run.mass, three(&all, first)));
+                    place = place.displaced(offset);
                 }
                 (orbit.gravity(), place)
             });

@@ -28,7 +28,7 @@ pub struct PropagationSettings {
     pub thrust: bool,
     /// True if motor torque may act.
     pub motors: bool,
-    /// True if runs may have laws of their own ([`super::Engine::propagate_under`]): all components are integrated.
+    /// True if runs may have laws of their own ([`super::Engine::propagate_under`]).
     pub feedback: bool,
 }
 
@@ -49,8 +49,8 @@ impl PropagationSettings {
         }
     }
 
-    /// Settings for runs under laws that command `commands` in addition to the schedules. A law observes the whole
-    /// state; integrals of thrust are computed only if thrust or body torque may act.
+    /// Settings for runs under laws that command `commands` in addition to the schedules; a law observes the whole
+    /// state.
     #[must_use]
     pub fn with_feedback(self, commands: Actuated) -> Self {
         let thrust = self.thrust || commands.external();
@@ -63,7 +63,7 @@ impl PropagationSettings {
         assert!(self.feedback || matches!(laws, Laws::OpenLoop), "laws need PropagationSettings::with_feedback");
     }
 
-    /// True if an effect changes within an arc and must be in the kernel.
+    /// [`ForceModel::changes_within_arcs`].
     pub fn changes_within_arcs(&self) -> bool {
         self.forces.changes_within_arcs()
     }

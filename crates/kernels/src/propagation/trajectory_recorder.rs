@@ -18,8 +18,8 @@ impl LaneTrajectory {
     }
 }
 
-/// Records runs at the times of a grid and calls `finish(runs, lane, run, trajectory, outcome)` at the end of each.
-/// Points that were not reached are NaN. No allocation.
+/// Records runs at the times of a grid and calls `finish(runs, lane, run, trajectory, outcome)` at the end of each,
+/// with NaN at points not reached.
 pub struct TrajectoryRecorder<'a, F> {
     grid: &'a Grid,
     lanes: &'a mut [LaneTrajectory],

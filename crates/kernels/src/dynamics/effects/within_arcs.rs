@@ -48,9 +48,7 @@ impl<R: Real> Motion<R> {
     /// The motion of a body with the integrated components `state` at `time` (s) and `place`.
     #[inline(always)]
     pub fn of<const N: usize>(time: R, state: &[R; N], place: OrbitState<R>) -> Self {
-        let attitude = [state[ATTITUDE], state[ATTITUDE + 1], state[ATTITUDE + 2], state[ATTITUDE + 3]];
-        let rate = [state[OMEGA], state[OMEGA + 1], state[OMEGA + 2]];
-        Motion { time, attitude, rate, place }
+        Motion { time, attitude: four(state, ATTITUDE), rate: three(state, OMEGA), place }
     }
 }
 
@@ -123,6 +121,7 @@ impl<R: Real> MotionSeries<R> {
         !self.may_leave && self.orbit.gravity().oblateness.is_none()
     }
 
+    /// True if the spacecraft may leave that orbit.
     #[inline(always)]
     pub fn may_leave(&self) -> bool {
         self.may_leave
@@ -259,8 +258,7 @@ pub fn beside_orbit<R: Real, const N: usize>(
     inverse_mass: R,
     state: &[R; N],
 ) -> (OrbitState<R>, Option<Carrier<R>>) {
-    let three = |first: usize| scaled(inverse_mass, [state[first], state[first + 1], state[first + 2]]);
-    let offset = [three(IMPULSE_INTEGRAL), three(IMPULSE)];
+    let offset = [scaled(inverse_mass, three(state, IMPULSE_INTEGRAL)), scaled(inverse_mass, three(state, IMPULSE))];
     let carrier = Carrier { velocity: place.velocity, tide: gravity.tide(place, offset[0]) };
     (place.displaced(offset), Some(carrier))
 }

@@ -145,10 +145,10 @@ impl<R: Real> Constants<R> {
         let torque = beside.torque;
         let zero = time.zero();
         let mut rate = [zero; N];
-        let omega = [y[OMEGA], y[OMEGA + 1], y[OMEGA + 2]];
+        let omega = three(y, OMEGA);
         rate[OMEGA..OMEGA + 3].copy_from_slice(&self.angular_acceleration(time, omega, torque));
         if N >= super::WITH_ATTITUDE {
-            let q = [y[ATTITUDE], y[ATTITUDE + 1], y[ATTITUDE + 2], y[ATTITUDE + 3]];
+            let q = four(y, ATTITUDE);
             rate[ATTITUDE..ATTITUDE + 4].copy_from_slice(&quaternion_rate(q, omega));
             if N >= super::WITH_ANGLES {
                 rate[ANGLE..ANGLE + 3].copy_from_slice(&omega);
@@ -162,7 +162,7 @@ impl<R: Real> Constants<R> {
             if N >= super::WITH_THRUST {
                 let c_eb = dcm_from_quaternion(q);
                 let force = product(c_eb, beside.force.map_or(self.force, |own| sum(self.force, own)));
-                let impulse = [y[IMPULSE], y[IMPULSE + 1], y[IMPULSE + 2]];
+                let impulse = three(y, IMPULSE);
                 let own = scaled(self.inverse_mass, impulse);
                 let (velocity, all) = match &beside.carrier {
                     None => (sum(self.velocity, own), force),

@@ -15,10 +15,7 @@ pub fn observed_state<R: Real>(
     components: &[R; WITH_THRUST],
     motions: &[WheelMotion<R>; MAX_WHEELS],
 ) -> (BodyState, WheelState) {
-    let three = |first: usize| [components[first], components[first + 1], components[first + 2]];
-    let (omega_b, turned_b) = (three(OMEGA), three(ANGLE));
-    let [x, y, z] = three(ATTITUDE + 1);
-    let q_eb = [components[ATTITUDE], x, y, z];
+    let (omega_b, turned_b, q_eb) = (three(components, OMEGA), three(components, ANGLE), four(components, ATTITUDE));
     let (omega_s, q_es) = match run.c_sb {
         Some(c_sb) => (product(c_sb, omega_b), hamilton(q_eb, conjugate(run.q_sb))),
         None => (omega_b, q_eb),
@@ -30,15 +27,16 @@ pub fn observed_state<R: Real>(
             let mut place = orbit.state(time);
             if run.offset.is_some() {
                 place = place.displaced(
-                    [IMPULSE_INTEGRAL, IMPULSE].map(|first| lane_of(&scaled(inverse_mass, three(first)), 0)),
+                    [IMPULSE_INTEGRAL, IMPULSE]
+                        .map(|first| lane_of(&scaled(inverse_mass, three(components, first)), 0)),
                 );
             }
             (place.position, place.velocity)
         }
         None => {
             let line = sum(run.r_co_e, scaled(now, run.v_co_e));
-            let position = sum(line, scaled(inverse_mass, three(IMPULSE_INTEGRAL)));
-            (lane_of(&position, 0), lane_of(&sum(run.v_co_e, scaled(inverse_mass, three(IMPULSE))), 0))
+            let position = sum(line, scaled(inverse_mass, three(components, IMPULSE_INTEGRAL)));
+            (lane_of(&position, 0), lane_of(&sum(run.v_co_e, scaled(inverse_mass, three(components, IMPULSE))), 0))
         }
     };
     let body = BodyState { omega_se_s: lane_of(&omega_s, 0), q_es: lane_of(&q_es, 0), r_co_e, v_co_e };

@@ -4,21 +4,19 @@
 //! the equations are bounded by u' = u^2 + (|h|/(J rho)) u + (..)/rho^2, whose series has coefficients below one, the
 //! attitude's below one half. In an arc of length L the first neglected term is below y^(n+1) of rho, y = rho L; summed
 //! over a run it is below the tolerance per radian if y^n is at most the tolerance. The order is the smallest such n.
-//!
-//! Coefficients are computed up to the largest order of all lanes; those beyond a lane's own order are zeroed, so that
-//! lanes do not depend on each other.
+//! Coefficients beyond a lane's own order are zeroed.
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::math::vector::dot;
 use crate::math::{Mask, Real};
 
-pub(super) const LEAST: usize = 3;
+pub const LEAST: usize = 3;
 
 /// Margin for tolerances below rounding, as in `super::step`.
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
 
 #[derive(Clone, Debug)]
-pub(super) struct BriefRule {
+pub struct BriefRule {
     /// Largest y^2 at the orders from [`LEAST`] on.
     squares: Vec<f64>,
     /// Order of other steps.
@@ -26,7 +24,7 @@ pub(super) struct BriefRule {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Brief<R: Real> {
+pub struct Brief<R: Real> {
     pub lanes: R::Mask,
     /// Their orders.
     pub order: R,
@@ -38,7 +36,7 @@ pub(super) struct Brief<R: Real> {
 
 impl BriefRule {
     /// The rule for a relative tolerance, next to steps of order `full`.
-    pub(super) fn new(tolerance: f64, full: usize) -> Self {
+    pub fn new(tolerance: f64, full: usize) -> Self {
         let tolerance = if tolerance < f64::EPSILON { BELOW_ROUNDING * tolerance } else { tolerance };
         // less than two orders saved is not worth it
         let squares = (LEAST..full.saturating_sub(1)).map(|n| libm::pow(tolerance, 2.0 / n as f64)).collect();
@@ -46,9 +44,8 @@ impl BriefRule {
     }
 
     /// Orders of lanes whose arc starts now and lasts for `length`; `may` is one in lanes that may have a brief arc.
-    /// `None` without brief arcs.
     #[inline(always)]
-    pub(super) fn orders<R: Real>(
+    pub fn orders<R: Real>(
         &self,
         constants: &Constants<R>,
         omega: [R; 3],
@@ -79,13 +76,13 @@ impl BriefRule {
 
 impl<R: Real> Brief<R> {
     #[inline(always)]
-    pub(super) fn is_mixed(&self, full: usize) -> bool {
+    pub fn is_mixed(&self, full: usize) -> bool {
         self.most == full
     }
 
     /// Sets the coefficients beyond each lane's order to zero.
     #[inline(always)]
-    pub(super) fn truncate<const J: usize>(&self, jet: &mut [[R; J]]) {
+    pub fn truncate<const J: usize>(&self, jet: &mut [[R; J]]) {
         let zero = self.order.zero();
         for (n, coefficients) in jet.iter_mut().enumerate().take(self.most + 1).skip(LEAST + 1) {
             let beyond = self.lanes & self.order.lt(zero.splat(n as f64));
@@ -100,7 +97,7 @@ impl<R: Real> Brief<R> {
 
 /// y^2 of an arc of length `length` from the rate `omega` on, in the lane's unit of time.
 #[inline(always)]
-pub(super) fn turn_squared<R: Real>(constants: &Constants<R>, omega: [R; 3], length: R) -> R {
+pub fn turn_squared<R: Real>(constants: &Constants<R>, omega: [R; 3], length: R) -> R {
     let Constants { inverse, momentum, torque, momentum_rate, .. } = constants;
     let inverse = inverse[0].larger(inverse[1]).larger(inverse[2]);
     let mut acting = torque[0].abs() + momentum_rate[0].abs();

@@ -26,8 +26,7 @@ impl<R: Real, const J: usize> Segment<R, J> {
     }
 }
 
-/// All components of `jet` at the `U` times `x`, in groups whose sums stay in registers while a loaded coefficient
-/// serves all times.
+/// All components of `jet` at the `U` times `x`, in groups whose sums stay in registers.
 #[inline(always)]
 pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
     let mut all = [jet[0]; U];

@@ -15,15 +15,16 @@ use super::points::{StepSeries, TakenStep, Until};
 use super::thrust::Push;
 use super::workspace::Workspace;
 use crate::dynamics::effects::within_arcs::WithinArcs;
-use crate::dynamics::gyrostat::{ANGLE, Gyrostat, WITH_THRUST};
+use crate::dynamics::gyrostat::{ANGLE, Gyrostat, OMEGA, WITH_THRUST};
 use crate::dynamics::lane_of;
 use crate::math::sums::{fast_two_sum, two_sum};
+use crate::math::vector::{scaled, three};
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Status};
 
-/// Integrates `runs` with arcs from `arcs` over `grid`, and calls `finish` for each in order of completion. `N`
-/// components are integrated, the first `J` by series of their own. Results depend on the run and its law alone.
+/// Integrates `runs` over `grid` and calls `finish` for each in order of completion. `N` components are integrated, the
+/// first `J` by series of their own.
 #[inline(always)]
 pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,
@@ -74,8 +75,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         let full = work.rule.order;
         // the bound of the torque holds for constant torques only
         let brief = if has_begun && !E::ACT {
-            let omega = [begin[0], begin[1], begin[2]];
-            work.brief.orders(&constants, omega, vectors.length, vectors.time, vectors.may_be_brief)
+            work.brief.orders(&constants, three(&begin, OMEGA), vectors.length, vectors.time, vectors.may_be_brief)
         } else {
             None
         };
@@ -124,7 +124,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             if N >= WITH_THRUST && N > J {
                 push = work.quadrature.over_step(&constants, &segment.jet[..=order], length);
             }
-            let turned = [slope[ANGLE] * length, slope[ANGLE + 1] * length, slope[ANGLE + 2] * length];
+            let turned = scaled(length, three(&slope, ANGLE));
             let growth = push.growth(&constants, &begin, turned, length);
             for i in J..N {
                 (vectors.state[i], vectors.state_low[i]) = two_sum(vectors.state[i], growth[i] + vectors.state_low[i]);
@@ -134,7 +134,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         (vectors.time, vectors.time_low) = (time, error);
         work.ring.clock += 1;
 
-        let omega = [vectors.state[0], vectors.state[1], vectors.state[2]];
+        let omega = three(&vectors.state, OMEGA);
         let size = omega[0].abs() + omega[1].abs() + omega[2].abs();
         let finite = size.lt(infinite);
         let left = (vectors.length - vectors.time) - vectors.time_low;

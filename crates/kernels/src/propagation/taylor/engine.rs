@@ -91,8 +91,7 @@ impl<S: Simd, R: Real + Send + 'static, E: WithinArcs<R>, const N: usize, const 
     }
 }
 
-/// The integration in its instruction set. Not inlined: all engines share one kernel for debris and spacecraft without
-/// actuators.
+/// The integration, not inlined: all engines share one kernel for debris and spacecraft without actuators.
 #[inline(never)]
 fn integrate_on<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>(
     simd: S,

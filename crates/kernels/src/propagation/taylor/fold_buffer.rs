@@ -7,7 +7,7 @@ use super::series_ring::LARGEST;
 use crate::math::lanes::WIDTH;
 use crate::math::{Lanes, Real};
 
-/// Observation points of waiting lanes with a known period: time within the period, and components; rows per lane.
+/// Observation points of waiting lanes with a known period; rows per lane.
 #[derive(Clone, Debug)]
 pub struct FoldBuffer {
     /// Points of a lane with padding: row length of `rest`, `whole`, `segment`, `place`.
@@ -99,7 +99,7 @@ impl FoldBuffer {
         }
     }
 
-    /// Evaluates series `number` of `lane`, `jet`, at its points: two vectors of eight share a coefficient.
+    /// Evaluates series `number` of `lane` at its points: two vectors of eight share a coefficient.
     #[inline(always)]
     pub(super) fn evaluate<S: Simd, R: Real, const J: usize>(
         &mut self,

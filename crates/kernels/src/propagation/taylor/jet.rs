@@ -2,8 +2,8 @@
 //!
 //! All equations are quadratic: the coefficient of order n + 1 is a Cauchy product of those up to n, divided by n + 1
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
-//! The recurrences of thrust (impulses, works) serve [`super::reference_solution`] alone; integration in `f64` uses
-//! [`super::thrust`], so that each tests the other.
+//! The recurrences of thrust serve [`super::reference_solution`] alone; integration in `f64` uses [`super::thrust`], so
+//! that each tests the other.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::effects::ChangingSeries;
@@ -78,11 +78,11 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
     let is_pushed = effects.is_none() || zero.lt(x.abs() + (y.abs() + z.abs())).any();
     for n in 0..order {
         let [inverse, inverse_low] = reciprocal[n + 1];
-        let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
+        let omega = three(&jet[n], OMEGA);
         let sums = cauchy_products(jet, n);
         let mut acceleration = angular_acceleration::<R, N, FORCED>(constants, jet, n, sums.rate);
         if let Some(effects) = &mut effects {
-            let (attitude, offset) = (attitude_of(&jet[n]), offset_of(constants, &jet[n]));
+            let (attitude, offset) = (four(&jet[n], ATTITUDE), offset_of(constants, &jet[n]));
             let torque = effects.extend(n, attitude, omega, offset, constants.torque);
             for i in 0..3 {
                 acceleration[i] = constants.inverse[i].mul_add(torque[i], acceleration[i]);
@@ -113,7 +113,7 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
             next[MOTOR_WORK] = (driven - dot(constants.momentum_rate, omega)) * inverse;
         }
         if N >= WITH_THRUST && FORCED {
-            let q = attitude_of(&jet[n]);
+            let q = four(&jet[n], ATTITUDE);
             let spun;
             (turned_torque[n], spun) = match &effects {
                 Some(effects) => products_of_torque(jet, effects.torque(), n),
@@ -149,17 +149,11 @@ pub fn expand<R: Real, const N: usize, const FORCED: bool>(
 }
 
 #[inline(always)]
-fn attitude_of<R: Real, const N: usize>(coefficients: &[R; N]) -> [R; 4] {
-    [coefficients[ATTITUDE], coefficients[ATTITUDE + 1], coefficients[ATTITUDE + 2], coefficients[ATTITUDE + 3]]
-}
-
-#[inline(always)]
 fn offset_of<R: Real, const N: usize>(constants: &Constants<R>, coefficients: &[R; N]) -> [R; 3] {
     if N < WITH_THRUST {
         return [constants.inverse_mass.zero(); 3];
     }
-    let first = IMPULSE_INTEGRAL;
-    scaled(constants.inverse_mass, [coefficients[first], coefficients[first + 1], coefficients[first + 2]])
+    scaled(constants.inverse_mass, three(coefficients, IMPULSE_INTEGRAL))
 }
 
 #[inline(always)]
@@ -167,7 +161,7 @@ fn products_of_torque<R: Real, const N: usize>(jet: &[[R; N]], torque: &[[R; 3]]
     let zero = jet[0][0].zero();
     let (mut turned, mut spun) = ([zero; 4], [zero; 3]);
     for (torque, earlier) in torque[..=n].iter().zip(jet[..=n].iter().rev()) {
-        turned = quaternion_products(attitude_of(earlier), *torque, turned);
+        turned = quaternion_products(four(earlier, ATTITUDE), *torque, turned);
         for i in 0..3 {
             spun[i] = torque[i].mul_add(earlier[OMEGA + i], spun[i]);
         }
@@ -184,7 +178,7 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
     products: [R; 3],
 ) -> [R; 3] {
     let zero = jet[0][0].zero();
-    let omega = [jet[n][OMEGA], jet[n][OMEGA + 1], jet[n][OMEGA + 2]];
+    let omega = three(&jet[n], OMEGA);
     let mut linear = cross(constants.momentum, omega);
     if FORCED {
         if n == 0 {
@@ -192,8 +186,7 @@ fn angular_acceleration<R: Real, const N: usize, const FORCED: bool>(
                 linear[i] += constants.torque[i] - constants.momentum_rate[i];
             }
         } else {
-            let earlier = [jet[n - 1][OMEGA], jet[n - 1][OMEGA + 1], jet[n - 1][OMEGA + 2]];
-            let turning = cross(constants.momentum_rate, earlier);
+            let turning = cross(constants.momentum_rate, three(&jet[n - 1], OMEGA));
             for i in 0..3 {
                 linear[i] += turning[i];
             }
@@ -214,8 +207,8 @@ struct Sums<R> {
     attitude: [R; 4],
 }
 
-/// Coefficient n of the products needed by the first `N` components, in one pass over both series: ten loads feed
-/// fifteen fused operations. Products with the latest coefficient come last, so that the others need not wait for it.
+/// Coefficient n of the products needed by the first `N` components, in one pass: ten loads feed fifteen fused
+/// operations. Products with the latest coefficient come last, so that the others need not wait for it.
 #[inline(always)]
 fn cauchy_products<R: Real, const N: usize>(jet: &[[R; N]], n: usize) -> Sums<R> {
     let zero = jet[0][0].zero();
@@ -254,7 +247,7 @@ fn attitude_products<R: Real, const N: usize>(a: &[R; N], b: &[R; N], sum: [R; 4
     if N < WITH_ATTITUDE {
         return sum;
     }
-    quaternion_products(attitude_of(a), [b[OMEGA], b[OMEGA + 1], b[OMEGA + 2]], sum)
+    quaternion_products(four(a, ATTITUDE), three(b, OMEGA), sum)
 }
 
 /// `sum` plus q (x) v.
@@ -282,7 +275,7 @@ fn turned<R: Real, const N: usize>(jet: &[[R; N]], g: &[[R; 4]; MAX_ORDER], n: u
     let zero = jet[0][0].zero();
     let (mut a, mut b, mut c) = (zero, zero, zero);
     for (coefficient, g) in jet[..=n].iter().zip(g[..=n].iter().rev()) {
-        let [q0, q1, q2, q3] = attitude_of(coefficient);
+        let [q0, q1, q2, q3] = four(coefficient, ATTITUDE);
         a = q0.mul_add(g[1], a);
         b = q0.mul_add(g[2], b);
         c = q0.mul_add(g[3], c);
@@ -306,7 +299,7 @@ fn carried_power<R: Real>(orbit: &[[R; 3]], force_e: &[[R; 3]; MAX_ORDER], n: us
     (0..=n).fold(zero, |sum, m| zero.splat((n - m + 1) as f64).mul_add(dot(force_e[m], orbit[n - m + 1]), sum))
 }
 
-/// Coefficient n of F_e . v_c; on an orbit, with the velocity relative to its point.
+/// Coefficient n of F_e . v_c, with the velocity relative to the point on an orbit.
 #[inline(always)]
 fn thrust_power<R: Real, const N: usize>(
     constants: &Constants<R>,

@@ -7,7 +7,7 @@ use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::run::Grid;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SeriesLane {
+pub struct SeriesLane {
     pub run: usize,
     /// Unit of time, s: a power of two near the time scale of the motion, so that conversions are exact.
     pub unit: f64,
@@ -34,7 +34,7 @@ pub(super) struct SeriesLane {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Waiting {
+pub struct Waiting {
     /// The period; `None` if the run ended before one was found.
     pub period: Option<Period>,
     /// Step after which the lane began to wait.
@@ -44,10 +44,10 @@ pub(super) struct Waiting {
 }
 
 /// Number of components without series of their own.
-pub(super) const QUADRATURES: usize = WITH_THRUST - WITH_ANGLES;
+pub const QUADRATURES: usize = WITH_THRUST - WITH_ANGLES;
 
 impl SeriesLane {
-    pub(super) fn new(run: usize, unit: f64, clock: usize) -> Self {
+    pub fn new(run: usize, unit: f64, clock: usize) -> Self {
         SeriesLane {
             run,
             unit,
@@ -66,33 +66,31 @@ impl SeriesLane {
     }
 
     /// Step up to which the lane waits for most of the others.
-    pub(super) fn patience(&self, waiting: &Waiting) -> usize {
+    pub fn patience(&self, waiting: &Waiting) -> usize {
         waiting.since + 2 + (waiting.since - self.begun) / 4
     }
 
-    pub(super) fn steps(&self, clock: usize) -> u64 {
+    pub fn steps(&self, clock: usize) -> u64 {
         let until = self.waiting.map_or(clock, |waiting| waiting.since);
         self.steps_before + (until - self.begun) as u64
     }
 
     /// Step after `clock` at which [`SeriesLane::gives_up`] is next checked.
-    pub(super) fn judged(&self, clock: usize, max_steps: u64) -> u64 {
+    pub fn judged(&self, clock: usize, max_steps: u64) -> u64 {
         let begun = self.begun as u64;
         let limit = begun.saturating_add(max_steps.saturating_sub(self.steps_before));
         if (clock as u64) < begun + PACE_STEPS { limit.min(begun + PACE_STEPS) } else { limit }
     }
 
-    /// True if by step `clock`, `time` units after the start of its arc, the run has used up its steps or cannot reach
-    /// the end of the arc with the rest.
-    pub(super) fn gives_up(&self, clock: usize, time: f64, max_steps: u64) -> bool {
+    /// True if the run has used up its steps or cannot reach the end of the arc with the rest.
+    pub fn gives_up(&self, clock: usize, time: f64, max_steps: u64) -> bool {
         let steps = self.steps(clock);
         let is_judged = steps - self.steps_before == PACE_STEPS;
         steps >= max_steps || is_judged && is_out_of_reach(max_steps - self.steps_before, time, self.length)
     }
 
-    /// Next observation point since the start of the arc, units; infinite if there is none, or during the search for a
-    /// return.
-    pub(super) fn next_point(&self, grid: &Grid) -> f64 {
+    /// Next observation point since the start of the arc, units; infinite if none, or during the search for a return.
+    pub fn next_point(&self, grid: &Grid) -> f64 {
         match grid.times().get(self.point) {
             Some(time) if !self.is_searching && (self.is_last || *time <= self.end) => (time - self.start) / self.unit,
             _ => f64::INFINITY,
@@ -100,7 +98,7 @@ impl SeriesLane {
     }
 
     /// Quadrature states `time` units after the start of an arc without actuation.
-    pub(super) fn quadratures_after<const N: usize, const J: usize>(&self, time: f64) -> [f64; QUADRATURES] {
+    pub fn quadratures_after<const N: usize, const J: usize>(&self, time: f64) -> [f64; QUADRATURES] {
         let mut quadratures = self.quadratures;
         if N >= WITH_THRUST {
             for i in 0..3 {

@@ -4,10 +4,11 @@ use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_MOTORS, WITH_THRUST};
 use crate::dynamics::lane_of;
 use crate::math::Real;
+use crate::math::vector::three;
 
-/// State, time and arc constants of the lanes, each in its own unit of time.
+/// State, time and arc constants of the lanes, in their units of time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LaneVectors<R, const N: usize> {
+pub struct LaneVectors<R, const N: usize> {
     pub constants: Constants<R>,
     /// Integrated components, an unevaluated sum with `state_low`.
     pub state: [R; N],
@@ -56,7 +57,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
 
     #[inline(always)]
     pub fn omega(&self, lane: usize) -> [f64; 3] {
-        lane_of(&[self.state[OMEGA], self.state[OMEGA + 1], self.state[OMEGA + 2]], lane)
+        lane_of(&three(&self.state, OMEGA), lane)
     }
 
     /// Components in `lane`, SI; zero if not integrated.
@@ -82,7 +83,7 @@ impl<R: Real, const N: usize> LaneVectors<R, N> {
 
 /// Factors from the lane's unit of time to SI, given 1/unit.
 #[inline(always)]
-pub(super) fn si_factors<R: Real, const N: usize>(per_unit: R) -> [R; N] {
+pub fn si_factors<R: Real, const N: usize>(per_unit: R) -> [R; N] {
     let mut factors = [per_unit.splat(1.0); N];
     factors[OMEGA..OMEGA + 3].fill(per_unit);
     if N >= WITH_MOTORS {

@@ -21,10 +21,10 @@ use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, LocalErrors, Outcome, Status, StepStatistics, Trajectory};
 
 /// Receives a completed run: index, run with its arcs, components at the points, outcome.
-pub(super) type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
+pub type RunCallback<'a> = dyn FnMut(usize, &Gyrostat<f64>, &mut Trajectory, &Outcome) + 'a;
 
 /// Runs in lanes: `N` components, the first `J` with series, under the effects `E`.
-pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
+pub struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
     pub simd: S,
     pub runs: &'a mut [Gyrostat<f64>],
     pub arcs: ArcSource<'a>,
@@ -46,7 +46,7 @@ pub(super) struct RunLanes<'a, S, R, E, const N: usize, const J: usize> {
 
 impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLanes<'a, S, R, E, N, J> {
     #[inline(always)]
-    pub(super) fn new(
+    pub fn new(
         simd: S,
         zero: R,
         runs: &'a mut [Gyrostat<f64>],
@@ -73,7 +73,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     }
 
     #[inline(never)]
-    pub(super) fn load_lane(&mut self, lane: usize) {
+    pub fn load_lane(&mut self, lane: usize) {
         self.vectors.set_state(lane, &[0.0; N]);
         self.truncation.set(lane, TruncationSums::default());
         let Some(run) = self.runs.get(self.next) else {
@@ -118,7 +118,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     }
 
     #[inline(never)]
-    pub(super) fn begin_arc(&mut self, lane: usize) {
+    pub fn begin_arc(&mut self, lane: usize) {
         self.simd.vectorize(
             #[inline(always)]
             || self.begin_arc_vectorized(lane),
@@ -174,7 +174,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
         self.alarm = self.work.ring.clock + 1;
     }
 
-    /// True if omega may return in a free arc of length `length` in `lane`: the body turns by more than a radian.
+    /// True if omega may return in a free arc: the body turns by more than a radian.
     #[inline(always)]
     fn may_return(&self, lane: usize, length: f64) -> bool {
         let LaneVectors { constants, .. } = &self.vectors;
@@ -184,13 +184,13 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     }
 
     #[inline(always)]
-    pub(super) fn set_next_point(&mut self, lane: usize) {
+    pub fn set_next_point(&mut self, lane: usize) {
         let Some(state) = &self.states[lane] else { return };
         self.vectors.next_point.set_lane(lane, state.next_point(self.grid));
     }
 
     #[inline(always)]
-    pub(super) fn write_points(&mut self, rows: &[[f64; WIDEST]; N], due: R::Mask) {
+    pub fn write_points(&mut self, rows: &[[f64; WIDEST]; N], due: R::Mask) {
         for lane in 0..R::LANES {
             if !due.test(lane) {
                 continue;
@@ -210,7 +210,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     }
 
     /// Makes `lane` wait until its points are evaluated with those of other lanes.
-    pub(super) fn wait(&mut self, lane: usize, period: Option<Period>) {
+    pub fn wait(&mut self, lane: usize, period: Option<Period>) {
         if let Some(state) = &mut self.states[lane] {
             if let Some(period) = &period {
                 state.periods = state.periods.max(state.length / period.length[0]);
@@ -222,14 +222,14 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     }
 
     #[inline(never)]
-    pub(super) fn evaluate_kept(&mut self, lane: usize, until: Until) {
+    pub fn evaluate_kept(&mut self, lane: usize, until: Until) {
         let Some(state) = &mut self.states[lane] else { return };
         let Workspace { ring, trajectories, .. } = &mut *self.work;
         evaluate_kept::<R, N, J>(state, lane, ring, self.grid, &mut trajectories[lane], until);
     }
 
     /// Begins the next arc of `lane`, or passes its run to `finish` and loads the next.
-    pub(super) fn end_arc(&mut self, lane: usize, finish: &mut RunCallback<'_>) {
+    pub fn end_arc(&mut self, lane: usize, finish: &mut RunCallback<'_>) {
         self.flush_points(lane);
         let Some(state) = &mut self.states[lane] else { return };
         let steps = state.steps(self.work.ring.clock);
@@ -248,7 +248,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
     }
 
     #[cold]
-    pub(super) fn fail(&mut self, lane: usize, status: Status, finish: &mut RunCallback<'_>) {
+    pub fn fail(&mut self, lane: usize, status: Status, finish: &mut RunCallback<'_>) {
         self.flush_points(lane);
         let Some(state) = self.states[lane] else { return };
         let start = self.work.ring.last().start.lane(lane);
@@ -286,7 +286,7 @@ impl<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> Run
 
     /// Keeps the series of more steps for a long period, or ends the search.
     #[cold]
-    pub(super) fn keep_more_series(&mut self, lane: usize) {
+    pub fn keep_more_series(&mut self, lane: usize) {
         if self.work.ring.grow(self.vectors.time.zero()) {
             return;
         }

@@ -1,9 +1,9 @@
 //! Taylor series of the gyrostat in lanes, with periodic propagation of torque-free motion.
 //!
 //! Without torque omega is periodic: it stays on the intersection of energy ellipsoid and momentum sphere. A period
-//! turns the attitude by a fixed rotation about the constant angular momentum L, so that a run of any length costs one
-//! period plus its observation points. Without a period (near the separatrix, or with torque) the same steps integrate
-//! the whole run.
+//! turns the attitude by a fixed rotation about the constant angular momentum L, so that a run costs one period plus
+//! its observation points. Without a period (near the separatrix, or with torque) the same steps integrate the whole
+//! run.
 
 mod brief;
 pub(crate) mod dense;

@@ -1,9 +1,9 @@
 //! The period of omega, and time folded by it.
 //!
-//! Without torque omega(t) moves on a closed curve. A return is a crossing, in the same sense and close to omega(0), of
-//! the plane through omega(0) normal to its velocity. Over a period P the attitude turns by a fixed rotation about L,
-//! constant in F_e (L. Poinsot, *Theorie nouvelle de la rotation des corps*, 1851; gyrostats: V. Volterra, 1899): q(t +
-//! n P) = r^n (x) q(t), r = q(P) (x) q(0)*. Integrals of periodic quantities grow equally in every period.
+//! A return is a crossing, in the same sense and close to omega(0), of the plane through omega(0) normal to its
+//! velocity. Over a period P the attitude turns by a fixed rotation about L, constant in F_e (L. Poinsot, *Theorie
+//! nouvelle de la rotation des corps*, 1851; gyrostats: V. Volterra, 1899): q(t + n P) = r^n (x) q(t), r = q(P) (x)
+//! q(0)*. Integrals of periodic quantities grow equally in every period.
 #![expect(clippy::needless_range_loop, reason = "components and orders are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -14,7 +14,7 @@ use crate::math::sine::sin_cos_turns;
 use crate::math::{Lanes, Real};
 
 /// Tolerated distance of a return from the start as a share of the curve's extent: far below the distance of two
-/// branches, far above the round-off of a period.
+/// branches.
 const RETURN_OF_EXTENT: f64 = 1e-6;
 /// Tolerated distance as a share of the rate: round-off on a curve that is small compared with |omega|.
 const RETURN_OF_RATE: f64 = 1e-13;
@@ -58,8 +58,7 @@ impl PoincareSection {
         Some(PoincareSection { start: omega, direction: rate.map(|x| x * inverse), extent2: 0.0, side: 0.0 })
     }
 
-    /// Time within a step at which omega returns, from the step's series in lane `lane` and its length; `None` for a
-    /// crossing on another branch of the curve.
+    /// Time within a step at which omega returns; `None` for a crossing on another branch of the curve.
     #[inline(always)]
     pub fn crossing<R: Real, const N: usize>(
         &self,
@@ -116,9 +115,9 @@ impl PoincareSection {
 }
 
 impl Period {
-    /// The period of an arc, of length `length`, that takes the attitude from `start` to `end`, with the angular
-    /// momentum `momentum_e` in F_e and its reference magnitude |J| |omega|, `scale`; `None` if the axis is too
-    /// inaccurate for many repetitions.
+    /// The period of length `length` that takes the attitude from `start` to `end`, with the angular momentum
+    /// `momentum_e` in F_e and its reference magnitude |J| |omega|, `scale`; `None` if the axis is too inaccurate for
+    /// many repetitions.
     #[inline]
     pub fn new(length: [f64; 2], start: [f64; 4], end: [f64; 4], momentum_e: [f64; 3], scale: f64) -> Option<Self> {
         let magnitude = norm(momentum_e);

@@ -1,8 +1,7 @@
 //! Points of waiting runs with a known period: folded, evaluated together, unfolded.
 //!
-//! Folded points are scattered over the few steps of a period. They are sorted by series and evaluated eight at a time
-//! for all waiting lanes, so that a series stays in the first-level cache; rotation by whole periods and growth of the
-//! integrals follow in order of time.
+//! Folded points are scattered over the few steps of a period: sorted by series and evaluated eight at a time for all
+//! waiting lanes, so that a series stays in the first-level cache.
 #![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
@@ -24,7 +23,7 @@ use crate::run::{Grid, Trajectory};
 const SLACK: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FoldedLane {
+pub struct FoldedLane {
     pub lane: usize,
     pub state: SeriesLane,
     pub period: Option<Period>,
@@ -33,12 +32,11 @@ pub(super) struct FoldedLane {
     pub points: usize,
 }
 
-pub(super) type FoldedLanes = [Option<FoldedLane>; WIDEST];
+pub type FoldedLanes = [Option<FoldedLane>; WIDEST];
 
 /// True if the waiting lanes should be evaluated after step `clock`, with the series of the last `kept` steps. An
-/// evaluation costs the same for one lane as for all: it waits for lanes in search of their period, but not for long,
-/// and not beyond the kept series.
-pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: usize) -> bool {
+/// evaluation costs the same for one lane as for all: it waits a little for lanes in search of their period.
+pub fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: usize) -> bool {
     let (mut waiting, mut searching) = (0, 0);
     let (mut patient, mut now) = (true, false);
     for state in lanes.iter().flatten() {
@@ -58,7 +56,7 @@ pub(super) fn is_due(lanes: &[Option<SeriesLane>; WIDEST], clock: usize, kept: u
 }
 
 /// The waiting lanes with the points of their arcs.
-pub(super) fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) -> FoldedLanes {
+pub fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) -> FoldedLanes {
     let mut folded = [None; WIDEST];
     for (lane, state) in lanes.iter().enumerate() {
         if let Some(state) = state
@@ -72,7 +70,7 @@ pub(super) fn folded_lanes(lanes: &[Option<SeriesLane>; WIDEST], grid: &Grid) ->
     folded
 }
 
-pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
+pub struct PeriodFolding<'a, S, R, const J: usize> {
     pub simd: S,
     pub grid: &'a Grid,
     pub ring: &'a SeriesRing<R, J>,
@@ -83,7 +81,7 @@ pub(super) struct PeriodFolding<'a, S, R, const J: usize> {
 impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
     /// Fills the first `J` columns of the trajectories of `folded`. Not inlined: compiled once for all `N`.
     #[inline(never)]
-    pub(super) fn evaluate(&mut self, folded: &FoldedLanes) {
+    pub fn evaluate(&mut self, folded: &FoldedLanes) {
         self.simd.vectorize(
             #[inline(always)]
             || self.evaluate_vectorized(folded),
@@ -187,8 +185,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
             if J >= WITH_ATTITUDE
                 && let Some(period) = period
             {
-                let q = [components[3], components[4], components[5], components[6]];
-                let turned = hamilton(period.turn(whole), q);
+                let turned = hamilton(period.turn(whole), four(&components, ATTITUDE));
                 components[ATTITUDE..WITH_ATTITUDE].copy_from_slice(&turned);
             }
             if J >= WITH_ANGLES {
@@ -202,10 +199,9 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
     }
 
-    /// Fills the quadrature states, the columns `J` to `N` of the trajectory of `share`; separate, so that the others
-    /// are compiled once for all `N`.
+    /// Fills the quadrature states, the columns `J` to `N` of the trajectory of `share`.
     #[inline(always)]
-    pub(super) fn fill_quadratures<const N: usize>(&mut self, share: &FoldedLane) {
+    pub fn fill_quadratures<const N: usize>(&mut self, share: &FoldedLane) {
         let FoldedLane { lane, state, points, .. } = share;
         let per_unit = 1.0 / state.unit;
         let factors = si_factors::<f64, N>(per_unit);
@@ -220,7 +216,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
     }
 
     #[inline(always)]
-    pub(super) fn state_at_end<const N: usize>(&self, share: &FoldedLane, period: &Period) -> [f64; N] {
+    pub fn state_at_end<const N: usize>(&self, share: &FoldedLane, period: &Period) -> [f64; N] {
         let FoldedLane { lane, state, end, .. } = share;
         let lane = *lane;
         let (whole, rest) = period.fold(Lanes::broadcast(self.simd, state.length));
@@ -238,7 +234,7 @@ impl<S: Simd, R: Real, const J: usize> PeriodFolding<'_, S, R, J> {
         }
         if J >= WITH_ATTITUDE {
             let turn = lane_of(&period.turn(whole), 0);
-            let q = hamilton(turn, [at_end[3], at_end[4], at_end[5], at_end[6]]);
+            let q = hamilton(turn, four(&at_end, ATTITUDE));
             at_end[ATTITUDE..WITH_ATTITUDE].copy_from_slice(&q);
         }
         if J >= WITH_ANGLES {
@@ -283,8 +279,7 @@ fn times_from<S: Simd>(simd: S, padded: &[f64], first: usize) -> Lanes<S> {
     Lanes::load(simd, &times)
 }
 
-/// Writes up to eight points of component `component`; all eight if the column is long enough, since later points
-/// overwrite them.
+/// Writes up to eight points of a component; all eight if the column is long enough, as later points overwrite them.
 #[inline(always)]
 fn write_points<S: Simd>(trajectory: &mut Trajectory, component: usize, first: usize, count: usize, values: Lanes<S>) {
     let column = &mut trajectory.column_mut(component)[first..];

@@ -8,14 +8,8 @@ use super::workspace::Workspace;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, OMEGA, WITH_ATTITUDE};
 use crate::math::prelude::*;
 
-/// Section across the motion of `omega` in a free arc, per unit of time, for the moments' `ratio` and `inverse` and the
-/// wheels' `momentum`.
-pub(super) fn section(
-    ratio: [f64; 3],
-    inverse: [f64; 3],
-    momentum: [f64; 3],
-    omega: [f64; 3],
-) -> Option<PoincareSection> {
+/// Section across the motion of `omega` in a free arc, per unit of time, for the moments' `ratio` and `inverse`.
+pub fn section(ratio: [f64; 3], inverse: [f64; 3], momentum: [f64; 3], omega: [f64; 3]) -> Option<PoincareSection> {
     let [x, y, z] = momentum;
     let linear = [y * omega[2] - z * omega[1], z * omega[0] - x * omega[2], x * omega[1] - y * omega[0]];
     let mut rate = [0.0; 3];
@@ -26,9 +20,9 @@ pub(super) fn section(
     PoincareSection::new(omega, rate)
 }
 
-/// Time of the return within the last step, of length `length`, if the step may have `crossed` back through `section`.
+/// Time of the return within the last step, if the step may have `crossed` back through `section`.
 #[inline(always)]
-pub(super) fn return_time<R: Real, const J: usize>(
+pub fn return_time<R: Real, const J: usize>(
     section: &PoincareSection,
     work: &Workspace<R, J>,
     state: &SeriesLane,
@@ -46,9 +40,9 @@ pub(super) fn return_time<R: Real, const J: usize>(
     section.crossing(&work.ring.last().jet, lane, work.rule.order, length, work.settings.tolerance)
 }
 
-/// Period of the arc, whose last step returns after `within` units; `momentum_b` is the wheels', B, per unit.
+/// Period of the arc, whose last step returns after `within` units; `momentum_b` is the wheels'.
 #[inline(always)]
-pub(super) fn period<R: Real, const J: usize>(
+pub fn period<R: Real, const J: usize>(
     run: &Gyrostat<f64>,
     ring: &SeriesRing<R, J>,
     state: &SeriesLane,

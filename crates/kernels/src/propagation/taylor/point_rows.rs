@@ -1,12 +1,11 @@
-//! [`PointRows`]: the last observation points of each lane, written to the columns of its trajectory eight at a time.
-//! Written directly, the columns of all lanes exceed the first-level cache, which cost a tenth of the time of a run
-//! under thrust.
+//! [`PointRows`]: the last observation points of each lane, written to its trajectory eight at a time. Written
+//! directly, the columns exceed the first-level cache, which cost a tenth of the time of a run under thrust.
 
 use crate::math::prelude::*;
 use crate::run::Trajectory;
 
 #[derive(Clone, Debug)]
-pub(super) struct PointRows {
+pub struct PointRows {
     /// Eight points of all components per lane; the position of a point is its number modulo eight.
     values: Vec<f64>,
     /// Pending points of each lane: the first, and one after the last.
@@ -15,13 +14,13 @@ pub(super) struct PointRows {
 }
 
 impl PointRows {
-    pub(super) fn new(lanes: usize, components: usize) -> Self {
+    pub fn new(lanes: usize, components: usize) -> Self {
         PointRows { values: vec![0.0; lanes * WIDTH * components], first: [0; WIDEST], next: [0; WIDEST] }
     }
 
-    /// Adds the next point of `lane`, number `point`, from `rows`, which hold all lanes of each component.
+    /// Adds the next point of `lane` from `rows`, which hold all lanes of each component.
     #[inline(always)]
-    pub(super) fn push<const N: usize>(
+    pub fn push<const N: usize>(
         &mut self,
         lane: usize,
         point: usize,
@@ -42,7 +41,7 @@ impl PointRows {
     }
 
     #[inline(never)]
-    pub(super) fn flush<const N: usize>(&mut self, lane: usize, trajectory: &mut Trajectory) {
+    pub fn flush<const N: usize>(&mut self, lane: usize, trajectory: &mut Trajectory) {
         let points = self.first[lane]..self.next[lane];
         self.first[lane] = self.next[lane];
         let rows = self.values.as_chunks::<N>().0.as_chunks::<WIDTH>().0;

@@ -5,13 +5,13 @@ use super::dense::{Segment, value_at, values};
 use super::lane_state::SeriesLane;
 use super::lane_vectors::si_factors;
 use super::series_ring::SeriesRing;
-use super::thrust::{Push, Quadrature, angle_of};
+use super::thrust::{Push, Quadrature};
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGLE, WITH_THRUST};
 use crate::math::prelude::*;
 use crate::run::{Grid, Trajectory};
 
-pub(super) struct TakenStep<R, const N: usize> {
+pub struct TakenStep<R, const N: usize> {
     pub constants: Constants<R>,
     /// The state at its start.
     pub begin: [R; N],
@@ -23,7 +23,7 @@ pub(super) struct TakenStep<R, const N: usize> {
     pub push: Push<R>,
 }
 
-pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
+pub struct StepSeries<'a, R, const N: usize, const J: usize> {
     pub segment: &'a Segment<R, J>,
     pub step: &'a TakenStep<R, N>,
     pub quadrature: &'a mut Quadrature<R>,
@@ -33,7 +33,7 @@ pub(super) struct StepSeries<'a, R, const N: usize, const J: usize> {
 impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
     /// Components at the times `at` since the start of the arc, SI, by lane; quadrature states only with `FORCED`.
     #[inline(always)]
-    pub(super) fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
+    pub fn components<const FORCED: bool>(&mut self, at: R, due: R::Mask) -> [[f64; WIDEST]; N] {
         let zero = at.zero();
         let StepSeries { segment, step, .. } = *self;
         let TakenStep { constants, begin, order, length, push } = step;
@@ -43,7 +43,7 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
         let mut all = [zero; N];
         all[..J].copy_from_slice(&found);
         if FORCED {
-            let mut turned = angle_of(&found);
+            let mut turned = three(&found, ANGLE);
             for i in 0..3 {
                 turned[i] -= jet[0][ANGLE + i];
             }
@@ -64,7 +64,7 @@ impl<R: Real, const N: usize, const J: usize> StepSeries<'_, R, N, J> {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Until {
+pub enum Until {
     EndOfArc,
     /// Before this time since the start of the arc, units.
     Time(f64),
@@ -73,7 +73,7 @@ pub(super) enum Until {
 /// Evaluates the points of an arc without actuation one by one from the kept series.
 #[cold]
 #[inline(never)]
-pub(super) fn evaluate_kept<R: Real, const N: usize, const J: usize>(
+pub fn evaluate_kept<R: Real, const N: usize, const J: usize>(
     state: &mut SeriesLane,
     lane: usize,
     ring: &SeriesRing<R, J>,

@@ -16,34 +16,34 @@ use crate::scene::Scene;
 pub const MOST_STEPS: u64 = 1_000_000;
 
 /// All components of a gyrostat: one kernel for all scenes.
-pub(super) const N: usize = WITH_THRUST;
+pub const N: usize = WITH_THRUST;
 
-pub(super) struct Integration<'a, 'l> {
-    pub(super) run: &'a mut Gyrostat<DoubleDouble>,
+pub struct Integration<'a, 'l> {
+    pub run: &'a mut Gyrostat<DoubleDouble>,
     /// The run in `f64`, for its unit of time: a power of two near the time scale of the motion.
-    pub(super) coarse: &'a mut Gyrostat<f64>,
+    pub coarse: &'a mut Gyrostat<f64>,
     /// `None` if nothing acts on the body.
-    pub(super) scene: Option<&'a Scene>,
+    pub scene: Option<&'a Scene>,
     /// `None` for the scene's schedule.
-    pub(super) law: Option<&'a mut (dyn ActuationLaw + 'l)>,
-    pub(super) grid: &'a Grid,
-    pub(super) rule: StepRule,
+    pub law: Option<&'a mut (dyn ActuationLaw + 'l)>,
+    pub grid: &'a Grid,
+    pub rule: StepRule,
 }
 
 /// The orbit of a run, integrated with it instead of by the closed form that it judges.
-pub(super) struct ReferenceOrbit {
-    pub(super) mass: DoubleDouble,
-    pub(super) gravity: Gravity<DoubleDouble>,
-    pub(super) start: OrbitState<DoubleDouble>,
+pub struct ReferenceOrbit {
+    pub mass: DoubleDouble,
+    pub gravity: Gravity<DoubleDouble>,
+    pub start: OrbitState<DoubleDouble>,
     /// Position and velocity relative to the orbit at time zero, m and m/s, if the spacecraft may leave it.
-    pub(super) offset: Option<[[DoubleDouble; 3]; 2]>,
-    pub(super) place: OrbitState<DoubleDouble>,
-    pub(super) unit: DoubleDouble,
+    pub offset: Option<[[DoubleDouble; 3]; 2]>,
+    pub place: OrbitState<DoubleDouble>,
+    pub unit: DoubleDouble,
 }
 
 impl ReferenceOrbit {
     /// `orbit`, on or near which `run` starts.
-    pub(super) fn new(run: &Gyrostat<DoubleDouble>, orbit: &OrbitPath) -> Self {
+    pub fn new(run: &Gyrostat<DoubleDouble>, orbit: &OrbitPath) -> Self {
         let [position, velocity] = orbit.at_start().start().map(|vector| vector.map(DoubleDouble::exact));
         let start = OrbitState { position, velocity, distance: norm(position) };
         ReferenceOrbit {
@@ -57,19 +57,19 @@ impl ReferenceOrbit {
     }
 
     /// Starts a step in a unit of time of `unit` seconds: gravity and position.
-    pub(super) fn begin(&mut self, unit: f64) -> (Gravity<DoubleDouble>, OrbitState<DoubleDouble>) {
+    pub fn begin(&mut self, unit: f64) -> (Gravity<DoubleDouble>, OrbitState<DoubleDouble>) {
         self.unit = DoubleDouble::exact(unit);
         (self.gravity, self.place)
     }
 
     /// State `within` units after the start of the step with the series `along`, SI.
-    pub(super) fn at(&self, along: &OrbitSeries<DoubleDouble>, within: DoubleDouble) -> OrbitState<DoubleDouble> {
+    pub fn at(&self, along: &OrbitSeries<DoubleDouble>, within: DoubleDouble) -> OrbitState<DoubleDouble> {
         let place = along.at(within);
         OrbitState { velocity: scaled(DoubleDouble::exact(1.0) / self.unit, place.velocity), ..place }
     }
 
     /// Adds gravity's impulse, its integral and work to the components at `time`, s, with c at `place`.
-    pub(super) fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
+    pub fn complete(&self, time: f64, place: &OrbitState<DoubleDouble>, values: &mut [DoubleDouble; N]) {
         let (mut start, mut place) = (self.start, *place);
         if let Some(offset) = self.offset {
             let inverse_mass = DoubleDouble::exact(1.0) / self.mass;
@@ -87,8 +87,4 @@ impl ReferenceOrbit {
         }
         values[THRUST_WORK] += self.gravity.work_on(self.mass, &start, &place);
     }
-}
-
-pub(super) fn three(y: &[DoubleDouble; N], first: usize) -> [DoubleDouble; 3] {
-    [y[first], y[first + 1], y[first + 2]]
 }

@@ -1,19 +1,19 @@
 //! [`ReferenceSolution`]: reference solution of any scene by the Taylor recurrences in double-double (106 bits).
 //!
 //! One run at a time, every arc restarted exactly at its switch, order and step from a tolerance near the rounding of
-//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005). Debris is a gyrostat without wheels, a cube
-//! like any box. Effects without Taylor series are integrated by extrapolation in the same arithmetic
-//! (`switched_reference`). There is no periodic folding, which a solution that shared it could not judge.
+//! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005), without periodic folding, which a solution
+//! that shared it could not judge. Debris is a gyrostat without wheels, a cube like any box. Effects without Taylor
+//! series are integrated by extrapolation (`switched_reference`).
 //!
-//! Mass properties and initial state of a [`Scene`] are `f64` numbers, and the reference solution is the exact motion
-//! for *those* numbers: rounding of mass properties computed from dimensions and densities is no error of integration.
+//! The reference solution is the exact motion for the `f64` numbers of a [`Scene`]: rounding of mass properties is no
+//! error of integration.
 
 use fearless_simd::Simd;
 
 use super::jet::{Reciprocals, Scratch, expand};
 use super::lane_vectors::si_factors;
 pub use super::reference_run::MOST_STEPS;
-use super::reference_run::{Integration, N, ReferenceOrbit, three};
+use super::reference_run::{Integration, N, ReferenceOrbit};
 use super::step::StepRule;
 use super::switched_reference;
 use crate::dynamics::actuation::ActuationLaw;
@@ -39,8 +39,7 @@ use crate::run::{Grid, StateField, StateFields, StateTable};
 use crate::scene::MAX_WHEELS;
 use crate::scene::{Offsets, Scene};
 
-/// Relative tolerance: five times the rounding of double-double (2^-105 = 2.5e-32), below which smaller steps only add
-/// rounding errors.
+/// Relative tolerance: five times the rounding of double-double (2^-105 = 2.5e-32).
 pub const TOLERANCE: f64 = 1e-31;
 
 /// States of a run at its observation points, as unevaluated sums of two tables.
@@ -62,7 +61,7 @@ impl ReferenceSolution {
         Self::solve(isa, scene, None, grid, fields, tolerance)
     }
 
-    /// Motion under `law` in place of the scene's schedule. The law observes the state rounded to `f64`.
+    /// Motion under `law`, which observes the state rounded to `f64`.
     ///
     /// # Errors
     /// As [`ReferenceSolution::new`].
@@ -80,7 +79,7 @@ impl ReferenceSolution {
         Self::solve(isa, scene, Some(law), grid, fields, tolerance)
     }
 
-    /// Tolerance under `model`: [`TOLERANCE`], or the limit set by torques without a Taylor series.
+    /// Tolerance under `model`: [`TOLERANCE`], or the limit set by torques without a series.
     pub fn tolerance(model: ForceModel) -> f64 {
         if model.is_integrated(by_series) { TOLERANCE } else { switched_reference::TOLERANCE }
     }
@@ -225,7 +224,7 @@ fn rotation(
     y: &[DoubleDouble; N],
 ) -> ([DoubleDouble; 3], [DoubleDouble; 3], [DoubleDouble; 4]) {
     let omega_b = three(y, OMEGA);
-    let q_eb = [y[ATTITUDE], y[ATTITUDE + 1], y[ATTITUDE + 2], y[ATTITUDE + 3]];
+    let q_eb = four(y, ATTITUDE);
     match run.c_sb {
         Some(c_sb) => (omega_b, product(c_sb, omega_b), hamilton(q_eb, conjugate(run.q_sb))),
         None => (omega_b, omega_b, q_eb),

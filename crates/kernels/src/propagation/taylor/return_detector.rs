@@ -38,8 +38,7 @@ impl<R: Real> ReturnDetector<R> {
         }
     }
 
-    /// Updates the sections with omega at the end of a step; true in lanes that may have come back through their
-    /// section.
+    /// Updates the sections with omega at the end of a step; true in lanes that may have come back through them.
     #[inline(always)]
     pub fn passes(&mut self, omega: [R; 3]) -> R::Mask {
         let zero = self.side.zero();

@@ -8,11 +8,10 @@
 //! rho, then q' = q (x) omega/2 bounds q by (1 - t/rho)^(-s), s = w rho/2, with the coefficients binomial(s + n - 1,
 //! n)/rho^n. The n-th root of that binomial is at most 1.04 (1 + s/(n!)^(1/n)) up to n = 27, and near that for s > 3.
 //! The first neglected term, of order n, meets the tolerance if tolerance^(1/n)/h = 1/rho + w/(2 (n!)^(1/n)): the
-//! reciprocals of the steps allowed by the radius and by rotation at a constant rate add. The coefficients of omega are
-//! below the majorant's, so that a share `RADIUS_SHARE` of the first suffices.
+//! reciprocals of the steps allowed by the radius and by rotation at a constant rate add. A share `RADIUS_SHARE` of the
+//! first suffices.
 //!
-//! The angular velocity alone decides, so that campaigns with and without attitude take the same steps and get the same
-//! bits.
+//! The angular velocity alone decides, so that campaigns with and without attitude take the same steps.
 
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, OMEGA};
 use crate::math::power::{exp2_rough, log2_rough};
@@ -36,11 +35,10 @@ pub struct StepRule {
     log_growth: f64,
 }
 
-/// Margin for tolerances below rounding: truncation has a sign, unlike rounding, and accumulates. At the tolerance
-/// itself energy drifted by 6e-19 and the quaternion's norm by 8.3e-17 per step (`tests/accuracy/round_off.rs`): two
-/// orders more, and this share of the tolerance for the attitude.
+/// Margin for tolerances below rounding: truncation has a sign and accumulates. At the tolerance itself energy drifted
+/// by 6e-19 and the quaternion's norm by 8.3e-17 per step (`tests/accuracy/round_off.rs`).
 const BELOW_ROUNDING: f64 = 1.0 / 4096.0;
-/// Additional orders below rounding: longer steps add rounding, and the margin exceeds the attitude's own term.
+/// Additional orders below rounding: longer steps add rounding.
 const MORE_BELOW_ROUNDING: usize = 2;
 /// Orders beyond Jorba & Zou's. The forced scene of `benches/peers/run.sh` takes 112 steps at 1e-4 instead of 295, in
 /// 0.57 of the time; 128 at 1e-10 instead of 199, in 0.85. Orders 2, 6 and 8 beyond are not faster.
@@ -51,8 +49,7 @@ const RADIUS_SHARE: f64 = 0.6;
 
 /// The tail of a product is that of both series: at equal times of rate and angular acceleration the step is this
 /// (log2) shorter than either, and less per octave between them. Exact sums of neglected coefficients at the orders 13
-/// and 22 need 0.71 at equal times and 0.3 an octave apart; two octaves apart they are 3 to 12 times the attitude's
-/// tolerance, far below the rates'.
+/// and 22 need 0.71 at equal times and 0.3 an octave apart.
 const EQUAL_TIMES: f64 = 0.75;
 /// Decrease of [`EQUAL_TIMES`] per octave.
 const AN_OCTAVE: f64 = 0.375;
@@ -97,10 +94,9 @@ impl StepRule {
 
     /// Step for the jet of a rate, by lane, in the lane's unit of time; positive, at most 2^30.
     ///
-    /// The tail is compared with the rate and its change over a unit of time, near the time scale of the motion. The
-    /// attitude's series limits the step too, alone if the rate is a polynomial of low order: exp(omega t/2) at
-    /// constant rate, exp(alpha t^2/4) at constant angular acceleration (`EQUAL_TIMES` if both count). `alpha` is the
-    /// acceleration by constant torques, `None` in free runs.
+    /// The tail is compared with the rate and its change over a unit of time. The attitude's series limits the step
+    /// too: exp(omega t/2) at constant rate, exp(alpha t^2/4) at constant angular acceleration (`EQUAL_TIMES` if both
+    /// count). `alpha` is the acceleration by constant torques, `None` in free runs.
     #[inline(always)]
     pub fn step<R: Real, const N: usize>(&self, jet: &[[R; N]], alpha: Option<[R; 3]>) -> R {
         let scale = squared(&jet[0], OMEGA) + squared(&jet[1], OMEGA);
@@ -132,16 +128,14 @@ impl StepRule {
         clamped_exp2(from_last.smaller(from_before) + number(self.log_safety))
     }
 
-    /// Step allowed by the series of the angular impulse: an effect's torque turns up to twice as fast as the body,
-    /// which shows in omega only if it is strong.
+    /// Step allowed by the series of the angular impulse: an effect's torque turns up to twice as fast as the body.
     #[inline(always)]
     pub fn step_of_impulse<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
         let size = |n: usize| squared(&jet[n], ANGULAR_IMPULSE);
         self.step_of_series([size(1), size(self.order - 1), size(self.order)])
     }
 
-    /// Step allowed by the motion relative to an orbit, from the series of its momentum, for a spacecraft of the mass
-    /// `mass`.
+    /// Step allowed by the motion relative to an orbit, from the series of its momentum.
     #[inline(always)]
     pub fn step_of_offset<R: Real, const N: usize>(&self, jet: &[[R; N]], mass: R) -> R {
         let size = |n: usize| squared(&jet[n], IMPULSE);
@@ -170,7 +164,7 @@ fn clamped_exp2<R: Real>(log: R) -> R {
 /// Square of the vector from component `first` on.
 #[inline(always)]
 fn squared<R: Real, const N: usize>(coefficients: &[R; N], first: usize) -> R {
-    let vector = [coefficients[first], coefficients[first + 1], coefficients[first + 2]];
+    let vector = three(coefficients, first);
     dot(vector, vector)
 }
 

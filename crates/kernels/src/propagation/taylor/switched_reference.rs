@@ -1,10 +1,9 @@
 //! Reference solutions under effects with branches and without Taylor series: extrapolation
-//! ([`crate::ode::extrapolation`]) in double-double, with steps that end at switches, located by steps of other lengths
-//! from the same start.
+//! ([`crate::ode::extrapolation`]) in double-double, with steps that end at switches.
 //!
 //! Shadows, densities and the direction of the Sun are `f64` numbers in any arithmetic
-//! ([`crate::dynamics::environment`]), which makes torques of air and light uncertain by some 1e-16; see [`TOLERANCE`].
-//! The orbit is integrated with the attitude instead of by the closed form that it judges.
+//! ([`crate::dynamics::environment`]), so that torques of air and light are uncertain by some 1e-16. The orbit is
+//! integrated with the attitude instead of by the closed form that it judges.
 
 use fearless_simd::Simd;
 
@@ -51,8 +50,8 @@ const FEW: usize = COLUMNS - 4;
 
 type State = [DoubleDouble; ALL];
 
-/// Equations of motion of an arc. In double-double each function is long: compiled once for the instruction set of
-/// `simd`, not copied into every caller.
+/// Equations of motion of an arc, compiled once for the instruction set of `simd`: in double-double each function is
+/// long.
 struct Motions<S> {
     simd: S,
     constants: Constants<DoubleDouble>,
@@ -61,11 +60,6 @@ struct Motions<S> {
     may_leave: bool,
     /// Floor of rates in the error norm, rad/s.
     rate: DoubleDouble,
-}
-
-#[inline(always)]
-fn three(state: &State, first: usize) -> [DoubleDouble; 3] {
-    [state[first], state[first + 1], state[first + 2]]
 }
 
 #[inline(always)]
@@ -287,7 +281,7 @@ impl Steps {
 impl Integration<'_, '_> {
     /// Integrated components at the observation points, SI.
     #[inline(always)]
-    pub(super) fn switched_states(mut self, simd: impl Simd) -> Result<Vec<[DoubleDouble; N]>, Status> {
+    pub fn switched_states(mut self, simd: impl Simd) -> Result<Vec<[DoubleDouble; N]>, Status> {
         let zero = DoubleDouble::exact(0.0);
         let (grid, scale) = (self.grid, self.coarse.time_unit());
         let Some(orbit) = self.run.orbit.as_ref().map(|orbit| ReferenceOrbit::new(self.run, orbit)) else {

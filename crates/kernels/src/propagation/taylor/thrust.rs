@@ -2,17 +2,15 @@
 //!
 //! Thrust turns with omega, the quaternion with omega/2: Taylor series of these integrals (impulse, its integral,
 //! angular impulse, works) would need half the step and two more Cauchy products of quaternions. But the attitude is a
-//! polynomial within a step, exact to the tolerance: m Gauss-Legendre nodes integrate exp(i Omega t) over h to (Omega
-//! h)^2m (m!)^4/((2m+1) (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984,
-//! section 2.7), with m for the largest turn of a step. Force and torque are constant in B: the direction cosine matrix
-//! is integrated, ten sums of products of the quaternion's components.
-//!
-//! A point inside a step is reached from the nearer end, with the nodes for half a step.
+//! polynomial within a step: m Gauss-Legendre nodes integrate exp(i Omega t) over h to (Omega h)^2m (m!)^4/((2m+1)
+//! (2m)!^3) (P. J. Davis & P. Rabinowitz, *Methods of Numerical Integration*, 2nd ed. 1984, section 2.7), with m for
+//! the largest turn of a step. Force and torque are constant in B: the direction cosine matrix is integrated. A point
+//! inside a step is reached from the nearer end, with the nodes for half a step.
 
 use super::step::StepRule;
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{
-    ANGLE, ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, THRUST_WORK, WITH_THRUST,
+    ANGULAR_IMPULSE, ATTITUDE, IMPULSE, IMPULSE_INTEGRAL, MOTOR_WORK, THRUST_WORK, WITH_THRUST,
 };
 use crate::math::prelude::*;
 
@@ -44,8 +42,7 @@ pub struct Push<R> {
 }
 
 impl<R: Real> Quadrature<R> {
-    /// The smallest number of nodes that integrates a turning vector over the largest step of `rule` to the tolerance,
-    /// in the lanes of `zero`.
+    /// The fewest nodes that integrate a turning vector over the largest step of `rule` to the tolerance.
     pub fn new(zero: R, rule: &StepRule, tolerance: f64) -> Self {
         let nodes = |turn: f64| -> Vec<(f64, f64)> {
             let enough = (2..MOST_NODES).find(|m| error(*m, turn) <= SHARE * tolerance).unwrap_or(MOST_NODES);
@@ -99,9 +96,8 @@ impl<R: Real> Push<R> {
     /// Increase of the components from [`MOTOR_WORK`] on, from the start of a step to `x` after it, zero in the others.
     ///
     /// `start` is the state and `constants` hold at the start of the step; `angle` is the increase of the angle until
-    /// `x`. Only `N` = [`WITH_THRUST`] has components of thrust. Their work needs no quadrature: Gauss collocation
-    /// conserves quadratic invariants (J. M. Sanz-Serna, BIT 28, 1988), so that the sum of force times impulse over the
-    /// nodes is half the change of the squared impulse.
+    /// `x`. The work of thrust needs no quadrature: Gauss collocation conserves quadratic invariants (J. M. Sanz-Serna,
+    /// BIT 28, 1988), so that the sum of force times impulse over the nodes is half the change of the squared impulse.
     #[inline(always)]
     pub fn growth<const N: usize>(&self, constants: &Constants<R>, start: &[R; N], angle: [R; 3], x: R) -> [R; N] {
         let half = x.splat(0.5);
@@ -199,20 +195,13 @@ impl<R: Real> AttitudeProducts<R> {
 
 #[inline(always)]
 fn attitude<R: Real, const J: usize>(jet: &[[R; J]], x: R) -> [R; 4] {
-    let last = &jet[jet.len() - 1];
-    let mut q = [last[ATTITUDE], last[ATTITUDE + 1], last[ATTITUDE + 2], last[ATTITUDE + 3]];
+    let mut q = four(&jet[jet.len() - 1], ATTITUDE);
     for coefficients in jet[..jet.len() - 1].iter().rev() {
         for i in 0..4 {
             q[i] = q[i].mul_add(x, coefficients[ATTITUDE + i]);
         }
     }
     q
-}
-
-/// Angle components of a state.
-#[inline(always)]
-pub fn angle_of<R: Real, const N: usize>(state: &[R; N]) -> [R; 3] {
-    [state[ANGLE], state[ANGLE + 1], state[ANGLE + 2]]
 }
 
 /// Relative error of the m-point rule for exp(i Omega t) over a turn of `turn`.

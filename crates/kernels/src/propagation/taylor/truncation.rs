@@ -12,7 +12,7 @@ use crate::run::LocalErrors;
 const BRIEF_REST: f64 = 0.15;
 
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct TruncationSums {
+pub struct TruncationSums {
     /// Truncation of omega, rad per unit of time.
     rate: f64,
     /// First neglected terms of the attitude, rad.
@@ -21,18 +21,18 @@ pub(super) struct TruncationSums {
 
 /// Sums over the steps of a run, in lanes.
 ///
-/// If effects act within arcs, a run has hundreds of librations and turns, truncation of omega has every direction, and
-/// a sum of magnitudes is far from the error. There each step counts as a vector: the neglected angular momentum, which
-/// persists in inertial axes, along the last two terms of even and odd order together, with the sign of the term two
-/// orders later (terms two orders apart alternate). The sum of a run is the largest magnitude of the vector sum so far,
-/// plus the root of the sum of squares, since directions are only estimated.
+/// If effects act within arcs, truncation of omega has every direction over hundreds of librations and turns. There
+/// each step counts as a vector: the neglected angular momentum, which persists in inertial axes, along the last two
+/// terms together, with the sign of the term two orders later (terms two orders apart alternate). The sum of a run is
+/// the largest magnitude of the vector sum so far, plus the root of the sum of squares, since directions are only
+/// estimated.
 ///
 /// The first neglected term is estimated as the last one kept, times the root of its ratio to the term two orders
 /// before; or as the last but one, times its ratio to the term two orders before, if larger: from rest at constant
 /// acceleration all odd terms of the attitude are zero. If only rates are integrated, the attitude counts as turning
 /// with constant omega, (|omega| h/2)^(p+1)/(p+1)!.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Truncation<R> {
+pub struct Truncation<R> {
     order: usize,
     factor: f64,
     /// Ratio of the neglected sum of omega's series to its first term.
@@ -50,7 +50,7 @@ pub(super) struct Truncation<R> {
 }
 
 impl<R: Real> Truncation<R> {
-    pub(super) fn new(zero: R, rule: &StepRule) -> Self {
+    pub fn new(zero: R, rule: &StepRule) -> Self {
         let order = rule.order;
         let factorial: f64 = (1..=order + 1).map(|n| n as f64).product();
         Truncation {
@@ -65,13 +65,13 @@ impl<R: Real> Truncation<R> {
         }
     }
 
-    pub(super) fn sums(&self, lane: usize) -> TruncationSums {
+    pub fn sums(&self, lane: usize) -> TruncationSums {
         let directed = self.farthest.lane(lane).sqrt() + self.squares.lane(lane).sqrt();
         TruncationSums { rate: self.rate.lane(lane) + directed, turn: self.turn.lane(lane) }
     }
 
     /// Converts the sums in `lane` to a unit of time that is `ratio` times as long.
-    pub(super) fn rescale(&mut self, lane: usize, ratio: f64) {
+    pub fn rescale(&mut self, lane: usize, ratio: f64) {
         let rescale = |sum: &mut R, ratio: f64| sum.set_lane(lane, sum.lane(lane) * ratio);
         rescale(&mut self.rate, ratio);
         self.momentum.iter_mut().for_each(|sum| rescale(sum, ratio));
@@ -79,7 +79,7 @@ impl<R: Real> Truncation<R> {
         rescale(&mut self.squares, ratio * ratio);
     }
 
-    pub(super) fn set(&mut self, lane: usize, sums: TruncationSums) {
+    pub fn set(&mut self, lane: usize, sums: TruncationSums) {
         self.rate.set_lane(lane, sums.rate);
         self.turn.set_lane(lane, sums.turn);
         for sum in self.momentum.iter_mut().chain([&mut self.farthest, &mut self.squares]) {
@@ -88,7 +88,7 @@ impl<R: Real> Truncation<R> {
     }
 
     #[inline(always)]
-    pub(super) fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
+    pub fn add<const N: usize>(&mut self, jet: &[[R; N]], length: R) {
         let rate = self.left_out_of_rate(jet, length);
         self.rate += rate;
         self.add_turn(jet, length);
@@ -96,11 +96,12 @@ impl<R: Real> Truncation<R> {
 
     /// Adds a step under effects within arcs, the rate's part with its direction.
     #[inline(always)]
-    pub(super) fn add_directed<const N: usize>(&mut self, jet: &[[R; N]], length: R, constants: &Constants<R>) {
+    pub fn add_directed<const N: usize>(&mut self, jet: &[[R; N]], length: R, constants: &Constants<R>) {
         let rate = self.left_out_of_rate(jet, length);
         self.add_turn(jet, length);
         let order = self.order;
-        let [second, before, last] = [&jet[order - 2], &jet[order - 1], &jet[order]].map(rates);
+        let [second, last] = [three(&jet[order - 2], OMEGA), three(&jet[order], OMEGA)];
+        let before = three(&jet[order - 1], OMEGA);
         let direction = sum(before, scaled(length, last));
         let moments = constants.inverse.map(|inverse| length.splat(1.0) / inverse);
         let mean = length.splat(1.0 / 3.0) * (moments[0] + moments[1] + moments[2]);
@@ -109,9 +110,8 @@ impl<R: Real> Truncation<R> {
         let share = R::select(dot(last, second).lt(length.zero()), -share, share);
         let left: [R; 3] = core::array::from_fn(|i| moments[i] * (direction[i] * share));
         self.squares += dot(left, left);
-        let start = &jet[0];
-        let attitude = [start[ATTITUDE], start[ATTITUDE + 1], start[ATTITUDE + 2], start[ATTITUDE + 3]];
-        self.momentum = sum(self.momentum, product(dcm_from_quaternion(attitude), left));
+        let c_eb = dcm_from_quaternion(four(&jet[0], ATTITUDE));
+        self.momentum = sum(self.momentum, product(c_eb, left));
         self.farthest = self.farthest.larger(dot(self.momentum, self.momentum));
     }
 
@@ -136,7 +136,7 @@ impl<R: Real> Truncation<R> {
 
     /// Adds brief steps of length `length` along `jet`, bounded by their last two terms.
     #[inline(always)]
-    pub(super) fn add_brief<const N: usize>(&mut self, jet: &[[R; N]], length: R, brief: &Brief<R>) {
+    pub fn add_brief<const N: usize>(&mut self, jet: &[[R; N]], length: R, brief: &Brief<R>) {
         let zero = length.zero();
         let (mut before, mut last) = ([zero; 2], [zero; 2]);
         let mut power = raised_to(length, LEAST - 1);
@@ -156,17 +156,16 @@ impl<R: Real> Truncation<R> {
 }
 
 impl TruncationSums {
-    /// Errors after `steps` steps whose motion is repeated `periods` times; the unit of time is `unit` seconds.
-    /// Truncation over a period shifts it, and with it rate and attitude, in every repetition.
-    pub(super) fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
+    /// Errors after `steps` steps, repeated in each of `periods` periods; the unit of time is `unit` seconds.
+    pub fn errors(&self, steps: u64, periods: f64, unit: f64) -> LocalErrors {
         let LocalErrors { rounding, attitude, .. } = rounding(steps);
         let truncation = periods * self.rate / unit;
         LocalErrors { truncation, rounding, feedback: 0.0, attitude: periods * (attitude + self.turn) }
     }
 }
 
-/// First neglected term of a series of order p in a step of length `length`, over `length` to the power p - 1, from the
-/// sizes of the coefficients p - 3 to p.
+/// First neglected term of a series of order p in a step, over `length` to the power p - 1, from the sizes of the
+/// coefficients p - 3 to p.
 #[inline(always)]
 fn left_out<R: Real>(sizes: [R; 4], length: R) -> R {
     let [third, second, before, last] = sizes;
@@ -181,18 +180,13 @@ fn share<R: Real>(term: R, of: R) -> R {
 }
 
 #[inline(always)]
-fn rates<R: Real, const N: usize>(term: &[R; N]) -> [R; 3] {
-    [term[OMEGA], term[OMEGA + 1], term[OMEGA + 2]]
-}
-
-#[inline(always)]
 fn size<R: Real, const N: usize>(term: &[R; N]) -> R {
-    norm(rates(term))
+    norm(three(term, OMEGA))
 }
 
 #[inline(always)]
 fn turn<R: Real, const N: usize>(term: &[R; N]) -> R {
-    let vector = norm([term[ATTITUDE + 1], term[ATTITUDE + 2], term[ATTITUDE + 3]]);
+    let vector = norm(three(term, ATTITUDE + 1));
     term[ATTITUDE].mul_add(term[ATTITUDE], vector * vector).sqrt()
 }
 
