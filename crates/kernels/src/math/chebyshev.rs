@@ -1,7 +1,7 @@
 //! [`Pieces`]: a smooth function on an interval as piecewise Chebyshev series.
 //!
 //! A piece is halved until its last coefficients are below the tolerance (simplified from J. L. Aurentz & L. N.
-//! Trefethen, *Chopping a Chebyshev series*, ACM Trans. Math. Softw. 43 (2017)); sums by Clenshaw's recurrence.
+//! Trefethen, ACM Trans. Math. Softw. 43 (2017)); sums by Clenshaw's recurrence.
 
 use core::f64::consts::PI;
 

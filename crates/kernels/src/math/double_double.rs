@@ -15,7 +15,7 @@ pub struct DoubleDouble {
     pub low: f64,
 }
 
-/// `sums::two_sum` as a double-double.
+/// [`sums::two_sum`].
 #[inline(always)]
 pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let (high, low) = sums::two_sum(a, b);
@@ -125,14 +125,6 @@ impl Real for DoubleDouble {
     #[inline(always)]
     fn abs(self) -> Self {
         if self.high < 0.0 { -self } else { self }
-    }
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        if other.lt(self) { self } else { other }
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        if self.lt(other) { self } else { other }
     }
     #[inline(always)]
     fn lt(self, other: Self) -> bool {

@@ -1,16 +1,14 @@
 //! The regularised incomplete beta function I_x(a, b) and its inverse, for shapes from 1e-3 to 1e15.
 //!
-//! I_x by a continued fraction (Lentz's method modified by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986)
-//! 490) on the side on which it converges; its factor x^a (1-x)^b / B(a, b) in `saddle_point` form.
+//! I_x by a continued fraction (modified Lentz method) on the side on which it converges; its factor
+//! x^a (1-x)^b / B(a, b) in `saddle_point` form.
 
-use super::probability::{Probability, log_of_quantile};
+use super::probability::{Probability, log_of_quantile, nonzero};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
 /// Limit of terms; the worst case needs about 3 sqrt(max(a, b)).
 const MAX_TERMS: u32 = 100_000_000;
-/// Replaces a zero, so that Lentz's method continues (Thompson & Barnett).
-const TINY: f64 = 1e-300;
 
 /// I_x(a, b) and 1 - I_x(a, b), for shapes `a`, `b` > 0 and `x` in [0, 1] given with its complement `y` = 1 - x.
 ///
@@ -44,10 +42,7 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
     if q <= 0.0 {
         return [1.0, 0.0];
     }
-    // the unknown is x or 1 - x, whichever is smaller
-    let middle = incomplete_beta(0.5, 0.5, a, b);
-    let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
-    if below {
+    if is_below_half(p, q, a, b) {
         let x = libm::exp(log_of_smaller_root(p, q, a, b));
         [x, 1.0 - x]
     } else {
@@ -58,15 +53,19 @@ pub fn inverse_incomplete_beta(p: f64, q: f64, a: f64, b: f64) -> [f64; 2] {
 
 /// ln(x/(1 - x)) with I_x(a, b) = `p`, for `p` > 0 given with its complement `q` > 0, to full accuracy of x and 1 - x.
 pub fn logit_quantile(p: f64, q: f64, a: f64, b: f64) -> f64 {
-    let middle = incomplete_beta(0.5, 0.5, a, b);
-    let below = if p <= q { p <= middle.lower } else { q >= middle.upper };
     let logit = |p: f64, q: f64, a: f64, b: f64| {
         // first term of the series, x^a / (a B)
         let first = (libm::log(p) + libm::log(a) + log_beta(a, b)) / a;
         let log_x = if first < -300.0 { first } else { log_of_smaller_root(p, q, a, b) };
         log_x - libm::log1p(-libm::exp(log_x))
     };
-    if below { logit(p, q, a, b) } else { -logit(q, p, b, a) }
+    if is_below_half(p, q, a, b) { logit(p, q, a, b) } else { -logit(q, p, b, a) }
+}
+
+/// True if the x with I_x(a, b) = p = 1 - q is at most 1/2, and so the unknown instead of 1 - x.
+fn is_below_half(p: f64, q: f64, a: f64, b: f64) -> bool {
+    let middle = incomplete_beta(0.5, 0.5, a, b);
+    if p <= q { p <= middle.lower } else { q >= middle.upper }
 }
 
 /// ln B(a, b), from [`front`] at the mean, since logarithms of gamma functions would cancel.
@@ -99,7 +98,6 @@ fn front(x: f64, y: f64, a: f64, b: f64) -> f64 {
 /// & A. H. Morris, *Significant digit computation of the incomplete beta function ratios*, ACM Trans. Math. Softw. 18
 /// (1992) 360, equation (9); its terms do not cancel for large shapes, unlike those of DLMF 8.17.22.
 fn continued_fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
-    let nonzero = |value: f64| if value.abs() < TINY { TINY } else { value };
     let lambda = a * y - b * x;
     let mut fraction = nonzero(a * (lambda + 1.0) / (a + 1.0));
     let (mut c, mut d) = (fraction, 0.0);

@@ -1,17 +1,15 @@
 //! The regularised incomplete gamma functions P(a, x) and Q(a, x) = 1 - P, and their inverse, for shapes from 1e-3 to
 //! 1e6.
 //!
-//! P by its series for x < a + 1 (DLMF 8.11.4), else Q by its continued fraction (DLMF 8.9.2, Lentz's method modified
-//! by I. J. Thompson & A. R. Barnett, *J. Comput. Phys.* 64 (1986) 490); their factor in `saddle_point` form.
+//! P by its series for x < a + 1 (DLMF 8.11.4), else Q by its continued fraction (DLMF 8.9.2, modified Lentz method);
+//! their factor in `saddle_point` form.
 
-use super::probability::{Probability, log_of_quantile};
+use super::probability::{Probability, TINY, log_of_quantile, nonzero};
 use super::saddle_point::{deviance, stirling_error};
 use core::f64::consts::PI;
 
 /// Limit of terms; the worst case needs about 9 sqrt(a).
 const MAX_TERMS: u32 = 1_000_000;
-/// Replaces a zero, so that Lentz's method continues.
-const TINY: f64 = 1e-300;
 
 /// x^a e^-x / Gamma(a + 1).
 fn front(a: f64, x: f64) -> f64 {
@@ -36,17 +34,16 @@ pub fn incomplete_gamma(a: f64, x: f64) -> Probability {
         let lower = (front * sum).min(1.0);
         return Probability { lower, upper: 1.0 - lower };
     }
-    let kept = |value: f64| if value.abs() < TINY { TINY } else { value };
     let mut b = x + 1.0 - a;
     let mut c = 1.0 / TINY;
-    let mut d = 1.0 / kept(b);
+    let mut d = 1.0 / nonzero(b);
     let mut fraction = d;
     for n in 1..MAX_TERMS {
         let n = f64::from(n);
         let numerator = n * (a - n);
         b += 2.0;
-        d = 1.0 / kept(b + numerator * d);
-        c = kept(b + numerator / c);
+        d = 1.0 / nonzero(b + numerator * d);
+        c = nonzero(b + numerator / c);
         fraction *= c * d;
         if (c * d - 1.0).abs() <= f64::EPSILON {
             break;

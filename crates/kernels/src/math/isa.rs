@@ -10,7 +10,7 @@ use fearless_simd::{Level, Simd};
 use crate::math::lanes::Lanes;
 use crate::math::real::Real;
 
-/// Environment variable that forces a path (`avx512`, `avx2`, `plain`), for tests and comparisons.
+/// Environment variable that forces a path: `avx512`, `avx2` or `plain`.
 pub const VARIABLE: &str = "SPINDRIFT_ISA";
 
 /// An instruction set that this processor has.
@@ -20,8 +20,8 @@ pub struct Isa {
     name: &'static str,
 }
 
-/// Work compiled once per instruction set, for [`Isa::run`]; closures cannot be generic over the token. `run` and all
-/// hot callees should be `#[inline(always)]`, else they are compiled without the instruction set.
+/// Work compiled once per instruction set; closures cannot be generic over the token. Hot code must be
+/// `#[inline(always)]`, else it is compiled without the instruction set.
 pub trait Work {
     /// Result of the work.
     type Output;
@@ -32,13 +32,31 @@ pub trait Work {
 /// Work in lanes, for [`Isa::run_wide`] in as many as suit the registers.
 ///
 /// AVX-512 (32 registers of eight lanes) takes sixteen lanes, AVX2 (16 of four) eight. The plain path of x86-64 takes
-/// one number at a time: its time is spent in library calls for the fused operation, and lanes would cost several times
-/// the machine code. [`Isa::run_narrow`] saves compile time.
+/// one number at a time: its fused operation is a library call, and lanes would cost several times the machine code.
 pub trait LaneWork {
     /// Result of the work.
     type Output;
     /// Does the work; `zero` determines the number of lanes.
     fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output;
+}
+
+/// An expression with the token `$simd` of the path of `$isa`, on x86-64 one for each path.
+macro_rules! dispatch {
+    ($isa:ident, $simd:ident, $($path:literal $token:ident => $work:expr,)*
+     plain => $plain:expr, elsewhere => $elsewhere:expr,) => {{
+        #[cfg(target_arch = "x86_64")]
+        {
+            $(if $isa.name == $path && let Some($simd) = $isa.level.$token() {
+                return $work;
+            })*
+            let $simd = $isa.level.as_sse2().expect("every x86-64 processor has SSE2");
+            $plain
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        {
+            fearless_simd::dispatch!($isa.level, $simd => $elsewhere)
+        }
+    }};
 }
 
 impl Isa {
@@ -48,7 +66,7 @@ impl Isa {
         Self::named(level, "avx512").or_else(|| Self::named(level, "avx2")).unwrap_or_else(Self::plain)
     }
 
-    /// The path `name` (`avx512`, `avx2`, `plain`), if known and available.
+    /// The path `name`, if known and available.
     pub fn from_name(name: &str) -> Option<Self> {
         if name == "plain" { Some(Self::plain()) } else { Self::named(Level::new(), name) }
     }
@@ -98,82 +116,45 @@ impl Isa {
         Isa { level: Level::baseline(), name: "plain" }
     }
 
-    /// Runs `work` in lanes of AVX2 if this instruction set has them, else one number at a time.
+    /// Runs `work` in lanes of AVX2 if there are any, else one number at a time, to save compile time.
     pub fn run_narrow<W: LaneWork>(self, work: W) -> W::Output {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if self.name != "plain"
-                && let Some(simd) = self.level.as_avx2()
-            {
-                return work.run(simd, Lanes::broadcast(simd, 0.0));
-            }
-            work.run(self.level.as_sse2().expect("every x86-64 processor has SSE2"), 0.0)
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            fearless_simd::dispatch!(self.level, simd => work.run(simd, 0.0))
+        dispatch! { self, simd,
+            "avx512" as_avx2 => work.run(simd, Lanes::broadcast(simd, 0.0)),
+            "avx2" as_avx2 => work.run(simd, Lanes::broadcast(simd, 0.0)),
+            plain => work.run(simd, 0.0),
+            elsewhere => work.run(simd, 0.0),
         }
     }
 
     /// Runs `work` in the number of lanes that suits this instruction set.
     pub fn run_wide<W: LaneWork>(self, work: W) -> W::Output {
-        #[cfg(target_arch = "x86_64")]
-        {
-            match self.name {
-                "avx512" => {
-                    if let Some(simd) = self.level.as_avx512() {
-                        let zero = Lanes::broadcast(simd, 0.0);
-                        return work.run(simd, crate::math::pair::Pair(zero, zero));
-                    }
-                }
-                "avx2" => {
-                    if let Some(simd) = self.level.as_avx2() {
-                        return work.run(simd, Lanes::broadcast(simd, 0.0));
-                    }
-                }
-                _ => {}
-            }
-            work.run(self.level.as_sse2().expect("every x86-64 processor has SSE2"), 0.0)
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            fearless_simd::dispatch!(self.level, simd => work.run(simd, Lanes::broadcast(simd, 0.0)))
+        dispatch! { self, simd,
+            "avx512" as_avx512 => {
+                let zero = Lanes::broadcast(simd, 0.0);
+                work.run(simd, super::Pair(zero, zero))
+            },
+            "avx2" as_avx2 => work.run(simd, Lanes::broadcast(simd, 0.0)),
+            plain => work.run(simd, 0.0),
+            elsewhere => work.run(simd, Lanes::broadcast(simd, 0.0)),
         }
     }
 
     /// Runs `work` compiled for this instruction set.
     #[inline]
     pub fn run<W: Work>(self, work: W) -> W::Output {
-        #[cfg(target_arch = "x86_64")]
-        {
-            match self.name {
-                "avx512" => {
-                    if let Some(simd) = self.level.as_avx512() {
-                        return simd.vectorize(
-                            #[inline(always)]
-                            || work.run(simd),
-                        );
-                    }
-                }
-                "avx2" => {
-                    if let Some(simd) = self.level.as_avx2() {
-                        return simd.vectorize(
-                            #[inline(always)]
-                            || work.run(simd),
-                        );
-                    }
-                }
-                _ => {}
-            }
-            let simd = self.level.as_sse2().expect("every x86-64 processor has SSE2");
-            simd.vectorize(
-                #[inline(always)]
-                || work.run(simd),
-            )
+        macro_rules! vectorized {
+            ($simd:ident) => {
+                $simd.vectorize(
+                    #[inline(always)]
+                    || work.run($simd),
+                )
+            };
         }
-        #[cfg(not(target_arch = "x86_64"))]
-        {
-            fearless_simd::dispatch!(self.level, simd => work.run(simd))
+        dispatch! { self, simd,
+            "avx512" as_avx512 => vectorized!(simd),
+            "avx2" as_avx2 => vectorized!(simd),
+            plain => vectorized!(simd),
+            elsewhere => work.run(simd),
         }
     }
 }

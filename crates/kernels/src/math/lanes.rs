@@ -13,7 +13,7 @@ pub const WIDTH: usize = 8;
 /// Largest number of lanes of a [`Real`]: a [`super::Pair`] of [`Lanes`].
 pub const WIDEST: usize = 2 * WIDTH;
 
-/// Eight `f64` side by side; lane `i` of every operation equals the scalar operation bit for bit.
+/// Eight `f64`, each as the scalar operation bit for bit.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct Lanes<S: Simd>(pub f64x8<S>);
@@ -67,13 +67,13 @@ impl<S: Simd> Lanes<S> {
         self.0.simd
     }
 
-    /// Rounds each lane to the nearest integer, ties to even.
+    /// The nearest integers, ties to even.
     #[inline(always)]
     pub fn round(self) -> Self {
         Lanes(self.0.round_ties_even())
     }
 
-    /// The largest integer not above each lane.
+    /// The largest integers not above.
     #[inline(always)]
     pub fn floor(self) -> Self {
         Lanes(self.0.floor())
@@ -156,14 +156,6 @@ impl<S: Simd> Real for Lanes<S> {
     #[inline(always)]
     fn abs(self) -> Self {
         Lanes(self.0.abs())
-    }
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        Self::select(other.lt(self), self, other)
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        Self::select(self.lt(other), self, other)
     }
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {

@@ -83,7 +83,7 @@ impl<R: Real> Real for Pair<R> {
         let half = self.0.splat(value);
         Pair(half, half)
     }
-    halves! { mul_add(a, b) sqrt() abs() larger(other) smaller(other) exponent() power_of_two() }
+    halves! { mul_add(a, b) sqrt() abs() exponent() power_of_two() }
 
     #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {

@@ -30,8 +30,9 @@ const EXPONENTIAL: [f64; 12] = [
     1.0 / 39_916_800.0,
 ];
 
+/// sum_k c_k x^k by Horner's rule.
 #[inline(always)]
-fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
+pub(super) fn polynomial<R: Real, const K: usize>(coefficients: &[f64; K], x: R) -> R {
     let mut sum = x.splat(coefficients[K - 1]);
     for k in (0..K - 1).rev() {
         sum = sum.mul_add(x, x.splat(coefficients[k]));
@@ -76,11 +77,8 @@ pub fn log2_rough<R: Real>(x: R) -> R {
     let exponent = x.exponent();
     let y = x * (-exponent).power_of_two() - x.splat(1.0);
     // log2(1 + y)/y interpolated at the Chebyshev nodes of [0, 1], degree 5: error 7.4e-6
-    let mut series = y.splat(-0.033_822_046);
-    for coefficient in [0.144_471_096, -0.301_638_01, 0.468_658_879, -0.720_358_773, 1.442_681_47] {
-        series = series.mul_add(y, y.splat(coefficient));
-    }
-    y.mul_add(series, exponent)
+    let series = [1.442_681_47, -0.720_358_773, 0.468_658_879, -0.301_638_01, 0.144_471_096, -0.033_822_046];
+    y.mul_add(polynomial(&series, y), exponent)
 }
 
 /// 2^x with a relative error up to 1e-4 for |x| < 1000.
@@ -89,11 +87,7 @@ pub fn exp2_rough<R: Real>(x: R) -> R {
     // in double-double the sum keeps the fraction, which is good enough for steps
     let whole = (x + x.splat(NEAREST)) - x.splat(NEAREST);
     let rest = (x - whole) * x.splat(core::f64::consts::LN_2);
-    let mut series = x.splat(1.0 / 120.0);
-    for coefficient in [1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
-        series = series.mul_add(rest, x.splat(coefficient));
-    }
-    series * whole.power_of_two()
+    polynomial(&[1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0], rest) * whole.power_of_two()
 }
 
 #[cfg(test)]

@@ -8,6 +8,15 @@ pub struct Probability {
     pub upper: f64,
 }
 
+/// Replaces a zero, so that Lentz's method for continued fractions continues (I. J. Thompson & A. R. Barnett, *J. Comput.
+/// Phys.* 64 (1986) 490).
+pub const TINY: f64 = 1e-300;
+
+/// `value`, or [`TINY`] if it is zero.
+pub fn nonzero(value: f64) -> f64 {
+    if value.abs() < TINY { TINY } else { value }
+}
+
 /// Limit of steps; some ten are needed.
 const MAX_STEPS: u32 = 200;
 

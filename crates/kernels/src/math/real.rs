@@ -1,8 +1,7 @@
 //! [`Real`]: the arithmetic of kernels.
 //!
-//! One trait for scalars and lanes, so that lane `i` equals the scalar run bit for bit: every operation is correctly
-//! rounded (IEEE 754), and `mul_add` is always fused. For elementary functions, values of a row use `libm` or these
-//! operations.
+//! One trait for scalars and lanes, which agree bit for bit: every operation is correctly rounded (IEEE 754), `mul_add`
+//! is always fused. Elementary functions in values of a row use `libm` or these operations.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
@@ -99,10 +98,16 @@ pub trait Real:
     fn abs(self) -> Self;
 
     /// The larger number; `other` if either is NaN: `error.larger(maximum)` ignores an error of NaN.
-    fn larger(self, other: Self) -> Self;
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
 
     /// The smaller number; `other` if either is NaN.
-    fn smaller(self, other: Self) -> Self;
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
 
     /// `self < other`, lane by lane.
     fn lt(self, other: Self) -> Self::Mask;
@@ -143,8 +148,8 @@ pub trait Real:
     /// Writes the numbers to the start of a slice, as [`Real::lane`].
     fn write(self, values: &mut [f64]);
 
-    /// The result of `work` in a function of its own, compiled for the instruction set of lanes, or for the baseline of
-    /// the target for `f64`: for long work needed in several places.
+    /// Does long `work`, needed in several places, in a function of its own, compiled for the instruction set of lanes or
+    /// the baseline of the target.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()
@@ -181,14 +186,6 @@ impl Real for f64 {
     #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
-    }
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        if self < other { self } else { other }
     }
     #[inline(always)]
     fn lt(self, other: Self) -> bool {

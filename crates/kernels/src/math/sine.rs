@@ -1,5 +1,6 @@
 //! Sine and cosine of an angle in turns from [`Real`] operations alone.
 
+use super::power::polynomial;
 use crate::math::real::Real;
 
 /// sin and cos of 2 pi `turns` for |turns| <= 1/2 (slightly more is allowed), each within 2 ulp of 1.
@@ -13,7 +14,7 @@ pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
     // 2 pi as a sum of two
     let x = rest.mul_add(turns.splat(core::f64::consts::TAU), rest * turns.splat(2.449_293_598_294_706_4e-16));
     let z = x * x;
-    let sine_series = [
+    let sine = [
         -0.166_666_666_666_666_32,
         0.008_333_333_333_322_49,
         -0.000_198_412_698_298_579_5,
@@ -21,7 +22,7 @@ pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
         -2.505_076_025_340_686_3e-8,
         1.589_690_995_211_55e-10,
     ];
-    let cosine_series = [
+    let cosine = [
         0.041_666_666_666_666_6,
         -0.001_388_888_888_887_411,
         2.480_158_728_947_673e-5,
@@ -29,13 +30,8 @@ pub fn sin_cos_turns<R: Real>(turns: R) -> (R, R) {
         2.087_572_321_298_175e-9,
         -1.135_964_755_778_819_5e-11,
     ];
-    let (mut sine_sum, mut cosine_sum) = (turns.splat(sine_series[5]), turns.splat(cosine_series[5]));
-    for n in (0..5).rev() {
-        sine_sum = sine_sum.mul_add(z, turns.splat(sine_series[n]));
-        cosine_sum = cosine_sum.mul_add(z, turns.splat(cosine_series[n]));
-    }
-    let sin = (x * z).mul_add(sine_sum, x);
-    let cos = z.mul_add(z.mul_add(cosine_sum, turns.splat(-0.5)), turns.splat(1.0));
+    let sin = (x * z).mul_add(polynomial(&sine, z), x);
+    let cos = z.mul_add(z.mul_add(polynomial(&cosine, z), turns.splat(-0.5)), turns.splat(1.0));
     // quarters in {-2, ..., 2}: swapped on odd ones, then signs
     let even = turns.splat(0.5).lt((quarters.abs() - turns.splat(1.0)).abs());
     let (s, k) = (R::select(even, sin, cos), R::select(even, cos, sin));

@@ -1,5 +1,4 @@
-//! [`Adaptive`]: embedded pairs whose steps follow the tolerance, in the order of operations of ode45 (Shampine &
-//! Reichelt 1997).
+//! [`Adaptive`]: embedded pairs with the step control of ode45 (Shampine & Reichelt 1997), operation by operation.
 
 use super::embedded::Embedded;
 use super::error_model::ErrorModel;
@@ -9,10 +8,10 @@ use super::stepper::{Attempt, LaneMethod, Proposal, Stepper, StepperLane};
 use super::system::{System, Tolerance};
 use crate::math::real::{Mask, Real};
 
-/// Error assigned to a step that is not finite: causes the strongest reduction.
+/// Error of a step that is not finite: the strongest reduction.
 const UNSOUND: f64 = 1e30;
 
-/// An embedded pair with adaptive steps.
+/// An embedded pair whose steps follow the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive<M>(pub M);
 
@@ -67,9 +66,8 @@ impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
         *first = chosen(starting, &slope, first);
         self.longest = R::select(starting, longest, self.longest);
         self.length = R::select(starting, length, self.length);
-        let evaluations = lanes.time.splat(M::START_EVALUATIONS);
-        lanes.evaluations += R::select(starting, evaluations, evaluations.zero());
-        self.starting = evaluations.never();
+        lanes.count(starting, M::START_EVALUATIONS);
+        self.starting = lanes.time.never();
     }
 }
 
@@ -90,7 +88,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         self.longest.set_lane(lane, 0.0);
     }
 
-    /// Within bounds, or to the end of the arc if that is near.
+    /// A step within bounds, or to the end of the arc if that is near.
     #[inline(always)]
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R> {
         if self.starting.any() {
@@ -132,8 +130,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         lanes: &mut StepperLane<R, N>,
     ) {
         M::prepare_inside(system, step, &lanes.now, end, &mut self.stages);
-        let evaluations = step.time.splat(M::DENSE_EVALUATIONS);
-        lanes.evaluations += R::select(inside, evaluations, evaluations.zero());
+        lanes.count(inside, M::DENSE_EVALUATIONS);
     }
 
     #[inline(always)]
@@ -145,8 +142,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         inside: R::Mask,
         lanes: &mut StepperLane<R, N>,
     ) -> [R; N] {
-        let evaluations = step.time.splat(M::POINT_EVALUATIONS);
-        lanes.evaluations += R::select(inside, evaluations, evaluations.zero());
+        lanes.count(inside, M::POINT_EVALUATIONS);
         M::inside(system, step, part.length / step.length, &lanes.now, &self.stages)
     }
 
@@ -156,7 +152,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         let factor = M::CONTROLLER.factor(attempt.error, accepted, self.retry);
         self.length = (self.attempted * factor).larger(R::select(accepted, factor.zero(), self.floor));
         self.retry = rejected;
-        let last = *M::last(&self.stages);
+        let last = *M::ends(&self.stages)[1];
         let first = M::first(&mut self.stages);
         *first = chosen(accepted, &last, first);
         if self.cut.any() {
@@ -168,7 +164,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
 
     #[inline(always)]
     fn slopes(&self) -> [&[R; N]; 2] {
-        [M::at_start(&self.stages), M::last(&self.stages)]
+        M::ends(&self.stages)
     }
 
     #[inline(always)]
@@ -184,6 +180,6 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         let slope = system.derivative(lanes.time, &lanes.now.state);
         let first = M::first(&mut self.stages);
         *first = chosen(renewed, &slope, first);
-        lanes.evaluations += lanes.time.indicator(renewed);
+        lanes.count(renewed, 1.0);
     }
 }

@@ -1,4 +1,4 @@
-//! [`Embedded`]: explicit methods with error estimate and dense output.
+//! [`Embedded`]: explicit methods with error estimates.
 
 use super::error_model::StepErrors;
 use super::explicit::{Carried, Step};
@@ -22,11 +22,10 @@ pub trait Embedded: Copy {
     const EVALUATIONS: f64;
     /// Evaluations at the start of an arc.
     const START_EVALUATIONS: f64;
-    /// Additional evaluations in a step with observation points inside.
+    /// More of them in a step with observation points inside.
     const DENSE_EVALUATIONS: f64;
-    /// Additional evaluations for each of these points.
+    /// More of them for each of these points.
     const POINT_EVALUATIONS: f64;
-    /// Relation of errors to estimates.
     const ERRORS: StepErrors;
 
     /// Stages, and data of dense output.
@@ -37,11 +36,8 @@ pub trait Embedded: Copy {
     /// Derivative at the start of the step.
     fn first<R: Real, const N: usize>(stages: &mut Self::Stages<R, N>) -> &mut [R; N];
 
-    /// [`Embedded::first`], read-only.
-    fn at_start<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
-
-    /// Derivative at the end of the step.
-    fn last<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> &[R; N];
+    /// Derivatives at both ends of the step.
+    fn ends<R: Real, const N: usize>(stages: &Self::Stages<R, N>) -> [&[R; N]; 2];
 
     /// First step of an arc, s, from the derivative `slope` at its start.
     fn first_step<R: Real, Q: System<R, N>, const N: usize>(
@@ -53,7 +49,7 @@ pub trait Embedded: Copy {
         tolerance: Tolerance,
     ) -> R;
 
-    /// Attempts a step from `start` and writes its end to `end`.
+    /// Attempts a step from `start` to `end`.
     fn attempt<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,

@@ -1,5 +1,5 @@
-//! Stages of explicit Runge-Kutta methods from their tableaus, and the compensated step y' = y + h sum_i b_i k_i of all
-//! methods, which carries its rounding error to the next step (Kahan 1965).
+//! Stages of explicit Runge-Kutta methods, and the compensated step y' = y + h sum_i b_i k_i of all methods, which
+//! carries its rounding error to the next step (Kahan 1965).
 
 #![allow(clippy::needless_range_loop, reason = "iterators over lanes are not always inlined, see `each`")]
 
@@ -19,8 +19,8 @@ impl<T: Tableau<S>, const S: usize, const I: usize> Row<T, S, I> {
     const WEIGHTS: [f64; S] = if I < S { T::A[I] } else { [0.0; S] };
 }
 
-/// A vector by its components, in place of `core::array::from_fn` and `map`, which are not always inlined, and then
-/// lack the chosen instruction set (measured: thirty times slower).
+/// A vector by its components. `core::array::from_fn` and `map` are not always inlined, and then lack the instruction
+/// set (measured: thirty times slower).
 macro_rules! each {
     ($like:expr, |$n:ident| $component:expr) => {
         $crate::ode::explicit::vector(
@@ -60,8 +60,7 @@ pub(super) fn weighted<R: Real, const N: usize, const S: usize>(k: &[[R; N]; S],
     })
 }
 
-/// sum_j a_ij k_j for stage i. The arms keep the call of the derivative in a loop, so that it is inlined once, not per
-/// stage.
+/// sum_j a_ij k_j for stage i. With arms the derivative is called in a loop and inlined once, not per stage.
 #[inline(always)]
 fn stage_slope<T, R, const N: usize, const S: usize>(stage: usize, k: &[[R; N]; S]) -> [R; N]
 where
@@ -79,10 +78,10 @@ where
     arms!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
 }
 
-/// A state with its rounding error; the exact value is `state` + `carry`.
+/// A state `state` + `carry`.
 #[derive(Clone, Copy)]
 pub struct Carried<R, const N: usize> {
-    /// The state.
+    /// The rounded state.
     pub state: [R; N],
     /// Its rounding error.
     pub carry: [R; N],
@@ -125,8 +124,8 @@ pub(super) fn poison<R: Real, const N: usize>(values: &[R; N], sum: R) -> R {
     sum
 }
 
-/// Fills `stages` of `k`, whose stage zero is given. The argument of stage `closing` is the end of the step, written to
-/// `end`; with `closing` = `S` the caller takes the step.
+/// Fills `stages` of `k`, whose stage zero is given. The argument of stage `closing` is the `end` of the step; with
+/// `closing` = `S` the caller takes the step.
 #[inline(always)]
 pub(super) fn fill_stages<T, R, Q, const N: usize, const S: usize>(
     system: &Q,

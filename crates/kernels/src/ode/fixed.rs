@@ -1,7 +1,7 @@
 //! [`Fixed`]: one-step methods with fixed steps.
 //!
-//! An arc of length l has ceil(l / step) equal steps. A point inside a step is reached by a shorter step from the same
-//! start, which keeps accuracy and invariants of the method, unlike interpolation.
+//! An arc of length l has ceil(l / step) equal steps. A shorter step from the same start reaches a point inside a step,
+//! with the accuracy and invariants of the method, unlike interpolation.
 
 use super::error_model::{ErrorModel, Remainder};
 use super::explicit::{Carried, Step};
@@ -13,7 +13,7 @@ use crate::math::real::Real;
 /// Steps per arc by default.
 const DEFAULT_STEPS: f64 = 1000.0;
 
-/// Relative excess over an integer of the quotient of arc and step that counts as rounding of decimal fractions.
+/// Relative excess of l / step over an integer that counts as rounding of decimal fractions.
 const WHOLE: f64 = 4.0 * f64::EPSILON;
 
 /// Result of a step.
@@ -24,7 +24,7 @@ pub struct Advance<R> {
     pub evaluations: R,
 }
 
-/// A one-step method for steps of given length, which writes the end of a step to `end`: returning a large state would
+/// A one-step method for steps of given length. The end of a step is written to `end`: returning a large state would
 /// copy it.
 pub trait FixedStep: Copy {
     /// Error of its steps.
@@ -83,7 +83,6 @@ impl<M: FixedStep> LaneMethod for Fixed<M> {
     }
 }
 
-/// Steps of a fixed-step method in lanes.
 pub struct FixedStepper<M: FixedStep, R: Real, const N: usize> {
     tolerance: Tolerance,
     /// Requested step, s.

@@ -1,8 +1,8 @@
 //! [`integrate`]: driver of all methods, with runs in lanes, each with its own time, step, arc and error.
 //!
-//! In each cycle a [`Stepper`] proposes and attempts a step in every lane; observation points inside are recorded, and
-//! the lanes of completed runs load the next. Decisions are correctly rounded arithmetic on the lane's own numbers, so
-//! that lane i equals the scalar run bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
+//! In each cycle a [`Stepper`] attempts a step in every lane, observation points inside are recorded, and the lanes of
+//! completed runs load the next. Decisions are correctly rounded arithmetic on the lane's own numbers, so that a lane
+//! equals the scalar run bit for bit (`tests/determinism/lanes_runge_kutta.rs`). No allocation.
 
 use super::explicit::Carried;
 use super::lane_slot::LaneSlots;
@@ -16,9 +16,8 @@ use crate::math::real::{Mask, Real};
 
 /// Integrates all runs to the end of their last arcs, in the arithmetic of `zero`.
 ///
-/// The recorder gets the state at every observation time: the initial one, the end of a step, or dense output. A run
-/// ends early if its state becomes non-finite, its step too short, or its steps exceed `control.max_steps` (or clearly
-/// will). Call inside [`crate::math::Isa::run`].
+/// The recorder gets the state at every observation time. A run ends early for the reasons of [`Termination`]. Call
+/// inside [`crate::math::Isa::run`].
 #[inline(always)]
 pub fn integrate<M, R, Q, O, const N: usize>(method: M, zero: R, runs: &mut Q, recorder: &mut O, control: &Control)
 where
@@ -126,8 +125,7 @@ fn record<R, Q, P, O, const N: usize>(
         let inside = lanes.next.lt(limit);
         let reached = if inside.any() {
             let length = R::select(inside, lanes.next - step.time, step.time.zero());
-            let part = Step { time: step.time, end: step.time + length, length };
-            stepper.inside(system, step, part, inside, lanes)
+            stepper.inside(system, step, step.part(length), inside, lanes)
         } else {
             *end
         };

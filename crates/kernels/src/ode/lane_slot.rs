@@ -1,9 +1,9 @@
 //! [`LaneSlots`]: assignment of runs to lanes.
 
-use super::runs::{EndedRun, Recorder, Runs, Termination};
+use super::runs::{EndedRun, Recorder, Runs};
 use crate::math::prelude::*;
 
-pub(super) struct LaneSlots {
+pub struct LaneSlots {
     /// The run in each lane.
     lanes: [Option<usize>; WIDEST],
     next_run: usize,
@@ -11,7 +11,7 @@ pub(super) struct LaneSlots {
 }
 
 /// A run just loaded into a lane.
-pub(super) struct LoadedRun<const N: usize> {
+pub struct LoadedRun<const N: usize> {
     /// State at time zero.
     pub state: [f64; N],
     /// End of its first arc, s.
@@ -19,24 +19,24 @@ pub(super) struct LoadedRun<const N: usize> {
 }
 
 impl LaneSlots {
-    pub(super) fn new() -> Self {
+    pub fn new() -> Self {
         LaneSlots { lanes: [None; WIDEST], next_run: 0, occupied: 0 }
     }
 
     #[inline(always)]
-    pub(super) fn any_occupied(&self) -> bool {
+    pub fn any_occupied(&self) -> bool {
         self.occupied > 0
     }
 
     #[inline(always)]
-    pub(super) fn run(&self, lane: usize) -> Option<usize> {
+    pub fn run(&self, lane: usize) -> Option<usize> {
         self.lanes[lane]
     }
 
     /// Loads the next run into lane `lane` and records its initial state; `None` without further runs. A run without
     /// arcs ends at once.
     #[inline(always)]
-    pub(super) fn load_lane<R, Q, O, const N: usize>(
+    pub fn load_lane<R, Q, O, const N: usize>(
         &mut self,
         lane: usize,
         runs: &mut Q,
@@ -60,21 +60,13 @@ impl LaneSlots {
                 self.occupied += 1;
                 return Some(LoadedRun { state, end });
             }
-            let nothing = EndedRun {
-                termination: Termination::Completed,
-                time: 0.0,
-                accepted: 0,
-                rejected: 0,
-                evaluations: 0,
-                error_sum: 0.0,
-            };
-            recorder.finish(runs, lane, run, &nothing);
+            recorder.finish(runs, lane, run, &EndedRun::default());
         }
         None
     }
 
     #[inline(always)]
-    pub(super) fn clear(&mut self, lane: usize) {
+    pub fn clear(&mut self, lane: usize) {
         self.lanes[lane] = None;
         self.occupied -= 1;
     }

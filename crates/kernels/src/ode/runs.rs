@@ -39,9 +39,10 @@ pub trait Recorder<Q, const N: usize> {
 }
 
 /// Reason for the end of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Termination {
     /// At the end of its last arc.
+    #[default]
     Completed,
     /// After the maximum number of steps.
     StepLimit,
@@ -51,8 +52,8 @@ pub enum Termination {
     NonFinite,
 }
 
-/// Result of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Result of a run; by default of one without arcs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndedRun {
     /// Reason for its end.
     pub termination: Termination,

@@ -14,6 +14,12 @@ pub struct Step<R> {
 }
 
 impl<R: Real> Step<R> {
+    /// The first part of the step, of `length`, s.
+    #[inline(always)]
+    pub fn part(&self, length: R) -> Self {
+        Step { time: self.time, end: self.time + length, length }
+    }
+
     /// Time at the fraction `node` of the step.
     #[inline(always)]
     pub(super) fn at(&self, node: f64) -> R {

@@ -1,4 +1,4 @@
-//! Step control: settings of a campaign, constants of the controllers, shared arithmetic.
+//! Step control: settings, constants of the controllers, shared arithmetic.
 
 use super::system::Tolerance;
 use crate::math::power::power;
@@ -55,7 +55,7 @@ const FLOOR: f64 = 16.0 * f64::EPSILON;
 const EARLIEST: f64 = 1e-280;
 
 #[inline(always)]
-pub(super) fn shortest_step<R: Real>(time: R) -> R {
+pub fn shortest_step<R: Real>(time: R) -> R {
     time.abs().larger(time.splat(EARLIEST)).exponent().power_of_two() * time.splat(FLOOR)
 }
 
@@ -63,7 +63,7 @@ impl Controller {
     /// Factor on the step after an attempt with the error `ratio`; `retry` marks attempts after a rejection of the same
     /// step.
     #[inline(always)]
-    pub(super) fn factor<R: Real>(&self, ratio: R, accepted: R::Mask, retry: R::Mask) -> R {
+    pub fn factor<R: Real>(&self, ratio: R, accepted: R::Mask, retry: R::Mask) -> R {
         let one = ratio.splat(1.0);
         let ideal = ratio.splat(self.safety) * power(ratio, -self.exponent);
         let bounded = ideal.larger(ratio.splat(self.shrink)).smaller(ratio.splat(self.growth));

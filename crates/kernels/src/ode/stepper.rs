@@ -1,4 +1,4 @@
-//! [`Stepper`]: choice and execution of steps in lanes, on the state in [`StepperLane`].
+//! [`Stepper`]: choice and execution of steps in lanes.
 
 use super::error_model::ErrorModel;
 use super::explicit::{Carried, each};
@@ -35,7 +35,7 @@ pub struct StepperLane<R, const N: usize> {
     pub(super) arc_start: R,
     /// Attempted steps of the run before the arc.
     pub(super) before: R,
-    /// Attempted steps of the run at which [`StepperLane::gives_up`] is evaluated next.
+    /// Those at which [`StepperLane::gives_up`] is evaluated next.
     pub(super) judged: R,
     /// Next observation time, s.
     pub next: R,
@@ -75,7 +75,7 @@ pub trait Stepper<R: Real, const N: usize> {
 
     fn propose<Q: System<R, N>>(&mut self, system: &Q, lanes: &mut StepperLane<R, N>) -> Proposal<R>;
 
-    /// Attempts the step and writes its end to `end`: returning a large state would copy it.
+    /// Attempts the step to `end`.
     fn attempt<Q: System<R, N>>(
         &mut self,
         system: &Q,
@@ -115,12 +115,11 @@ pub trait Stepper<R: Real, const N: usize> {
         unreachable!("equal steps do not end at switches")
     }
 
-    /// After [`Stepper::advance`]: sets the length, s, of the next step in the lanes `_lanes`; later steps resume the
-    /// length of the step that it replaces.
+    /// After [`Stepper::advance`]: sets the next length, s, in `_lanes`; later steps resume that of the replaced step.
     #[inline(always)]
     fn cut(&mut self, _lanes: R::Mask, _length: R) {}
 
-    /// Updates the derivative at the current time in the lanes `_renewed`, whose branches have changed.
+    /// Updates the derivative at the current time in the lanes `_renewed`, where branches have changed.
     #[inline(always)]
     fn renew<Q: System<R, N>>(&mut self, _system: &Q, _renewed: R::Mask, _lanes: &mut StepperLane<R, N>) {}
 }
@@ -142,6 +141,13 @@ impl<R: Real, const N: usize> StepperLane<R, N> {
             evaluations: zero,
             error_sum: zero,
         }
+    }
+
+    /// Counts `evaluations` of the right-hand side in `lanes`.
+    #[inline(always)]
+    pub(super) fn count(&mut self, lanes: R::Mask, evaluations: f64) {
+        let zero = self.evaluations.zero();
+        self.evaluations += R::select(lanes, zero.splat(evaluations), zero);
     }
 
     #[inline(always)]

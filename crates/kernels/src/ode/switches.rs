@@ -1,15 +1,14 @@
 //! Steps that end where the right-hand side changes its branch.
 //!
 //! The signs of switch functions, smooth in time and state, select the branches. A step keeps its branches and
-//! integrates their smooth continuation, so that a method keeps its order and error estimate (E. Hairer, S. Norsett &
-//! G. Wanner, *Solving Ordinary Differential Equations I*, 1993, section II.6; L. Shampine & S. Thompson, *Event
-//! location for ordinary differential equations*, Comput. Math. Appl. 39, 2000). If a branch is wrong at the end of a
-//! step, the switch is located on the dense output and a step to it replaces the first one. Branches are then chosen by
-//! the signs a little later, whichever side the step ended on. A pair of switches within a step, which leaves all signs
+//! integrates their smooth continuation, so that a method keeps its order and error estimate (Hairer, Norsett & Wanner
+//! 1993, section II.6; L. Shampine & S. Thompson, Comput. Math. Appl. 39, 2000). If a branch is wrong at the end of a
+//! step, the switch is located on the dense output, and a step to it replaces the first one. The signs a little later
+//! then choose the branches, whichever side the step ended on. A pair of switches within a step, which leaves all signs
 //! as they were, shows in the derivatives at both ends ([`dip`]): the step first ends at the minimum of the function.
 //!
-//! Nothing hangs: a switch function that is zero to rounding does not count, a step is replaced at most eight times and
-//! then accepted, and every accepted step counts against `max_steps`.
+//! Nothing hangs: a switch function that is zero to rounding does not count, a step is replaced at most eight times,
+//! and every accepted step counts against `max_steps`.
 
 use super::explicit::{Step, each};
 use super::runs::Runs;
@@ -21,11 +20,11 @@ use crate::math::real::{Mask, Real};
 /// A switch function below minus this has changed sign; functions are of order one, rounding some 1e-15.
 const NOISE: f64 = 1e-12;
 
-/// Tolerated undershoot at the end of a step to a switch, over the square root of the tolerance: an error of second
-/// order, 1e-4/2 of the tolerance.
+/// Undershoot allowed at the end of a step to a switch, over the square root of the tolerance: an error of second order,
+/// 1e-4/2 of the tolerance.
 const LANDED: f64 = 1e-2;
 
-/// Branches are chosen after this fraction of a step: beyond the error of location, and without effect at second order.
+/// Branches are chosen after this fraction of a step: beyond the error of location, negligible at second order.
 const AHEAD: f64 = 1e-4;
 
 /// Switches before this fraction of the step have just been passed.
@@ -40,8 +39,8 @@ const MOST_EVALUATIONS: usize = 40;
 /// A switch is located once its function, or the bracket of its time as a fraction of the step, is below these.
 const LOCATED: [f64; 2] = [1e-14, 1e-15];
 
-/// A minimum within a step is examined if the cubic through both ends leaves less than this share of its depth, the
-/// error of the cubic for a cosine over a step of 2 rad.
+/// A minimum within a step counts if the cubic through both ends leaves less than this share of its depth: the error of
+/// the cubic for a cosine over 2 rad.
 const DOUBT: f64 = 0.1;
 
 /// Distance, as a fraction of the step, of the two times from which [`dip`] computes a slope.
@@ -88,7 +87,6 @@ impl<R: Real> Switches<R> {
         self.cuts.set_lane(lane, 0.0);
     }
 
-    /// Chooses branches in lanes with a new arc or at a switch.
     #[inline(always)]
     pub(super) fn choose<Q, P, const N: usize>(&mut self, runs: &mut Q, stepper: &mut P, lanes: &mut StepperLane<R, N>)
     where
@@ -157,8 +155,7 @@ impl<R: Real> Switches<R> {
 }
 
 /// Fraction of `step` at which its dense output reaches a switch in the lanes `over`, for the margin `last` at its end:
-/// false position with the retained margin halved (M. Dowell & P. Jarratt, *A modified regula falsi method*, BIT 11,
-/// 1971).
+/// false position with the retained margin halved (M. Dowell & P. Jarratt, BIT 11, 1971).
 #[inline(always)]
 fn locate<R, Q, P, const N: usize>(
     system: &Q,
@@ -185,7 +182,7 @@ where
         let s = if k == 0 { low } else { inner };
         // a closure would be compiled without vector instructions
         let length = R::select(over, s * step.length, s.zero());
-        let part = Step { time: step.time, end: step.time + length, length };
+        let part = step.part(length);
         let state = stepper.inside(system, step, part, over, lanes);
         let margin = system.margin(part.end, &state);
         found = R::select(open, s, found);

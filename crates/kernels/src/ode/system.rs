@@ -26,15 +26,13 @@ pub trait System<R: Real, const N: usize> {
         time.splat(f64::INFINITY)
     }
 
-    /// Lanes in which f is not smooth even within its branches, as near a fractional power, so that higher order gains
-    /// nothing.
+    /// Lanes in which f is not smooth within its branches, as near a fractional power, so that high order gains nothing.
     #[inline(always)]
     fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()
     }
 
-    /// Fraction of `step` at which a switch function that is positive at both `ends` (states and derivatives) may be
-    /// negative ([`super::switches::dip`]); infinite if none.
+    /// [`super::switches::dip`] of all switch functions, from states and derivatives at both `ends`.
     #[inline(always)]
     fn dip(&self, step: Step<R>, _ends: [[&[R; N]; 2]; 2]) -> R {
         step.time.splat(f64::INFINITY)

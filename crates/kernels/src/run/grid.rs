@@ -1,7 +1,7 @@
 //! [`Grid`]: the observation times of a run.
 
-/// Relative tolerance of equal times: a tick k T and a grid point D (k/n) at the same decimal time have five roundings
-/// of half an ulp together, 5.6e-16.
+/// Relative tolerance of equal times: a tick k T and a grid point D (k/n) at the same decimal time have five roundings,
+/// 5.6e-16.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
 /// Number of ascending `times` up to and including `end`.
@@ -28,7 +28,7 @@ impl Grid {
         Self::at((0..points).map(|k| if k + 1 == points { duration } else { duration * (k as f64 / last) }).collect())
     }
 
-    /// The given times: ascending, the first zero.
+    /// Ascending `times` from zero.
     pub fn at(times: Vec<f64>) -> Self {
         let mut padded = times.clone();
         let last = *times.last().expect("a grid has at least one time");

@@ -17,7 +17,7 @@ named! {
         NonFinite = "non_finite",
         /// The sampled scene is physically impossible; nothing was integrated.
         InvalidSample = "invalid_sample",
-        /// Reached the end of its horizon with errors beyond any use: see [`crate::observables::accuracy`].
+        /// Reached the end of its horizon with errors beyond any use ([`crate::observables::accuracy`]).
         Inaccurate = "inaccurate",
         /// A defect of spindrift showed in this run; other runs are not affected.
         InternalError = "internal_error",
@@ -29,7 +29,7 @@ named! {
 }
 
 impl Status {
-    /// Reason for this status after `time` seconds, in words, if it does not depend on the run.
+    /// Reason for this status after `time`, s, in words, if it does not depend on the run.
     pub fn reason(self, time: f64) -> Option<String> {
         Some(match self {
             Status::Done | Status::InvalidSample | Status::Inaccurate | Status::InternalError | Status::Diverged => {
@@ -43,14 +43,14 @@ impl Status {
     }
 }
 
-/// Effort of a run, in counts independent of the machine.
+/// Effort of a run, independent of the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepStatistics {
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Evaluations of the right-hand side (for Taylor methods: jets, one per step).
+    /// Evaluations of the right-hand side (Taylor methods: one jet per step).
     pub evaluations: u64,
 }
 
@@ -83,8 +83,8 @@ impl Outcome {
     };
 }
 
-/// Reference rate of errors of omega, rad/s: the largest |omega| of the run, at least one radian over the `duration`,
-/// s. The error of a body that turns by less is then the resulting angle.
+/// Reference rate of errors of omega, rad/s: the largest |omega| of the run, at least one radian over the `duration`, s:
+/// if a body turns by less, the error is the resulting angle.
 #[inline(always)]
 pub fn rate_scale(largest: f64, duration: f64) -> f64 {
     if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }

@@ -1,4 +1,4 @@
-//! [`Quantity`]: name, unit and meaning of a column, in every table of the program.
+//! [`Quantity`]: name, unit and meaning of a column of any table.
 
 use std::borrow::Cow;
 
@@ -11,12 +11,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// A quantity known at compile time. `unit` is empty for a pure number; `meaning` is one sentence.
+    /// A quantity known at compile time.
     pub const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
         Quantity { name: Cow::Borrowed(name), unit: Cow::Borrowed(unit), meaning: Cow::Borrowed(meaning) }
     }
 
-    /// A quantity known at run time only.
+    /// A quantity known at run time.
     pub fn named(name: String, unit: String, meaning: String) -> Self {
         Quantity { name: Cow::Owned(name), unit: Cow::Owned(unit), meaning: Cow::Owned(meaning) }
     }

@@ -1,11 +1,10 @@
-//! [`StateTable`]: physical states of a run at its observation points, the interface between integrators and
-//! observables.
+//! [`StateTable`]: states of a run at its observation points, the interface of integrators and observables.
 
 use super::state_field::{StateField, StateFields};
 use super::trajectory::Trajectory;
 
-/// States at the observation points, for requested fields only; access to others panics. Columns are padded to a
-/// multiple of eight with the last point.
+/// Requested fields at the observation points; access to others panics. Columns are padded to a multiple of eight with
+/// the last point.
 #[derive(Clone, Debug)]
 pub struct StateTable {
     fields: StateFields,
@@ -17,7 +16,6 @@ pub struct StateTable {
 
 const ABSENT: usize = usize::MAX;
 
-/// Panics on access to an absent field, out of line.
 #[cold]
 #[inline(never)]
 fn refuse(field: StateField, component: usize, width: usize) -> ! {
@@ -26,7 +24,7 @@ fn refuse(field: StateField, component: usize, width: usize) -> ! {
 }
 
 impl StateTable {
-    /// A table of zeros with `points` >= 1 observation points and these fields of a spacecraft with `wheels` wheels.
+    /// Zeros at `points` >= 1 observation points for a spacecraft with `wheels` wheels.
     pub fn new(fields: StateFields, wheels: usize, points: usize) -> Self {
         let mut columns = [ABSENT; StateField::ALL.len()];
         let mut count = 0;
@@ -89,34 +87,25 @@ impl StateTable {
     }
 
     /// [`StateTable::column`], writable.
-    ///
-    /// # Panics
-    /// If the table lacks the component.
     #[inline]
     pub fn column_mut(&mut self, field: StateField, component: usize) -> &mut [f64] {
         let place = self.place(field, component);
         self.states.column_mut(place)
     }
 
-    /// The first `N` components of `field` at point `point`.
-    ///
-    /// # Panics
-    /// If the table lacks a component.
+    /// The first `N` components of `field` at point `point`; panics as [`StateTable::column`].
     pub fn at<const N: usize>(&self, field: StateField, point: usize) -> [f64; N] {
         std::array::from_fn(|component| self.column(field, component)[point])
     }
 
-    /// Writes the first `N` components of `field` at point `point`.
-    ///
-    /// # Panics
-    /// If the table lacks a component.
+    /// Writes the first `N` components of `field` at point `point`; panics as [`StateTable::column`].
     pub fn set<const N: usize>(&mut self, field: StateField, point: usize, values: [f64; N]) {
         for (component, value) in values.into_iter().enumerate() {
             self.column_mut(field, component)[point] = value;
         }
     }
 
-    /// Zeroes the wheels from `first` on, in which a run with fewer wheels would leave numbers of an earlier run.
+    /// Zeroes the wheels from `first` on, which may hold numbers of an earlier run with more wheels.
     pub fn clear_wheels(&mut self, first: usize) {
         for wheel in first..self.wheels {
             for field in [StateField::WheelRates, StateField::WheelAngles] {

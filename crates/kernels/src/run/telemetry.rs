@@ -9,7 +9,7 @@ pub struct Telemetry {
     pub quantities: Vec<Quantity>,
     /// The times, ascending, s.
     pub times: Vec<f64>,
-    /// One value per column for each time; NaN if there is none.
+    /// One value per column for each time, or NaN.
     pub rows: Vec<Vec<f64>>,
     /// Tolerance of equal times, s, for the rounding of ticks and grid points.
     pub same: f64,

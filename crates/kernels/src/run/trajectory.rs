@@ -1,6 +1,6 @@
 //! [`Trajectory`]: integrated components of a run, which a kernel completes to a [`super::StateTable`].
 
-/// Integrated components of a run at its observation points, padded as in a [`super::StateTable`].
+/// Integrated components at the observation points, padded as in a [`super::StateTable`].
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     components: usize,
@@ -10,7 +10,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// `components` components at `points` points, all zero.
+    /// Zeros.
     pub fn new(components: usize, points: usize) -> Self {
         let stride = points.next_multiple_of(8);
         Trajectory { components, points, stride, values: vec![0.0; components * stride] }

@@ -48,12 +48,8 @@ impl Embedded for Dop853 {
         &mut stages.k[0]
     }
     #[inline(always)]
-    fn at_start<R: Real, const N: usize>(stages: &Dop853Stages<R, N>) -> &[R; N] {
-        &stages.k[0]
-    }
-    #[inline(always)]
-    fn last<R: Real, const N: usize>(stages: &Dop853Stages<R, N>) -> &[R; N] {
-        &stages.k[12]
+    fn ends<R: Real, const N: usize>(stages: &Dop853Stages<R, N>) -> [&[R; N]; 2] {
+        [&stages.k[0], &stages.k[12]]
     }
 
     /// HINIT of dop853.f (section II.4): a guess from |y|/|f|, then from an Euler step's estimate of the second

@@ -1,4 +1,4 @@
-//! Dormand-Prince 5(4) as in ode45, and a variant with shorter steps to points inside a step.
+//! Dormand-Prince 5(4) as in ode45, with its interpolant or with shorter steps to points inside a step.
 
 use crate::math::real::Real;
 use crate::math::power::power;
@@ -16,8 +16,8 @@ const FINEST: f64 = 100.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince;
 
-/// [`DormandPrince`] that reaches a point inside a step by a shorter step of order 5 from the same start, with five
-/// evaluations; the interpolant of ode45 (ntrp45), of order 4, has errors of the size of the tolerance.
+/// [`DormandPrince`] with a shorter step of order 5 to a point inside a step: five evaluations; errors of ode45's
+/// interpolant of order 4 (ntrp45) have the size of the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrinceRestepped;
 
@@ -30,7 +30,7 @@ trait PointsInside: Copy {
     /// [`StepErrors::dense`].
     const DENSE_ERROR: f64;
 
-    /// The state at the fraction `s` of `step`.
+    /// [`Embedded::inside`].
     fn inside<R: Real, Q: System<R, N>, const N: usize>(
         system: &Q,
         step: Step<R>,
@@ -69,12 +69,8 @@ impl<P: PointsInside> Embedded for P {
         &mut stages[0]
     }
     #[inline(always)]
-    fn at_start<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
-        &stages[0]
-    }
-    #[inline(always)]
-    fn last<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> &[R; N] {
-        &stages[6]
+    fn ends<R: Real, const N: usize>(stages: &[[R; N]; 7]) -> [&[R; N]; 2] {
+        [&stages[0], &stages[6]]
     }
 
     /// ode45: the longest step, or 1/rh with rh = |f0 / max(|y|, atol/rtol)| / (0.8 rtol^(1/5)) if shorter.
@@ -166,11 +162,10 @@ impl PointsInside for DormandPrinceRestepped {
         stages: &[[R; N]; 7],
     ) -> [R; N] {
         let length = s * step.length;
-        let part = Step { time: step.time, end: step.time + length, length };
         let mut own = [[s.zero(); N]; 7];
         own[0] = stages[0];
         let mut end = *start;
-        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, part, start, &mut own, 1..6, 7, &mut end);
+        fill_stages::<DormandPrinceTableau, R, Q, N, 7>(system, step.part(length), start, &mut own, 1..6, 7, &mut end);
         start.advance_into(length, &weighted(&own, &<DormandPrinceTableau as Tableau<7>>::A[6]), &mut end);
         end.state
     }

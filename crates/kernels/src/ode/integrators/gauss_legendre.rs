@@ -1,13 +1,9 @@
 //! Gauss-Legendre collocation of order 6 with a fixed step: symmetric, exact in quadratic invariants up to rounding.
 //!
-//! Stages by fixed-point iteration until the change is zero or stops decreasing (Hairer, McLachlan & Razakarivony 2008,
-//! *Achieving Brouwer's law with implicit Runge-Kutta methods*), in each lane by itself; rotations are not stiff, so
-//! that a few sweeps cost less than the Jacobian of Newton's method.
+//! In each lane by itself, stages are iterated until the change is zero or stops decreasing (Hairer, McLachlan &
+//! Razakarivony 2008). Rotations are not stiff: a few sweeps cost less than the Jacobian of Newton's method.
 
-#![allow(
-    clippy::needless_range_loop,
-    reason = "iterators over lanes are not always inlined, see `explicit::each`"
-)]
+#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not always inlined, see `explicit::each`")]
 
 use super::super::error_model::Remainder;
 use super::super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
@@ -19,11 +15,11 @@ use crate::math::real::{Mask, Real};
 /// Sweeps after which the step is too long: a contraction by one half reaches round-off in 52.
 const MOST_SWEEPS: usize = 60;
 
-/// Relative change of the stages below which the iteration may end if the change stops decreasing: far above the
-/// rounding of stages, far below any tolerance.
+/// Relative change of the stages below which the iteration ends once the change stops decreasing: far above rounding,
+/// far below any tolerance.
 const NEAR_ROUND_OFF: f64 = 1e-12;
 
-/// Gauss-Legendre collocation.
+/// Gauss-Legendre collocation of order 6.
 #[derive(Clone, Copy, Debug)]
 pub struct GaussLegendre;
 

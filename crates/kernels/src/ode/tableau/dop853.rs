@@ -1,5 +1,5 @@
-//! Dormand-Prince 8(5,3): twelve stages, order 8, embedded solutions of order 5 and 3, dense output of order 7: Hairer,
-//! Norsett & Wanner 1993, *Solving Ordinary Differential Equations I*, 2nd ed., sections II.5, II.6 and II.10, in the
+//! Dormand-Prince 8(5,3): twelve stages, order 8, embedded solutions of order 5 and 3, dense output of order 7 (Hairer,
+//! Norsett & Wanner 1993, *Solving Ordinary Differential Equations I*, 2nd ed., sections II.5, II.6 and II.10), in the
 //! digits of dop853.f (2009 release), checked by the order conditions in [`super`].
 
 use super::butcher::Tableau;

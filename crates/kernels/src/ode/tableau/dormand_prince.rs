@@ -1,6 +1,5 @@
-//! Dormand-Prince 5(4): seven stages, the last is the first of the next step, order 5, dense output of order 4: Dormand
-//! & Prince 1980, *A family of embedded Runge-Kutta formulae*, RK5(4)7M; dense output: Shampine 1986, *Some practical
-//! Runge-Kutta formulas*, as in ode45 (Shampine & Reichelt 1997, `ntrp45`).
+//! Dormand-Prince 5(4): seven stages, the last is the first of the next step, order 5 (Dormand & Prince 1980,
+//! RK5(4)7M); dense output of order 4 (Shampine 1986), as in ode45 (Shampine & Reichelt 1997, `ntrp45`).
 
 use super::butcher::Tableau;
 

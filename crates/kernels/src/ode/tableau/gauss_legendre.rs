@@ -1,5 +1,5 @@
-//! Gauss-Legendre collocation with three stages, order 6: Butcher 1964, *Implicit Runge-Kutta processes*; Kuntzmann
-//! 1961. Symmetric, symplectic, conserves every quadratic invariant (Cooper 1987).
+//! Gauss-Legendre collocation with three stages, order 6 (Butcher 1964; Kuntzmann 1961): symmetric, symplectic,
+//! conserves every quadratic invariant (Cooper 1987).
 
 use super::butcher::Tableau;
 

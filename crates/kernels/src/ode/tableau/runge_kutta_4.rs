@@ -1,5 +1,4 @@
-//! The classical method of order 4: Kutta 1901, *Beitrag zur naherungsweisen Integration totaler
-//! Differentialgleichungen*.
+//! The classical method of order 4 (Kutta 1901).
 
 use super::butcher::Tableau;
 
