@@ -18,3 +18,5 @@ pub mod propagation;
 pub mod run;
 pub mod scene;
 pub mod statistics;
+#[cfg(test)]
+mod testing;

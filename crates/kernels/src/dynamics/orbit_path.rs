@@ -38,7 +38,7 @@ type Steps = [OnceLock<Box<[Step]>>; MOST_BLOCKS];
 
 #[derive(Clone, Debug)]
 struct Step {
-    /// Start, the sum of two numbers, and length, s.
+    /// Start, a sum of two numbers, and length, s.
     time: [f64; 2],
     length: f64,
     /// Coefficients of the position, F_e, m, in s.
@@ -79,7 +79,7 @@ impl OrbitPath {
         self.state_at([time, 0.0])
     }
 
-    /// The state at a time that is the sum of two numbers, s.
+    /// [`OrbitPath::state`] at a sum of two numbers.
     pub fn state_at(&self, time: [f64; 2]) -> OrbitState<f64> {
         let Some(steps) = &self.steps else { return self.start.state_at(time) };
         if !time[0].is_finite() {
@@ -112,7 +112,7 @@ impl OrbitPath {
         })
     }
 
-    /// The states at the times of all lanes, s.
+    /// [`OrbitPath::state`] in all lanes.
     #[inline(always)]
     pub fn states<R: Real>(&self, time: R) -> OrbitState<R> {
         match self.steps {
@@ -225,7 +225,7 @@ impl<R: Real> PathsInLanes<R> {
         PathsInLanes { start: KeplerOrbit::blank().in_lanes(zero), oblate: [const { None }; WIDEST], has_oblate: false }
     }
 
-    /// Copies `path` into lane `lane`.
+    /// Copies a path into a lane.
     pub fn set_lane(&mut self, lane: usize, path: &OrbitPath) {
         self.start.set_lane(lane, &path.start);
         self.oblate[lane] = path.steps.is_some().then(|| path.clone());
@@ -238,7 +238,7 @@ impl<R: Real> PathsInLanes<R> {
         self.start.gravity()
     }
 
-    /// The states at `time`, the sum of two numbers, s.
+    /// [`OrbitPath::state_at`] in all lanes.
     #[inline(always)]
     pub fn state_at(&self, time: [R; 2]) -> OrbitState<R> {
         let mut states = self.start.state_at(time);

@@ -62,39 +62,19 @@ const OWN: Series = Series::RateSquare;
 
 /// Quantities with bands in runs of `request`.
 pub fn band_series(request: &Request) -> Vec<BandSeries> {
-    let values = [
-        Series::EnergyError,
-        Series::LinearMomentumError,
-        Series::AngularMomentumError,
-        Series::EnergyBody,
-        Series::EnergyWheel,
-    ];
-    let others = [
-        Series::SpinAxisAngle,
-        Series::FromNominal,
-        Series::Nutation,
-        Series::DebrisDirection,
-        Series::RateSquare,
-        Series::WheelSpeed,
-        Series::PointingError,
-        Series::AttitudeEstimateError,
-        Series::RateEstimateError,
-        Series::PositionEstimateError,
-        Series::VelocityEstimateError,
-        Series::DebrisDistance,
-        Series::DebrisSpeed,
-        Series::Impulse,
-        Series::MotorTorque,
-        Series::OrbitDistance,
-        Series::NadirAngle,
-        Series::FieldStrength,
-        Series::AirDensity,
-        Series::SunHidden,
-    ];
-    let changes = CHANGES.iter().map(|(series, ..)| (*series, true));
-    let kinds = values.map(|series| (series, false)).into_iter().chain(changes);
-    let kinds = kinds.chain(others.map(|series| (series, false)));
-    kinds.flat_map(|(series, is_change)| of_series(request, series, is_change)).collect()
+    macro_rules! bands {
+        ($($series:ident)+) => {
+            [$(of_series(request, Series::$series, false)),+].into_iter()
+        };
+    }
+    let changes = CHANGES.iter().map(|(series, ..)| of_series(request, *series, true));
+    let values = bands!(EnergyError LinearMomentumError AngularMomentumError EnergyBody EnergyWheel);
+    let others = bands!(
+        SpinAxisAngle FromNominal Nutation DebrisDirection RateSquare WheelSpeed PointingError AttitudeEstimateError
+        RateEstimateError PositionEstimateError VelocityEstimateError DebrisDistance DebrisSpeed Impulse MotorTorque
+        OrbitDistance NadirAngle FieldStrength AirDensity SunHidden
+    );
+    values.chain(changes).chain(others).flatten().collect()
 }
 
 /// Quantities for events in runs of `request`: all observed ones except relative errors, whose scale depends on the

@@ -42,16 +42,16 @@ use crate::math::prelude::*;
 use crate::math::{Lanes, Real};
 use crate::run::{LocalErrors, StateField, StateTable, rate_scale};
 
-/// Most points examined first.
+/// Most points examined at first.
 const POINTS: usize = 32;
 
-/// Most points examined near a separatrix, where |w| varies by orders of magnitude.
+/// Most points examined near a separatrix, where |w| varies a lot.
 const MOST_POINTS: usize = 128;
 
-/// Smallest over largest |w| below which a motion is near a separatrix.
+/// Smallest over largest |w| near a separatrix.
 const NEAR: f64 = 0.1;
 
-/// |w|/|omega| below which a motion is an equilibrium to rounding.
+/// |w|/|omega| of an equilibrium, to rounding.
 const STILL: f64 = 1e-12;
 
 /// Lower limit of |w|/|omega|: a tenth of rounding.
@@ -83,10 +83,10 @@ pub struct ObservedStates<'a> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorEstimate {
-    /// Estimated largest error of the rotational state: of omega over its [`rate_scale`], or of the attitude in rad.
+    /// Estimated largest error: of omega over its [`rate_scale`], or of the attitude in rad.
     pub error: f64,
-    /// Largest growth factor, from one to 1e200, of relative errors of omega that arise evenly along the run and in
-    /// every direction.
+    /// Largest growth factor, from one to 1e200, of relative errors of omega that arise evenly along the run and in any
+    /// direction.
     pub amplification: f64,
 }
 

@@ -3,7 +3,7 @@
 use super::group::Group;
 use super::reduction::{ChangeStatistic, ErrorStatistic, Reduction, ValueStatistic};
 use super::request::Request;
-use super::table::{ColumnId, DirectValue, Series, direct_id, error_id, series_id};
+use super::table::{ColumnId, DirectValue, Series, direct_id, series_id};
 
 /// Estimated error of the rotational state.
 pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::StateError);
@@ -11,32 +11,32 @@ pub const STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValu
 /// Estimated error of the debris' rotation.
 pub const DEBRIS_STATE_ERROR_ESTIMATE: ColumnId = direct_id(Group::Numerics, DirectValue::DebrisStateError);
 
+/// Handles: `group: series [reduction], ...;`, and then `group: direct value, ...;`.
+macro_rules! ids {
+    ({ $($group:ident: $($series:ident [$($reduction:ident)+]),+;)+ } $($of:ident: $($value:ident),+;)+) => {
+        &[
+            $($(series_id(Group::$group, Series::$series, reduction!($($reduction)+)),)+)+
+            $($(direct_id(Group::$of, DirectValue::$value),)+)+
+        ]
+    };
+}
+
 /// Columns of a summary, in order; a column of wheels stands for one per wheel.
-pub const HEADLINES: &[ColumnId] = &{
-    use Group::{Attitude, Constraints, EnergiesCom, EnergyConservation, Exchange, MomentumConservation, Numerics};
-    [
-        error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Max),
-        error_id(EnergyConservation, Series::EnergyError, ErrorStatistic::Slope),
-        error_id(MomentumConservation, Series::LinearMomentumError, ErrorStatistic::Max),
-        error_id(MomentumConservation, Series::AngularMomentumError, ErrorStatistic::Max),
-        error_id(MomentumConservation, Series::DebrisLinearError, ErrorStatistic::Max),
-        error_id(MomentumConservation, Series::DebrisAngularError, ErrorStatistic::Max),
-        error_id(Attitude, Series::Orthonormality, ErrorStatistic::Max),
-        error_id(Constraints, Series::ResidualKinematic, ErrorStatistic::Max),
-        error_id(Constraints, Series::ResidualCollocation, ErrorStatistic::Max),
-        error_id(Constraints, Series::ResidualAttitude, ErrorStatistic::Max),
-        error_id(EnergiesCom, Series::ComError, ErrorStatistic::Max),
-        series_id(Exchange, Series::ComBody, Reduction::Value(ValueStatistic::PeakToPeak)),
-        series_id(Exchange, Series::ComWheel, Reduction::Value(ValueStatistic::PeakToPeak)),
-        series_id(Exchange, Series::ComBody, Reduction::Fraction),
-        series_id(Exchange, Series::ComWheel, Reduction::Fraction),
-        series_id(Exchange, Series::ComWheel, Reduction::Change(ChangeStatistic::Gross)),
-        direct_id(Group::StepStatistics, DirectValue::Steps),
-        STATE_ERROR_ESTIMATE,
-        DEBRIS_STATE_ERROR_ESTIMATE,
-        direct_id(Numerics, DirectValue::Amplification),
-        direct_id(Numerics, DirectValue::IllConditioned),
-    ]
+pub const HEADLINES: &[ColumnId] = ids! {
+    {
+        EnergyConservation: EnergyError [Error Max], EnergyError [Error Slope];
+        MomentumConservation:
+            LinearMomentumError [Error Max], AngularMomentumError [Error Max], DebrisLinearError [Error Max],
+            DebrisAngularError [Error Max];
+        Attitude: Orthonormality [Error Max];
+        Constraints: ResidualKinematic [Error Max], ResidualCollocation [Error Max], ResidualAttitude [Error Max];
+        EnergiesCom: ComError [Error Max];
+        Exchange:
+            ComBody [Value PeakToPeak], ComWheel [Value PeakToPeak], ComBody [Fraction], ComWheel [Fraction],
+            ComWheel [Change Gross];
+    }
+    StepStatistics: Steps;
+    Numerics: StateError, DebrisStateError, Amplification, IllConditioned;
 };
 
 /// Positions of [`HEADLINES`] in a row.

@@ -29,11 +29,11 @@ const POINTS: usize = 128;
 /// Rotation for finite differences of a torque, rad: its size is the error, rounding is 1e-12.
 const ROTATION: f64 = 1e-4;
 
-/// Largest change of an error over a step of the covariance: the classical Runge-Kutta method errs by less than a
-/// percent.
+/// Largest change of an error over a step of the covariance: the classical Runge-Kutta method then errs by less than
+/// 1%.
 const STEP: f64 = 0.7;
 
-/// Most steps between two points that follow the rotation, with linear coefficients in between.
+/// Most steps between two points that follow the rotation; coefficients are linear in between.
 const FOLLOWED: f64 = 4.0;
 
 const MOST_STEPS: f64 = 128.0;

@@ -101,6 +101,7 @@ fn push_part(part: &PartInput, plates: &mut Vec<Plate>) {
 mod tests {
     use super::*;
     use crate::scene::{EnvironmentInput, Name, OrbitInput, Scene};
+    use crate::testing::near;
 
     fn plates(part: PartInput) -> Vec<Plate> {
         let environment = EnvironmentInput { drag: true, area_scale: 2.0, ..EnvironmentInput::DEFAULT };
@@ -133,9 +134,9 @@ mod tests {
             let all = plates.iter().map(|plate| scaled(plate.area, plate.normal)).fold([0.0; 3], sum);
             assert!(norm(all) < 1e-14, "{all:?}");
             let flux: f64 = plates.iter().map(|plate| plate.area * dot(plate.normal, plate.center)).sum();
-            assert!((flux / (2.0 * 3.0 * volume) - 1.0).abs() < 1e-14, "{flux}");
+            near(flux, 2.0 * 3.0 * volume, 1e-14);
             let found: f64 = plates.iter().map(|plate| plate.area).sum();
-            assert!((found / (2.0 * area) - 1.0).abs() < 1e-14, "{found}");
+            near(found, 2.0 * area, 1e-14);
         }
     }
 
@@ -152,9 +153,9 @@ mod tests {
         for k in 0..360 {
             let (s, c) = libm::sincos(f64::from(k).to_radians());
             let width: f64 = plates.iter().map(|plate| plate.area * dot(plate.normal, [c, s, 0.0]).max(0.0)).sum();
-            assert!((width / 6.0 - 1.0).abs() < 0.0235, "{k}: {width}");
+            near(width, 6.0, 0.0235);
             sum += width;
         }
-        assert!((sum / 360.0 / 6.0 - 1.0).abs() < 1e-4, "{sum}");
+        near(sum / 360.0, 6.0, 1e-4);
     }
 }

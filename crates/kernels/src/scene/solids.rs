@@ -100,6 +100,7 @@ pub fn solid_box<R: Real>(size: [R; 3], density: R) -> Body<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{close, near};
 
     const QUADRATURE_TOLERANCE: f64 = 2e-13;
 
@@ -144,13 +145,13 @@ mod tests {
 
         fn assert_equals(&self, body: &Body) {
             let scale = self.second[0][0].abs() + self.second[2][2].abs();
-            assert!((self.mass / body.mass - 1.0).abs() < QUADRATURE_TOLERANCE, "mass {} {}", self.mass, body.mass);
+            near(self.mass, body.mass, QUADRATURE_TOLERANCE);
             for i in 0..3 {
                 let first = body.first_moment()[i];
-                assert!((self.first[i] - first).abs() < QUADRATURE_TOLERANCE * (self.mass + scale), "first {i}");
+                close(self.first[i], first, QUADRATURE_TOLERANCE * (self.mass + scale));
                 for j in 0..3 {
                     let (here, there) = (self.second[i][j], body.inertia_about_origin()[i][j]);
-                    assert!((here - there).abs() < QUADRATURE_TOLERANCE * scale, "second {i} {j}: {here} {there}");
+                    close(here, there, QUADRATURE_TOLERANCE * scale);
                 }
             }
         }
@@ -192,7 +193,7 @@ mod tests {
         let body = hollow_cylinder(t, 1.0, 3.0, 2700.0);
         let expected = 2700.0 * std::f64::consts::TAU * 4.0 * t;
         // off by some t itself, 1e-12; measured: 8.8e-13
-        assert!((body.mass / expected - 1.0).abs() < 4e-12);
+        near(body.mass, expected, 4e-12);
         let naive = 2700.0 * std::f64::consts::PI * (3.0 - (1.0 - t) * (1.0 - t) * (3.0 - 2.0 * t));
         assert!((naive / expected - 1.0).abs() > 4e-12, "the rejected formula would pass this test");
     }

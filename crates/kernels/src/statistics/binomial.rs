@@ -139,6 +139,7 @@ fn first([mut low, mut high]: [u64; 2], [mut at, mut step]: [u64; 2], holds: imp
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{close, near};
 
     fn sum(range: core::ops::RangeInclusive<u64>, trials: u64, p: f64) -> f64 {
         let choose = |k: u64| (1..=k).fold(1.0, |product, i| product * (trials - k + i) as f64 / i as f64);
@@ -151,8 +152,8 @@ mod tests {
             for k in 0..=trials {
                 for p in [0.01, 0.3, 0.95] {
                     // measured 1.8e-14 and 3.3e-14: the incomplete beta function has some 13 digits
-                    assert!((at_most(k, trials, p) / sum(0..=k, trials, p) - 1.0).abs() < 2e-13);
-                    assert!((at_least(k, trials, p) / sum(k..=trials, trials, p) - 1.0).abs() < 3e-13);
+                    near(at_most(k, trials, p), sum(0..=k, trials, p), 2e-13);
+                    near(at_least(k, trials, p), sum(k..=trials, trials, p), 3e-13);
                 }
             }
         }
@@ -168,17 +169,17 @@ mod tests {
                 let risk = 1.0 - confidence;
                 // measured 3.8e-12 and 3.1e-12: rounding of a bound for a million trials
                 if successes > 0 {
-                    assert!((at_least(successes, trials, lower) / risk - 1.0).abs() < 3e-11, "{successes}/{trials}");
+                    near(at_least(successes, trials, lower), risk, 3e-11);
                 }
                 if successes < trials {
-                    assert!((at_most(successes, trials, upper) / risk - 1.0).abs() < 3e-11, "{successes}/{trials}");
+                    near(at_most(successes, trials, upper), risk, 3e-11);
                 }
                 assert!(lower <= successes as f64 / trials as f64 && successes as f64 / trials as f64 <= upper);
             }
         }
         // rule of three: 1 - (1 - confidence)^(1/n) without a success
         let upper = upper_bound(0, 59, 0.95);
-        assert!((upper - (1.0 - libm::pow(0.05, 1.0 / 59.0))).abs() < 1e-15, "{upper}");
+        close(upper, 1.0 - libm::pow(0.05, 1.0 / 59.0), 1e-15);
     }
 
     /// Published: 59 runs without a failure show 95% at 95% (S. S. Wilks, *Ann. Math. Stat.* 12 (1941) 91).

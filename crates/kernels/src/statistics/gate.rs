@@ -49,7 +49,7 @@ impl GateLimit {
 pub struct Gate {
     /// The decision.
     pub decision: Decision,
-    /// A fraction or a mean.
+    /// Fraction or mean.
     pub estimate: f64,
     /// One-sided bounds, each at the confidence.
     pub bounds: [f64; 2],
@@ -93,7 +93,7 @@ pub fn fraction_gate(successes: u64, trials: u64, target: f64, confidence: f64) 
     }
 }
 
-/// [`fraction_gate`] for a number of successes within bounds: the decision common to both.
+/// [`fraction_gate`] for successes within bounds: the decision common to both.
 pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confidence: f64) -> Gate {
     let [least, most] = successes.map(|successes| fraction_gate(successes, trials, target, confidence));
     let decision = match (least.decision, most.decision) {
@@ -108,8 +108,8 @@ pub fn fraction_gate_within(successes: [u64; 2], trials: u64, target: f64, confi
     Gate { decision, estimate: 0.5 * (least.estimate + most.estimate), bounds: [least.bounds[0], most.bounds[1]] }
 }
 
-/// Gate on a success rate of at least `target` at each of several points of the same runs, each with bounds of the
-/// successes and a number of runs.
+/// Gate on a success rate of at least `target` at each of several points of the same runs, each by bounds of its
+/// successes and its number of runs.
 ///
 /// It passes if every point does ([`failing_together`]), and fails if a point does at the confidence 1 - (1 -
 /// `fails_at`)/points (Bonferroni). Estimate, bounds and index are those of the first point with the smallest estimate.
@@ -177,7 +177,7 @@ pub fn constant_gate(value: f64, limit: GateLimit) -> Gate {
     Gate { decision, estimate: value, bounds: [value; 2] }
 }
 
-/// Gate on a success rate of at least `target`, from the rates of independent replicates with `runs` runs in all.
+/// Gate on a success rate of at least `target`, from the rates of independent replicates of `runs` runs in all.
 pub fn replicate_fraction_gate(fractions: &[f64], runs: u64, target: f64, confidence: f64) -> Gate {
     let bounds = replicates::fraction_bounds(fractions, runs, confidence);
     replicate_gate(fractions, bounds, runs, GateLimit::AtLeast(target), confidence)
@@ -216,7 +216,7 @@ fn decision([lower, upper]: [f64; 2], limit: GateLimit, needed: impl FnOnce() ->
     }
 }
 
-/// Smallest number above `from` for which the monotonic `decides` holds; `None` beyond [`MAX_RUNS`].
+/// Smallest number above `from` for which the monotonic `decides` holds, up to [`MAX_RUNS`].
 fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
     let (mut low, mut high) = (from, from);
     while !decides(high) {
@@ -233,6 +233,7 @@ fn smallest(from: u64, decides: impl Fn(u64) -> bool) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::near;
 
     /// Law: several points pass if each does, and fail if one does at the corrected confidence; bounds decide together.
     #[test]
@@ -282,7 +283,7 @@ mod tests {
         let upper = mean_gate(&repeated, GateLimit::AtMost(2.6), 0.95).bounds[1];
         let distance = upper - 2.5 + 1.2816 * repeated.mean_error().expect("many");
         // s of 1133 is 2.5% smaller than that of 20 with the same spread
-        assert!((distance / 0.1 - 1.0).abs() < 0.05, "{needed}: {distance}");
+        near(distance, 0.1, 0.05);
         for (found, decision) in [
             (mean_gate(&Moments::of([1.0]), GateLimit::AtMost(9.0), 0.95), Decision::Undecided(None)),
             (mean_gate(&Moments::of([0.0; 100]), GateLimit::AtMost(9.0), 0.95), Decision::Undecided(None)),

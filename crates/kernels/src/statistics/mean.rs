@@ -24,8 +24,8 @@ const SKEWNESS_ERRORS: f64 = 2.0;
 /// Skewness of squared deviations (normal 2, exponential 3.75), which would take the sixth moment.
 const SKEWNESS_OF_SQUARES: f64 = 4.0;
 
-/// Largest share of one run in the sum of squared (or fourth-power) deviations for which the standard error of the mean
-/// (or of the standard deviation) is meaningful.
+/// Largest share of one run in the squared (or fourth-power) deviations for which the standard error of the mean (or of
+/// the standard deviation) is meaningful.
 pub const MOST_SHARE: f64 = 1.0 / 3.0;
 
 /// Relative spread due to rounding.
@@ -34,7 +34,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// t with P(T <= t) = `confidence`, 0 below 1/2.
 pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
     thread_local! {
-        /// Arguments and result of the last call: the columns of a campaign share a count, and the root is expensive.
+        /// Arguments and result of the last call: columns share a count, and the root is expensive.
         static LAST: Cell<[f64; 3]> = const { Cell::new([0.0; 3]) };
     }
     if confidence <= 0.5 {
@@ -50,7 +50,7 @@ pub fn one_sided(confidence: f64, degrees: f64) -> f64 {
 }
 
 /// One-sided bounds of the mean, each at `confidence`; infinite for fewer than three numbers, without spread (it may
-/// hide a rare event), or with too few numbers for their skewness.
+/// hide a rare event), or with too few numbers for the skewness.
 pub fn mean_bounds(moments: &Moments, confidence: f64) -> [f64; 2] {
     let Some((mean, error)) = moments.mean().zip(spread_error(moments)) else {
         return [f64::NEG_INFINITY, f64::INFINITY];

@@ -214,6 +214,7 @@ fn in_lanes<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::near;
 
     fn close(found: Option<f64>, expected: f64) {
         let found = found.unwrap_or(f64::NAN);
@@ -284,7 +285,7 @@ mod tests {
                 merged.merge(&Moments::of(part.iter().copied()));
             }
             for (found, exact) in [(merged.mean, mean), (merged.m2, m2), (merged.m3, m3), (merged.m4, m4)] {
-                assert!((found / exact - 1.0).abs() < 1e-13, "{cuts:?}: {found} {exact}");
+                near(found, exact, 1e-13);
             }
         }
     }

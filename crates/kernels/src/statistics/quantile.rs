@@ -139,6 +139,7 @@ fn smallest(estimate: f64, enough: impl Fn(u64) -> bool) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::close;
 
     /// Law: order statistics at any places, announced or not, are those of a sort, to the bit.
     #[test]
@@ -171,14 +172,14 @@ mod tests {
         for (p, expected) in [(0.0, 1.0), (1.0, 8.0), (0.5, 3.0), (1.0 / 3.0, 2.0), (0.25, 1.75), (0.9, 6.8)] {
             let found = quantile(&values, p).unwrap_or(f64::NAN);
             // a unit in the last place of 6.8 is 8.9e-16, measured for p = 0.9
-            assert!((found - expected).abs() < 8e-15, "{p}: {found}");
+            close(found, expected, 8e-15);
         }
         assert_eq!(quantile(&[], 0.5), None);
         assert_eq!(quantile(&[3.0], 0.99), Some(3.0));
         // 99% of 100 values is not their maximum
         let hundred: Vec<f64> = (0..100).map(f64::from).collect();
         // a unit in the last place of 98.01 is 1.4e-14
-        assert!((quantile(&hundred, 0.99).unwrap_or(0.0) - 98.01).abs() < 2e-14);
+        close(quantile(&hundred, 0.99).unwrap_or(0.0), 98.01, 2e-14);
         assert_eq!(quantile(&[f64::NEG_INFINITY, f64::NEG_INFINITY, 1.0], 0.25), Some(f64::NEG_INFINITY));
     }
 
@@ -194,7 +195,7 @@ mod tests {
         // the median of ten: x_(2) to x_(9), 97.9% (David & Nagaraja, table of section 7.1)
         let ranks = interval_ranks(10, 0.5, 0.95);
         assert_eq!(ranks, Ranks { lower: Some(2), upper: Some(9) });
-        assert!((coverage(10, 0.5, ranks) - (1.0 - 2.0 * 11.0 / 1024.0)).abs() < 2.0 * f64::EPSILON);
+        close(coverage(10, 0.5, ranks), 1.0 - 2.0 * 11.0 / 1024.0, 2.0 * f64::EPSILON);
     }
 
     /// Law: no ranks are tighter at the risk of each end.

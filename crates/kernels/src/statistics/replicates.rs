@@ -93,6 +93,7 @@ pub fn quantile_interval(steps: &[Step], sizes: &[u64], p: f64, confidence: f64)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::close;
 
     /// Known: fractions 0.1 ... 0.4 of many runs have s = sqrt(5/3)/10 and t(0.95, 3) = 2.3533634348018264; equal
     /// fractions of 10 runs each have the floor of the variance.
@@ -101,9 +102,9 @@ mod tests {
         let half = |deviation: f64| 2.353_363_434_801_826_4 * deviation / 2.0;
         let upper = |fractions: &[f64], runs| fraction_bounds(fractions, runs, 0.95)[1];
         let found = upper(&[0.1, 0.2, 0.3, 0.4], 4000);
-        assert!((found - 0.25 - half(libm::sqrt(5.0 / 3.0) / 10.0)).abs() < 1e-15, "{found}");
+        close(found - 0.25, half(libm::sqrt(5.0 / 3.0) / 10.0), 1e-15);
         let found = upper(&[0.2; 4], 40);
-        assert!((found - 0.2 - half(libm::sqrt(0.5) / 10.0)).abs() < 1e-15, "{found}");
+        close(found - 0.2, half(libm::sqrt(0.5) / 10.0), 1e-15);
         assert_eq!([fraction_bounds(&[1.0; 4], 40, 0.95)[1], fraction_bounds(&[0.0; 4], 40, 0.95)[0]], [1.0, 0.0]);
         assert_eq!(fraction_bounds(&[0.5], 10, 0.95), [0.0, 1.0]);
     }

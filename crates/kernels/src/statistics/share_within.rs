@@ -76,6 +76,7 @@ mod tests {
     use super::*;
     use crate::math::normal;
     use crate::statistics::rank_tests::tests::Uniform;
+    use crate::testing::near;
 
     /// Sums of scene and noise from numbers `draw(u)`, with the share `share` of noise.
     fn pairs(seed: u64, scenes: usize, share: f64, draw: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
@@ -103,7 +104,7 @@ mod tests {
                     total += found.value;
                 }
                 assert!(covered >= 920, "{share}: {covered}");
-                assert!((total / 1_000.0 / share - 1.0).abs() < 0.06, "{share}: {total}");
+                near(total / 1_000.0, share, 0.06);
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! A bucket holds the numbers that share sign, exponent and the leading [`MANTISSA_BITS`] bits of the mantissa (after
 //! HdrHistogram, G. Tene 2012, and DDSketch, Masson, Rim & Lee 2019). Its middle is within 0.05% of any quantile in it.
-//! Merging adds counts, whatever the order, threads or parts.
+//! Merging adds counts, in any order.
 //!
 //! A sketch about a reference ([`Sketch::about`]) counts numbers nearer to the reference than to zero by their
 //! deviation; quantiles are within 0.05% of the magnitude and of the deviation. Magnitudes below 2^-1022 count as zero.
@@ -26,7 +26,7 @@ const PAGE: usize = 1 << MANTISSA_BITS;
 const SCALE: u16 = 1 << 12;
 /// Marks a missing page; the two scales, of numbers and of deviations, have fewer.
 const NO_PAGE: u16 = u16::MAX;
-/// Buckets in a cache line.
+/// Buckets of a cache line.
 const CACHE_LINE: usize = 16;
 const SHIFT: u32 = 52 - MANTISSA_BITS;
 
@@ -55,7 +55,7 @@ fn unordered(key: u64) -> f64 {
     f64::from_bits(if key >> 63 == 1 { key & !(1 << 63) } else { !key })
 }
 
-/// The map from numbers to keys of buckets.
+/// Keys of buckets by numbers.
 #[derive(Clone, Copy)]
 struct Places {
     reference: f64,
@@ -95,7 +95,7 @@ impl Sketch {
         Sketch { reference, pages: Vec::new(), carries: Carries::default(), count: 0, min, max }
     }
 
-    /// Counts one number, unless it is NaN.
+    /// Counts a number, except NaN.
     pub fn add(&mut self, value: f64) {
         if value.is_nan() {
             return;
@@ -109,7 +109,7 @@ impl Sketch {
         self.max = self.max.max(value);
     }
 
-    /// Counts the numbers of a list, except NaN.
+    /// Counts several.
     pub fn add_all(&mut self, values: &[f64]) {
         self.add_block(values, &Moments::of_block(values));
     }
@@ -146,7 +146,7 @@ impl Sketch {
         self.max = self.max.max(other.max);
     }
 
-    /// Number of counted numbers.
+    /// Number of numbers.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -161,7 +161,7 @@ impl Sketch {
         (self.count > 0).then_some(self.min)
     }
 
-    /// The `p`-quantile of type 7, 0 <= p <= 1, if any. Use [`Sketch::ranks`] for several.
+    /// The `p`-quantile of type 7, if any; for several use [`Sketch::ranks`].
     pub fn quantile(&self, p: f64) -> Option<f64> {
         self.ranks().quantile(p)
     }
@@ -186,7 +186,7 @@ impl Sketch {
         }
     }
 
-    /// Ends of a bucket; all its numbers lie between them.
+    /// Ends of a bucket.
     fn ends(&self, number: u16, bucket: usize) -> [f64; 2] {
         let [low, high] = ends(number % SCALE, bucket);
         // the bucket of an infinity reaches into the NaNs
@@ -232,14 +232,14 @@ impl Sketch {
     }
 }
 
-/// Counts all numbers of a list except NaN.
+/// Counts numbers of a list except NaN.
 struct Counting<'a> {
     sketch: &'a mut Sketch,
     values: &'a [f64],
     ends: [f64; 2],
 }
 
-/// Numbers mapped to keys in one go.
+/// Numbers mapped to keys at once.
 const TOGETHER: usize = 64;
 
 impl Work for Counting<'_> {

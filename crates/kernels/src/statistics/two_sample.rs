@@ -169,6 +169,7 @@ pub fn holm(p_values: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{close, near};
 
     /// Published: R's `p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")`, 0.03 0.06 0.06 0.02; values are at most 1.
     #[test]
@@ -225,7 +226,7 @@ mod tests {
     fn kolmogorov_distribution() {
         for (x, tail) in [(1.3581, 0.05), (1.6276, 0.01), (0.8276, 0.5)] {
             // four digits of x, and a density of at most 1.7; measured 4.2e-5
-            assert!((kolmogorov_tail(x) - tail).abs() < 1e-4, "{x}: {}", kolmogorov_tail(x));
+            close(kolmogorov_tail(x), tail, 1e-4);
         }
         assert_eq!((kolmogorov_tail(0.0), kolmogorov_tail(9.0)), (1.0, 2.0 * libm::exp(-162.0)));
     }
@@ -238,7 +239,7 @@ mod tests {
             (0..100).map(|k| [f64::from(k), libm::fmod(f64::from(k) + 10.0, wrap)]).collect()
         };
         let (shifted, wrapped) = (marginals(&pairs(1e9)), marginals(&pairs(100.0)));
-        assert!((shifted.expect("pairs") - 15.0 / 512.0).abs() < 1e-15, "{shifted:?}");
+        close(shifted.expect("pairs"), 15.0 / 512.0, 1e-15);
         assert_eq!(wrapped, Some(1.0));
         let differences: Vec<f64> = pairs(100.0).iter().map(|[a, b]| b - a).collect();
         assert!(signed_ranks(&differences).is_some_and(|p| p < 1e-6), "the counter-test");
@@ -265,6 +266,6 @@ mod tests {
         let step: Vec<[f64; 2]> = (-20..=20).map(f64::from).map(|x| [x, x + 1024.0]).collect();
         assert!(spread_of_pairs(&step).is_some_and(|p| p > 0.5), "{:?}", spread_of_pairs(&step));
         assert_eq!((spread_of_pairs(&[[1.0, 1.0]; 9]), mcnemar([0, 0])), (None, 1.0));
-        assert!((mcnemar([0, 5]) / 0.0625 - 1.0).abs() < 1e-14);
+        near(mcnemar([0, 5]), 0.0625, 1e-14);
     }
 }

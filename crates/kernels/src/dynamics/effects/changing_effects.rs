@@ -15,7 +15,7 @@
 /// &Motion<R>)`. `Series<R>` has `new(zero, order)`, `NEEDS_POSITION`, `begin(&Effect<R>, time, unit)` and `extend(n,
 /// &MotionSeries<R>)`, coefficient n of the torque in the unit of time, for ascending n. The file also has `of(zero,
 /// scene, c_sb)`, the constants in the frame B (`c_sb` maps it to F_s) if the effect acts; `largest_torque(scene)`, an
-/// upper bound, N m; `largest_rate(scene)`, the fastest motion that it causes, rad/s.
+/// upper bound, N m; `largest_rate(scene, torque)`, the fastest motion that a torque causes, rad/s.
 macro_rules! effects {
     (
         constant { $($(#[$constant_doc:meta])* $Constant:ident: $constant_form:ident, $constant_key:literal,
@@ -317,7 +317,7 @@ macro_rules! effects {
         /// The fastest motion that these effects cause on `scene`, rad/s.
         pub fn largest_changing_rate(scene: &Scene) -> f64 {
             let mut largest = 0.0_f64;
-            $(largest = largest.max($file::largest_rate(scene));)*
+            $(largest = largest.max($file::largest_rate(scene, $file::largest_torque(scene)));)*
             largest
         }
     };

@@ -4,6 +4,7 @@
 //! that rotates with the Earth (J. Wertz, *Spacecraft Attitude Determination and Control*, 1978, section 17.2.3).
 //! Neglected: velocity of a plate relative to the centre of mass (1e-5 of v), mutual shadowing.
 
+pub(super) use super::plates::largest_rate;
 use super::plates::{PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::EARTH_RATE;
@@ -115,9 +116,4 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     let lowest = orbit.lowest();
     let speed = (orbit.mu * (2.0 / lowest - 1.0 / orbit.shape().semi_major_axis)).sqrt() + EARTH_RATE * lowest;
     0.5 * air.density(lowest) * speed * speed * largest_lever(scene, |plate| plate.drag_coefficient)
-}
-
-/// Largest rate of oscillation in the flow, rad/s.
-pub fn largest_rate(scene: &Scene) -> f64 {
-    super::plates::largest_rate(scene, largest_torque(scene))
 }

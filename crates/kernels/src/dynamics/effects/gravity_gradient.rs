@@ -119,7 +119,7 @@ pub fn largest_torque(scene: &Scene) -> f64 {
 }
 
 /// Largest rate of libration, rad/s: sqrt(3 mu/r^3) at periapsis, the rate of a dumbbell.
-pub fn largest_rate(scene: &Scene) -> f64 {
+pub fn largest_rate(scene: &Scene, _torque: f64) -> f64 {
     let Some(orbit) = scene.orbit.as_ref().filter(|_| scene.environment.gravity_gradient) else { return 0.0 };
     let lowest = orbit.lowest();
     (3.0 * orbit.mu / lowest).sqrt() / lowest

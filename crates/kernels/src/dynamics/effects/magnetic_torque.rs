@@ -1,6 +1,7 @@
 //! Magnetic torque of the residual dipole and of the torque rods: tau = m x B (J. R. Wertz, *Spacecraft Attitude
 //! Determination and Control*, 1978, section 17.2) with the dipole m constant in the body over an arc.
 
+pub(super) use super::plates::largest_rate;
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
 use crate::dynamics::magnetic_field::{MagneticField, largest};
@@ -110,9 +111,4 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     let driven = scene.torque_rods.iter().map(|rod| rod.scale * rod.limit);
     let all = driven.chain(stuck).fold(norm(dipole), |sum, dipole| sum + dipole.abs());
     all * largest(orbit.lowest())
-}
-
-/// Largest rate of libration about the field, rad/s: sqrt(|m| |B|/J) for the smallest moment.
-pub fn largest_rate(scene: &Scene) -> f64 {
-    super::plates::largest_rate(scene, largest_torque(scene))
 }

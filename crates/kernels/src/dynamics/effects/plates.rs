@@ -103,7 +103,8 @@ pub fn largest_lever(scene: &Scene, weight: impl Fn(&Plate) -> f64) -> f64 {
     scene.plates.iter().map(of).sum()
 }
 
-/// Rate of oscillation of `scene` under a torque of `largest` N m that changes over one radian, rad/s.
+/// Rate of oscillation of `scene` under a torque of `largest` N m that changes over one radian, rad/s: sqrt(torque/J)
+/// for the smallest moment.
 pub(super) fn largest_rate(scene: &Scene, largest: f64) -> f64 {
     if largest == 0.0 {
         return 0.0;

@@ -6,6 +6,7 @@
 //! with the visible share of its disc ([`crate::dynamics::environment::shadow`]). Neglected: mutual shadowing, light
 //! from the Earth.
 
+pub(super) use super::plates::largest_rate;
 use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::light::Light;
@@ -134,11 +135,6 @@ pub fn largest_torque(scene: &Scene) -> f64 {
     }
     let pressure = scene.environment.solar_pressure_n_m2 / (NEAREST * NEAREST);
     pressure * largest_lever(scene, |plate| 1.0 + plate.specular + 2.0 / 3.0 * plate.diffuse)
-}
-
-/// Largest rate of oscillation in the light, rad/s.
-pub fn largest_rate(scene: &Scene) -> f64 {
-    super::plates::largest_rate(scene, largest_torque(scene))
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 //! Effects that change within an arc: their arguments ([`Motion`], [`MotionSeries`]) and their interface to the
-//! equations of motion ([`NoEffects`], [`Acting`]).
+//! equations of motion.
 
 use super::ChangingEffects;
 use super::ChangingSeries;
@@ -45,14 +45,14 @@ pub struct Motion<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// The motion of a body with the integrated components `state` at `time` (s) and `place`.
+    /// The motion with the integrated components `state` at `time` (s) and `place`.
     #[inline(always)]
     pub fn of<const N: usize>(time: R, state: &[R; N], place: OrbitState<R>) -> Self {
         Motion { time, attitude: four(state, ATTITUDE), rate: three(state, OMEGA), place }
     }
 }
 
-/// Arguments of an effect's Taylor series: coefficients up to the present order, in the lanes' units of time.
+/// Arguments of an effect's Taylor series: coefficients up to the present order, in the lane's unit of time.
 #[derive(Clone, Debug)]
 pub struct MotionSeries<R> {
     /// Attitude, B -> F_e.
@@ -65,7 +65,7 @@ pub struct MotionSeries<R> {
     offset: OffsetSeries<R>,
     /// True if the spacecraft may leave its orbit.
     may_leave: bool,
-    /// True if coefficients of the orbit beyond the first two are needed.
+    /// True if the orbit's coefficients beyond the first two are needed.
     keeps_orbit: bool,
     /// Gravity at the spacecraft minus gravity at the point on the orbit, F_e, m per unit squared.
     tide: Vec<[R; 3]>,
@@ -86,7 +86,7 @@ impl<R: Real> MotionSeries<R> {
     }
 
     /// Starts a step with the reference point at `position` with `velocity` (m per unit of time) in `gravity` (m^3 per
-    /// unit squared). Coefficients of a two-body orbit are computed with `keeps_orbit` only.
+    /// unit squared). A two-body orbit has all coefficients with `keeps_orbit` only.
     #[inline(always)]
     pub fn begin_orbit(
         &mut self,
@@ -140,7 +140,7 @@ impl<R: Real> MotionSeries<R> {
     }
 }
 
-/// The effects that change within an arc, one run per lane; by default none.
+/// Effects that change within an arc, one run per lane; by default none.
 pub trait WithinArcs<R: Real> {
     /// True if there are any.
     const ACT: bool = false;
@@ -154,7 +154,7 @@ pub trait WithinArcs<R: Real> {
     /// Copies the arc-dependent constants of `run` into lane `lane`.
     fn set_arc(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
-    /// Actions on a body with the integrated components `state` (SI) at `time` (s).
+    /// Actions at the integrated components `state` (SI) and `time` (s).
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
         Beside { torque: [time.zero(); 3], force: None, carrier: None }
@@ -166,7 +166,7 @@ pub trait WithinArcs<R: Real> {
         false
     }
 
-    /// Lanes in which they are not smooth within their branches ([`crate::ode::System::is_rough`]).
+    /// [`crate::ode::System::is_rough`].
     #[inline(always)]
     fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()
@@ -178,7 +178,7 @@ pub trait WithinArcs<R: Real> {
         time.splat(f64::INFINITY)
     }
 
-    /// Dip of a switch function ([`crate::ode::switches::dip`]), from times and states at four fractions of a step.
+    /// [`crate::ode::switches::dip`] of all switch functions, from times and states at four fractions of a step.
     #[inline(always)]
     fn dip<const N: usize>(&self, [time, ..]: [R; 4], _states: [&[R; N]; 4]) -> R {
         time.splat(f64::INFINITY)
@@ -188,13 +188,13 @@ pub trait WithinArcs<R: Real> {
     #[inline(always)]
     fn choose_branches<const N: usize>(&mut self, _lanes: R::Mask, _time: R, _state: &[R; N]) {}
 
-    /// Inverse time in which the offset from the orbit changes (1/s) and mass (kg), if the spacecraft may leave it.
+    /// Inverse time of changes of the offset from the orbit (1/s) and mass (kg), if the spacecraft may leave the orbit.
     #[inline(always)]
     fn scales_of_offset(&self) -> Option<[R; 2]> {
         None
     }
 
-    /// The Taylor series from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds, in `memory`.
+    /// Taylor series, in `memory`, from `time` (a sum of two numbers, s) on in a unit of time of `unit` seconds.
     #[inline(always)]
     fn series<'m>(
         &self,

@@ -37,7 +37,7 @@ pub fn lit<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -
     R::select(edge, visible_share(edge, position, sun, radius), plain)
 }
 
-/// Visible share of the Sun's disc in the lanes `lanes`, by three inverse functions each.
+/// [`lit`] in the lanes `lanes`, by three inverse functions each.
 #[inline(always)]
 fn visible_share<R: Real>(lanes: R::Mask, position: [R; 3], sun: &Sun<R>, radius: R) -> R {
     let to_sun = difference(scaled(sun.distance * radius.splat(ASTRONOMICAL_UNIT), sun.direction), position);
@@ -145,6 +145,7 @@ fn visible_disc([sun, earth, cross, dot, radius]: [f64; 5]) -> f64 {
 mod tests {
     use super::*;
     use crate::scene::{Orbit, OrbitInput};
+    use crate::testing::close;
 
     const RADIUS: f64 = 6_378_136.6;
 
@@ -163,7 +164,7 @@ mod tests {
         assert_eq!([at(Shadow::Cylinder, RADIUS - 1.0), at(Shadow::Cylinder, RADIUS + 1.0)], [0.0, 1.0]);
         assert_eq!([at(Shadow::Cone, RADIUS - 1.06 * width), at(Shadow::Cone, RADIUS + 1.06 * width)], [0.0, 1.0]);
         assert!(at(Shadow::Cone, RADIUS - 0.9 * width) > 0.0 && at(Shadow::Cone, RADIUS + 0.9 * width) < 1.0);
-        assert!((at(Shadow::Cone, RADIUS) - 0.5).abs() < 0.01, "{}", at(Shadow::Cone, RADIUS));
+        close(at(Shadow::Cone, RADIUS), 0.5, 0.01);
         assert_eq!(share(Shadow::Cone, [behind, 0.0, 0.0]), 1.0);
         assert_eq!(share(Shadow::Cone, [-behind, 0.0, 0.0]), 0.0);
         let mut last = 0.0;
@@ -202,6 +203,6 @@ mod tests {
             ..OrbitInput::DEFAULT
         });
         let found = lit(Shadow::Cone, orbit.position, &Sun { direction, ..sun }, RADIUS);
-        assert!((found - 0.623_107_602_067_350_3).abs() < 0.025, "{found}");
+        close(found, 0.623_107_602_067_350_3, 0.025);
     }
 }

@@ -60,6 +60,7 @@ fn turns<R: Real>(days: R, start: f64, rate: f64) -> R {
 mod tests {
     use super::*;
     use crate::math::vector::{cross, dot, norm};
+    use crate::testing::close;
 
     /// Truth: astropy 8.0.2, `t = Time(2451545.0, n, format="jd", scale="utc")`,
     /// `get_sun(t).transform_to(PrecessedGeocentric(equinox=t, obstime=t))`: n, unit vector, distance in au.
@@ -83,11 +84,11 @@ mod tests {
         let mut worst = 0.0_f64;
         for (days, direction, distance) in ASTROPY {
             let found = sun(days);
-            assert!((norm(found.direction) - 1.0).abs() < 1e-15);
+            close(norm(found.direction), 1.0, 1e-15);
             let off =
                 libm::atan2(norm(cross(found.direction, direction)), dot(found.direction, direction)).to_degrees();
             worst = worst.max(off);
-            assert!((found.distance - distance).abs() < 2e-4, "{days}: {} for {distance}", found.distance);
+            close(found.distance, distance, 2e-4);
         }
         assert!(worst < 0.011, "{worst} deg");
     }

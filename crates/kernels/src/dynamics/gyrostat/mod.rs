@@ -9,7 +9,7 @@
 //! ```
 //!
 //! A wheel of constant speed adds its axial inertia to the body's: with K = J* + sum over held wheels of J_i a_i a_i^T
-//! the same equations hold for
+//! the equations hold for
 //!
 //! ```text
 //! H = K omega + sum over free wheels h_i a_i + sum over held wheels J_i Omega_i a_i
@@ -35,24 +35,24 @@ use crate::math::symmetric::principal_axes;
 use crate::scene::{Actuation, Arc, MAX_WHEELS, Offsets, Scene, WheelMode};
 use wheel::{GyrostatWheel, WheelMotion};
 
-/// Index of the first component of the angular velocity in B, rad/s (3).
+/// Index of the angular velocity in B, rad/s (3 components).
 pub const OMEGA: usize = 0;
-/// Index of the first component of the attitude quaternion q_eb (4).
+/// Index of the attitude quaternion q_eb (4).
 pub const ATTITUDE: usize = 3;
-/// Index of the first component of the integral of omega in B over time, rad (3).
+/// Index of the integral of omega in B over time, rad (3).
 pub const ANGLE: usize = 7;
 /// Index of the work of the wheel motors, J (1).
 pub const MOTOR_WORK: usize = 10;
-/// Index of the first component of the thrusters' impulse in F_e, N s (3).
+/// Index of the thrusters' impulse in F_e, N s (3).
 pub const IMPULSE: usize = 11;
-/// Index of the first component of the time integral of that impulse, N s^2 (3).
+/// Index of the time integral of that impulse, N s^2 (3).
 pub const IMPULSE_INTEGRAL: usize = 14;
-/// Index of the first component of the thrusters' angular impulse about c in F_e, N m s (3).
+/// Index of the thrusters' angular impulse about c in F_e, N m s (3).
 pub const ANGULAR_IMPULSE: usize = 17;
 /// Index of the work of the thrusters, J (1).
 pub const THRUST_WORK: usize = 20;
 
-/// Number of integrated components if only the rates are needed.
+/// Number of components for the rates alone.
 pub const RATES_ONLY: usize = 3;
 /// With the attitude.
 pub const WITH_ATTITUDE: usize = 7;
@@ -72,7 +72,7 @@ pub struct GyrostatArc<R> {
     pub force_b: [R; 3],
     /// Torque of the thrusters about c plus the body torque, B, N m.
     pub torque_b: [R; 3],
-    /// The wheels at the start; zero beyond the number of wheels.
+    /// The wheels at the start; zero beyond their number.
     pub wheels: [WheelMotion<R>; MAX_WHEELS],
     /// Momentum of the wheels without K omega, at the start, B, N m s.
     pub momentum_b: [R; 3],
@@ -103,8 +103,8 @@ pub struct Gyrostat<R> {
     pub v_co_e: [R; 3],
     /// Path of the point on the orbit, if any.
     pub orbit: Option<OrbitPath>,
-    /// Position (m) and velocity (m/s) of c at time zero relative to a point on the orbit, F_e, if c may leave it. The
-    /// impulse components then describe the relative motion, m d' and m d.
+    /// Position (m) and velocity (m/s) of c at time zero relative to a point on the orbit, F_e, if c may leave it; the
+    /// impulse components are then those of the relative motion, m d' and m d.
     pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
@@ -129,7 +129,7 @@ impl<R: Real> Gyrostat<R> {
         gyrostat
     }
 
-    /// An empty buffer for [`Gyrostat::reset`].
+    /// A buffer for [`Gyrostat::reset`].
     pub fn blank(zero: R) -> Self {
         let z3 = [zero; 3];
         Gyrostat {
@@ -191,7 +191,7 @@ impl<R: Real> Gyrostat<R> {
         self.set_wheels(zero, scene);
     }
 
-    /// Impulse components at time zero, m d' (N s) and m d (kg m), if c may leave its orbit.
+    /// Impulse components at time zero, m d' (N s) and m d (kg m), if c may leave the orbit.
     pub fn start_of_offset(&self) -> Option<[R; 6]> {
         self.offset.map(|[position, velocity]| {
             let [a, b, c] = scaled(self.mass, velocity);
@@ -216,7 +216,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Sets angular velocity (B) and attitude at time zero, before the first arc.
+    /// Sets omega (B) and attitude at time zero, before the first arc.
     pub fn start_from(&mut self, omega_b: [R; 3], q_eb: [R; 4]) {
         self.omega_b = omega_b;
         self.q_eb = q_eb;
@@ -271,7 +271,7 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.push(arc);
     }
 
-    /// Starts the next arc under a law, observed at `times`, from the wheels at its start.
+    /// Starts the next arc under a law, observed at `times`, with the wheels at its start.
     #[inline(always)]
     pub fn begin_flown_arc(&mut self, scene: &Scene, arc: Arc, wheels: [WheelMotion<R>; MAX_WHEELS], times: &[f64]) {
         self.flown.push(&arc);
@@ -310,7 +310,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Starts an arc without actuation until `end`, for a body without actuators.
+    /// Starts an arc without actuation until `end`.
     pub fn begin_free_arc(&mut self, end: f64) {
         let zero = [self.mass.zero(); 3];
         let start = self.arcs.last().map_or(0.0, |last| last.arc.end());
@@ -320,7 +320,7 @@ impl<R: Real> Gyrostat<R> {
         self.arcs.push(GyrostatArc { arc, force_b: zero, torque_b: zero, wheels, momentum_b, motor_torque_b: zero });
     }
 
-    /// Starts all arcs of the schedule of `scene` up to `duration` seconds.
+    /// Starts all scheduled arcs of `scene` up to `duration` seconds.
     pub fn begin_schedule(&mut self, scene: &Scene, duration: f64) {
         let mut time = 0.0;
         while time < duration {
@@ -387,7 +387,7 @@ impl<R: Real> Gyrostat<R> {
         total
     }
 
-    /// The sum of m_i a_i over the wheels, B, for a number m_i per wheel.
+    /// sum m_i a_i over the wheels, B, for a number m_i per wheel.
     #[inline(always)]
     fn along_axes_b(&self, number: impl Fn(usize) -> R) -> [R; 3] {
         let mut total = [self.mass.zero(); 3];
@@ -399,7 +399,7 @@ impl<R: Real> Gyrostat<R> {
         total
     }
 
-    /// Sets the time scale of a run that flies the schedule of `scene`.
+    /// Sets the time scale of a run by the schedule of `scene`.
     pub fn expect_schedule(&mut self, scene: &Scene, duration: f64) {
         if scene.schedule.is_empty() && !scene.environment.acts() {
             // one arc without torque: its rate needs no layout
@@ -411,7 +411,7 @@ impl<R: Real> Gyrostat<R> {
         core::mem::swap(&mut self.arcs, &mut self.scheduled);
     }
 
-    /// Starts the arc of the schedule of `scene` at `time`.
+    /// Starts the scheduled arc of `scene` at `time`.
     pub fn begin_scheduled_arc(&mut self, scene: &Scene, time: f64, duration: f64) {
         match self.scheduled.get(self.arcs.len()) {
             Some(next) => {
@@ -423,7 +423,7 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
-    /// Includes the orbit in the time scale, to integrate both together.
+    /// Includes the orbit in the time scale.
     pub fn note_orbit(&mut self) {
         if let Some(orbit) = &self.orbit {
             self.rate = self.rate.max(orbit.at_start().rate());

@@ -2,8 +2,8 @@
 //!
 //! One run at a time, every arc restarted exactly at its switch, order and step from a tolerance near the rounding of
 //! the arithmetic (A. Jorba & M. Zou, Experimental Mathematics 14, 2005), without periodic folding, which a solution
-//! that shared it could not judge. Debris is a gyrostat without wheels, a cube like any box. Effects without Taylor
-//! series are integrated by extrapolation (`switched_reference`).
+//! that shared it could not judge. Debris is a gyrostat without wheels. Effects without Taylor series are integrated by
+//! extrapolation (`switched_reference`).
 //!
 //! The reference solution is the exact motion for the `f64` numbers of a [`Scene`]: rounding of mass properties is no
 //! error of integration.

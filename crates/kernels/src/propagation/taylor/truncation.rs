@@ -94,7 +94,7 @@ impl<R: Real> Truncation<R> {
         self.add_turn(jet, length);
     }
 
-    /// Adds a step under effects within arcs, the rate's part with its direction.
+    /// Adds a step under effects within arcs.
     #[inline(always)]
     pub fn add_directed<const N: usize>(&mut self, jet: &[[R; N]], length: R, constants: &Constants<R>) {
         let rate = self.left_out_of_rate(jet, length);

@@ -1,6 +1,5 @@
 //! `[[actuation]]`: the schedule, one arc of constant thrust and torque each; only errors of an arc are dispersed.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use super::sizes::{MAX_THRUSTERS, MAX_WHEELS};
 use crate::scene::name::Name;

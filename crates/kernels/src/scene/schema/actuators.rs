@@ -1,6 +1,5 @@
 //! `[actuators]`: delays of the actuators.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {

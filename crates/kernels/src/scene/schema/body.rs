@@ -2,7 +2,6 @@
 
 use super::components::{AXES, WXYZ};
 use super::mass_errors::MassErrors;
-use super::numbers::Numbers;
 use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
 use super::row::{Row, check_rows};
 use super::rows::{row, rows};

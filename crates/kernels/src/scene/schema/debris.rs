@@ -1,7 +1,6 @@
 //! `[debris]`: a cube, a box, or any rigid body by mass and inertia.
 
 use super::components::{AXES, SCALAR, SYMMETRIC, WXYZ, XYZ};
-use super::numbers::Numbers;
 use super::principal::{AXES_MEANING, MOMENTS, PrincipalInertia, PrincipalMoments, SECOND};
 use super::row::{Row, check_rows};
 use super::rows::row;

@@ -1,6 +1,5 @@
 //! `[environment]`: effects of the environment on the spacecraft.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::math::enumeration::named;
 

@@ -1,6 +1,5 @@
 //! `[[failure]]`: a wheel, a thruster, a torque rod or a sensor that fails during a run.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::math::enumeration::named;
 use crate::scene::name::Name;

@@ -1,6 +1,5 @@
 //! `[initial]`: the state at time zero.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 
 rows! {

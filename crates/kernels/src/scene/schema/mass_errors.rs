@@ -1,6 +1,5 @@
 //! [`MassErrors`]: the difference of a true distribution of mass from the nominal one.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 
 const SHEARS: &[&str] = &["xy", "xz", "yz"];

@@ -1,6 +1,5 @@
 //! `[orbit]`: the orbit of the spacecraft's centre of mass about the Earth.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::scene::epoch::Epoch;
 

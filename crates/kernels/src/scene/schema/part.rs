@@ -1,7 +1,6 @@
 //! `[[body.parts]]`: a rigid part of the body: a cylinder, hollow or solid, a box, a sphere, or a point mass.
 
 use super::mass_errors::MassErrors;
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::math::enumeration::named;
 use crate::scene::name::Name;

@@ -1,6 +1,5 @@
 //! `[[plates]]`: a flat plate of the surface of the body, which air and light push.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::scene::name::Name;
 

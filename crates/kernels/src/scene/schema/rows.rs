@@ -33,26 +33,27 @@ macro_rules! rows {
             pub const DEFAULT: $Struct = $Struct { $( $key: $default, )* $( $field: $field_default, )* };
 
             /// The rows of the schema.
-            pub const ROWS: &'static [$crate::scene::schema::row::Row<$Table>] = &[ $(
-                $crate::scene::schema::row::Row {
-                    facts: $crate::scene::schema::row::Facts {
+            pub const ROWS: &'static [super::row::Row<$Table>] = &{
+                use super::{limit::Limit, numbers::Numbers, row::{Facts, Row, first}};
+                [ $( Row {
+                    facts: Facts {
                         key: stringify!($key),
                         unit: $unit,
                         meaning: $meaning,
-                        components: match $crate::scene::schema::row::first(&[$($components)?]) {
+                        components: match first(&[$($components)?]) {
                             Some(components) => components,
                             None => <$type as Numbers>::COMPONENTS,
                         },
                         shape: <$type as Numbers>::SHAPE,
-                        required: $crate::scene::schema::row::first(&[$($example)?]),
-                        needs_debris: $crate::scene::schema::row::first::<&str>(&[$(stringify!($needs))?]).is_some(),
-                        limit: $crate::scene::schema::limit::Limit::$limit $(($remedy))?,
+                        required: first(&[$($example)?]),
+                        needs_debris: first::<&str>(&[$(stringify!($needs))?]).is_some(),
+                        limit: Limit::$limit $(($remedy))?,
                     },
                     read: |$table| Numbers::numbers(&$get.$key),
                     write: |$table| Numbers::numbers_mut(&mut $get.$key),
                     open: |$table| Numbers::open(&mut $get.$key),
-                },
-            )* ];
+                }, )* ]
+            };
 
             /// Notes violated limits; `name` makes a dotted name of the key. Unrolled, since every draw is checked.
             #[inline(always)]
@@ -62,12 +63,11 @@ macro_rules! rows {
                 problems: &mut $crate::scene::error::Problems,
                 name: impl Fn(&'static str) -> std::borrow::Cow<'static, str>,
             ) {
-                $( if (has_debris || const {
-                    $crate::scene::schema::row::first::<&str>(&[$(stringify!($needs))?]).is_none()
-                }) && let Some(numbers) = Numbers::numbers(&self.$key)
+                use super::{limit::Limit, numbers::Numbers, row::first};
+                $( if (has_debris || const { first::<&str>(&[$(stringify!($needs))?]).is_none() })
+                    && let Some(numbers) = Numbers::numbers(&self.$key)
                 {
-                    const LIMIT: $crate::scene::schema::limit::Limit =
-                        $crate::scene::schema::limit::Limit::$limit $(($remedy))?;
+                    const LIMIT: Limit = Limit::$limit $(($remedy))?;
                     LIMIT.check(|| name(stringify!($key)), numbers, problems);
                 } )*
             }
@@ -86,17 +86,18 @@ macro_rules! row {
     (
         $key:ident, $unit:literal, $meaning:expr, $components:expr, $shape:ident, $limit:ident
         $(required $example:literal)?, $open:expr, $pattern:pat => $value:ident
-    ) => {
-        $crate::scene::schema::row::Row {
-            facts: $crate::scene::schema::row::Facts {
+    ) => {{
+        use super::{limit::Limit, numbers::Numbers, row::{Facts, Row, Shape, first}};
+        Row {
+            facts: Facts {
                 key: stringify!($key),
                 unit: $unit,
                 meaning: $meaning,
                 components: $components,
-                shape: $crate::scene::schema::row::Shape::$shape,
-                required: $crate::scene::schema::row::first(&[$($example)?]),
+                shape: Shape::$shape,
+                required: first(&[$($example)?]),
                 needs_debris: false,
-                limit: $crate::scene::schema::limit::Limit::$limit,
+                limit: Limit::$limit,
             },
             read: |table| match table {
                 $pattern => Numbers::numbers($value),
@@ -108,7 +109,7 @@ macro_rules! row {
             },
             open: $open,
         }
-    };
+    }};
 }
 
 pub(super) use {row, rows};

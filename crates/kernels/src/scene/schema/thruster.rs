@@ -1,6 +1,5 @@
 //! `[[thrusters]]`: a thruster.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::scene::name::Name;
 

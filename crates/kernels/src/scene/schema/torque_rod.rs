@@ -1,6 +1,5 @@
 //! `[[torque_rods]]`: a magnetic torque rod.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::scene::name::Name;
 

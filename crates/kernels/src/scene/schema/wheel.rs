@@ -1,6 +1,5 @@
 //! `[[wheels]]`: a wheel.
 
-use super::numbers::Numbers;
 use super::rows::rows;
 use crate::math::enumeration::named;
 use crate::scene::name::Name;
