@@ -34,7 +34,7 @@ pub fn run(options: &NewOptions) -> Result<CommandOutcome, Failure> {
     let file = OpenOptions::new().write(true).create_new(true).open(path);
     let text = START.replace("name = \"start\"", &format!("name = \"{name}\""));
     let text = format!("#:schema {SCHEMA}\n{text}");
-    let failed = |path: &Path, error| Failure::Files(format!("{}: {}", path.display(), atomic::explained(path, error)));
+    let failed = |path: &Path, error| Failure::at(path, atomic::explained(path, error));
     file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| failed(path, error))?;
     let schema = path.with_file_name(SCHEMA);
     std::fs::write(&schema, schema_text()).map_err(|error| failed(&schema, error))?;

@@ -105,7 +105,7 @@ fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> R
 }
 
 fn save(path: &Path, plan: &Plan, series: &Table<'_>) -> Result<(), Failure> {
-    table_file::save(plan, series, path).map_err(|error| Failure::Files(format!("{}: {error}", path.display())))?;
+    table_file::save(plan, series, path).map_err(|error| Failure::at(path, error))?;
     let (points, columns) = (counted(series.rows(), "point"), counted(series.columns.len(), "column"));
     screen::note(&format!("{}: {points}, {columns}", path.display()));
     Ok(())

@@ -20,6 +20,5 @@ pub fn end_of_analysed(analysed: &Analysed, found: &Findings) -> SummaryEnd {
 pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
     let Some(file) = file else { return Ok(()) };
     let text = junit::text(plan, analysed, &findings(plan, analysed, &[]));
-    atomic::write_bytes(file, text.as_bytes())
-        .map_err(|error| WorkflowError::files(format!("{}: {error}", file.display())))
+    atomic::write_bytes(file, text.as_bytes()).map_err(|error| WorkflowError::at(file, error))
 }

@@ -47,14 +47,14 @@ impl ComparisonFormat {
 
     /// Writes `compared` to `path`.
     pub fn write(self, compared: &Compared<'_>, path: &Path) -> Result<(), WorkflowError> {
-        let failed = |error: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {error}", path.display()));
         let bytes = match self {
             ComparisonFormat::Json => comparison_json::text(compared).into_bytes(),
             ComparisonFormat::Parquet => {
                 let table = comparison_table::table(&compared.comparison);
-                encoded(&table, provenance(compared.plans[0]), Packing::Zstd).map_err(|error| failed(&error))?
+                encoded(&table, provenance(compared.plans[0]), Packing::Zstd)
+                    .map_err(|error| WorkflowError::at(path, error))?
             }
         };
-        atomic::write_bytes(path, &bytes).map_err(|error| failed(&error))
+        atomic::write_bytes(path, &bytes).map_err(|error| WorkflowError::at(path, error))
     }
 }

@@ -33,12 +33,12 @@ pub(super) fn end_of(
         let verdicts = both.map(|(rows, said)| EndVerdict { found: said.found, ..rows }).collect();
         return Ok(SummaryEnd { warnings: said.warnings, verdicts, ..end });
     }
-    Err(WorkflowError::Files(format!(
-        "{}: does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: \
+    let why = format!(
+        "does not say what the rows say, though it has the checksum that {MANIFEST} lists; this makes it again: \
         spindrift verify {} --repair",
-        rows.store().path(SUMMARY).display(),
         quoted_path(rows.store().root())
-    )))
+    );
+    Err(WorkflowError::at(&rows.store().path(SUMMARY), why))
 }
 
 /// [`end_of`] for a finished and undamaged result.

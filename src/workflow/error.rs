@@ -1,5 +1,7 @@
 //! [`WorkflowError`]: failures of campaigns and results.
 
+use std::path::Path;
+
 use thiserror::Error;
 
 use crate::campaign::CampaignError;
@@ -22,6 +24,11 @@ pub enum WorkflowError {
 impl WorkflowError {
     pub fn files(error: impl std::fmt::Display) -> Self {
         WorkflowError::Files(error.to_string())
+    }
+
+    /// A failure of the file or folder `path`.
+    pub fn at(path: &Path, why: impl std::fmt::Display) -> Self {
+        WorkflowError::Files(format!("{}: {why}", path.display()))
     }
 }
 

@@ -13,9 +13,10 @@ use crate::findings::end::SummaryEnd;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::storage::claim::{self, Claim, Ready, Shard, open};
+use crate::storage::dataset::PartRecord;
 use crate::storage::names::{PLAN, TRAJECTORIES, rows_of};
 use crate::storage::replacement::replace;
-use crate::workflow::analysed::{end_of_analysed, write_junit};
+use crate::workflow::analysed::{Analysed, end_of_analysed, write_junit};
 use crate::workflow::derived::{Derivation, Derived, derive};
 use crate::workflow::ending::end_of_finished;
 use crate::workflow::error::WorkflowError;
@@ -57,6 +58,28 @@ pub struct Completed {
     pub files: usize,
     /// Bytes.
     pub bytes: u64,
+}
+
+impl Completed {
+    /// The result of `plan` in `root` with the parts `parts`.
+    pub(super) fn of(
+        plan: &Plan,
+        root: &Path,
+        (analysed, findings): (&Analysed, Findings),
+        parts: &[PartRecord],
+        made: Option<Made>,
+    ) -> Self {
+        Completed {
+            plan: plan.clone(),
+            root: root.to_owned(),
+            end: end_of_analysed(analysed, &findings),
+            findings,
+            made,
+            is_audited: analysed.tally.audits.is_some(),
+            files: parts.len(),
+            bytes: parts.iter().flat_map(|part| &part.files).map(|file| file.bytes).sum(),
+        }
+    }
 }
 
 /// A campaign with a claimed place.
@@ -103,21 +126,11 @@ pub(super) fn complete(
         page::save_figures(&session, plan, &page, job.outputs.figures.as_deref())?;
     }
     write_junit(plan, &analysed, job.outputs.junit.as_deref())?;
-    let end = end_of_analysed(&analysed, &findings);
     dataset.finish()?;
     if let Some(old) = &job.ready.replaces {
         replace(session.folders, dataset.store(), old)?;
     }
-    Ok(Completed {
-        plan: plan.clone(),
-        root: job.root.to_owned(),
-        findings,
-        end,
-        made,
-        is_audited: analysed.tally.audits.is_some(),
-        files: records.len(),
-        bytes: dataset.size(),
-    })
+    Ok(Completed::of(plan, job.root, (&analysed, findings), &records, made))
 }
 
 /// Message that an unfinished result with `[stop]` is continued by its own command.

@@ -7,7 +7,6 @@ use crate::findings::findings;
 use crate::report::summary;
 use crate::storage::claim::Shard;
 use crate::storage::names::REPORT;
-use crate::workflow::analysed::end_of_analysed;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::failed_samples::FailedRun;
 use crate::workflow::finishing::{Completed, Made};
@@ -46,15 +45,5 @@ pub fn again(results: &Results<'_>) -> Result<(Completed, String), WorkflowError
     let (plan, analysed) = (results.plan(), results.analysed()?);
     let findings = findings(plan, &analysed, &[]);
     let summary = summary::json(plan, &analysed, &findings);
-    let completed = Completed {
-        plan: plan.clone(),
-        root: results.root().to_owned(),
-        end: end_of_analysed(&analysed, &findings),
-        findings,
-        made: None,
-        is_audited: analysed.tally.audits.is_some(),
-        files: results.parts().len(),
-        bytes: results.parts().iter().flat_map(|part| &part.files).map(|file| file.bytes).sum(),
-    };
-    Ok((completed, summary))
+    Ok((Completed::of(plan, results.root(), (&analysed, findings), results.parts(), None), summary))
 }

@@ -62,8 +62,7 @@ pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, Path
     let name = root.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
     let html = index_page::html(&name.unwrap_or_else(|| "results".to_owned()), &index.entries, &index.unreadable);
     let path = root.join(PAGE);
-    atomic::write_bytes(&path, html.as_bytes())
-        .map_err(|error| WorkflowError::Files(format!("{}: {error}", path.display())))?;
+    atomic::write_bytes(&path, html.as_bytes()).map_err(|error| WorkflowError::at(&path, error))?;
     Ok((index, path))
 }
 

@@ -24,12 +24,11 @@ pub fn drawn(
 ) -> Result<(Percentiles, Vec<String>), WorkflowError> {
     let work = Workload::of_samples(plan, table.is_some(), plot.is_some());
     work.check(table.unwrap_or(Path::new("")), is_allowed, false)?;
-    let failed = |path: &Path, error: String| WorkflowError::Files(format!("{}: {error}", path.display()));
     let (mut percentiles, mut notes) = (Percentiles::new(plan), Vec::new());
     match table {
         Some(path) => {
             let save = drawn_table::save(plan, path, |drawn| percentiles.add(drawn));
-            save.map_err(|error| failed(path, error.to_string()))?;
+            save.map_err(|error| WorkflowError::at(path, error))?;
             let (samples, columns) = (counted(plan.samples, "sample"), drawn_table::columns(plan).len());
             notes.push(format!("{}: {samples}, {}", path.display(), counted(columns, "column")));
         }
@@ -57,7 +56,7 @@ pub fn drawn(
         let title = format!("{}, {first}{samples}, {} design", plan.name, plan.design.name().replace('_', " "));
         let figures = DrawnInputs { columns, all }.figures(plan);
         let sheet = FigureSheet { title, figures }.in_units(&plan.analysis.display);
-        let written = sheet.save(path).map_err(|error| failed(path, error.to_string()))?;
+        let written = sheet.save(path).map_err(|error| WorkflowError::at(path, error))?;
         notes.push(format!("{}: {} of {samples}", written.display(), counted(numbers, "number")));
         notes.extend((written != path).then(|| instead(&written)));
     }

@@ -46,7 +46,7 @@ const POINT: [f64; 2] = [8500.0, 7500.0];
 /// Columns of a time series, of its states and of what is observed of them: at most.
 const SERIES: f64 = 80.0;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Workload {
     /// Description: "9 runs of small".
     what: String,
@@ -114,7 +114,7 @@ impl Workload {
             memory: PROGRAM[0] + PROGRAM[1] * whole.count() as f64 + threads * (points * point + 2.0 * rows) + stopping,
             seconds: runs * run_seconds,
             run_seconds,
-            too_long: None,
+            ..Workload::default()
         }
     }
 
@@ -130,8 +130,7 @@ impl Workload {
             disk,
             memory: PROGRAM[0] + plotted,
             seconds: samples * (1e-6 + columns * 3e-7),
-            run_seconds: 0.0,
-            too_long: None,
+            ..Workload::default()
         }
     }
 
@@ -151,12 +150,11 @@ impl Workload {
         let run_seconds = run_seconds(&Plan { audit_fraction: 1.0, ..plan.clone() }, ensemble.isa());
         Workload {
             what: format!("reference solutions of {} of {}", count(samples, "sample"), plan.name),
-            disk: 0.0,
             // in double-double
             memory: PROGRAM[0] + samples * points * SERIES * 16.0,
             seconds: samples * run_seconds,
             run_seconds,
-            too_long: None,
+            ..Workload::default()
         }
     }
 
@@ -261,29 +259,16 @@ mod tests {
     #[test]
     fn what_cannot_be_done_is_refused() {
         let free = [Some(1_000_000_000), Some(2_000_000_000)];
-        let work = |disk: f64, memory: f64, seconds: f64| Workload {
-            what: "9 runs of small".to_owned(),
-            disk,
-            memory,
-            seconds,
-            run_seconds: 1.0,
-            too_long: None,
-        };
+        let work = |disk, memory, seconds| Workload { disk, memory, seconds, ..Workload::default() };
         let refusal = |work: Workload, yes, is_shard| work.refusal(free, Path::new("r"), yes, is_shard);
         let unknown = Workload { too_long: Some(SampleId(3)), ..work(1.0, 1.0, 2.0 * LONG_S) };
-        let (day, half) = (
-            "that is more than 24 hours of CPU time; --yes starts it",
-            "half of what the disk has left; --yes starts it",
-        );
+        let day = "that is more than 24 hours of CPU time; --yes starts it";
+        let half = "half of what the disk has left; --yes starts it";
+        let years = "19013 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left";
         // what is refused with `--yes`, without it, and of a shard without it
         for (work, says) in [
             (work(4e8, 1e9, LONG_S), [None; 3]),
-            (
-                work(6e18, 1e9, 6e11),
-                [Some(
-                    "19013 years of CPU time, 6000000.0 TB of files in `r`, 1.0 GB of memory: the disk has 1.0 GB left",
-                ); 3],
-            ),
+            (work(6e18, 1e9, 6e11), [Some(years); 3]),
             (work(0.0, 3e9, 60.0), [Some("about 60 s of CPU time, 3.0 GB of memory: the machine has 2.0 GB left"); 3]),
             (work(1.0, 1.0, 2.0 * LONG_S), [None, Some(day), None]),
             (work(6e8, 1.0, 1.0), [None, Some(half), Some(half)]),

@@ -199,11 +199,6 @@ impl Dataset {
         parts.into_iter().filter(|part| files.parts.get(&part.id.0).is_none_or(|there| there.part != *part)).collect()
     }
 
-    /// Total size of the files of parts, bytes.
-    pub fn size(&self) -> u64 {
-        self.files().parts.values().flat_map(|part| &part.files).map(|file| file.bytes).sum()
-    }
-
     fn list(&self, file: FileRecord) {
         self.files().derived.insert(file.name.clone(), file);
     }
