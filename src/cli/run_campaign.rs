@@ -80,10 +80,10 @@ fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a>
     for (key, value) in &options.changed.settings {
         campaign = campaign.set(key, value);
     }
-    if let Some(samples) = options.samples {
+    if let Some(samples) = options.drawn.samples {
         campaign = campaign.samples(samples);
     }
-    if let Some(seed) = options.seed {
+    if let Some(seed) = options.drawn.seed {
         campaign = campaign.seed(seed);
     }
     if let Some(fraction) = options.audit {
@@ -110,7 +110,7 @@ fn check(options: &CampaignOptions, campaign: &PreparedCampaign<'_>) -> Result<(
     let outputs = options.written.named();
     refuse_inputs(&campaign.files().paths(), &[outputs[0], ("--out", Some(root))])?;
     refuse_within(root, &outputs)?;
-    campaign.refuse_work(options.yes)
+    campaign.refuse_work(options.drawn.yes)
 }
 
 fn ended_by(name: &str, failed: &FailedRun, root: &Path) -> String {
@@ -138,8 +138,8 @@ fn shard_is_done(name: &str, shard: Shard, root: &Path, made: Made) -> String {
 /// The campaign file for replay commands, quoted: this command's file, or the result's plan if options changed numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
     let is_changed = !options.changed.settings.is_empty()
-        || options.samples.is_some()
-        || options.seed.is_some()
+        || options.drawn.samples.is_some()
+        || options.drawn.seed.is_some()
         || options.only_failed_of.is_some();
     if is_changed { quoted_path(&root.join(PLAN)) } else { quoted_path(&options.file) }
 }

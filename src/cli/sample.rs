@@ -16,13 +16,14 @@ use crate::workflow::source::plan_and_files;
 pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     let (table, plot) = (options.out.as_deref(), options.plot.as_deref());
     check_formats(table, plot)?;
-    let overrides = Overrides { samples: options.samples, seed: options.seed, ..options.changed.overrides() };
+    let overrides =
+        Overrides { samples: options.drawn.samples, seed: options.drawn.seed, ..options.changed.overrides() };
     let (plan, files) = plan_and_files(&options.file, overrides)?;
     refuse_inputs(&files.paths(), &[("--out", table), ("--plot", plot)])?;
     if let Some(sample) = options.sample {
         return one(&plan, sample);
     }
-    let (percentiles, notes) = drawn(&plan, [table, plot], options.yes)?;
+    let (percentiles, notes) = drawn(&plan, [table, plot], options.drawn.yes)?;
     screen::print(&paragraphs(&dispersions::of_percentiles(&plan, &percentiles), screen::width()))?;
     notes.iter().for_each(|note| screen::note(note));
     Ok(CommandOutcome::Done)
