@@ -77,35 +77,24 @@ fn error_square(
     estimate: &Estimate,
     (truth, gyro_bias_s): (&Truth, Option<[f64; 3]>),
 ) -> Option<NormalizedSquare> {
-    let is_debris = place >= FILTERS / 2;
-    let debris = estimate.debris.as_ref().zip(truth.debris.as_ref());
-    let body = &truth.body;
-    let turn = |believed: [f64; 4], actual: [f64; 4]| vector_of(hamilton(conjugate(believed), actual));
+    // attitude, rate, position and velocity
+    let of_debris = |debris: &DebrisState| (debris.q_ed, [debris.omega_de_d, debris.r_gdo_e, debris.v_gdo_e]);
+    let of_body = |body: &Estimate| (body.q_es, [body.omega_se_s, body.r_co_e, body.v_co_e]);
+    let (believed, actual) = if place >= FILTERS / 2 {
+        (of_debris(estimate.debris.as_ref()?), of_debris(truth.debris.as_ref()?))
+    } else {
+        (of_body(estimate), of_body(&truth.state()))
+    };
+    let turn = vector_of(hamilton(conjugate(believed.0), actual.0));
+    let [rate, r, v] = std::array::from_fn(|i| difference(actual.1[i], believed.1[i]));
     let joined = |[x, y, z]: [f64; 3], [u, v, w]: [f64; 3]| [x, y, z, u, v, w];
     match covariance {
-        Covariance::AttitudeAndBias { covariance, .. } => {
-            let attitude = turn(estimate.q_es, body.q_es);
-            match gyro_bias_s {
-                Some(bias) => normalized_square(covariance, joined(attitude, difference(bias, estimate.gyro_bias_s))),
-                None => normalized_square(&corners(covariance)[0], attitude),
-            }
-        }
-        Covariance::AttitudeAndRate(covariance) => {
-            let (attitude, rate) = if is_debris {
-                let (believed, actual) = debris?;
-                (turn(believed.q_ed, actual.q_ed), difference(actual.omega_de_d, believed.omega_de_d))
-            } else {
-                (turn(estimate.q_es, body.q_es), difference(body.omega_se_s, estimate.omega_se_s))
-            };
-            normalized_square(covariance, joined(attitude, rate))
-        }
+        Covariance::AttitudeAndBias { covariance, .. } => match gyro_bias_s {
+            Some(bias) => normalized_square(covariance, joined(turn, difference(bias, estimate.gyro_bias_s))),
+            None => normalized_square(&corners(covariance)[0], turn),
+        },
+        Covariance::AttitudeAndRate(covariance) => normalized_square(covariance, joined(turn, rate)),
         Covariance::Motion(covariance) => {
-            let (r, v) = if is_debris {
-                let (believed, actual) = debris?;
-                (difference(actual.r_gdo_e, believed.r_gdo_e), difference(actual.v_gdo_e, believed.v_gdo_e))
-            } else {
-                (difference(body.r_co_e, estimate.r_co_e), difference(body.v_co_e, estimate.v_co_e))
-            };
             NormalizedSquare::sum((0..3).map(|axis| normalized_square(covariance, [r[axis], v[axis]])))
         }
     }

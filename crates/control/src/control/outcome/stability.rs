@@ -86,13 +86,9 @@ mod tests {
     /// Settling time, rms and peak to peak of `errors`, one per tick, over the window from `from` of length `length`.
     fn found(errors: &[Option<[f64; 3]>], from: f64, length: f64) -> [f64; 3] {
         let mut stability = Stability::NONE;
-        let numbers = LoopNumbers {
-            delay: 0.0,
-            settling_band: 0.02,
-            stability_from: from,
-            stability_window: length,
-            saturation_timeout: 0.0,
-        };
+        let (delay, saturation_timeout) = (0.0, 0.0);
+        let (settling_band, stability_from, stability_window) = (0.02, from, length);
+        let numbers = LoopNumbers { delay, settling_band, stability_from, stability_window, saturation_timeout };
         for (tick, error) in errors.iter().enumerate() {
             stability.tick(tick as f64 * PERIOD, *error, &numbers, PERIOD);
         }
