@@ -20,6 +20,7 @@ use spindrift::control::ControlLaw;
 use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, Laws, WheelState, ZeroOrderHold};
 use spindrift::ensemble::settings::propagator;
 use spindrift::ensemble::{Ensemble, Parts, Rows, Supervision, run};
+use spindrift::loops::OwnLaw;
 use spindrift::math::Isa;
 use spindrift::run::{StateField, StateFields, Status};
 use spindrift::sampling::SampleId;
@@ -102,7 +103,7 @@ fn law() -> ControlLaw {
 }
 
 fn plan() -> Plan {
-    let overrides = Overrides { law: Some(law()), ..Overrides::default() };
+    let overrides = Overrides { law: Some(OwnLaw::Loop(law())), ..Overrides::default() };
     Plan::from_text("control.toml", CAMPAIGN, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -8,6 +8,7 @@
 
 use spindrift::control::{ControlLaw, LawContext};
 use spindrift::dynamics::actuation::{Actuation, ActuationLaw, BodyState, WheelState, ZeroOrderHold};
+use spindrift::loops::OwnLaw;
 use spindrift::sampling::{Noise, SampleId};
 use spindrift::scene::schema::Limit;
 use spindrift::scene::{Actuated, LawParameter};
@@ -98,7 +99,7 @@ fraction = 0.95
 "#;
 
 /// Parameters and columns that the law declares.
-static PARAMETERS: [LawParameter; 4] = [
+pub static PARAMETERS: [LawParameter; 4] = [
     LawParameter::number(
         "stiffness_n_m",
         "N m",
@@ -153,9 +154,9 @@ fn hold(context: &LawContext<'_>) -> ZeroOrderHold<Hold> {
 }
 
 /// The law, as a campaign flies it.
-pub fn law() -> ControlLaw {
+pub fn law() -> OwnLaw {
     let commands = Actuated { motors: true, ..Actuated::NONE };
-    ControlLaw::new("wheel_hold", commands, &PARAMETERS, hold)
+    OwnLaw::Loop(ControlLaw::new("wheel_hold", commands, &PARAMETERS, hold))
 }
 
 /// The campaign.

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use crate::campaign::{FilesRead, Plan};
 use crate::control::tables::Overrides;
 use crate::ensemble::Ensemble;
-use crate::loops::callback;
 use crate::storage::claim::{Claim, Shard};
 use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
@@ -16,7 +15,7 @@ use crate::workflow::outcome::CampaignOutcome;
 use crate::workflow::results::Results;
 use crate::workflow::running::run_missing;
 use crate::workflow::session::Session;
-use crate::workflow::source::{claimed, plan_and_files};
+use crate::workflow::source::{claimed, plan_and_files, refuse_missing_law};
 use crate::workflow::workload::Workload;
 
 /// Default folder of results, in the current folder.
@@ -241,7 +240,7 @@ impl PreparedCampaign<'_> {
     /// # Errors
     /// A result that must not be replaced, or a failed file operation.
     pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
-        callback::refuse_missing(self.plan.loop_spec()).map_err(WorkflowError::Input)?;
+        refuse_missing_law(&self.plan)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
         let (ensemble, root) = (self.ensemble(), &*self.root);
         let ready = match claimed(session, &self.store, &ensemble, (*overwrite, *shard))? {

@@ -8,11 +8,11 @@ use crate::ensemble::probe::{AuditProbe, RunProbe};
 use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, influence, undefined};
 use crate::findings::checked::Probed;
-use crate::loops::callback;
 use crate::run::Status;
 use crate::scene::Scene;
 use crate::storage::rows_file;
 use crate::workflow::error::WorkflowError;
+use crate::workflow::source::refuse_missing_law;
 use crate::workflow::workload::Workload;
 
 /// Runs first samples of `ensemble` for an estimate.
@@ -21,7 +21,7 @@ use crate::workflow::workload::Workload;
 /// An unphysical nominal scene, or a missing control law.
 pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>, WorkflowError> {
     let (plan, isa) = (ensemble.plan(), ensemble.isa());
-    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    refuse_missing_law(plan)?;
     let scene = Scene::resolve(&plan.nominal)
         .map_err(|errors| WorkflowError::Input(errors.iter().map(|error| format!("{error}\n")).collect()))?;
     let runs = RunProbe::new(ensemble);

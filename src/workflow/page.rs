@@ -12,7 +12,6 @@ use crate::findings::number::counted;
 use crate::findings::requirement::required;
 use crate::findings::shell_word::quoted_path;
 use crate::findings::{Finding, Findings, Kind, findings};
-use crate::loops::callback;
 use crate::report::figure_files::FigureSheet;
 use crate::report::page::runs::{KnownRow, listed};
 use crate::report::page::{Contents, Page};
@@ -24,7 +23,7 @@ use crate::storage::rows_reader::{RowsError, RowsReader};
 use crate::workflow::analysed::{Analysed, computed, end_of_analysed};
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
-use crate::workflow::source::sound;
+use crate::workflow::source::{refuse_missing_law, sound};
 
 #[derive(Clone, Debug)]
 pub struct Remade {
@@ -64,7 +63,7 @@ pub fn remade(
     }
     let (plan, records) = sound(session, (&*store, &there), Some(REPORT))?;
     let manifest = there.manifest.as_ref().ok_or_else(unfinished)?;
-    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    refuse_missing_law(&plan)?;
     if noise.is_some() && plan.law.is_none() {
         return Err(WorkflowError::Input(format!(
             "campaign {} has no control loop, and without one a run has no noise: leave out --noise",

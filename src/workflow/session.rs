@@ -10,8 +10,7 @@ use crate::control::tables::Overrides;
 use crate::ensemble::Supervision;
 use crate::ensemble::runner::threads;
 use crate::ensemble::supervision::{Alone, Crew};
-use crate::loops::ControlLaw;
-use crate::loops::attitude_law::LawKind;
+use crate::loops::OwnLaw;
 use crate::math::Isa;
 use crate::math::isa::VARIABLE;
 use crate::storage::address::Address;
@@ -85,23 +84,21 @@ pub struct Session<'a> {
     pub isa: Isa,
     /// Number of threads for runs and files; `None`: one per core.
     pub threads: Option<NonZeroUsize>,
-    /// The program's control law, for campaigns that fly one.
-    pub law: Option<&'a ControlLaw>,
-    /// The program's attitude law, for phases that name it.
-    pub attitude_law: Option<&'static LawKind>,
+    /// The program's law.
+    pub law: Option<&'a OwnLaw>,
     /// Runs the share of each thread.
     pub crew: &'a dyn Crew,
     pub watch: &'a dyn Watch,
 }
 
 impl<'a> Session<'a> {
-    /// Disk, all cores, no control law, and the listener `watch`.
+    /// Disk, all cores, no law of the program, and the listener `watch`.
     ///
     /// # Errors
     /// An unavailable instruction set in the environment.
     pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
         let isa = isa()?;
-        Ok(Session { folders: &folder, isa, threads: None, law: None, attitude_law: None, crew: &Alone, watch })
+        Ok(Session { folders: &folder, isa, threads: None, law: None, crew: &Alone, watch })
     }
 
     /// The store of a folder or an address `s3://bucket/name`.
@@ -124,15 +121,15 @@ impl<'a> Session<'a> {
         Session { threads, ..self }
     }
 
-    /// Sets the control law for campaigns and results.
+    /// Sets the program's law for campaigns and results.
     #[must_use]
-    pub fn under(self, law: &'a ControlLaw) -> Self {
+    pub fn under(self, law: &'a OwnLaw) -> Self {
         Session { law: Some(law), ..self }
     }
 
-    /// Overrides with the program's laws.
+    /// Overrides with the program's law.
     pub(super) fn overrides(&self) -> Overrides {
-        Overrides { law: self.law.cloned(), attitude_law: self.attitude_law, ..Overrides::default() }
+        Overrides { law: self.law.cloned(), ..Overrides::default() }
     }
 
     /// Number of threads that read files.

@@ -7,7 +7,6 @@ use crate::ensemble::SingleRun;
 use crate::ensemble::replays::GROUPS;
 use crate::ensemble::single::SingleRuns;
 use crate::findings::number::counted;
-use crate::loops::callback;
 use crate::math::Isa;
 use crate::report::figure_files::instead;
 use crate::report::simulation_figure::{left_out, simulation_figure};
@@ -17,6 +16,7 @@ use crate::scene::SceneError;
 use crate::storage::timeseries::time_series;
 use crate::table::Table;
 use crate::workflow::error::WorkflowError;
+use crate::workflow::source::refuse_missing_law;
 
 #[derive(Clone, Debug)]
 pub struct Simulated {
@@ -32,7 +32,7 @@ pub struct Simulated {
 /// # Errors
 /// An unknown sample, an unphysical scene, or an invalid time.
 pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> Result<Simulated, WorkflowError> {
-    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    refuse_missing_law(plan)?;
     if sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);
         return Err(WorkflowError::Input(format!("--sample {sample}: must be 0 to {last}, the samples of {name}")));
@@ -71,7 +71,7 @@ pub fn plotted(
         .map_err(|errors| not_physical(sample, &errors))?;
     let which = if sample == 0 { "nominal".to_owned() } else { format!("sample {sample}") };
     let figure = simulation_figure(format!("{}, {which}", plan.name), plan, &run).in_units(&plan.analysis.display);
-    let written = figure.save(path).map_err(|error| WorkflowError::Files(format!("{}: {error}", path.display())))?;
+    let written = figure.save(path).map_err(|error| WorkflowError::at(path, error))?;
     let without = match &left_out(plan, &run)[..] {
         [] => String::new(),
         empty => format!("; left out, zero or absent throughout: {}", empty.join(", ")),

@@ -61,15 +61,15 @@ pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Resul
     let path = store.path(PLAN);
     let remedy = "the campaign's command with its file writes it again";
     if found.plan.is_empty() {
-        return Err(WorkflowError::Files(format!("{}: is missing, or no text file; {remedy}", path.display())));
+        return Err(WorkflowError::at(&path, format!("is missing, or no text file; {remedy}")));
     }
     let folder = folder_of_data(store, found)?;
     Plan::from_text_of(&folder.join(PLAN), &found.plan, session.overrides()).map_err(|error| {
         let damage = found.derived_damage(store).unwrap_or_default();
         if let Some(what) = damage.into_iter().find(|what| what.starts_with(DATA)) {
-            return WorkflowError::Files(format!("{}: {what}; {remedy}", store.root().display()));
+            return WorkflowError::at(store.root(), format!("{what}; {remedy}"));
         }
-        WorkflowError::Files(format!("{}: cannot be used; {remedy}\n{}", path.display(), error.with_excerpts()))
+        WorkflowError::at(&path, format!("cannot be used; {remedy}\n{}", error.with_excerpts()))
     })
 }
 
@@ -110,6 +110,9 @@ pub fn claimed(
     claim(store, ensemble, options).map_err(WorkflowError::files)
 }
 
+/// Remedy for damaged objects of a store.
+pub(super) const IN_A_STORE: &str = "remove what has changed, and the campaign's command with this --out puts it again";
+
 /// The plan of the result in `store` and its parts, with verified checksums except of the file `remade`.
 ///
 /// # Errors
@@ -127,21 +130,34 @@ pub fn sound(
     problems.retain(|what| remade.is_none_or(|remade| !what.starts_with(remade)));
     match problems.first() {
         None => Ok((plan, examined.parts)),
-        Some(first) => Err(WorkflowError::Files(format!(
-            "{}: {first}{}; {}",
-            store.root().display(),
-            if problems.len() > 1 {
-                format!(" (and {})", counted(problems.len() - 1, "more problem"))
-            } else {
-                String::new()
-            },
-            if store.replaces() {
+        Some(first) => {
+            let more = match problems.len() - 1 {
+                0 => String::new(),
+                more => format!(" (and {})", counted(more, "more problem")),
+            };
+            let remedy = if store.replaces() {
                 format!("this makes it again: spindrift verify {} --repair", quoted_path(store.root()))
             } else {
-                "remove what has changed, and the campaign's command with this --out puts it again".to_owned()
-            },
-        ))),
+                IN_A_STORE.to_owned()
+            };
+            Err(WorkflowError::at(store.root(), format!("{first}{more}; {remedy}")))
+        }
     }
+}
+
+/// Refuses to fly `plan` without a law of another program that it names.
+///
+/// # Errors
+/// The law is not here.
+pub fn refuse_missing_law(plan: &Plan) -> Result<(), WorkflowError> {
+    let missing = plan.loop_spec().and_then(|spec| spec.laws().find(|law| law.is_missing()));
+    missing.map_or(Ok(()), |law| {
+        Err(WorkflowError::Input(format!(
+            "[[guidance]]: law = {:?} is a function of Python, which is not here: give it to the Python package, \
+            plan.run(control=...)",
+            law.name
+        )))
+    })
 }
 
 /// Refuses a result with rows of another identity than `expected`.
@@ -164,7 +180,7 @@ pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) 
             there.format, there.arithmetic, expected.format, expected.arithmetic
         )
     };
-    Err(WorkflowError::Files(format!("{}: {why}", store.root().display())))
+    Err(WorkflowError::at(store.root(), why))
 }
 
 /// The data files and module of the plan, with the names of their copies.
@@ -173,10 +189,9 @@ pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) 
 /// A file that has changed since, or is unreadable.
 pub(super) fn data_copies(files: &FilesRead) -> impl Iterator<Item = Result<(String, Vec<u8>), WorkflowError>> {
     files.data.iter().map(|(path, expected)| {
-        let failed = |why: &dyn std::fmt::Display| WorkflowError::Files(format!("{}: {why}", path.display()));
-        let bytes = data::bytes(path).map_err(|error| failed(&error))?;
+        let bytes = data::bytes(path).map_err(|error| WorkflowError::at(path, error))?;
         if sha256(&bytes) != *expected {
-            return Err(failed(&"changed while it was read; run the command again"));
+            return Err(WorkflowError::at(path, "changed while it was read; run the command again"));
         }
         Ok((data::copy_name(path, expected), bytes))
     })

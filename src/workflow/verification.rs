@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::ensemble::{Ensemble, Part, Rows, Supervision, run as run_parts};
 use crate::findings::number::counted;
 use crate::findings::verified::Checked;
-use crate::loops::callback;
 use crate::sampling::SampleId;
 use crate::storage::claim::{Claim, open};
 use crate::storage::columnar::EncodingError;
@@ -19,7 +18,7 @@ use crate::workflow::derived_check::derived_problems;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::finishing::{Completed, Job, Made, Outputs, complete, keep, stop_is_continued};
 use crate::workflow::session::Session;
-use crate::workflow::source::{at_rows_of, claimed, plan_in, refuse_other_rows};
+use crate::workflow::source::{IN_A_STORE, at_rows_of, claimed, plan_in, refuse_missing_law, refuse_other_rows};
 
 #[derive(Clone, Debug)]
 pub struct Verified {
@@ -57,7 +56,7 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     let (plan, read) = plan_in(session, store, &found)?;
     let plan = at_rows_of(plan, &found);
     // required even without recomputed rows, since the page has runs over time
-    callback::refuse_missing(plan.loop_spec()).map_err(WorkflowError::Input)?;
+    refuse_missing_law(&plan)?;
     let ensemble = Ensemble::new(&plan, session.isa);
     let head = Head::of(&ensemble, found.largest_part);
     refuse_other_rows(store, &found, &head.identity)?;
@@ -126,9 +125,6 @@ pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Resul
     }
 }
 
-/// Remedy for damaged objects of a store.
-const IN_A_STORE: &str = "remove what has changed, and the campaign's command with this --out puts it again";
-
 /// An evenly spread fraction of `list`, at least one if the fraction is positive.
 fn choice<T: Copy>(list: &[T], fraction: f64) -> Vec<T> {
     let count = (list.len() as f64 * fraction).ceil() as usize;
@@ -173,7 +169,7 @@ fn repair(
         return Err(WorkflowError::Files(stop_is_continued(root)));
     }
     let Claim::Ready(ready) = claimed(session, store, ensemble, (false, None))? else {
-        return Err(WorkflowError::Files(format!("{}: another process has finished it", root.display())));
+        return Err(WorkflowError::at(root, "another process has finished it"));
     };
     keep(&ready, &plan_in(session, &**store, found)?.1)?;
     let dataset = &ready.dataset;

@@ -123,7 +123,7 @@ fn first_torque(
 ) -> impl Fn(&KnownBody, &LawInput<'_>) -> [f64; 3] + use<> {
     let [period, delay, elapsed] = times;
     let settings = LawSettings { table, gyroscopic: false, period, delay, sample: SampleId(0) };
-    let law = (code.kind.make)(&settings);
+    let law = code.kind.make(&settings);
     move |body, input| law.clone().torque(body, input, elapsed)
 }
 

@@ -103,13 +103,7 @@ impl Job {
     pub fn start(run: Run) -> PyResult<Self> {
         let shared = Arc::new(Shared::default());
         let (ends, law) = (Ends(shared.clone()), run.law.clone());
-        let thread = std::thread::Builder::new().name("spindrift".to_owned()).spawn(move || {
-            let watch = &*ends.0;
-            match &run.law {
-                Some(law) => Law::during(law, || ran(&run, watch)),
-                None => ran(&run, watch),
-            }
-        });
+        let thread = std::thread::Builder::new().name("spindrift".to_owned()).spawn(move || ran(&run, &ends.0));
         let thread = thread.map_err(|error| SpindriftError::new_err(format!("cannot start a thread: {error}")))?;
         Ok(Job { shared, law, thread: Mutex::new(Some(thread)) })
     }
@@ -117,7 +111,8 @@ impl Job {
 
 /// Runs what is not there yet.
 fn ran(run: &Run, watch: &Shared) -> Ended {
-    let mut session = Session::new(watch)?.on_threads(run.threads);
+    let own = run.law.as_ref().map(Law::own);
+    let mut session = Session { law: own.as_ref(), ..Session::new(watch)?.on_threads(run.threads) };
     if let Some(law) = &run.law {
         session = Session { crew: &**law, ..session };
     }

@@ -11,36 +11,18 @@ use generator::{Generator, Gn, is_generator};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use spindrift::campaign::Plan;
+use spindrift::control::laws::{KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
 use spindrift::ensemble::supervision::Crew;
-use spindrift::loops::callback::{Call, Callback, Installation, is_law_of};
-use spindrift::workflow::WorkflowError;
+use spindrift::loops::OwnLaw;
+use spindrift::loops::callback::{NAME, is_law_of};
+use spindrift::loops::estimate::Estimate;
+use spindrift::sampling::SampleId;
+use spindrift::workflow::{Quiet, Session, WorkflowError};
 
 /// Parts that are flown side by side on a thread, one run of each at a time: the function answers for up to as many.
 const SIDE_BY_SIDE: usize = 64;
 /// Bytes of the stack of each: what the kernels take, several times.
 const STACK: usize = 2 << 20;
-
-/// Writes the numbers of a call, in the order of `_law.py`.
-fn write(call: &Call<'_>, numbers: &mut Vec<f64>) {
-    let (input, estimate) = (call.input, call.estimate);
-    let parts: [&[f64]; 10] = [
-        &[call.sample.0 as f64, input.time, call.period],
-        &input.q_ts,
-        &input.omega_se_s,
-        &input.omega_te_s,
-        &input.momentum_s,
-        &estimate.q_es,
-        &estimate.r_co_e,
-        &estimate.v_co_e,
-        &estimate.gyro_bias_s,
-        &estimate.wheel_rates,
-    ];
-    parts.into_iter().for_each(|part| numbers.extend_from_slice(part));
-    for (sensor, reading) in input.readings.iter() {
-        numbers.push(input.time - reading.time);
-        numbers.extend_from_slice(&sensor.telemetry(reading.values)[..sensor.width()]);
-    }
-}
 
 /// Refuses a law for a plan whose phases do not name it.
 ///
@@ -67,8 +49,25 @@ struct Calls {
 }
 
 impl Calls {
-    fn push(&mut self, call: &Call<'_>) {
-        write(call, &mut self.numbers);
+    /// Adds the numbers of a call, in the order of `_law.py`.
+    fn push(&mut self, sample: SampleId, period: f64, input: &LawInput<'_>, estimate: &Estimate) {
+        let parts: [&[f64]; 10] = [
+            &[sample.0 as f64, input.time, period],
+            &input.q_ts,
+            &input.omega_se_s,
+            &input.omega_te_s,
+            &input.momentum_s,
+            &estimate.q_es,
+            &estimate.r_co_e,
+            &estimate.v_co_e,
+            &estimate.gyro_bias_s,
+            &estimate.wheel_rates,
+        ];
+        parts.into_iter().for_each(|part| self.numbers.extend_from_slice(part));
+        for (sensor, reading) in input.readings.iter() {
+            self.numbers.push(input.time - reading.time);
+            self.numbers.extend_from_slice(&sensor.telemetry(reading.values)[..sensor.width()]);
+        }
         self.count += 1;
     }
 }
@@ -113,29 +112,26 @@ impl Law {
         self.raised.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    /// The result of `work`, in which `law` is the callback.
-    ///
-    /// # Errors
-    /// Where another law of Python is flown in this process.
-    pub fn during<T>(law: &Arc<Self>, work: impl FnOnce() -> Result<T, WorkflowError>) -> Result<T, WorkflowError> {
-        let another = || WorkflowError::Input("another run with control= is under way in this process".to_owned());
-        let _installed = Installation::new(law.clone()).ok_or_else(another)?;
-        work()
+    /// The law for a session.
+    pub fn own(self: &Arc<Self>) -> OwnLaw {
+        let law = self.clone();
+        let make = move |settings: &LawSettings<'_>| LawOfRun { law: law.clone(), sample: settings.sample };
+        OwnLaw::Phase(LawKind::new(NAME, &[], make).reading(true))
     }
 
-    /// The result of `work` without Python's lock, in which `control`, if there is one, is the callback.
+    /// The result of `work` without Python's lock, in a session under `control`, if there is one.
     ///
     /// # Errors
     /// That of `work`, or what `control` has raised.
     pub fn flown<T: Send>(
         py: Python<'_>,
         control: Option<&Bound<'_, PyAny>>,
-        work: impl FnOnce() -> Result<T, WorkflowError> + Send,
+        work: impl FnOnce(Session<'_>) -> Result<T, WorkflowError> + Send,
     ) -> PyResult<T> {
-        let Some(control) = control else { return py.detach(work).map_err(crate::raised) };
-        let law = Law::new(py, control)?;
-        let done = py.detach(|| Law::during(&law, work));
-        law.raised().map_or_else(|| done.map_err(crate::raised), Err)
+        let law = control.map(|control| Law::new(py, control)).transpose()?;
+        let own = law.as_ref().map(Law::own);
+        let done = py.detach(|| work(Session { law: own.as_ref(), ..Session::new(&Quiet::default())? }));
+        law.and_then(|law| law.raised()).map_or_else(|| done.map_err(crate::raised), Err)
     }
 
     /// The torques of `calls`; NaN once the function has raised an exception.
@@ -165,19 +161,28 @@ impl Law {
     }
 }
 
-impl Callback for Law {
-    fn torque(&self, call: &Call<'_>) -> [f64; 3] {
-        self.sensors.get_or_init(|| {
-            let sensors = call.input.readings.iter();
+/// The law in a phase of a run.
+#[derive(Clone)]
+struct LawOfRun {
+    law: Arc<Law>,
+    sample: SampleId,
+}
+
+impl PhaseLaw for LawOfRun {
+    fn torque(&mut self, _: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {
+        let (law, Some(estimate)) = (&self.law, input.estimate) else { return [f64::NAN; 3] };
+        law.sensors.get_or_init(|| {
+            let sensors = input.readings.iter();
             sensors.map(|(sensor, _)| (sensor.name.to_string(), sensor.width())).collect()
         });
+        let add = |calls: &mut Calls| calls.push(self.sample, period, input, estimate);
         if !is_generator() {
             let mut alone = Calls::default();
-            alone.push(call);
-            return self.torques(&alone)[0];
+            add(&mut alone);
+            return law.torques(&alone)[0];
         }
         let place = WAITING.with_borrow_mut(|waiting| {
-            waiting.calls.push(call);
+            add(&mut waiting.calls);
             waiting.calls.count - 1
         });
         rest();

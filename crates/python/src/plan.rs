@@ -11,10 +11,10 @@ use spindrift::findings::checked::findings;
 use spindrift::math::Isa;
 use spindrift::report::screen::{question, sections};
 use spindrift::run::Status;
+use spindrift::workflow::WorkflowError;
 use spindrift::workflow::check::probed;
 use spindrift::workflow::simulated::simulated;
 use spindrift::workflow::workload::Workload;
-use spindrift::workflow::{Quiet, Session, WorkflowError};
 
 use crate::campaign_source::{CampaignSource, prepared};
 use crate::job::{Job, Run};
@@ -36,11 +36,7 @@ impl Plan {
         control: Option<&Bound<'_, PyAny>>,
         work: impl FnOnce(&campaign::Plan, Isa) -> Result<T, WorkflowError> + Send,
     ) -> PyResult<T> {
-        Law::flown(py, control, || {
-            let watch = Quiet::default();
-            let session = Session::new(&watch)?;
-            work(prepared(self.0.campaign(session, samples))?.plan(), session.isa)
-        })
+        Law::flown(py, control, |session| work(prepared(self.0.campaign(session, samples))?.plan(), session.isa))
     }
 
     /// This plan, if it is valid.

@@ -15,10 +15,9 @@ use spindrift::workflow::compared::compared;
 use spindrift::workflow::outcome::place;
 use spindrift::workflow::page::remade;
 use spindrift::workflow::simulated::simulated;
-use spindrift::workflow::{self, Quiet, Session, WorkflowError};
+use spindrift::workflow::{self, WorkflowError};
 
 use crate::law::Law;
-use crate::raised;
 use crate::table::ArrowTable;
 
 /// A finished result.
@@ -42,9 +41,8 @@ impl Results {
         control: Option<&Bound<'_, PyAny>>,
         work: impl FnOnce(&workflow::Results<'_>) -> Result<T, WorkflowError> + Send,
     ) -> PyResult<T> {
-        Law::flown(py, control, || {
-            let watch = Quiet::default();
-            let results = workflow::Results::open(&self.root, Session::new(&watch)?)?;
+        Law::flown(py, control, |session| {
+            let results = workflow::Results::open(&self.root, session)?;
             if text(&results, SUMMARY)?.as_ref() != Some(&self.summary) {
                 return Err(WorkflowError::Files(format!(
                     "{}: another campaign has taken the place of this result, or made it larger; open it again",
@@ -61,12 +59,10 @@ impl Results {
     /// The finished result in the folder `root`.
     #[staticmethod]
     fn open(py: Python<'_>, root: PathBuf) -> PyResult<Self> {
-        let opened = py.detach(|| {
-            let watch = Quiet::default();
-            let results = workflow::Results::open(&root, Session::new(&watch)?)?;
+        Law::flown(py, None, |session| {
+            let results = workflow::Results::open(&root, session)?;
             text(&results, SUMMARY).map(|summary| Results { summary: summary.unwrap_or_default(), root })
-        });
-        opened.map_err(raised)
+        })
     }
 
     /// Its folder.
@@ -123,10 +119,7 @@ impl Results {
         if let Some(page) = self.with(py, None, |results| text(results, REPORT))? {
             return Ok(page);
         }
-        Law::flown(py, control, || {
-            let watch = Quiet::default();
-            remade(&Session::new(&watch)?, &self.root, None, None)
-        })?;
+        Law::flown(py, control, |session| remade(&session, &self.root, None, None))?;
         self.with(py, None, |results| text(results, REPORT).map(Option::unwrap_or_default))
     }
 }
@@ -140,14 +133,11 @@ fn derived(results: &workflow::Results<'_>, name: &str) -> Result<ArrowTable, Wo
 /// Compares two results: what the command line says, and the shift of every statistic.
 #[pyfunction]
 pub fn compare(py: Python<'_>, first: PathBuf, second: PathBuf) -> PyResult<(String, ArrowTable)> {
-    let found = py.detach(|| {
-        let watch = Quiet::default();
-        let session = Session::new(&watch)?;
+    Law::flown(py, None, |session| {
         let names = [&first, &second].map(|root| root.display().to_string());
         let (first, second) = (workflow::Results::open(&first, session)?, workflow::Results::open(&second, session)?);
         let found = compared([&first, &second], names)?;
         let text = screen::list(&findings(&found), false, [screen::LINES, width()]);
-        Ok::<_, WorkflowError>((text, ArrowTable::of(comparison_table::table(&found.comparison))?))
-    });
-    found.map_err(raised)
+        Ok((text, ArrowTable::of(comparison_table::table(&found.comparison))?))
+    })
 }

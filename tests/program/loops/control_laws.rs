@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 use spindrift::{
     control::{ControlLaw, LawContext},
     dynamics::actuation::Actuation,
+    loops::OwnLaw,
     storage::claim::Shard,
     workflow::{CampaignOutcome, Finished, Outputs, Verification, Watch, WorkflowError, finish, verify},
 };
@@ -61,14 +62,14 @@ fn a_campaign_under_a_law_is_a_function_of_its_plan() {
     is_a_function_of_its_plan("loop", None, net_launch);
 }
 
-fn session<'a>(watch: &'a dyn Watch, law: Option<&'a ControlLaw>) -> Session<'a> {
+fn session<'a>(watch: &'a dyn Watch, law: Option<&'a OwnLaw>) -> Session<'a> {
     let session = Session::new(watch).unwrap();
     law.map_or(session, |law| session.under(law))
 }
 
 fn is_a_function_of_its_plan(
     which: &str,
-    law: Option<&ControlLaw>,
+    law: Option<&OwnLaw>,
     campaign: for<'a> fn(Session<'a>, &Path) -> Campaign<'a>,
 ) {
     let scratch = ScratchFolder::new(&format!("law-bytes-{which}"));
@@ -155,7 +156,7 @@ fn the_law_is_part_of_the_plan() {
     };
     assert_says(reason(session), ["control", "plan.toml"]);
     let idle = |_: &LawContext<'_>| |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY);
-    let other = ControlLaw::new("idle", Actuated::NONE, law.parameters, idle);
+    let other = OwnLaw::Loop(ControlLaw::new("idle", Actuated::NONE, &example::PARAMETERS, idle));
     let refused = reason(session.under(&other));
     assert_says(&refused, ["wheel_hold", "idle"]);
     scratch.shows("report r", 4, "control");
@@ -182,7 +183,7 @@ fn a_law_has_the_nominal_and_the_drawn_scene() {
         move |_: f64, _: &BodyState, _: &WheelState| Actuation { body_torque: torque, ..Actuation::none(f64::INFINITY) }
     };
     let law = ControlLaw::new("scenes", Actuated { body_torque: true, ..Actuated::NONE }, &[], make);
-    let overrides = Overrides { law: Some(law), ..Overrides::default() };
+    let overrides = Overrides { law: Some(OwnLaw::Loop(law)), ..Overrides::default() };
     let text = campaign_without_debris()
         + "[[disperse]]\nparameter = \"body.parts.fuselage.mass_scale\"\ndistribution = \"uniform\"\nmin = 0.5\nmax = \
             1.5\n";

@@ -1,7 +1,8 @@
 //! Unstable loops end early, with their gains and the limit.
 
 use crate::prelude::*;
-use spindrift::control::laws::{AttitudeLaw, LawKind, PhaseLaw};
+use spindrift::control::laws::{LawKind, PhaseLaw};
+use spindrift::loops::OwnLaw;
 
 use crate::loops::closed_loops::small_craft;
 
@@ -73,12 +74,11 @@ impl PhaseLaw for Brake {
     }
 }
 
-static BRAKE: LawKind = LawKind { name: "brake", parameters: &[], make: &|_| AttitudeLaw::new(Brake) };
-
 #[test]
 fn a_law_of_a_program_can_diverge() {
     let (scratch, quiet) = (ScratchFolder::new("diverging"), Quiet::default());
-    let session = Session { attitude_law: Some(&BRAKE), ..Session::new(&quiet).unwrap() };
+    let law = OwnLaw::Phase(LawKind::new("brake", &[], |_| Brake));
+    let session = Session::new(&quiet).unwrap().under(&law);
     let text = with_law("law = \"brake\"", SLOW);
     let results = Campaign::from_text("loop.toml", &text, session).store(scratch.path("r")).results().unwrap();
     let replayed = results.replay(SampleId(1)).unwrap();

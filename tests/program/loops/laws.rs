@@ -99,7 +99,7 @@ fn terms(name: &str, seen: &Seen, integral: &mut [f64; 3], is_first: bool) -> Ve
 fn every_law_is_its_formula() {
     let rotating: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| INERTIA[i][j] - if i == j { AXIAL[i] } else { 0.0 }));
     let mut clamped = 0;
-    for kind in KINDS {
+    for kind in &*KINDS {
         let keys: String = NUMBERS
             .iter()
             .filter(|(key, _)| kind.parameters.iter().any(|parameter| parameter.facts.key == *key))

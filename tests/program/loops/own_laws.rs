@@ -2,7 +2,8 @@
 
 use crate::prelude::*;
 use spindrift::{
-    control::laws::{AttitudeLaw, LawKind, LawSettings, PhaseLaw},
+    control::laws::{LawKind, PhaseLaw},
+    loops::OwnLaw,
     loops::vector::{cross, difference, product, scaled, sum},
     scene::{LawParameter, schema::Limit},
     workflow::WorkflowError,
@@ -39,15 +40,13 @@ static PARAMETERS: [LawParameter; 3] = [
     LawParameter::number("creep_n_m", "N m", "Torque that a tick adds about s3", Limit::Finite).or(&[0.0]),
 ];
 
-static OWN: LawKind = LawKind {
-    name: "own_feedback",
-    parameters: &PARAMETERS,
-    make: &|settings: &LawSettings<'_>| {
+fn own_law() -> OwnLaw {
+    OwnLaw::Phase(LawKind::new("own_feedback", &PARAMETERS, |settings| {
         let [bandwidth, damping, creep] =
             ["own_bandwidth_rad_s", "own_damping", "creep_n_m"].map(|key| settings.table.named(key).unwrap()[0]);
-        AttitudeLaw::new(Feedback { bandwidth, damping, creep, ticks: 0.0 })
-    },
-};
+        Feedback { bandwidth, damping, creep, ticks: 0.0 }
+    }))
+}
 
 fn with_own_law() -> String {
     let mut found = String::new();
@@ -71,7 +70,8 @@ fn a_law_of_a_program_flies_in_the_phases_of_a_loop() {
     let scratch = ScratchFolder::new("own-laws");
     let quiet = Quiet::default();
     let session = Session::new(&quiet).unwrap();
-    let own = Session { attitude_law: Some(&OWN), ..session };
+    let law = own_law();
+    let own = session.under(&law);
     let run = |text: &str, session: Session<'_>, name: &str| {
         let campaign = Campaign::from_text("slew_closed.toml", text, session).samples(60).store(scratch.path(name));
         let results = campaign.results().unwrap();

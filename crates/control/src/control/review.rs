@@ -180,7 +180,7 @@ fn slew(spec: &LoopSpec, numbers: &ControlInput, (phase, table): (&PhaseSpec, &D
 /// A law with unstable small errors at the loop's period and delay.
 fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usize) -> Option<String> {
     let (phase, table) = (&spec.phases[place], &numbers.guidance[place]);
-    let law = phase.law?;
+    let law = phase.law.as_ref()?;
     // a slew under a torque limit brakes on a curve without a gain at its end
     if number(table, "max_torque_n_m") > 0.0 {
         return None;
@@ -192,7 +192,7 @@ fn stability(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, place: usiz
         delay: LoopNumbers::of(&numbers.law).delay,
         sample: SampleId(0),
     };
-    let beyond = beyond_limit((spec, place), (&spec.believed(scene), scene), &(law.make)(&settings), settings.delay)?;
+    let beyond = beyond_limit((spec, place), (&spec.believed(scene), scene), &law.make(&settings), settings.delay)?;
     Some(format!("guidance.{}: {beyond}", phase.name))
 }
 

@@ -19,7 +19,6 @@ use super::allocation::{ThrustAllocation, WheelTorque};
 use super::laws::AttitudeLaw;
 use super::tick_times::SAME_TIME;
 use crate::loops::attitude_law::{KnownBody, LawInput, digits};
-use crate::loops::callback;
 use crate::loops::spec::{LoopSpec, PhaseSpec};
 use crate::loops::target::Target;
 use crate::loops::vector::{added, dot, inverse, multiplied, product, quaternion_of, scaled};
@@ -175,8 +174,7 @@ pub fn beyond_limit(
 ) -> Option<String> {
     let PhaseSpec { law: kind, target, .. } = &spec.phases[phase];
     // such laws need a loop that measures and estimates
-    let reads_sensors = spec.code().is_some_and(|code| *kind == Some(&code.kind) && !code.sensors.is_empty());
-    if *kind == Some(&callback::KIND) || reads_sensors {
+    if kind.as_ref().is_some_and(|kind| kind.reads_sensors) {
         return None;
     }
     let has_target = *target != Target::None;
@@ -197,7 +195,7 @@ pub fn beyond_limit(
             format!("the limit is {} of its torque; write lower gains, or a shorter period or delay", digits(share))
         }
     };
-    let name = kind.map_or("", |kind| kind.name);
+    let name = kind.as_ref().map_or("", |kind| kind.name);
     Some(format!(
         "small errors grow under {name} with {written}, control.period_s = {period:?} and delay_s = {delay:?}: {limit}"
     ))

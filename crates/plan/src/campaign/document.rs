@@ -9,8 +9,7 @@ use super::meaning::{Meant, meant};
 use super::problem::{CampaignError, Problem, SHOWN};
 use super::size;
 use super::sources::{SourceText, Sources, lay_over, moved_table, put, value_at};
-use crate::loops::ControlLaw;
-use crate::loops::attitude_law::LawKind;
+use crate::loops::{ControlLaw, OwnLaw};
 use crate::sampling::keys::Written;
 use crate::scene::SceneInput;
 use std::collections::BTreeMap;
@@ -19,7 +18,7 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Values of the command line that replace the file's, and laws of the calling program.
+/// Values of the command line that replace the file's, and the calling program's law.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides<L = ()> {
     pub samples: Option<u64>,
@@ -27,10 +26,7 @@ pub struct Overrides<L = ()> {
     pub audit_fraction: Option<f64>,
     /// `--set`: dotted keys and values.
     pub settings: Vec<(String, String)>,
-    /// A control law whose parameters `[control]` sets.
-    pub law: Option<ControlLaw>,
-    /// A law of attitude that phases may name.
-    pub attitude_law: Option<&'static LawKind>,
+    pub law: Option<OwnLaw>,
     /// The reader of control loops.
     pub loops: L,
 }
@@ -71,10 +67,10 @@ pub struct Document<'a> {
     pub(super) data: (usize, u64),
     /// The scene, whose tables give parameters their names.
     pub scene: SceneInput,
-    /// The calling program's control law, or the file's loop.
+    /// The calling program's law.
+    pub(super) own_law: Option<OwnLaw>,
+    /// The control law of the plan, once read.
     pub law: Option<ControlLaw>,
-    /// The calling program's law of attitude.
-    pub attitude_law: Option<&'static LawKind>,
     /// True if problems of the control loop leave its columns and parameters unknown.
     pub is_loop_unknown: bool,
     /// One sentence for each key without effect.
@@ -111,8 +107,8 @@ impl<'a> Document<'a> {
             unreadable: 0,
             data: (0, 0),
             scene: SceneInput::blank(),
-            law: overrides.law.clone(),
-            attitude_law: overrides.attitude_law,
+            own_law: overrides.law.clone(),
+            law: None,
             is_loop_unknown: false,
             ignored: Vec::new(),
             known: None,

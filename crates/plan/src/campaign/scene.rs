@@ -9,6 +9,8 @@ use super::scene_table::{Field, SceneTable, flag, list, word};
 use super::section::Section;
 use super::tables::read_keys;
 use super::units;
+use crate::loops::OwnLaw;
+use crate::loops::attitude_law::LawKind;
 use crate::sampling::keys::{Kind, Row, TextLimit, Value};
 use crate::scene::body::MAX_PARTS;
 use crate::scene::schema::Limit;
@@ -167,9 +169,12 @@ fn ignore_idle(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: us
     }
 }
 
+/// Reads the control law: the file's loop, or the parameters of the calling program's law in its place.
 fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput, loops: &dyn LoopTables) {
-    let Some(law) = root.document.law.clone() else {
-        return read_loop(root, scene, loops);
+    let law = match root.document.own_law.take() {
+        Some(OwnLaw::Loop(law)) => law,
+        Some(OwnLaw::Phase(kind)) => return read_loop(root, scene, loops, Some(&kind)),
+        None => return read_loop(root, scene, loops, None),
     };
     scene.control = ControlInput::of(law.parameters);
     let mut section = root.section("control");
@@ -180,11 +185,12 @@ fn read_law(root: &mut Section<'_, '_>, scene: &mut SceneInput, loops: &dyn Loop
     }
     read_keys(&mut section, Table::Control, 0, scene);
     section.finish();
+    root.document.law = Some(law);
 }
 
-fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput, loops: &dyn LoopTables) {
+fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput, loops: &dyn LoopTables, own: Option<&LawKind>) {
     if root.has("control") {
-        root.document.law = loops.read(root, scene);
+        root.document.law = loops.read(root, scene, own);
         root.document.is_loop_unknown = root.document.law.is_none();
         return;
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
 
 use super::estimate::Estimate;
 use super::failure::Failure;
@@ -71,13 +72,13 @@ impl DerefMut for AttitudeLaw {
     }
 }
 
-/// An attitude law that phases of `[[guidance]]` can name: built in, a WebAssembly module, a Python function
-/// ([`super::callback`]), or a static of your program, given to its session
-/// (`Session::attitude_law`).
+/// An attitude law that phases of `[[guidance]]` can name: built in, a WebAssembly module, or the calling program's
+/// ([`super::OwnLaw`]).
 ///
 /// ```
 /// # extern crate spindrift_plan as spindrift;
-/// use spindrift::loops::attitude_law::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw};
+/// use spindrift::loops::OwnLaw;
+/// use spindrift::loops::attitude_law::{KnownBody, LawInput, LawKind, PhaseLaw};
 /// use spindrift::scene::LawParameter;
 /// use spindrift::scene::schema::Limit;
 ///
@@ -95,24 +96,54 @@ impl DerefMut for AttitudeLaw {
 ///
 /// static PARAMETERS: [LawParameter; 1] =
 ///     [LawParameter::number("brake_n_m_s", "N m s", "Torque over rate", Limit::Positive)];
-/// static BRAKE: LawKind = LawKind {
-///     name: "brake",
-///     parameters: &PARAMETERS,
-///     make: &|settings: &LawSettings<'_>| {
-///         let gain = settings.table.named("brake_n_m_s").map_or(0.0, |numbers| numbers[0]);
-///         AttitudeLaw::new(Brake { gain })
-///     },
-/// };
-/// assert_eq!(BRAKE.name, "brake");
+/// let brake = LawKind::new("brake", &PARAMETERS, |settings| {
+///     Brake { gain: settings.table.named("brake_n_m_s").map_or(0.0, |numbers| numbers[0]) }
+/// });
+/// let law = OwnLaw::Phase(brake); // for `Session::under`
+/// # let _ = law;
 /// ```
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct LawKind {
     /// Its name in a campaign file.
     pub name: &'static str,
     /// The keys of its table.
     pub parameters: &'static [LawParameter],
-    /// Makes the law of a run.
-    pub make: &'static (dyn Fn(&LawSettings<'_>) -> AttitudeLaw + Send + Sync),
+    /// True if it reads measurements ([`LawInput::readings`]).
+    pub reads_sensors: bool,
+    make: Option<Arc<dyn Fn(&LawSettings<'_>) -> AttitudeLaw + Send + Sync>>,
+}
+
+impl LawKind {
+    /// The law `name`; `make` makes it for a phase in a run.
+    pub fn new<L: PhaseLaw + Clone + Send + 'static>(
+        name: &'static str,
+        parameters: &'static [LawParameter],
+        make: impl Fn(&LawSettings<'_>) -> L + Send + Sync + 'static,
+    ) -> Self {
+        let make = move |settings: &LawSettings<'_>| AttitudeLaw::new(make(settings));
+        LawKind { name, parameters, reads_sensors: false, make: Some(Arc::new(make)) }
+    }
+
+    /// Reads measurements if `reads_sensors`.
+    #[must_use]
+    pub fn reading(self, reads_sensors: bool) -> Self {
+        LawKind { reads_sensors, ..self }
+    }
+
+    /// The law `name` of another program, which files may name.
+    pub const fn missing(name: &'static str) -> Self {
+        LawKind { name, parameters: &[], reads_sensors: true, make: None }
+    }
+
+    /// True if another program has it.
+    pub fn is_missing(&self) -> bool {
+        self.make.is_none()
+    }
+
+    /// The law of a phase in a run, which diverges under a missing one.
+    pub fn make(&self, settings: &LawSettings<'_>) -> AttitudeLaw {
+        self.make.as_ref().map_or_else(|| AttitudeLaw::new(Constant([f64::NAN; 3])), |make| make(settings))
+    }
 }
 
 impl fmt::Debug for LawKind {
@@ -128,13 +159,13 @@ impl PartialEq for LawKind {
     }
 }
 
-/// The law of a phase that names none.
+/// A constant torque, F_s, N m: zero in a phase that names no law.
 #[derive(Clone, Copy, Debug)]
-pub struct NoTorque;
+pub struct Constant(pub [f64; 3]);
 
-impl PhaseLaw for NoTorque {
+impl PhaseLaw for Constant {
     fn torque(&mut self, _body: &KnownBody, _input: &LawInput<'_>, _period: f64) -> [f64; 3] {
-        [0.0; 3]
+        self.0
     }
 }
 
@@ -175,7 +206,7 @@ pub struct LawInput<'a> {
     pub time: f64,
     /// The whole estimate; `None` outside a loop.
     pub estimate: Option<&'a Estimate>,
-    /// Last measurement of each sensor, if the law reads them ([`super::callback`], [`super::flight_code`]).
+    /// Last measurement of each sensor, if a law of the loop reads them ([`LawKind::reads_sensors`]).
     pub readings: Readings<'a>,
 }
 
@@ -226,6 +257,12 @@ impl KnownBody {
     pub fn momentum(&self, mass: &MassProperties, omega: [f64; 3], rates: &[f64]) -> [f64; 3] {
         wheel_momenta(mass, omega, rates).fold(product(self.inertia, omega), sum)
     }
+}
+
+/// Momentum sum J_i Omega_i a_i of wheels relative to the body at the rates `rates`, in F_s, N m s.
+pub fn stored_momentum(mass: &MassProperties, rates: &[f64]) -> [f64; 3] {
+    let wheels = mass.wheels.iter().zip(rates);
+    wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
 }
 
 /// The momenta h_i a_i that wheels add to K omega, in F_s, N m s, at the body rate `omega` and wheel rates `rates`: h_i

@@ -1,8 +1,9 @@
-//! [`ControlLaw`]: a control law of a plan.
+//! [`ControlLaw`]: a control law of a plan. [`OwnLaw`]: the calling program's.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::attitude_law::LawKind;
 use super::capacity::Capacity;
 use super::context::LawContext;
 use super::spec::LoopSpec;
@@ -11,10 +12,19 @@ use crate::observables::{LawColumn, LawColumns};
 use crate::run::Telemetry;
 use crate::scene::{Actuated, ControlInput, LawParameter, Scene};
 
-/// A control law that a campaign flies.
+/// A control law of the calling program, for `Session::under`.
 ///
-/// Its name and parameters are part of the plan, hence of the identity of the rows: change the name when you change the
-/// law. The law of a run is made at its start and must depend on nothing but its context and its input in that run.
+/// It is part of the plan by its name and parameters, hence of the identity of the rows: change the name when you change
+/// the law. The law of a run is made at its start and must depend on nothing but its settings and its input in that run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OwnLaw {
+    /// In place of a loop; `[control]` sets its parameters.
+    Loop(ControlLaw),
+    /// An attitude law that phases name.
+    Phase(LawKind),
+}
+
+/// A control law that a campaign flies.
 #[derive(Clone)]
 pub struct ControlLaw {
     /// Its name, as in `control.law` of a plan.

@@ -30,5 +30,5 @@ pub mod target;
 pub mod vector;
 
 pub use context::LawContext;
-pub use law::{ControlLaw, LawMaker, LawRuns};
+pub use law::{ControlLaw, LawMaker, LawRuns, OwnLaw};
 pub use spec::{LoopSpec, STANDARD_GRAVITY};

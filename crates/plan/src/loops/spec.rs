@@ -78,7 +78,7 @@ pub fn ticks_per_period(period: f64, sensors: impl Iterator<Item = f64>) -> Opti
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseSpec {
     pub name: Name,
-    pub law: Option<&'static LawKind>,
+    pub law: Option<LawKind>,
     /// True if `mrp_feedback` includes the term omega x H.
     pub gyroscopic: bool,
     /// Target attitude; an inertial target's quaternion is a parameter.
@@ -96,6 +96,11 @@ pub struct PhaseSpec {
 impl LoopSpec {
     pub fn ticks_per_period(&self) -> u64 {
         ticks_per_period(self.period, self.sensors.iter().map(|sensor| sensor.period)).unwrap_or(1)
+    }
+
+    /// The laws that phases name.
+    pub fn laws(&self) -> impl Iterator<Item = &LawKind> {
+        self.phases.iter().filter_map(|phase| phase.law.as_ref())
     }
 
     pub fn code(&self) -> Option<&'static FlightCode> {

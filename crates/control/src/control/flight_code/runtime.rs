@@ -14,7 +14,7 @@ use wasmtime::{
 use super::input::{self, MEASURED, NUMBERS};
 use super::{complexity, declared};
 use crate::control::laws::LawKind;
-use crate::loops::attitude_law::{AttitudeLaw, KnownBody, LawInput, LawSettings, PhaseLaw};
+use crate::loops::attitude_law::{KnownBody, LawInput, LawSettings, PhaseLaw};
 use crate::loops::failure::Failure;
 use crate::loops::flight_code::{
     DeclaredTelemetry, FlightCode, INTERFACES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL, STEP_FUEL,
@@ -68,10 +68,8 @@ pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCo
         (allowed, "build it as docs/flight-code.md shows".to_owned())
     })?;
     let Declared { parameters, sensors, telemetry } = declared;
-    let make: &'static _ = Box::leak(Box::new(move |settings: &LawSettings<'_>| {
-        AttitudeLaw::new(ModuleLaw::new(compiled.clone(), &declared, settings))
-    }));
-    let kind = LawKind { name: NAME, parameters, make };
+    let make = move |settings: &LawSettings<'_>| ModuleLaw::new(compiled.clone(), &declared, settings);
+    let kind = LawKind::new(NAME, parameters, make).reading(!sensors.is_empty());
     let code = Box::leak(Box::new(FlightCode { sha256: sha256.to_owned(), kind, sensors, telemetry }));
     kept.push(code);
     Ok(code)

@@ -1,10 +1,10 @@
 //! From a wanted torque and force to commands, and the commands that act.
 
-use super::{CommandedImpulse, FlightSoftware, Guided, stored_momentum};
+use super::{CommandedImpulse, FlightSoftware, Guided};
 use crate::control::allocation::rods::NO_DIPOLES;
 use crate::control::bus::{ActingCommands, Commanded, Pulses};
 use crate::control::tick_times::SAME_TIME;
-use crate::loops::attitude_law::LawInput;
+use crate::loops::attitude_law::{LawInput, stored_momentum};
 use crate::loops::failure::Failure;
 use crate::loops::phase::Maneuver;
 use crate::loops::sensor_spec::Readings;
@@ -42,7 +42,7 @@ impl FlightSoftware {
         if let Some(allocation) = &self.thrusters {
             let mut wanted = self.wheels.as_ref().map_or(torque, |wheels| wheels.out_of_reach(torque));
             if let Some(unloading) = &phase.unloading {
-                let stored = stored_momentum(&self.believed, estimate);
+                let stored = stored_momentum(mass, &estimate.wheel_rates);
                 wanted = sum(wanted, unloading.torque(stored, self.two_sided));
             }
             let force = match phase.thrust {
@@ -69,7 +69,7 @@ impl FlightSoftware {
         }
         let (mut by_others, mut rods) = (by_thrusters, NO_DIPOLES);
         if let Some(allocation) = &self.rods {
-            let wanted = self.field.dipole(phase.rods, stored_momentum(&self.believed, estimate));
+            let wanted = self.field.dipole(phase.rods, stored_momentum(mass, &estimate.wheel_rates));
             rods = allocation.limited(wanted);
             self.rods_under_way.push(begin, rods);
             if phase.rods.unloads() {

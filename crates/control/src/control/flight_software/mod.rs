@@ -23,8 +23,7 @@ use super::parameters::{AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNum
 use super::tick_times::TickTimes;
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::loops::attitude_law::NoTorque;
-use crate::loops::callback::is_law_of;
+use crate::loops::attitude_law::{Constant, stored_momentum};
 use crate::loops::condition::GuidanceInput;
 use crate::loops::context::LawContext;
 use crate::loops::declared::limit;
@@ -37,14 +36,8 @@ use crate::loops::observes::Observes;
 use crate::loops::sensor_spec::SensorSpec;
 use crate::loops::spec::{LoopSpec, PhaseSpec};
 use crate::loops::target::{AttitudeError, Target};
-use crate::loops::vector::{dcm_from_quaternion, norm, product, scaled, sum};
+use crate::loops::vector::{dcm_from_quaternion, norm, product, scaled};
 use crate::scene::{DeclaredTable, MAX_THRUSTERS, MAX_WHEELS, Scene};
-
-/// Momentum of the wheels relative to the body at the estimated rates, in F_s.
-fn stored_momentum(scene: &Scene, estimate: &Estimate) -> [f64; 3] {
-    let wheels = scene.mass.wheels.iter().zip(estimate.wheel_rates);
-    wheels.fold([0.0; 3], |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
-}
 
 /// Decision of guidance at a control tick.
 #[derive(Clone, Copy, Debug)]
@@ -148,14 +141,14 @@ impl FlightSoftware {
         let tables = || spec.phases.iter().zip(&context.parameters.guidance);
         let law = |(phase, table): (&PhaseSpec, _)| {
             let settings = LawSettings { table, gyroscopic: phase.gyroscopic, period, delay, sample: context.sample };
-            phase.law.map_or_else(|| AttitudeLaw::new(NoTorque), |law| (law.make)(&settings))
+            phase.law.as_ref().map_or_else(|| AttitudeLaw::new(Constant([0.0; 3])), |law| law.make(&settings))
         };
         let (laws, phases): (Vec<_>, Vec<_>) = (tables().map(law).collect(), tables().map(phase).collect());
         let wheels = (!spec.wheels.is_empty()).then(|| WheelTorque::of_loop(&believed, &spec.wheels));
         let by_wheels = wheels.map_or([[0.0; 3]; 3], |wheels| wheels.reachable);
         let thrusters =
             (!spec.thrusters.is_empty()).then(|| ThrustAllocation::of_loop(&believed, &spec.thrusters, by_wheels));
-        let reads_sensors = is_law_of(spec) || spec.code().is_some_and(|code| !code.sensors.is_empty());
+        let reads_sensors = spec.laws().any(|law| law.reads_sensors);
         FlightSoftware {
             body: KnownBody::of(&believed.mass),
             estimator,
@@ -284,7 +277,7 @@ impl FlightSoftware {
             body_rate: norm(estimate.omega_se_s),
             error,
             wheel_speed: rates.iter().fold(0.0, |most, rate| most.max(rate.abs())),
-            wheel_momentum: norm(stored_momentum(&self.believed, estimate)),
+            wheel_momentum: norm(stored_momentum(&self.believed.mass, &estimate.wheel_rates)),
             geometry: self.geometry,
             velocity_to_go,
             s3_e: product(dcm_from_quaternion(estimate.q_es), [0.0, 0.0, 1.0]),

@@ -44,21 +44,19 @@ declared! {
     }
 }
 
-pub(super) const KIND: LawKind = LawKind {
-    name: "eigenaxis",
-    parameters: &PARAMETERS,
-    make: &|settings| {
+pub(super) fn kind() -> LawKind {
+    LawKind::new("eigenaxis", &PARAMETERS, |settings| {
         let numbers = EigenaxisNumbers::of(settings.table);
-        AttitudeLaw::new(Eigenaxis {
+        Eigenaxis {
             stiffness: 2.0 * numbers.bandwidth * numbers.bandwidth,
             damping: 2.0 * numbers.damping * numbers.bandwidth,
             largest_rate: limit(numbers.max_rate),
             largest_torque: limit(numbers.max_torque),
             integral: Integral::new(numbers.integral_gain, numbers.integral_limit),
             slew: Slew::new(settings.period, settings.delay),
-        })
-    },
-};
+        }
+    })
+}
 
 impl Eigenaxis {
     /// The acceleration within the rate limit; the integral rests while it is active.

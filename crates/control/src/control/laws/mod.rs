@@ -12,10 +12,13 @@ mod rate_damping;
 pub mod rod_law;
 mod slew;
 
+use std::sync::LazyLock;
+
 pub use crate::loops::attitude_law::{AttitudeLaw, KnownBody, LawInput, LawKind, LawSettings, PhaseLaw, wheel_momenta};
 
 /// Built-in attitude laws.
-pub static KINDS: &[LawKind] = &[rate_damping::KIND, quaternion_feedback::KIND, mrp_feedback::KIND, eigenaxis::KIND];
+pub static KINDS: LazyLock<[LawKind; 4]> =
+    LazyLock::new(|| [rate_damping::kind(), quaternion_feedback::kind(), mrp_feedback::kind(), eigenaxis::kind()]);
 
 #[cfg(test)]
 pub(super) mod plant {
@@ -66,7 +69,7 @@ mod tests {
             let default = parameter.default.map(|default| default[0]);
             *value = number(parameter.facts.key).or(default).expect(parameter.facts.key);
         }
-        (kind.make)(&LawSettings { table: &table, gyroscopic: false, period, delay: 0.0, sample: SampleId(0) })
+        kind.make(&LawSettings { table: &table, gyroscopic: false, period, delay: 0.0, sample: SampleId(0) })
     }
 
     /// Law: laws track a target that accelerates, to first order in the period; without its rate and acceleration they
@@ -111,7 +114,7 @@ mod tests {
     /// below the balancing integral leaves a part.
     #[test]
     fn the_integral_of_every_law_removes_the_offset() {
-        for kind in KINDS {
+        for kind in &*KINDS {
             let left = |gain: f64, limit: f64| {
                 let mut law = law_of(kind, 0.2, |key| match key {
                     _ if key.starts_with("integral_limit") => Some(limit),

@@ -33,14 +33,12 @@ declared! {
     }
 }
 
-pub(super) const KIND: LawKind = LawKind {
-    name: "mrp_feedback",
-    parameters: &PARAMETERS,
-    make: &|settings| {
+pub(super) fn kind() -> LawKind {
+    LawKind::new("mrp_feedback", &PARAMETERS, |settings| {
         let (numbers, gyroscopic) = (MrpNumbers::of(settings.table), settings.gyroscopic);
-        AttitudeLaw::new(MrpFeedback { numbers, gyroscopic, summed: [0.0; 3] })
-    },
-};
+        MrpFeedback { numbers, gyroscopic, summed: [0.0; 3] }
+    })
+}
 
 impl PhaseLaw for MrpFeedback {
     fn torque(&mut self, craft: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {

@@ -30,16 +30,14 @@ declared! {
     }
 }
 
-pub(super) const KIND: LawKind = LawKind {
-    name: "quaternion_feedback",
-    parameters: &PARAMETERS,
-    make: &|settings| {
+pub(super) fn kind() -> LawKind {
+    LawKind::new("quaternion_feedback", &PARAMETERS, |settings| {
         let QuaternionNumbers { bandwidth, damping, integral_gain, integral_limit } =
             QuaternionNumbers::of(settings.table);
         let integral = Integral::new(integral_gain, integral_limit);
-        AttitudeLaw::new(QuaternionFeedback { bandwidth, damping, integral })
-    },
-};
+        QuaternionFeedback { bandwidth, damping, integral }
+    })
+}
 
 impl PhaseLaw for QuaternionFeedback {
     fn torque(&mut self, craft: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {

@@ -23,14 +23,12 @@ declared! {
     }
 }
 
-pub(super) const KIND: LawKind = LawKind {
-    name: "rate_damping",
-    parameters: &PARAMETERS,
-    make: &|settings| {
+pub(super) fn kind() -> LawKind {
+    LawKind::new("rate_damping", &PARAMETERS, |settings| {
         let RateDampingNumbers { gain, integral_gain, integral_limit } = RateDampingNumbers::of(settings.table);
-        AttitudeLaw::new(RateDamping { gain, integral: Integral::new(integral_gain, integral_limit) })
-    },
-};
+        RateDamping { gain, integral: Integral::new(integral_gain, integral_limit) }
+    })
+}
 
 impl PhaseLaw for RateDamping {
     fn torque(&mut self, _body: &KnownBody, input: &LawInput<'_>, period: f64) -> [f64; 3] {

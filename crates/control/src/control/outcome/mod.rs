@@ -11,10 +11,11 @@ use super::parameters::LoopNumbers;
 use super::plant::Applied;
 use super::truth::Truth;
 use crate::dynamics::actuation::Actuation;
+use crate::loops::attitude_law::stored_momentum;
 use crate::loops::failure::Failure;
 use crate::loops::launch_geometry::LaunchState;
 use crate::loops::target::AttitudeError;
-use crate::loops::vector::{difference, dot, norm, scaled, sum, vector_of};
+use crate::loops::vector::{difference, dot, norm, scaled, vector_of};
 use crate::scene::{MAX_THRUSTERS, MAX_WHEELS, Scene};
 
 /// Numbers that judge the outcome of a run.
@@ -119,13 +120,11 @@ impl MissionOutcome {
         if let Some(vector) = vector {
             self.pointing(truth.time, vector, begins, of_loop.settling_band);
         }
-        let mut momentum = [0.0; 3];
-        for (i, wheel) in scene.mass.wheels.iter().enumerate() {
-            let rate = truth.wheel_rates[i];
-            self.speed_peak[i] = self.speed_peak[i].max(rate.abs());
-            momentum = sum(momentum, scaled(wheel.axial * rate, wheel.axis));
+        let turning = scene.mass.wheels.len();
+        for (peak, rate) in self.speed_peak[..turning].iter_mut().zip(truth.wheel_rates) {
+            *peak = peak.max(rate.abs());
         }
-        self.momentum_peak = self.momentum_peak.max(norm(momentum));
+        self.momentum_peak = self.momentum_peak.max(norm(stored_momentum(&scene.mass, &truth.wheel_rates)));
         if let Some(debris) = &truth.debris {
             self.debris_distance = self.debris_distance.min(norm(difference(debris.r_gdo_e, truth.body.r_co_e)));
         }

@@ -11,6 +11,7 @@ use crate::campaign::tables::{ignore_others, read_keys};
 use crate::control::actuators::modulation;
 use crate::control::loop_maker::closed_loop;
 use crate::control::{estimators, parameters};
+use crate::loops::attitude_law::LawKind;
 use crate::loops::observes::Observes;
 use crate::loops::rod_law::RodLaw;
 use crate::loops::sensor_spec::SensorSpec;
@@ -60,11 +61,11 @@ pub const MODEL: [Row; 3] = [
     ),
 ];
 
-/// Reads `[control]`; its numbers become parameters of `scene`. `None` after a problem.
+/// See [`crate::campaign::LoopTables::read`].
 ///
 /// If a word on which other keys depend is wrong, these keys are read for all its values, so that no consequential
 /// errors are reported.
-pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option<ControlLaw> {
+pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput, own: Option<&LawKind>) -> Option<ControlLaw> {
     let has_debris = scene.debris.is_some();
     let craft = Scene::resolve(scene).ok();
     let mut section = root.section("control");
@@ -129,7 +130,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
     }
     let mut taken = Vec::new();
     let phases = root.sections("guidance", MOST_PHASES, |section| {
-        read_phase(section, scene, ([may_fire, has_rods], &module), &mut taken)
+        read_phase(section, scene, ([may_fire, has_rods], &module, own), &mut taken)
     });
     if phases.is_empty() && !root.has("guidance") {
         let content = "the phases of the mission, at least one";
@@ -146,7 +147,7 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option
         (ModuleKey::Wrong, _) => return None,
         (ModuleKey::Read(module), phases) => {
             let kind = &module.code.kind;
-            if phases.as_ref().is_some_and(|phases| phases.iter().all(|phase| phase.law != Some(kind))) {
+            if phases.as_ref().is_some_and(|phases| phases.iter().all(|phase| phase.law.as_ref() != Some(kind))) {
                 let allowed = "left out where no phase has law = \"module\"";
                 let remedy = "write law = \"module\" in a [[guidance]] table, or delete this line";
                 root.document.add("control.module", Some(format!("{:?}", module.file)), allowed, remedy);

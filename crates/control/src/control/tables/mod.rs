@@ -11,6 +11,7 @@ use serde_json::Value;
 use crate::campaign::section::Section;
 use crate::campaign::{self, LoopTables};
 use crate::loops::ControlLaw;
+use crate::loops::attitude_law::LawKind;
 use crate::sampling::keys::{Row, Rule};
 use crate::scene::SceneInput;
 
@@ -26,12 +27,12 @@ pub const TABLES: [(&str, &[Row], &[Rule]); 4] = [
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loops;
 
-/// Values of the command line that replace the file's, and laws of the calling program, in files with control loops.
+/// Values of the command line that replace the file's, and the calling program's law, in files with control loops.
 pub type Overrides = campaign::Overrides<Loops>;
 
 impl LoopTables for Loops {
-    fn read(&self, root: &mut Section<'_, '_>, scene: &mut SceneInput) -> Option<ControlLaw> {
-        control::read(root, scene)
+    fn read(&self, root: &mut Section<'_, '_>, scene: &mut SceneInput, own: Option<&LawKind>) -> Option<ControlLaw> {
+        control::read(root, scene, own)
     }
 
     fn schema(&self) -> Vec<(&'static str, Option<usize>, Value)> {

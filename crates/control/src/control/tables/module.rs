@@ -29,7 +29,7 @@ pub(super) enum ModuleKey {
 
 impl ModuleKey {
     /// Its law.
-    pub fn kind(&self) -> Option<&'static LawKind> {
+    pub fn kind(&self) -> Option<&LawKind> {
         match self {
             ModuleKey::Read(module) => Some(&module.code.kind),
             _ => None,

@@ -55,7 +55,7 @@ pub const RULES: [Rule; 2] = [
 ];
 
 /// The law of a phase; a wrong module, reported already, counts as none.
-fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &ModuleKey) -> Option<&'static LawKind> {
+fn law<'k>(section: &mut Section<'_, '_>, kinds: &[&'k LawKind], module: &ModuleKey) -> Option<&'k LawKind> {
     let is_module = section.value("law").and_then(|value| value.get_ref().as_str()) == Some(flight_code::NAME);
     match module {
         ModuleKey::Wrong if is_module => {
@@ -79,7 +79,7 @@ fn law(section: &mut Section<'_, '_>, kinds: &[&'static LawKind], module: &Modul
 pub(super) fn read_phase(
     section: &mut Section<'_, '_>,
     scene: &mut SceneInput,
-    ([has_thrusters, has_rods], module): ([bool; 2], &ModuleKey),
+    ([has_thrusters, has_rods], module, own): ([bool; 2], &ModuleKey, Option<&LawKind>),
     taken: &mut Vec<Name>,
 ) -> Option<PhaseSpec> {
     section.require("phase", Name::ALLOWED, "\"hold\"");
@@ -100,14 +100,16 @@ pub(super) fn read_phase(
         }
         None => None,
     };
-    let own = name.unwrap_or_else(|| Name::number(taken.len()));
-    taken.push(own);
+    let own_name = name.unwrap_or_else(|| Name::number(taken.len()));
+    taken.push(own_name);
     if name.is_some() {
-        section.rename("guidance", own.as_str());
+        section.rename("guidance", own_name.as_str());
     }
     let has_debris = scene.debris.is_some();
-    let brought = [&callback::KIND].into_iter().chain(section.document.attitude_law).chain(module.kind());
-    let kinds: Vec<&'static LawKind> = laws::KINDS.iter().chain(brought).collect();
+    let is_python = |own: &&LawKind| own.name == callback::NAME;
+    let python = own.filter(is_python).unwrap_or(&callback::MISSING);
+    let brought = [python].into_iter().chain(own.filter(|own| !is_python(own))).chain(module.kind());
+    let kinds: Vec<&LawKind> = laws::KINDS.iter().chain(brought).collect();
     let law = law(section, &kinds, module);
     let mut written = section.right_rows(&ROWS[4..]);
     written.extend(section.right_rows(&ROWS[2..3]));
@@ -173,7 +175,7 @@ pub(super) fn read_phase(
         }
         lists.push(law.parameters);
     }
-    scene.control.guidance.push(DeclaredTable::of(own, kept(&lists)));
+    scene.control.guidance.push(DeclaredTable::of(own_name, kept(&lists)));
     let place = scene.control.guidance.len() - 1;
     read_keys(section, Table::Guidance, place, scene);
     if !is_known {
@@ -183,10 +185,11 @@ pub(super) fn read_phase(
     ignore_others(section, "law", place, kinds.iter().map(|kind| (kind.name, kind.parameters)));
     section.finish();
     let gyroscopic = written.flag("gyroscopic");
-    written = written.with("phase", own.as_str()).with("target", target_name);
+    written = written.with("phase", own_name.as_str()).with("target", target_name);
     law.into_iter().for_each(|law| written.set("law", law.name));
     let (next, otherwise) = (Next::Stay, None);
-    name.map(|_| PhaseSpec { name: own, law, gyroscopic, target, thrust, rods, until, next, otherwise, written })
+    let law = law.cloned();
+    name.map(|_| PhaseSpec { name: own_name, law, gyroscopic, target, thrust, rods, until, next, otherwise, written })
 }
 
 /// Links the phases; one with a condition and without `next` leads to the next in the list.
