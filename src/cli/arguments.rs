@@ -122,6 +122,13 @@ pub struct Drawn {
     pub yes: bool,
 }
 
+impl Drawn {
+    /// With the changes of `changed`.
+    pub fn overrides(&self, changed: &Changed) -> Overrides {
+        Overrides { samples: self.samples, seed: self.seed, ..changed.overrides() }
+    }
+}
+
 /// Number of threads.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {

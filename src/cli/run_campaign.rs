@@ -8,6 +8,7 @@ use crate::cli::completed_text;
 use crate::cli::screen;
 use crate::cli::signals;
 use crate::cli::terminal::Terminal;
+use crate::control::tables::Overrides;
 use crate::findings::number::counted;
 use crate::findings::shell_word::quoted_path;
 use crate::report::screen::question;
@@ -76,19 +77,9 @@ pub fn run(options: &CampaignOptions) -> Result<CommandOutcome, Failure> {
 }
 
 fn campaign<'a>(options: &CampaignOptions, session: Session<'a>) -> Campaign<'a> {
-    let mut campaign = Campaign::from_file(&options.file, session).outputs(options.written.outputs());
-    for (key, value) in &options.changed.settings {
-        campaign = campaign.set(key, value);
-    }
-    if let Some(samples) = options.drawn.samples {
-        campaign = campaign.samples(samples);
-    }
-    if let Some(seed) = options.drawn.seed {
-        campaign = campaign.seed(seed);
-    }
-    if let Some(fraction) = options.audit {
-        campaign = campaign.audit(fraction);
-    }
+    let overrides = Overrides { audit_fraction: options.audit, ..options.drawn.overrides(&options.changed) };
+    let outputs = options.written.outputs();
+    let mut campaign = Campaign::from_file(&options.file, session).with(overrides).outputs(outputs);
     if let Some(root) = &options.out {
         campaign = campaign.store(root);
     }

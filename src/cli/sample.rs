@@ -4,7 +4,6 @@ use crate::campaign::{Plan, draw};
 use crate::cli::arguments::SampleOptions;
 use crate::cli::command_outcome::{CommandOutcome, Failure};
 use crate::cli::screen;
-use crate::control::tables::Overrides;
 use crate::findings::dispersions;
 use crate::report::screen::paragraphs;
 use crate::sampling::SampleId;
@@ -16,9 +15,7 @@ use crate::workflow::source::plan_and_files;
 pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     let (table, plot) = (options.out.as_deref(), options.plot.as_deref());
     check_formats(table, plot)?;
-    let overrides =
-        Overrides { samples: options.drawn.samples, seed: options.drawn.seed, ..options.changed.overrides() };
-    let (plan, files) = plan_and_files(&options.file, overrides)?;
+    let (plan, files) = plan_and_files(&options.file, options.drawn.overrides(&options.changed))?;
     refuse_inputs(&files.paths(), &[("--out", table), ("--plot", plot)])?;
     if let Some(sample) = options.sample {
         return one(&plan, sample);

@@ -12,9 +12,7 @@ const LAST: Duration = Duration::from_millis(1500);
 /// Requests of the signals.
 #[derive(Debug)]
 pub struct Signals {
-    /// Start no further part.
     pub stop: AtomicBool,
-    /// Abandon current parts.
     pub abandon: AtomicBool,
     signal: AtomicI32,
 }

@@ -4,7 +4,6 @@
 #[cfg(unix)]
 pub use std::os::fd::AsFd as Stream;
 
-/// A stream that may be a terminal.
 #[cfg(not(unix))]
 pub use std::io::IsTerminal as Stream;
 

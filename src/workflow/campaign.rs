@@ -73,6 +73,13 @@ impl<'a> Campaign<'a> {
         Campaign { text: Some(text.to_owned()), ..Self::from_file(name, session) }
     }
 
+    /// Overrides the values of the file.
+    #[must_use]
+    pub fn with(mut self, overrides: Overrides) -> Self {
+        self.overrides = Overrides { law: self.overrides.law, ..overrides };
+        self
+    }
+
     /// Overrides a key, named as in error messages: `("wheels.w1.rate_rad_s", "20 rpm")`.
     #[must_use]
     pub fn set(mut self, key: &str, value: &str) -> Self {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use spindrift::campaign::Overrides;
 use spindrift::workflow::{Campaign, PreparedCampaign, Session, WorkflowError};
 
 /// The name of a campaign from a dict in messages.
@@ -17,29 +18,21 @@ pub struct CampaignSource {
 }
 
 impl CampaignSource {
-    /// The campaign file `file`.
     pub fn of_file(file: PathBuf) -> Self {
         CampaignSource { file, text: None, settings: Vec::new() }
     }
 
-    /// The campaign file with this text.
     pub fn of_text(text: String) -> Self {
         CampaignSource { file: PathBuf::from(DICT), text: Some(text), settings: Vec::new() }
     }
 
     /// The campaign, with so many samples.
     pub fn campaign<'a>(&self, session: Session<'a>, samples: Option<u64>) -> Campaign<'a> {
-        let mut campaign = match &self.text {
+        let campaign = match &self.text {
             Some(text) => Campaign::from_text(DICT, text, session),
             None => Campaign::from_file(&self.file, session),
         };
-        for (key, value) in &self.settings {
-            campaign = campaign.set(key, value);
-        }
-        match samples {
-            Some(samples) => campaign.samples(samples),
-            None => campaign,
-        }
+        campaign.with(Overrides { samples, settings: self.settings.clone(), ..Overrides::default() })
     }
 }
 
