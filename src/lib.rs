@@ -90,8 +90,6 @@ pub use campaign::Overrides;
 /// A resolved campaign file.
 #[doc(inline)]
 pub use campaign::Plan;
-#[doc(inline)]
-pub use dynamics::actuation::Actuation;
 /// ```
 /// use spindrift::{Actuation, ActuationLaw, BodyState, WheelState, ZeroOrderHold};
 /// let law = |_: f64, body: &BodyState, _: &WheelState| Actuation {
@@ -107,11 +105,7 @@ pub use dynamics::actuation::Actuation;
 #[doc(inline)]
 pub use dynamics::actuation::ActuationLaw;
 #[doc(inline)]
-pub use dynamics::actuation::BodyState;
-#[doc(inline)]
-pub use dynamics::actuation::WheelState;
-#[doc(inline)]
-pub use dynamics::actuation::ZeroOrderHold;
+pub use dynamics::actuation::{Actuation, BodyState, WheelState, ZeroOrderHold};
 /// A campaign in memory.
 ///
 /// ```
@@ -146,8 +140,6 @@ pub use ensemble::SingleRun;
 pub use ensemble::Supervision;
 #[doc(inline)]
 pub use ensemble::run as run_ensemble;
-#[doc(inline)]
-pub use loops::ControlLaw;
 /// ```
 /// use spindrift::{Actuated, Actuation, BodyState, ControlLaw, LawContext, OwnLaw, WheelState};
 /// let make = |context: &LawContext<'_>| {
@@ -161,19 +153,13 @@ pub use loops::ControlLaw;
 #[doc(inline)]
 pub use loops::LawContext;
 #[doc(inline)]
-pub use loops::OwnLaw;
+pub use loops::{ControlLaw, OwnLaw};
 #[doc(inline)]
 pub use math::Isa;
 #[doc(inline)]
-pub use observables::Group;
+pub use observables::{Group, Observer, Request};
 #[doc(inline)]
-pub use observables::Observer;
-#[doc(inline)]
-pub use observables::Request;
-#[doc(inline)]
-pub use ode::Control;
-#[doc(inline)]
-pub use ode::Tolerance;
+pub use ode::{Control, Tolerance};
 #[doc(inline)]
 pub use propagation::Engine;
 #[doc(inline)]
@@ -197,17 +183,11 @@ pub use propagation::PropagationSettings;
 /// ```
 #[doc(inline)]
 pub use run::Grid;
-#[doc(inline)]
-pub use run::Quantity;
-#[doc(inline)]
-pub use run::StateField;
 /// A set of fields of the state.
 #[doc(inline)]
 pub use run::StateFields;
 #[doc(inline)]
-pub use run::StateTable;
-#[doc(inline)]
-pub use run::Status;
+pub use run::{Quantity, StateField, StateTable, Status};
 /// ```
 /// use spindrift::{Noise, SampleId};
 /// let mut noise = Noise::new(1, "gyro.x", SampleId(3));
@@ -218,8 +198,6 @@ pub use run::Status;
 pub use sampling::Noise;
 #[doc(inline)]
 pub use sampling::SampleId;
-#[doc(inline)]
-pub use scene::Actuated;
 /// ```
 /// use spindrift::{LawParameter, Limit};
 /// static GAIN: LawParameter = LawParameter::number("gain_n_m", "N m", "Gain", Limit::Positive).or(&[2.0]);
@@ -227,10 +205,6 @@ pub use scene::Actuated;
 /// ```
 #[doc(inline)]
 pub use scene::LawParameter;
-#[doc(inline)]
-pub use scene::Scene;
-#[doc(inline)]
-pub use scene::SceneError;
 /// ```
 /// use spindrift::{Scene, SceneError, SceneInput};
 /// let scene = SceneInput::report().with("initial.angular_velocity_rad_s", &[0.0, 0.1, 0.5]);
@@ -242,6 +216,8 @@ pub use scene::SceneError;
 pub use scene::SceneInput;
 #[doc(inline)]
 pub use scene::schema::Limit;
+#[doc(inline)]
+pub use scene::{Actuated, Scene, SceneError};
 /// ```
 /// use spindrift::{
 ///     Campaign, CampaignOutcome, Outputs, Quiet, Results, SampleId, Session, Verification, WorkflowError, verify,
@@ -268,22 +244,8 @@ pub use scene::schema::Limit;
 /// ```
 #[doc(inline)]
 pub use workflow::Campaign;
-#[doc(inline)]
-pub use workflow::CampaignOutcome;
-#[doc(inline)]
-pub use workflow::Outputs;
-#[doc(inline)]
-pub use workflow::Quiet;
-#[doc(inline)]
-pub use workflow::Results;
 /// Means for all work on campaigns and results.
 #[doc(inline)]
 pub use workflow::Session;
 #[doc(inline)]
-pub use workflow::Verification;
-#[doc(inline)]
-pub use workflow::Watch;
-#[doc(inline)]
-pub use workflow::WorkflowError;
-#[doc(inline)]
-pub use workflow::verify;
+pub use workflow::{CampaignOutcome, Outputs, Quiet, Results, Verification, Watch, WorkflowError, verify};

@@ -12,9 +12,7 @@ use crate::workflow::session::isa;
 
 /// Title of the columns before the observables.
 pub const SAMPLE: &str = "the sample and what it applies";
-/// Title of the columns of control loops.
 pub const CONTROL: &str = "control loop";
-/// Title of the columns after them.
 pub const AUDIT: &str = "audit";
 
 #[derive(Clone, Debug)]

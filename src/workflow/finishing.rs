@@ -56,7 +56,6 @@ pub struct Completed {
     pub is_audited: bool,
     /// Number of files of rows.
     pub files: usize,
-    /// Bytes.
     pub bytes: u64,
 }
 

@@ -1,21 +1,5 @@
-//! Layer 11: campaigns and results for programs, such as the command line.
-//!
-//! - [`campaign`]: [`Campaign`], a file and the place of its result; [`outcome`]: its end; `running`: missing samples.
-//! - [`results`]: [`Results`], a finished result. [`compared`](mod@compared): two of them.
-//! - [`check`]: estimate of a campaign. [`simulated`]: one sample over time.
-//! - [`finishing`]: products of complete rows: [`analysed`], [`page`], `derived`.
-//! - `ending` of a finished campaign.
-//! - [`verification`]: whether a result is as written, and (`derived_check`) follows from its rows.
-//! - [`results_index`]: all results below a folder. [`sampling`]: draws without runs. [`precision`]:
-//!   time against error.
-//! - [`failed_samples`]: run again, or ending a campaign.
-//! - [`source`] of plans.
-//! - [`session`]: disk, threads, control law, listeners.
-//! - [`outputs`]: refused files.
-//! - [`columns`] of rows. [`threads`]: their allowed number. [`error`].
-//! - [`workload`]: estimated work, refused if impossible; [`machine`]: free memory and disk.
-//!
-//! Output, options and exit codes are in `cli`.
+//! Layer 11: campaigns and results for programs, such as the command line: a [`Campaign`] runs and finishes, its
+//! [`Results`] are read, verified, compared and shown. Output, options and exit codes are in `cli`.
 
 pub mod analysed;
 pub mod campaign;

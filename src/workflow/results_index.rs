@@ -25,7 +25,6 @@ const MOST_KEYS: usize = 4;
 /// Latest day since 1970 in a valid file: year 9999.
 const LAST_DAY: u64 = 2_932_896;
 
-/// The results below a folder.
 #[derive(Clone, Debug, Default)]
 pub struct ResultsIndex {
     /// Finished results by campaign, latest first.

@@ -16,21 +16,13 @@ use crate::{SpindriftError, raised};
 
 /// A campaign to run, with its options.
 pub struct Run {
-    /// The campaign.
     pub source: CampaignSource,
-    /// Number of samples, if not that of the campaign.
     pub samples: Option<u64>,
-    /// The folder of the result.
     pub out: PathBuf,
-    /// Number of threads; `None`: one per core.
     pub threads: Option<NonZeroUsize>,
-    /// True if it replaces an existing result.
     pub overwrite: bool,
-    /// True if it writes a report page.
     pub page: bool,
-    /// True if it starts even if it takes long or much of the disk.
     pub yes: bool,
-    /// The control law written in Python, if any.
     pub law: Option<Arc<Law>>,
 }
 
@@ -87,7 +79,6 @@ impl Drop for Ends {
 /// End of the campaign: `None` if it is complete, else its number of samples and the number of missing ones.
 type Ended = Result<Option<(u64, u64)>, WorkflowError>;
 
-/// A running campaign.
 #[pyclass(module = "spindrift._native", frozen)]
 pub struct Job {
     shared: Arc<Shared>,

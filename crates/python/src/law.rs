@@ -93,8 +93,6 @@ pub struct Law {
 }
 
 impl Law {
-    /// The function `control` as a law.
-    ///
     /// # Errors
     /// NumPy is not installed.
     pub fn new(py: Python<'_>, control: &Bound<'_, PyAny>) -> PyResult<Arc<Self>> {

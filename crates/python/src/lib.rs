@@ -1,13 +1,5 @@
 //! The extension of the Python package `spindrift`: what its modules in `spindrift/` stand on. Arguments arrive checked
 //! and typed; what is said to a user, and how, is decided there.
-//!
-//! - `plan`: a campaign file and what is changed of it.
-//! - `job`: a run on a thread of its own.
-//! - `law`: a law of attitude in Python.
-//! - `results`: a finished result.
-//! - `stores`: results at s3:// addresses.
-//! - `table`: rows and other tables through Arrow's C interface.
-//! - `toml_values`: values of Python as TOML.
 
 mod campaign_source;
 mod job;

@@ -22,7 +22,6 @@ use crate::law::Law;
 use crate::table::ArrowTable;
 use crate::toml_values::{table, value};
 
-/// A campaign file, or the text of one, and what is changed of it.
 #[pyclass(module = "spindrift._native", frozen)]
 #[derive(Clone)]
 pub struct Plan(CampaignSource);
@@ -48,20 +47,17 @@ impl Plan {
 
 #[pymethods]
 impl Plan {
-    /// The campaign file `path`, which may be given without folder and extension.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         Plan(CampaignSource::of_file(path)).checked(py)
     }
 
-    /// The campaign given by `tables`, nested as in a file.
     #[staticmethod]
     fn from_dict(py: Python<'_>, tables: &Bound<'_, PyDict>) -> PyResult<Self> {
         let text = table("", tables)?.to_string();
         Plan(CampaignSource::of_text(text)).checked(py)
     }
 
-    /// A copy with other values of dotted keys.
     fn set(&self, py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut plan = self.clone();
         for (key, item) in values.iter() {
@@ -77,12 +73,10 @@ impl Plan {
         self.with(py, None, None, |plan, _| Ok((plan.name.clone(), plan.samples, plan.grid.duration())))
     }
 
-    /// The resolved plan as TOML.
     fn text(&self, py: Python<'_>) -> PyResult<String> {
         self.with(py, None, None, |plan, _| Ok(plan.text()))
     }
 
-    /// A description of the campaign before it runs, as text.
     fn check(&self, py: Python<'_>, samples: Option<u64>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         self.with(py, samples, control, |plan, isa| {
             let ensemble = Ensemble::new(plan, isa);
@@ -91,7 +85,6 @@ impl Plan {
         })
     }
 
-    /// The dispersed parameters of so many samples.
     fn sample(&self, py: Python<'_>, samples: Option<u64>) -> PyResult<ArrowTable> {
         let mut signal = None;
         let drawn = self.with(py, samples, None, |plan, _| {

@@ -20,7 +20,6 @@ use spindrift::workflow::{self, WorkflowError};
 use crate::law::Law;
 use crate::table::ArrowTable;
 
-/// A finished result.
 #[pyclass(module = "spindrift._native", frozen)]
 pub struct Results {
     root: PathBuf,
@@ -56,7 +55,6 @@ impl Results {
 
 #[pymethods]
 impl Results {
-    /// The finished result in the folder `root`.
     #[staticmethod]
     fn open(py: Python<'_>, root: PathBuf) -> PyResult<Self> {
         Law::flown(py, None, |session| {
@@ -65,48 +63,39 @@ impl Results {
         })
     }
 
-    /// Its folder.
     fn root(&self) -> PathBuf {
         self.root.clone()
     }
 
-    /// `summary.json`.
     fn summary(&self) -> String {
         self.summary.clone()
     }
 
-    /// Warnings and verdicts, as the command line says them.
     fn verdicts(&self) -> String {
         let end = summary::read(self.summary.as_bytes());
         end.map_or_else(String::new, |end| screen::end(&end, &place(&self.root), width()))
     }
 
-    /// The plan that was run, as TOML.
     fn plan(&self, py: Python<'_>) -> PyResult<String> {
         self.with(py, None, |results| Ok(results.plan().text()))
     }
 
-    /// All rows.
     fn rows(&self, py: Python<'_>) -> PyResult<ArrowTable> {
         self.with(py, None, ArrowTable::of_rows)
     }
 
-    /// The statistics of every observable.
     fn statistics(&self, py: Python<'_>) -> PyResult<ArrowTable> {
         self.with(py, None, |results| derived(results, STATISTICS))
     }
 
-    /// Drivers of the main observables.
     fn sensitivity(&self, py: Python<'_>) -> PyResult<ArrowTable> {
         self.with(py, None, |results| derived(results, SENSITIVITY))
     }
 
-    /// Quantiles over time; `None` where the campaign has no bands.
     fn bands(&self, py: Python<'_>) -> PyResult<Option<ArrowTable>> {
         self.with(py, None, |results| results.file(BANDS)?.map(|_| derived(results, BANDS)).transpose())
     }
 
-    /// A sample over time.
     fn series(&self, py: Python<'_>, sample: u64, control: Option<&Bound<'_, PyAny>>) -> PyResult<ArrowTable> {
         self.with(py, control, |results| {
             let found = simulated(results.plan(), sample, None, workflow::isa()?)?;
@@ -114,7 +103,6 @@ impl Results {
         })
     }
 
-    /// The text of the report page, which is made where there is none.
     fn page(&self, py: Python<'_>, control: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         if let Some(page) = self.with(py, None, |results| text(results, REPORT))? {
             return Ok(page);

@@ -11,13 +11,11 @@ use crate::loops::capacity::Capacity;
 use crate::loops::{ControlLaw, LawContext, LawMaker, LoopSpec};
 use crate::scene::{ControlInput, Scene};
 
-/// Makes the laws of a loop.
 pub struct LoopMaker {
     spec: Arc<LoopSpec>,
     columns: Arc<OutcomeColumns>,
 }
 
-/// The law of the loop `spec`.
 pub fn closed_loop(spec: LoopSpec) -> ControlLaw {
     let columns = OutcomeColumns::of(&spec);
     let of_law = columns.columns();

@@ -6,7 +6,7 @@ use crate::loops::launch_numbers::DebrisNumbers;
 use crate::loops::vector::{cross, dcm_from_quaternion, difference, dot, norm, product, scaled};
 use crate::scene::{MAX_THRUSTERS, Scene};
 
-/// The true state at launch, by the meanings of its columns.
+/// By the meanings of its columns.
 #[derive(Clone, Copy, Debug)]
 pub struct AtLaunch {
     pub pointing_error: f64,

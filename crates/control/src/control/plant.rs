@@ -99,7 +99,6 @@ impl Plant {
         self.sensors.iter().find_map(|sensor| sensor.sensor.bias_s())
     }
 
-    /// The failure of `device` by `time`.
     fn failure(&self, device: Device, time: f64) -> Option<&FailureInput> {
         self.drawn.failures.iter().find(|failure| failure.device == device && failure.at_s <= time)
     }

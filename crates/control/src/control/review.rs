@@ -14,8 +14,7 @@ use crate::scene::{ControlInput, DeclaredTable, Name, Scene};
 
 /// Relative tolerance for equal times: a sum of two has an error of 1e-16.
 const SAME: f64 = 1e-12;
-/// Likely mistakes in the loop `spec`, one sentence each, with its nominal numbers `numbers` in the nominal scene
-/// `scene` over `duration` seconds.
+/// See [`crate::loops::LawMaker::notes`].
 pub fn notes(spec: &LoopSpec, numbers: &ControlInput, scene: &Scene, duration: f64) -> Vec<String> {
     let phases: Vec<(&PhaseSpec, &DeclaredTable)> = spec.phases.iter().zip(&numbers.guidance).collect();
     let mut notes = order(&spec.phases);

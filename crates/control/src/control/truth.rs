@@ -9,7 +9,6 @@ use crate::loops::measurement::PointMotion;
 use crate::loops::vector::{cross, dcm_from_quaternion, difference, hamilton, product, quaternion_of, scaled, sum};
 use crate::scene::{MAX_WHEELS, Offsets, Scene};
 
-/// The true state of a run at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     pub time: f64,
@@ -45,13 +44,7 @@ impl DebrisMotion {
     /// The motion of the debris of `scene`, if any.
     pub fn of(scene: &Scene) -> Option<Self> {
         let body = scene.mass.debris.as_ref()?;
-        let initial = &scene.initial;
-        let start = DebrisState {
-            r_gdo_e: initial.r_gdo_e,
-            v_gdo_e: initial.v_gdo_e,
-            q_ed: initial.q_ed,
-            omega_de_d: initial.omega_de_d,
-        };
+        let start = DebrisState::start(&scene.initial);
         let inverse = crate::loops::vector::inverse(body.inertia);
         let is_isotropic = is_isotropic(body);
         let orbit = scene.orbit.as_ref().zip(scene.offsets.as_ref());

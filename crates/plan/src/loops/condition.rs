@@ -24,7 +24,6 @@ pub struct GuidanceInput {
     pub debris_rate: f64,
 }
 
-/// Range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum QuantityRange {
     Any,

@@ -4,8 +4,6 @@ use super::loop_record::SharedRecord;
 use crate::sampling::{Noise, SampleId};
 use crate::scene::{ControlInput, Scene};
 
-/// Settings of the law of one run.
-///
 /// A law may use what flight software knows: the nominal scene, its own parameters and its sensors' measurements. The
 /// drawn scene is the truth, for models of sensors and actuators only.
 #[derive(Clone, Copy, Debug)]

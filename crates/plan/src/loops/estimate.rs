@@ -1,7 +1,7 @@
 //! [`Estimate`]: flight software's belief of the state at a tick.
 
 use super::measurement::PointMotion;
-use crate::scene::MAX_WHEELS;
+use crate::scene::{InitialState, MAX_WHEELS};
 
 /// The motion of the debris.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +14,14 @@ pub struct DebrisState {
     pub q_ed: [f64; 4],
     /// Angular velocity of F_d relative to F_e, in F_d, rad/s.
     pub omega_de_d: [f64; 3],
+}
+
+impl DebrisState {
+    /// The state at the start of a run.
+    pub fn start(initial: &InitialState) -> Self {
+        let InitialState { r_gdo_e, v_gdo_e, q_ed, omega_de_d, .. } = *initial;
+        DebrisState { r_gdo_e, v_gdo_e, q_ed, omega_de_d }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

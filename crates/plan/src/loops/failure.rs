@@ -1,6 +1,5 @@
 //! [`Failure`]: the reason why a mission has failed.
 
-/// The reason why a mission has failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Failure {

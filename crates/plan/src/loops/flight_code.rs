@@ -55,7 +55,6 @@ impl DeclaredTelemetry {
     }
 }
 
-/// A checked and compiled module.
 pub struct FlightCode {
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,

@@ -31,7 +31,7 @@ pub struct TurningFrame {
     pub rate: f64,
 }
 
-/// The spacecraft relative to the launch state, in F_e.
+/// Vectors are in F_e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaunchGeometry {
     /// Unit vector e of the axis A_d; zero if there is neither axis nor station.

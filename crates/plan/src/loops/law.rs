@@ -8,7 +8,7 @@ use super::capacity::Capacity;
 use super::context::LawContext;
 use super::spec::LoopSpec;
 use crate::dynamics::actuation::{Actuation, ActuationLaw, BodyState, LawSource, WheelState, actuation_at, sum};
-use crate::observables::{LawColumn, LawColumns};
+use crate::observables::LawColumns;
 use crate::run::Telemetry;
 use crate::scene::{Actuated, ControlInput, LawParameter, Scene};
 
@@ -33,7 +33,7 @@ pub struct ControlLaw {
     pub commands: Actuated,
     /// Its parameters, keys of `[control]`.
     pub parameters: &'static [LawParameter],
-    /// The columns that it reports.
+    /// The columns that it reports at the end of a run ([`ActuationLaw::report`]).
     pub columns: LawColumns,
     make: Arc<dyn LawMaker>,
 }
@@ -65,15 +65,8 @@ impl ControlLaw {
         self.make.spec()
     }
 
-    /// Its maker.
     pub fn maker(&self) -> &dyn LawMaker {
         &*self.make
-    }
-
-    /// Adds columns that the law reports at the end of a run ([`ActuationLaw::report`]).
-    #[must_use]
-    pub fn reporting(self, columns: &'static [LawColumn]) -> Self {
-        ControlLaw { columns: LawColumns { list: columns, ..self.columns }, ..self }
     }
 
     /// Memory for the laws of one worker's runs.

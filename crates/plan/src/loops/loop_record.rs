@@ -29,7 +29,6 @@ pub fn place(series: Series) -> usize {
     LawSeries::place(series).expect("a control loop records the series")
 }
 
-/// The record of one run.
 #[derive(Debug)]
 pub struct LoopRecord {
     times: Vec<f64>,

@@ -14,7 +14,6 @@ pub enum Maneuver {
 pub const MANEUVERS: [(&str, Maneuver); 3] =
     [("none", Maneuver::None), ("transfer", Maneuver::Transfer), ("stop", Maneuver::Stop)];
 
-/// Successor of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
     /// The phase lasts until the run ends.

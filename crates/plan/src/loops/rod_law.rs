@@ -20,7 +20,6 @@ declared! {
     }
 }
 
-/// The law of torque rods in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RodLaw {
     None,

@@ -5,7 +5,6 @@ use super::measurement::{Reading, Values};
 use crate::sampling::Written;
 use crate::scene::Name;
 
-/// A sensor of a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorSpec {
     pub name: Name,
@@ -40,7 +39,6 @@ impl SensorSpec {
     }
 }
 
-/// The last measurements of a loop's sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Readings<'a> {
     pub sensors: &'a [SensorSpec],

@@ -2,7 +2,6 @@
 
 use super::vector::norm;
 
-/// Target attitude of a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// Rate control only.
@@ -44,7 +43,6 @@ pub const TARGETS: [(&str, Target); 11] = [
     ("velocity", Target::Velocity),
 ];
 
-/// Attitude relative to a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeError {
     /// Attitude of F_s relative to the target, scalar first.

@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 
-/// Most room reserved for commands.
 const MOST_ROOM: usize = 1000;
 
 /// Commands that each act from a later time until the next one.

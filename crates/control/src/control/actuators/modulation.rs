@@ -4,7 +4,6 @@ use super::thruster_drive::ThrustMode;
 use crate::loops::declared::{declared, number};
 use crate::scene::{DeclaredTable, LawParameter};
 
-/// Names, by index.
 pub const NAMES: [&str; 3] = ["throttled", "pulse_width", "hysteresis"];
 
 declared! {

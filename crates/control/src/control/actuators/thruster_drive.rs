@@ -2,7 +2,6 @@
 
 use crate::scene::ThrusterModel;
 
-/// Mode of a thruster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThrustMode {
     /// Any thrust up to the largest.
@@ -29,7 +28,6 @@ pub struct PulseState {
     pub was_on: bool,
 }
 
-/// Thrust over a period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
     /// Thrust from the start of the period on.

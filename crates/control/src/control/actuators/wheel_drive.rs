@@ -15,7 +15,6 @@ pub struct WheelDrive {
     model: WheelModel,
 }
 
-/// Torques on a wheel over an arc.
 pub struct Driven {
     /// Motor and friction.
     pub torque: f64,

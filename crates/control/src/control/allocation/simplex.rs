@@ -9,7 +9,6 @@ use crate::scene::MAX_THRUSTERS;
 pub(super) const ROWS: usize = 6;
 /// Most variables: thrusts, a share, and deficit and excess of each equation.
 pub(super) const COLUMNS: usize = MAX_THRUSTERS + 1 + 2 * ROWS;
-/// Number of priorities.
 pub(super) const LEVELS: usize = 4;
 
 /// Rounding threshold of reduced costs and pivots, with entries and costs of order one.

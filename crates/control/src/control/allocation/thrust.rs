@@ -33,7 +33,6 @@ const TOTAL: usize = 3;
 /// A force and a torque about c in F_s.
 pub type Wrench = [[f64; 3]; 2];
 
-/// A component of force or torque.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     /// Unit vector in F_s.

@@ -39,7 +39,6 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// Judges the run of `context`.
     pub fn new(spec: &Arc<LoopSpec>, context: &LawContext<'_>) -> Self {
         let numbers = &context.parameters.law;
         Mission {

@@ -46,7 +46,6 @@ impl AttitudeObservation {
     }
 }
 
-/// Attitude, gyro bias and their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeFilter {
     pub q_es: [f64; 4],

@@ -45,7 +45,6 @@ pub enum Covariance {
     Motion([[f64; 2]; 2]),
 }
 
-/// The estimator of one run.
 pub trait Estimator: Send {
     /// Moves `estimate` from the last tick to this one; called once per tick.
     fn update(&mut self, update: &Update<'_>, estimate: &mut Estimate);
@@ -84,12 +83,7 @@ impl EstimatorContext<'_> {
             r_co_e: center.r_e,
             v_co_e: center.v_e,
             wheel_rates: initial.wheel_rates,
-            debris: self.nominal.mass.debris.as_ref().map(|_| DebrisState {
-                r_gdo_e: initial.r_gdo_e,
-                v_gdo_e: initial.v_gdo_e,
-                q_ed: initial.q_ed,
-                omega_de_d: initial.omega_de_d,
-            }),
+            debris: self.nominal.mass.debris.as_ref().map(|_| DebrisState::start(initial)),
         }
     }
 }
@@ -103,7 +97,6 @@ pub(super) fn center_of(base: PointMotion, center: [f64; 3], q_es: [f64; 4], ome
     }
 }
 
-/// A kind of estimators, and its maker.
 #[derive(Debug)]
 pub struct EstimatorMaker {
     pub kind: EstimatorKind,

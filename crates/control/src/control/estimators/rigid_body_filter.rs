@@ -37,7 +37,6 @@ pub struct MeasuredMotion {
     pub rate_covariance: [[f64; 3]; 3],
 }
 
-/// Attitude, rate and their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBodyFilter {
     pub q: [f64; 4],

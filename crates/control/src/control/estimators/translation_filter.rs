@@ -28,7 +28,6 @@ pub struct MotionObservation {
     pub sigmas: [f64; 2],
 }
 
-/// Position, velocity and their covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TranslationFilter {
     pub motion: PointMotion,

@@ -6,7 +6,6 @@ use crate::loops::flight_code::WantedSensor;
 use crate::loops::measurement::MAX_VALUES;
 use crate::scene::MAX_WHEELS;
 
-/// Numbers of the input.
 pub const NUMBERS: usize = 50;
 /// Numbers of each sensor: `struct spindrift_measurement`.
 pub const MEASURED: usize = 1 + MAX_VALUES;

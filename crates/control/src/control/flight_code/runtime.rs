@@ -78,7 +78,6 @@ pub fn kept(bytes: &[u8], sha256: &str) -> std::result::Result<&'static FlightCo
 /// A module ready to be instantiated.
 type Compiled = InstancePre<StoreLimits>;
 
-/// Declarations of a module.
 #[derive(Clone, Copy)]
 struct Declared {
     parameters: &'static [LawParameter],

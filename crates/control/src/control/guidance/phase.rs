@@ -6,7 +6,6 @@ use crate::loops::phase::{Maneuver, Next};
 use crate::loops::rod_law::RodLaw;
 use crate::loops::target::Target;
 
-/// A phase of guidance.
 #[derive(Clone, Debug)]
 pub struct Phase {
     pub until: Option<Condition>,

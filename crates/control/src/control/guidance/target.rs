@@ -64,7 +64,6 @@ pub struct VelocityToGo {
 }
 
 impl TargetInput<'_> {
-    /// Attitude `q_es` relative to `target`.
     pub fn error(&self, target: Target, q_es: [f64; 4]) -> AttitudeError {
         let TargetInput { geometry, to_go, orbit } = *self;
         // s3 to a direction that rotates at a rate

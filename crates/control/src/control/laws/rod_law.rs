@@ -1,5 +1,4 @@
-//! [`MeasuredField`]: the dipole of torque rods from the measured magnetic field. The torque m x B is never along B:
-//! momentum along it waits until the field has turned.
+//! [`MeasuredField`]: the dipole of torque rods from the measured magnetic field.
 
 use crate::loops::rod_law::RodLaw;
 use crate::loops::vector::{cross, difference, dot, scaled};

@@ -28,7 +28,6 @@ enum Stage {
     Rests,
 }
 
-/// A slew with its memory.
 #[derive(Clone, Copy)]
 pub struct Slew {
     period: f64,

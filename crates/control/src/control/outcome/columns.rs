@@ -214,7 +214,7 @@ impl Row {
     }
 }
 
-/// The outcome columns of a loop, with their rows and indices.
+/// With their rows and indices.
 pub struct OutcomeColumns(Vec<(Quantity, &'static Row, usize)>);
 
 impl OutcomeColumns {

@@ -7,7 +7,7 @@ use crate::control::truth::Truth;
 use crate::loops::estimate::{DebrisState, Estimate};
 use crate::loops::vector::{conjugate, difference, hamilton, norm, vector_of};
 
-/// Errors of an estimate; the relative ones are NaN without debris.
+/// The relative ones are NaN without debris.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EstimateErrors {
     pub attitude: f64,
@@ -39,8 +39,7 @@ impl EstimateErrors {
     }
 }
 
-/// Errors relative to the filters' covariances. Squares are per degree of freedom, 1 on average for a consistent
-/// filter; NaN without one.
+/// Squares are per degree of freedom, 1 on average for a consistent filter; NaN without one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Consistency {
     /// By filter: normalised squares of errors (NEES) and of this tick's innovations, and the mean of the latter since

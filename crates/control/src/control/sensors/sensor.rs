@@ -60,7 +60,6 @@ impl<const N: usize> NormalErrors<N> {
     }
 }
 
-/// A kind of sensors, and the maker of its models.
 #[derive(Debug)]
 pub struct SensorMaker {
     pub kind: SensorKind,

@@ -28,7 +28,6 @@ pub(super) enum ModuleKey {
 }
 
 impl ModuleKey {
-    /// Its law.
     pub fn kind(&self) -> Option<&LawKind> {
         match self {
             ModuleKey::Read(module) => Some(&module.code.kind),
