@@ -1,7 +1,6 @@
 //! [`Analysed`]: statistics, sensitivities and verdicts, a function of plan and files.
 
-use std::num::NonZeroUsize;
-
+use super::prelude::*;
 use crate::analysis::ending::Ending;
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
@@ -12,9 +11,6 @@ use crate::analysis::survey::Survey;
 use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{sensitivity, statistics, verdicts};
-use crate::campaign::Plan;
-use crate::ensemble::Bands;
-use crate::storage::rows_reader::{RowsError, RowsReader};
 
 #[derive(Clone, Debug)]
 pub struct Analysed {

@@ -1,8 +1,9 @@
 //! [`Assessment`]: the verdict on one requirement.
 
-use crate::campaign::{Requirement, ShownUnit, Statement};
-use crate::statistics::binomial::{Decision, upper_bound};
-use crate::statistics::gate::{Gate, GateLimit};
+use super::prelude::*;
+use crate::campaign::ShownUnit;
+use crate::statistics::binomial::upper_bound;
+use crate::statistics::gate::Gate;
 use crate::statistics::looks::adjusted;
 
 #[derive(Clone, Debug, PartialEq)]

@@ -3,14 +3,12 @@
 //! The limit applies at every band time in an interval for a share of the runs, not necessarily the same ones. The
 //! number within it is known up to the bucket of the limit: both bounds must decide.
 
+use super::prelude::*;
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::order_statistics::among_values;
-use crate::analysis::population::Population;
 use crate::analysis::row_verdicts::Judged;
+use crate::campaign::ShownUnit;
 use crate::campaign::requirement::BandSubject;
-use crate::campaign::{ShownUnit, Statement};
-use crate::ensemble::Bands;
-use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
 /// The verdict on a requirement on `band`, over `runs` counted runs.

@@ -1,19 +1,10 @@
 //! [`Collector`]: counts the values of observables, part by part, on any thread. Parts are merged in order and sketches
 //! hold counts: results do not depend on threads.
 
-use std::borrow::Cow;
+use super::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-use crate::analysis::accumulator::Accumulator;
-use crate::analysis::observed::Observed;
-use crate::analysis::part_columns::PartColumns;
-use crate::analysis::population::Population;
-use crate::campaign::Plan;
-use crate::run::Status;
-use crate::sampling::SampleId;
-use crate::statistics::moments::Moments;
 use crate::statistics::sketch::Sketch;
-use crate::storage::rows_reader::RowsError;
 
 /// The values of one observable.
 #[derive(Clone, Debug, Default)]

@@ -2,13 +2,11 @@
 //!
 //! They follow from the rows: a changed expression needs no new run.
 
-use crate::analysis::observed::Observed;
-use crate::campaign::Plan;
-use crate::run::{Quantity, Status};
+use super::prelude::*;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS};
-use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
+use crate::storage::rows_reader::PartReader;
 use crate::storage::store::Failure;
 use crate::table::{Column, Content, Values};
 

@@ -1,16 +1,11 @@
 //! [`ending`]: the exit code and verdicts of a campaign from a few columns of its rows.
 
-use std::num::NonZeroUsize;
-
-use crate::analysis::accumulator::of_files;
+use super::prelude::*;
 use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::stopping::{ObservedValues, Stopping, stopping};
 use crate::analysis::tally::{Tally, TallyColumns};
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
-use crate::campaign::Requirement;
-use crate::ensemble::Ensemble;
 use crate::storage::bands_file;
-use crate::storage::rows_reader::{RowsError, RowsReader};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ending {

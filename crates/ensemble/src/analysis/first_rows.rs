@@ -1,17 +1,11 @@
 //! [`FirstRows`]: the first rows of a campaign, for input sensitivities.
 
-use std::borrow::Cow;
+use super::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::analysis::accumulator::Accumulator;
-use crate::analysis::observed::Observed;
 use crate::analysis::outcomes::{named, outcomes, unique};
-use crate::analysis::part_columns::PartColumns;
-use crate::campaign::Plan;
 use crate::observables::headlines::headlines;
-use crate::run::Status;
 use crate::sampling::Design;
-use crate::storage::rows_reader::RowsError;
 
 /// Maximum rows if the file names observables.
 pub const MOST_ROWS: usize = 65_536;

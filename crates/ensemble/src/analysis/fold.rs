@@ -1,28 +1,21 @@
 //! [`Gathered`]: the results of one fold over the parts, from rows in memory ([`RunningFold`]) or from files
 //! ([`Gathered::of_files`]), with the same bits.
 
-use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use super::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-use crate::analysis::accumulator::{Accumulator, of_files};
 use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
 use crate::analysis::first_rows::{FirstRows, RowTable};
 use crate::analysis::missions::{MissionCounter, Missions};
-use crate::analysis::observed::Observed;
 use crate::analysis::part_columns::RowNames;
-use crate::analysis::population::Population;
 use crate::analysis::stopping::{ObservedValues, StopValues};
 use crate::analysis::survey::{Survey, Surveyor};
 use crate::analysis::tally::{Tally, TallyColumns};
 use crate::analysis::trajectories::Retained;
 use crate::analysis::verdicts::{RequirementCounter, RequirementCounts};
-use crate::campaign::Plan;
-use crate::ensemble::{Bands, Ensemble, Part, PartId, Parts, Rows, Supervision};
-use crate::sampling::SampleId;
+use crate::ensemble::{Part, PartId, Parts, Rows, Supervision};
 use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
-use crate::storage::rows_reader::{RowsError, RowsReader};
 
 /// All accumulators of a campaign.
 type Everything = (

@@ -1,14 +1,9 @@
 //! [`Missions`]: shares of the missions of a control loop by their end: launched, failed for a reason, or neither.
 
-use crate::analysis::accumulator::Accumulator;
+use super::prelude::*;
 use crate::analysis::order_statistics::share_interval;
-use crate::analysis::part_columns::PartColumns;
-use crate::analysis::population::Population;
-use crate::campaign::Plan;
 use crate::loops::failure::Failure;
-use crate::run::Status;
 use crate::scene::Name;
-use crate::storage::rows_reader::RowsError;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {

@@ -1,16 +1,11 @@
 //! The share of control-loop noise in the variance of the outcomes, from scenes flown twice with different noise. Noise
 //! is no input: it is in no first-order index and in every total one.
 
+use super::prelude::*;
 use std::convert::Infallible;
-use std::num::NonZeroUsize;
 
-use crate::analysis::observed::Observed;
-use crate::campaign::Plan;
 use crate::ensemble::runner::RunError;
 use crate::ensemble::single::{SingleRuns, run_each};
-use crate::math::Isa;
-use crate::run::Status;
-use crate::sampling::SampleId;
 use crate::statistics::jackknife::Estimate;
 use crate::statistics::share_within::{others, share_within};
 

@@ -1,9 +1,7 @@
 //! Quantiles of a column and their intervals by order statistics, from the values of few rows or sketches of many.
 
-use crate::analysis::population::Population;
-use crate::campaign::Plan;
+use super::prelude::*;
 use crate::statistics::binomial::interval;
-use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::{
     OrderStatistics, Ranks as IntervalRanks, interval_ranks, percent, runs_for_bound, runs_for_interval,
 };

@@ -1,8 +1,7 @@
 //! [`Population`]: how the samples of a design represent the population of runs, and which intervals apply.
 
-use crate::campaign::Plan;
-use crate::run::Status;
-use crate::sampling::{Design, SampleId};
+use crate::ensemble::prelude::*;
+use crate::sampling::Design;
 
 /// Stands for a design if `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";

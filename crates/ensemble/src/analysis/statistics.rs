@@ -9,26 +9,18 @@
 //! quantiles of requirements, which they violate. Intervals hold for all their possible values; for a mean, within the
 //! range of the observable. After a big [`Loss`] there are no intervals.
 
-use std::num::NonZeroUsize;
-
-use crate::analysis::accumulator::of_files;
+use super::prelude::*;
 use crate::analysis::column_counts::{
     CLOSE, Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, is_exact, references,
 };
-use crate::analysis::observed::Observed;
 use crate::analysis::order_statistics::{AskedQuantile, CommonRanks, Order, QuantileStatistic, of_quantile};
-use crate::analysis::population::{Loss, Population};
+use crate::analysis::population::Loss;
 use crate::analysis::statuses::Statuses;
-use crate::campaign::{Plan, Requirement, Statement};
-use crate::run::{Quantity, Status};
-use crate::statistics::gate::GateLimit;
 use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
-use crate::statistics::moments::Moments;
 use crate::statistics::quantile::OrderStatistics;
 use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
-use crate::storage::rows_reader::{RowsError, RowsReader};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnStatistics {

@@ -1,15 +1,8 @@
 //! [`Statuses`]: counts of the statuses of a campaign, for summary, page, statistics and verdicts.
 
-use std::collections::BTreeMap;
-
-use crate::analysis::accumulator::Accumulator;
-use crate::analysis::part_columns::PartColumns;
-use crate::analysis::population::{Loss, Population};
-use crate::campaign::Plan;
+use super::prelude::*;
+use crate::analysis::population::Loss;
 use crate::ensemble::FailureReasons;
-use crate::run::Status;
-use crate::sampling::SampleId;
-use crate::storage::rows_reader::RowsError;
 
 /// Maximum number of failed samples listed per status.
 const KEPT: usize = 10;

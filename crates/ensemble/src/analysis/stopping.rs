@@ -1,18 +1,11 @@
 //! [`stopping`]: the looks of a campaign with `[stop]`.
 
-use std::num::NonZeroUsize;
-
-use crate::analysis::accumulator::{Accumulator, of_files};
-use crate::analysis::observed::Observed;
-use crate::analysis::part_columns::PartColumns;
+use super::prelude::*;
 use crate::analysis::statuses::StatusCounter;
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
-use crate::campaign::Plan;
 use crate::campaign::stop::{Stop, When};
-use crate::run::Status;
 use crate::statistics::looks::{Goal, Look, decision};
 use crate::storage::bands_file;
-use crate::storage::rows_reader::{RowsError, RowsReader};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopping {

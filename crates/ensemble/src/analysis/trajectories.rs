@@ -3,23 +3,17 @@
 //! A row is a function of plan and sample: runs are chosen from the finished rows and flown again, bit for bit as by
 //! `simulate --sample 12 --out`.
 
+use super::prelude::*;
 use std::collections::BTreeSet;
-use std::num::NonZeroUsize;
 
-use crate::analysis::accumulator::Accumulator;
-use crate::analysis::observed::Observed;
-use crate::analysis::part_columns::PartColumns;
 use crate::analysis::worst_runs::WorstRuns;
-use crate::campaign::{Plan, Retention};
+use crate::campaign::Retention;
 use crate::ensemble::single::run_each;
-use crate::math::Isa;
-use crate::run::Status;
+use crate::sampling::Stream;
 use crate::sampling::design::latin::Permutation;
-use crate::sampling::{SampleId, Stream};
 use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
 use crate::storage::names::TRAJECTORIES;
-use crate::storage::rows_reader::RowsError;
 use crate::storage::store::{Failure, StoreError};
 use crate::storage::timeseries::time_series;
 

@@ -1,5 +1,6 @@
 //! [`Batch`]: scenes run together into rows.
 
+use super::prelude::*;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -8,10 +9,7 @@ use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Report;
-use crate::propagation::CompletedRun;
-use crate::run::{Grid, Status};
-use crate::sampling::SampleId;
-use crate::scene::{Arc, Scene};
+use crate::scene::Arc;
 
 /// Scenes run together on one grid, independent of earlier batches.
 pub(super) struct Batch<'p> {

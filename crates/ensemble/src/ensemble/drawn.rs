@@ -1,14 +1,13 @@
 //! [`DrawnScenes`]: drawn samples without runs.
 
-use crate::campaign::{Plan, SceneDraws};
+use super::prelude::*;
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{conjugate, hamilton, norm};
-use crate::sampling::SampleId;
+use crate::math::vector::{conjugate, hamilton};
 use crate::sampling::design::Size;
 use crate::sampling::design::hash::mix;
+use crate::scene::SceneInput;
 use crate::scene::parameter::{Parameter, Shape};
 use crate::scene::unit_quaternion::unit_quaternion;
-use crate::scene::{Scene, SceneInput};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScenes {

@@ -1,10 +1,7 @@
 //! [`FailureReasons`]: reasons of failed runs, counted.
 
+use super::prelude::*;
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
-
-use crate::run::Status;
-use crate::sampling::SampleId;
 
 /// Runs that failed with one status, and texts that differ only in numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]

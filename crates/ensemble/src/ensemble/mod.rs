@@ -20,6 +20,7 @@ mod peak;
 pub mod percentiles;
 pub mod plausibility;
 pub mod precision;
+pub(crate) mod prelude;
 pub mod probe;
 pub mod replays;
 pub mod rows;

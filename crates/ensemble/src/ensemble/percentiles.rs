@@ -1,8 +1,7 @@
 //! [`Percentiles`]: quantiles of drawn columns, from sketches beyond [`CHUNK`] samples.
 
-use crate::campaign::Plan;
+use super::prelude::*;
 use crate::ensemble::drawn::{CHUNK, DrawnScenes, magnitudes};
-use crate::sampling::SampleId;
 use crate::statistics::quantile::quantile;
 use crate::statistics::sketch::Sketch;
 

@@ -1,13 +1,9 @@
 //! [`replayed`]: runs with states and series for the page.
 
-use crate::campaign::Plan;
+use super::prelude::*;
 use crate::ensemble::SingleRun;
 use crate::ensemble::single::SingleRuns;
-use crate::math::Isa;
-use crate::math::vector::norm;
-use crate::observables::Group;
-use crate::run::{Grid, StateField, points_before, points_to};
-use crate::sampling::SampleId;
+use crate::run::{points_before, points_to};
 
 /// Fewest intervals, also for a coarser grid of the campaign.
 const FEWEST: usize = 240;

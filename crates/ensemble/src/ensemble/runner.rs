@@ -3,8 +3,8 @@
 //! A free thread takes the next part and works in its own memory; no row depends on the thread. Rayon's parallel
 //! iterators halve ranges, which would scatter completed parts over the campaign.
 
+use super::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
-use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;

@@ -2,15 +2,13 @@
 //!
 //! The metadata describe the bands, so that a file explains its own buckets.
 
-use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use crate::ensemble::prelude::*;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::ensemble::{BandLayout, Bands, Part, PartBands, RunsOfColumn};
 use crate::observables::band_series::Form;
-use crate::run::Quantity;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
 use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::identity::{PART_KEY, part_metadata};

@@ -1,11 +1,10 @@
 //! Sampled parameters as a table, Parquet or CSV, written while drawn.
 
+use crate::ensemble::prelude::*;
 use std::path::Path;
 
-use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
 use crate::ensemble::drawn::MASS_COLUMNS;
-use crate::run::{Quantity, Status};
 use crate::storage::atomic;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;

@@ -1,9 +1,8 @@
 //! [`contents`]: the contents of the place of a dataset; [`Found::examine`]: its whole parts.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::num::NonZeroUsize;
+use crate::ensemble::prelude::*;
+use std::collections::BTreeSet;
 
-use crate::campaign::Plan;
 use crate::ensemble::{Part, PartId, Parts};
 use crate::storage::dataset::{FileRecord, Head, Manifest, PartRecord};
 use crate::storage::folder_error::FolderError;

@@ -1,14 +1,13 @@
 //! [`Identity`] of rows, recorded by every file of rows; [`seal`], by which a file proves its own bytes.
 
+use crate::ensemble::prelude::*;
 use bytes::Bytes;
 use parquet::file::metadata::ParquetMetaDataReader;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
-use crate::campaign::Plan;
 use crate::ensemble::Part;
-use crate::sampling::SampleId;
 use crate::table::Column;
 
 /// Version of the files of a dataset: counts are Int64 since 2, parts have other sizes and bands coarser buckets since

@@ -3,8 +3,8 @@
 //! Parquet's typed column reader decodes a column to a list of numbers without Arrow's arrays. Memory does not depend
 //! on the number of rows. Panics of the Parquet reader on damaged files become errors.
 
+use crate::ensemble::prelude::*;
 use std::borrow::Cow;
-use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -15,8 +15,6 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use thiserror::Error;
 
-use crate::run::Status;
-use crate::sampling::SampleId;
 use crate::storage::parallel::in_order;
 use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
 use crate::storage::store::Store;

@@ -4,10 +4,9 @@
 //! C_es (omega x c).
 
 use crate::ensemble::SingleRun;
+use crate::ensemble::prelude::*;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
 use crate::observables::Series;
-use crate::run::{Quantity, StateField};
-use crate::sampling::SampleId;
 use crate::table::{Column, Content, Table, Values};
 
 /// A series without a column here: the total is the sum of its bodies.
