@@ -1,6 +1,6 @@
 //! The `[bands]` table: number of points and runs of quantiles over time.
 
-use super::document::Document;
+use super::prelude::*;
 
 /// Default points on a grid of more than [`ALL`].
 const POINTS: u64 = 33;

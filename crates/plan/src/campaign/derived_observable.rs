@@ -1,14 +1,11 @@
 //! [`DerivedObservable`]: an `[[observable]]` table. Statistics evaluate it from stored rows, which do not contain it.
 
 use super::columns::parameter_quantity;
-use super::known_columns::KnownColumns;
 use super::parameter::named;
-use super::section::Section;
-use crate::run::Quantity;
+use super::prelude::*;
 use crate::sampling::Column;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::{ANY_TEXT, Kind, Row, TextLimit, is_name};
-use crate::scene::{Parameter, SceneInput};
+use crate::sampling::keys::is_name;
 
 /// An expression of columns and dispersed parameters.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,7 @@
 //! `campaign.description`: the question that a campaign answers.
 
-use toml::de::DeTable;
-
+use super::prelude::*;
 use super::sources::Sources;
-use crate::sampling::keys::TextLimit;
 
 const LONGEST: usize = 1000;
 

@@ -2,11 +2,8 @@
 
 use super::display::ShownUnit;
 use super::plan::Plan;
-use super::units;
+use super::prelude::*;
 use crate::sampling::DistributionKind;
-use crate::sampling::keys::Kind;
-use crate::scene::Parameter;
-use toml::de::{DeTable, DeValue};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyDifference {

@@ -1,12 +1,8 @@
 //! [`Display`]: units on the screen, in reports and figures, from `[display]` and from limits and dispersions as
 //! written. Files of numbers stay in the units of their columns.
 
+use super::prelude::*;
 use std::collections::BTreeMap;
-
-use super::section::Section;
-use super::units;
-use crate::sampling::keys::{Kind, Row, Value};
-use crate::scene::Parameter;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Display {

@@ -2,13 +2,10 @@
 
 use super::known_columns::unit_of;
 use super::numbers::FINITE;
-use super::section::Section;
-use super::units;
+use super::prelude::*;
 use super::watched_quantity::variables;
-use crate::observables::Request;
 use crate::observables::band_series::{BandSeries, event_series};
-use crate::run::Quantity;
-use crate::sampling::keys::{Kind, Row, TextLimit, is_name, words};
+use crate::sampling::keys::{is_name, words};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {

@@ -2,13 +2,11 @@
 //! points.
 
 use super::event::Event;
-use super::meaning::meant;
-use super::section::Section;
+use super::prelude::*;
 use super::watched_quantity::variables;
 use crate::observables::band_series::{BandSeries, event_series};
-use crate::observables::{ColumnKind, LawColumn, Request};
-use crate::run::Quantity;
-use crate::sampling::keys::{ANY_TEXT, Kind, Presence, Row, TextLimit, is_name};
+use crate::observables::{ColumnKind, LawColumn};
+use crate::sampling::keys::is_name;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {

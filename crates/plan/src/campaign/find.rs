@@ -1,8 +1,7 @@
 //! Campaign files by their names on the command line.
 
 use super::input_file::is_unreadable;
-use super::meaning::meant;
-use std::path::{Path, PathBuf};
+use super::prelude::*;
 
 /// The folder of shipped campaigns.
 pub const FOLDER: &str = "campaigns";

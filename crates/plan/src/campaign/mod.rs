@@ -46,6 +46,7 @@ pub mod numbers;
 pub mod parameter;
 pub mod plan;
 mod plan_rows;
+mod prelude;
 pub mod problem;
 pub mod requirement;
 pub mod retention;

@@ -3,22 +3,15 @@
 
 use super::analysis::Analysis;
 use super::columns::request;
-use super::document::Document;
 use super::event::Event;
 use super::extreme::Extreme;
 use super::loop_tables::LoopTables;
+use super::prelude::*;
 use super::retention::Retention;
-use super::section::Section;
 use super::settings;
 use super::size::MOST_TABLES;
 use super::{draws, scene};
-use crate::observables::Group;
-use crate::observables::request::NutationAxis;
-use crate::propagation::Method;
-use crate::sampling::keys::{Row, Value};
-use crate::sampling::{Correlation, Derivation, Design, Dispersion, Written};
-use crate::scene::SceneInput;
-use toml::de::DeTable;
+use crate::sampling::{Correlation, Derivation, Dispersion, Written};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {

@@ -1,10 +1,9 @@
 //! [`Stop`]: the `[stop]` table, which ends a campaign with enough samples.
 
-use super::numbers::{CONFIDENCE, MAX_SAMPLES, POSITIVE, PROBABILITY};
+use super::numbers::{CONFIDENCE, POSITIVE, PROBABILITY};
+use super::prelude::*;
 use super::requirement::DEFAULT_CONFIDENCE;
-use super::section::Section;
-use super::units;
-use crate::sampling::keys::{Condition, Kind, Presence, Row, Rule};
+use crate::sampling::keys::Condition;
 use crate::statistics::looks::Goal;
 
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,8 @@
 //! Quantities of events and extremes: one over time, or an expression of several.
 
-use super::meaning::meant;
-use super::section::Section;
+use super::prelude::*;
+use crate::observables::Groups;
 use crate::observables::band_series::{BandSeries, event_series};
-use crate::observables::{Group, Groups, Request};
 use crate::sampling::expression::Expression;
 
 /// The expression `text` and its variables among `series`; `None` only for what reading a plan refuses.
