@@ -48,17 +48,13 @@ pub(super) fn over_time(
         let (counted, all) = (bands.counted_runs(), bands.runs());
         reason = Some(format!("over time {counted} of {all} runs are counted: set bands.runs to count all"));
     }
-    let value = found.zip(worst).and_then(|((bands, series), worst)| match requirement.statement {
-        Statement::Quantile(p) => {
-            let count = bands.count(series, points[worst].0);
-            let p = among_values(p, count, runs.saturating_sub(count), requirement.limit)?;
-            bands.quantile(series, points[worst].0, p)
-        }
-        _ => None,
+    let (missing, value) = found.zip(worst).map_or((failed, None), |((bands, series), worst)| {
+        let count = bands.count(series, points[worst].0);
+        let missing = runs.saturating_sub(count);
+        let Statement::Quantile(p) = requirement.statement else { return (missing, None) };
+        let p = among_values(p, count, missing, requirement.limit);
+        (missing, p.and_then(|p| bands.quantile(series, points[worst].0, p)))
     });
-    let missing = found
-        .zip(worst)
-        .map_or(failed, |((bands, series), worst)| runs.saturating_sub(bands.count(series, points[worst].0)));
     let [least, most] = worst.map_or([0; 2], |worst| within[worst].0);
     let unit = found.map_or_else(String::new, |(bands, series)| bands.quantity(series).unit().to_owned());
     Assessment {

@@ -51,8 +51,8 @@ fn moved(
 }
 
 /// Minimum and maximum.
-pub fn ends(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
+pub fn ends<'v>(values: impl IntoIterator<Item = &'v f64>) -> (f64, f64) {
+    values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
 fn part(k: usize, bars: usize) -> f64 {

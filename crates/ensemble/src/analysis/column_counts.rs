@@ -26,26 +26,12 @@ pub struct GroupCounts {
     pub sketch: Sketch,
 }
 
-/// The merged counts.
+/// The counts of a part, without sketches and moments of columns, or of all parts.
 #[derive(Clone, Debug)]
 pub struct Collected {
     pub columns: Vec<ColumnCounts>,
     /// Physical runs that are not `ok`, by group; their values could be anything.
     pub lost: Vec<u64>,
-}
-
-/// Counts of a part, without sketches.
-#[derive(Clone, Debug)]
-pub struct PartCounts {
-    columns: Vec<PartColumn>,
-    lost: Vec<u64>,
-}
-
-/// Runs of a part without a value; moments and kept values by group.
-#[derive(Clone, Debug)]
-struct PartColumn {
-    without_value: u64,
-    groups: Vec<(Moments, Vec<f64>)>,
 }
 
 /// Dispersed rows at the start of a campaign that determine the references of sketches.
@@ -127,13 +113,13 @@ impl Collector {
     }
 
     /// The moments of `values` of group `index`, and the values if kept; else adds them to the group's sketch.
-    fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> (Moments, Vec<f64>) {
+    fn group(&self, values: Cow<'_, [f64]>, sketches: &Mutex<Vec<Sketch>>, index: usize) -> GroupCounts {
         let moments = Moments::of_block(&values);
         if self.is_exact {
-            return (moments, values.into_owned());
+            return GroupCounts { moments, values: values.into_owned(), ..GroupCounts::default() };
         }
         sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_block(&values, &moments);
-        (moments, Vec::new())
+        GroupCounts { moments, ..GroupCounts::default() }
     }
 
     /// Attaches the sketches.
@@ -148,7 +134,7 @@ impl Collector {
 
 impl Accumulator for Collector {
     type Whole = Collected;
-    type OfPart = PartCounts;
+    type OfPart = Collected;
 
     fn nothing(&self) -> Collected {
         let groups = vec![GroupCounts::default(); self.population.groups()];
@@ -156,7 +142,7 @@ impl Accumulator for Collector {
         Collected { columns: vec![column; self.observed.len()], lost: vec![0; self.population.groups()] }
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<PartCounts, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<Collected, RowsError> {
         let (samples, ended) = (part.samples()?, part.statuses()?);
         let group = |(sample, status): (&SampleId, &Status)| {
             let is_counted = self.population.contains(*sample) && *status == Status::Done;
@@ -172,7 +158,7 @@ impl Accumulator for Collector {
         let of_column = |(observed, sketches): (&Observed, &Mutex<Vec<Sketch>>)| {
             let values = observed.column(part)?;
             if are_all_of_one && !values.iter().any(|value| value.is_nan()) {
-                return Ok(PartColumn { without_value: 0, groups: vec![self.group(values, sketches, 0)] });
+                return Ok(ColumnCounts { groups: vec![self.group(values, sketches, 0)], ..ColumnCounts::default() });
             }
             let mut of_groups = vec![Vec::new(); self.population.groups()];
             let mut without_value = 0;
@@ -183,25 +169,23 @@ impl Accumulator for Collector {
                     None => {}
                 }
             }
-            let groups = of_groups
-                .into_iter()
-                .enumerate()
-                .map(|(index, values)| self.group(Cow::Owned(values), sketches, index));
-            Ok(PartColumn { without_value, groups: groups.collect() })
+            let of_group = |(index, values)| self.group(Cow::Owned(values), sketches, index);
+            let groups = of_groups.into_iter().enumerate().map(of_group).collect();
+            Ok(ColumnCounts { without_value, groups, ..ColumnCounts::default() })
         };
         let columns = self.observed.iter().zip(&self.sketches).map(of_column).collect::<Result<_, RowsError>>()?;
-        Ok(PartCounts { columns, lost })
+        Ok(Collected { columns, lost })
     }
 
-    fn merge(&self, whole: &mut Collected, part: PartCounts) {
+    fn merge(&self, whole: &mut Collected, part: Collected) {
         whole.lost.iter_mut().zip(&part.lost).for_each(|(lost, more)| *lost += more);
         for (column, of_part) in whole.columns.iter_mut().zip(part.columns) {
             column.without_value += of_part.without_value;
             let mut of_groups = Moments::default();
-            for (group, (moments, values)) in column.groups.iter_mut().zip(of_part.groups) {
-                of_groups.merge(&moments);
-                group.moments.merge(&moments);
-                group.values.extend(values);
+            for (group, more) in column.groups.iter_mut().zip(of_part.groups) {
+                of_groups.merge(&more.moments);
+                group.moments.merge(&more.moments);
+                group.values.extend(more.values);
             }
             column.moments.merge(&of_groups);
         }

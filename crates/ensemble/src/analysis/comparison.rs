@@ -37,7 +37,7 @@ pub struct Shift {
 }
 
 /// Runs without a value, or not computed, in both results.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Absence {
     /// Runs without, of all runs, in both results.
     pub of: [Occurrence; 2],
@@ -76,7 +76,7 @@ impl Absence {
 }
 
 /// One observable of two results.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnComparison {
     /// Name, unit and meaning.
     pub quantity: Quantity,
@@ -283,16 +283,8 @@ pub fn compared(
         quantity: statistics[0].quantity.clone(),
         scale,
         shifts,
-        mean: None,
-        distribution_p_value: None,
-        moved_p_value: None,
-        spread_p_value: None,
-        adjusted_moved_p_value: None,
         absence,
-        differing_pairs: 0,
-        is_required: false,
-        p_value: None,
-        adjusted_p_value: None,
+        ..ColumnComparison::default()
     };
     if pairs.is_empty() {
         let ascending = |which: usize| {

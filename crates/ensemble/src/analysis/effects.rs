@@ -108,8 +108,8 @@ impl TestedInput {
 
     fn levels(&self, marked: &[bool]) -> Option<Vec<Level>> {
         let (groups, labels) = self.groups.as_ref()?;
-        let none = Occurrence { events: 0, runs: 0 };
-        let mut levels: Vec<Level> = labels.iter().map(|value| Level { value: *value, of: none }).collect();
+        let mut levels: Vec<Level> =
+            labels.iter().map(|value| Level { value: *value, of: Occurrence::default() }).collect();
         for (group, is_marked) in groups.iter().zip(marked) {
             levels[*group].of.runs += 1;
             levels[*group].of.events += u64::from(*is_marked);
@@ -197,10 +197,8 @@ impl TestedSpread {
 
 fn rest(levels: &[Level], but: usize) -> Occurrence {
     let others = levels.iter().enumerate().filter(|(place, _)| *place != but).map(|(_, level)| level.of);
-    others.fold(Occurrence { events: 0, runs: 0 }, |sum, of| Occurrence {
-        events: sum.events + of.events,
-        runs: sum.runs + of.runs,
-    })
+    others
+        .fold(Occurrence::default(), |sum, of| Occurrence { events: sum.events + of.events, runs: sum.runs + of.runs })
 }
 
 /// The level that differs most from the rest, with the p-value over all levels: Fisher's exact test of each against the

@@ -1,5 +1,7 @@
 //! [`envelope`]: replaces curves that oscillate too fast to draw.
 
+use super::bins;
+
 /// Maximum number of turns of a drawn curve: some ten pixels per swing.
 const MOST_TURNS: usize = 110;
 const ENVELOPE: usize = 60;
@@ -19,8 +21,7 @@ const ROUND_OFF: f64 = 1e-9;
 
 /// The range of values; zero if it is rounding error, as for a constant of the motion.
 pub fn swing(values: &[f64]) -> f64 {
-    let [low, high] =
-        values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+    let (low, high) = bins::ends(values);
     if high - low > ROUND_OFF * high.abs().max(low.abs()) { high - low } else { 0.0 }
 }
 
@@ -44,6 +45,10 @@ fn seen_turns(values: &[f64]) -> usize {
     count
 }
 
+fn push(found: &mut [Vec<f64>; 3], point: [f64; 3]) {
+    found.iter_mut().zip(point).for_each(|(values, value)| values.push(value));
+}
+
 /// Times, minima and maxima over short intervals of a series that is too fast to draw; else `None`.
 pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     let count = values.len().min(times.len());
@@ -56,14 +61,8 @@ pub fn envelope(times: &[f64], values: &[f64]) -> Option<[Vec<f64>; 3]> {
     for start in (0..count.saturating_sub(1)).step_by(width) {
         // intervals share a point: no gaps
         let part = start..(start + width + 1).min(count);
-        let ends = values[part.clone()]
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
-        for time in [times[part.start], times[part.end - 1]] {
-            found[0].push(time);
-            found[1].push(ends[0]);
-            found[2].push(ends[1]);
-        }
+        let (low, high) = bins::ends(&values[part.clone()]);
+        [part.start, part.end - 1].iter().for_each(|end| push(&mut found, [times[*end], low, high]));
     }
     Some(found)
 }
@@ -74,15 +73,8 @@ pub fn within(times: &[f64], curves: &[&[f64]], ends: &[f64]) -> [Vec<f64>; 3] {
     for pair in ends.windows(2) {
         let points = times.partition_point(|time| *time < pair[0])..times.partition_point(|time| *time <= pair[1]);
         let values = curves.iter().flat_map(|curve| curve.get(points.start..points.end.min(curve.len())));
-        let [low, high] = values
-            .flatten()
-            .filter(|value| value.is_finite())
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
-        for time in pair.iter().filter(|_| low <= high) {
-            found[0].push(*time);
-            found[1].push(low);
-            found[2].push(high);
-        }
+        let (low, high) = bins::ends(values.flatten().filter(|value| value.is_finite()));
+        pair.iter().filter(|_| low <= high).for_each(|time| push(&mut found, [*time, low, high]));
     }
     found
 }

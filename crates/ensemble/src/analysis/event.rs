@@ -103,7 +103,7 @@ impl Event {
     pub fn of_values(plan: &Plan, name: &str, values: &[f64]) -> Vec<(Event, Vec<bool>)> {
         let known = distinct(values, &ascending_order(values));
         let has_few_values = has_few(&known, values.len());
-        let requirements = || plan.analysis.requirements.iter().filter(|one| one.observable() == Some(name));
+        let requirements = || plan.analysis.requirements_on(name);
         let event = |occurs: Occurs, marked: Vec<bool>| Self::occurring(occurs, marked, has_few_values);
         if has_few_values {
             let frequent = known.iter().max_by_key(|(_, count)| *count).map_or(f64::NAN, |(value, _)| *value);

@@ -69,7 +69,7 @@ pub fn explained(plan: &Plan) -> Vec<String> {
 pub(super) fn inputs(plan: &Plan) -> Vec<String> {
     let columns = plan.dispersions.columns().iter().enumerate();
     let drawn = columns.filter(|(index, _)| plan.dispersions.expression_of(*index).is_none());
-    drawn.map(|(_, column)| column.parameter.column_name(column.component)).collect()
+    drawn.map(|(_, column)| column.name()).collect()
 }
 
 impl Accumulator for FirstRows {

@@ -30,17 +30,8 @@ pub fn comparison(rows: [&[[f64; 3]]; 2], are_pairs: bool) -> Comparison {
                 values.each_ref().map(|values| Moments::of(values.iter().copied().filter(|value| !value.is_nan())));
             let of = known.map(|moments| ColumnStatistics {
                 quantity: Quantity::new(name, "", "A test."),
-                is_count: false,
-                without_value: 0,
                 moments,
-                mean_interval: [None; 2],
-                mean_error: None,
-                deviation_interval: [None; 2],
-                note: None,
-                quantiles: Vec::new(),
-                spread: None,
-                required: Vec::new(),
-                sketch: None,
+                ..ColumnStatistics::default()
             });
             let lacks = values.each_ref().map(|values| move |row: usize| Some(values[row].is_nan()));
             let absence = Absence::of([&lacks[0], &lacks[1]], ranges.clone(), &pairs);

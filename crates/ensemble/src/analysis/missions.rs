@@ -99,13 +99,9 @@ impl Accumulator for MissionCounter {
         let launched = if self.launches { Some(part.numbers("launched")?) } else { None };
         let (samples, statuses) = (part.samples()?, part.statuses()?);
         for row in (0..part.rows()).filter(|row| self.population.contains(samples[*row])) {
-            match statuses[row] {
-                Status::Done => {}
-                Status::InvalidSample => continue,
-                _ => {
-                    found.missing += 1;
-                    continue;
-                }
+            if statuses[row] != Status::Done {
+                found.missing += u64::from(statuses[row] != Status::InvalidSample);
+                continue;
             }
             let has_launched = launched.as_ref().is_some_and(|launched| launched[row] == 1.0);
             let failure = failures[row] as usize;
@@ -114,13 +110,12 @@ impl Accumulator for MissionCounter {
             {
                 *count += 1;
             }
-            found.ends[if has_launched {
-                0
-            } else if failure == 0 {
-                1
-            } else {
-                2 + failure
-            }] += 1;
+            let end = match failure {
+                _ if has_launched => 0,
+                0 => 1,
+                failure => 2 + failure,
+            };
+            found.ends[end] += 1;
         }
         Ok(found)
     }

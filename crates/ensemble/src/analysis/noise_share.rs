@@ -44,7 +44,7 @@ pub fn noise_shares(
         let run = runs.run_with_noise_of(sample, noise).ok()?;
         let of = |name: &str| {
             let place = columns.iter().position(|column| column.quantity.name() == name).map(|place| run.row[place]);
-            let input = || inputs.iter().position(|input| input.parameter.column_name(input.component) == name);
+            let input = || inputs.iter().position(|input| input.name() == name);
             place.or_else(|| input().map(|place| runs.applied()[place]))
         };
         let is_ok = run.outcome.status == Status::Done;

@@ -167,7 +167,7 @@ impl Observed {
             Some(expression) => expression.range(|_| [f64::NEG_INFINITY, f64::INFINITY]),
             None => [not_negative, f64::INFINITY],
         };
-        let own = plan.analysis.requirements.iter().filter(|one| one.observable() == Some(self.quantity.name()));
+        let own = plan.analysis.requirements_on(self.quantity.name());
         let declared = own.filter_map(|one| one.bounded);
         declared.fold(of_text, |[low, high], [least, most]| [low.max(least), high.min(most)])
     }

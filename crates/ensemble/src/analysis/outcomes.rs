@@ -48,7 +48,6 @@ pub fn outcomes(plan: &Plan) -> Vec<String> {
 
 /// True if small values of `name` are bad: all its limits are lower ones.
 pub fn is_worst_when_low(plan: &Plan, name: &str) -> bool {
-    let mut of =
-        plan.analysis.requirements.iter().filter(|requirement| requirement.observable() == Some(name)).peekable();
+    let mut of = plan.analysis.requirements_on(name).peekable();
     of.peek().is_some() && of.all(|requirement| matches!(requirement.limit, GateLimit::AtLeast(_)))
 }

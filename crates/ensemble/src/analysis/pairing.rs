@@ -3,6 +3,7 @@
 use super::prelude::*;
 use crate::analysis::column_counts::MOST_EXACT;
 use crate::campaign::common_draws::draw_alike;
+use crate::sampling::Column;
 use crate::storage::rows_reader::PartReader;
 
 /// Rows compared one by one: the nominal sample and the first [`MOST_EXACT`].
@@ -30,10 +31,7 @@ pub fn pairs(
 }
 
 fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool, RowsError> {
-    let names = |plan: &Plan| -> Vec<String> {
-        let columns = plan.dispersions.columns().iter();
-        columns.map(|column| column.parameter.column_name(column.component)).collect()
-    };
+    let names = |plan: &Plan| -> Vec<String> { plan.dispersions.columns().iter().map(Column::name).collect() };
     let (of_first, of_second) = (names(first.plan), names(second.plan));
     if of_first.len() != of_second.len() || !of_first.iter().all(|name| of_second.contains(name)) {
         return Ok(false);

@@ -206,10 +206,13 @@ fn of_mean(
 mod tests {
     use super::*;
     use crate::campaign::requirement::Subject;
-    use crate::statistics::gate::GateLimit;
 
     fn asked(requirement: &Requirement) -> Judged<'_> {
         Judged { requirement, confidences: [0.95; 2], interval: 0.95, failed: 0 }
+    }
+
+    fn judged(requirement: &Requirement, counts: &RequirementRuns) -> Assessment {
+        assessment(asked(requirement), "J".to_owned(), counts, Population::Independent, false)
     }
 
     fn requirement(statement: Statement, limit: GateLimit) -> Requirement {
@@ -240,7 +243,7 @@ mod tests {
         let mut seen = [0; 3];
         for within in 330..=400 {
             let counts = counts(&[(400, within, &[])]);
-            let found = assessment(asked(&p95), String::new(), &counts, Population::Independent, false);
+            let found = judged(&p95, &counts);
             let has_limit = found.interval[0] < 0.95 && 0.95 < found.interval[1];
             match (found.word(), found.hidden_bound()) {
                 ("PASS", Some(([bound, _], is_lower))) => {
@@ -264,13 +267,7 @@ mod tests {
             let at = 3.5 + 0.005 * f64::from(step);
             for limit in [GateLimit::AtMost(at), GateLimit::AtLeast(at)] {
                 let mean = requirement(Statement::Mean, limit);
-                let found = assessment(
-                    asked(&mean),
-                    String::new(),
-                    &counts(&[(100, 100, &values)]),
-                    Population::Independent,
-                    false,
-                );
+                let found = judged(&mean, &counts(&[(100, 100, &values)]));
                 let Some(([bound, limit_there], is_lower)) = found.hidden_bound() else { continue };
                 assert_eq!(limit_there, at);
                 assert_eq!(is_lower, bound > at, "{at}: {bound}");
@@ -327,13 +324,7 @@ mod tests {
         let mean = |bounded, limit| Requirement { bounded, ..requirement(Statement::Mean, GateLimit::AtMost(limit)) };
         let of = |requirement: &Requirement, values: &[f64]| {
             let runs = values.len() as u64;
-            assessment(
-                asked(requirement),
-                "J".to_owned(),
-                &counts(&[(runs, runs, values)]),
-                Population::Independent,
-                false,
-            )
+            judged(requirement, &counts(&[(runs, runs, values)]))
         };
         let spread: Vec<f64> = (0..1000).map(|k| f64::from(k % 10) / 10.0).collect();
         let (bounded, free) = (of(&mean(Some([0.0, 1.0]), 0.5), &spread), of(&mean(None, 0.5), &spread));

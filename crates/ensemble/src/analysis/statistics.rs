@@ -22,7 +22,7 @@ use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnStatistics {
     /// Name, unit and meaning.
     pub quantity: Quantity,
@@ -211,8 +211,7 @@ fn described(
         let ranks = is_known.then(|| common.of(runs, p, confidence));
         AskedQuantile::new(p, confidence, ranks).with_missing(count, runs - count, limit)
     };
-    let requirements =
-        plan.analysis.requirements.iter().filter(|one| one.observable() == Some(observed.quantity.name()));
+    let requirements = plan.analysis.requirements_on(observed.quantity.name());
     let required = requirements.filter_map(|one| match one.statement {
         Statement::Quantile(p) => Some((one, with_missing(p, one.limit))),
         _ => None,

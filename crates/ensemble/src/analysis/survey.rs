@@ -12,6 +12,7 @@ use crate::analysis::statistics::Statistics;
 use crate::analysis::statuses::Statuses;
 use crate::analysis::worst_runs::{WorstRuns, shortfall};
 use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
+use crate::sampling::Column;
 use crate::sampling::design::hash::{GOLDEN, mix};
 use crate::statistics::quantile::interval_ranks;
 use crate::statistics::sketch::{Ranks, Sketch, middle};
@@ -158,8 +159,7 @@ impl Surveyor {
         observed.sort_by_key(|one| names.iter().position(|name| name == one.quantity.name()));
         observed.truncate(MOST_OUTCOMES.max(asked));
         let outcomes = outcomes(plan);
-        let inputs: Vec<String> =
-            plan.dispersions.columns().iter().map(|column| column.parameter.column_name(column.component)).collect();
+        let inputs: Vec<String> = plan.dispersions.columns().iter().map(Column::name).collect();
         let outcome = |column: &Observed| SurveyedOutcome {
             quantity: column.quantity.clone(),
             is_outcome: outcomes.iter().any(|name| name == column.quantity.name()),

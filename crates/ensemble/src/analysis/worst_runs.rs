@@ -56,7 +56,6 @@ impl WorstRuns {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Plan;
     use spindrift_control::control::tables::Overrides;
 
     /// Law: a run that misses more requirements is worse, whatever its values; of runs that miss as many, the one with

@@ -183,7 +183,7 @@ impl DrawnScenes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observables::{Group, table};
+    use crate::observables::table;
 
     #[test]
     fn mass_properties_are_named_as_in_rows() {

@@ -272,11 +272,9 @@ fn spread<T: Clone, C: FromIterator<T>>(mut values: impl Iterator<Item = T>, lev
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Quantity;
     use crate::storage::columnar::{Layout, Packing};
     use crate::storage::disk::folder as store;
     use crate::table::{Column, Content};
-    use std::collections::BTreeMap;
 
     struct Folder(std::path::PathBuf);
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 /// Name, unit and meaning of a column.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Quantity {
     name: Cow<'static, str>,
     unit: Cow<'static, str>,

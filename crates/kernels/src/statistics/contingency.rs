@@ -8,7 +8,7 @@ use super::jackknife::Estimate;
 use crate::math::normal;
 
 /// Occurrences of an event in a group of runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occurrence {
     /// Runs with the event.
     pub events: u64,

@@ -106,6 +106,11 @@ impl Analysis {
         }
     }
 
+    /// The requirements on the observable `name`.
+    pub fn requirements_on(&self, name: &str) -> impl Iterator<Item = &Requirement> {
+        self.requirements.iter().filter(move |one| one.observable() == Some(name))
+    }
+
     pub(super) fn check(
         &self,
         document: &mut Document<'_>,

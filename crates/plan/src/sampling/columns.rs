@@ -9,6 +9,13 @@ pub struct Column {
     pub nominal: f64,
 }
 
+impl Column {
+    /// Its name in rows.
+    pub fn name(&self) -> String {
+        self.parameter.column_name(self.component)
+    }
+}
+
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Columns(Vec<Column>);
 
