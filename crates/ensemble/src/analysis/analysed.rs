@@ -34,7 +34,6 @@ impl Analysed {
     }
 }
 
-/// Analyses the data `gathered` from the rows of `plan`.
 pub fn computed(
     plan: &Plan,
     reader: &RowsReader,

@@ -11,7 +11,6 @@ use crate::campaign::ShownUnit;
 use crate::campaign::requirement::BandSubject;
 use crate::statistics::gate::{Gate, points_gate};
 
-/// The verdict on a requirement on `band`, over `runs` counted runs.
 pub(super) fn over_time(
     judged: Judged<'_>,
     band: &BandSubject,

@@ -75,10 +75,8 @@ impl Absence {
     }
 }
 
-/// One observable of two results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnComparison {
-    /// Name, unit and meaning.
     pub quantity: Quantity,
     /// Unit of shifts: the standard deviation in the first result, else the magnitude of its mean, else 1.
     pub scale: f64,
@@ -180,7 +178,6 @@ impl Comparison {
 
 const MOST_LEVEL: f64 = 0.1;
 
-/// Compares `first` with `second`.
 pub fn compare(
     first: ResultRows<'_>,
     second: ResultRows<'_>,

@@ -6,7 +6,6 @@ use super::bins;
 const MOST_TURNS: usize = 110;
 const ENVELOPE: usize = 60;
 
-/// Number of turning points.
 pub fn turns(values: &[f64]) -> usize {
     let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step != 0.0);
     let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();

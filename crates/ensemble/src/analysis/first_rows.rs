@@ -44,7 +44,6 @@ pub struct FirstRows {
     inputs: Vec<String>,
     pub(super) observed: Vec<Observed>,
     most: usize,
-    /// True if all rows are collected.
     is_full: AtomicBool,
 }
 

@@ -17,7 +17,6 @@ use crate::ensemble::{Part, PartId, Parts, Rows, Supervision};
 use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
 
-/// All accumulators of a campaign.
 type Everything = (
     ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),
     ((FirstRows, Retained), (Surveyor, MissionCounter)),
@@ -140,7 +139,6 @@ impl RunningFold {
 }
 
 impl CountRows for RunningFold {
-    /// Counts rows and bands of a part, once.
     fn add(&self, rows: &Rows) {
         // an incomplete fold is discarded and the rows are read again
         let Ok(of_part) = self.fold.0.count(&self.names.of(rows)) else { return };

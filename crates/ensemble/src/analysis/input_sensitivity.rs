@@ -21,7 +21,6 @@ pub struct InputSensitivity {
     pub regression: Option<Estimate>,
     /// R^2 of the regression on all inputs, corrected for their number.
     pub r_squared: Option<Estimate>,
-    /// First-order index.
     pub first_order: Option<Estimate>,
     /// Share of the variance explained by a parabola, averaged over values and ranks; orders inputs without a
     /// first-order index.

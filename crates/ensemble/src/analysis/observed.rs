@@ -10,7 +10,6 @@ use crate::observables::ColumnKind;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::RowsError;
 
-/// A column of an observable.
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
     column: String,
@@ -79,7 +78,6 @@ const TIME_REACHED: &str = "time_reached_s";
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observed {
-    /// Name, unit and meaning.
     pub quantity: Quantity,
     pub is_count: bool,
     derived: Option<Expression>,

@@ -13,10 +13,8 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 pub trait PartColumns {
     fn rows(&self) -> usize;
 
-    /// Sample numbers by row.
     fn samples(&self) -> Result<Vec<SampleId>, RowsError>;
 
-    /// The statuses of the runs.
     fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError>;
 
     /// Rows that are not `ok`, with reasons.

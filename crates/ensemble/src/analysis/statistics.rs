@@ -24,7 +24,6 @@ use crate::storage::parallel::in_parallel;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnStatistics {
-    /// Name, unit and meaning.
     pub quantity: Quantity,
     pub is_count: bool,
     /// `ok` runs without a value.
@@ -50,7 +49,6 @@ pub struct ColumnStatistics {
 }
 
 impl ColumnStatistics {
-    /// See [`QuantileStatistic::numbers`].
     pub fn quantile_numbers(&self) -> Vec<[f64; 4]> {
         self.quantiles.iter().map(QuantileStatistic::numbers).collect()
     }
@@ -95,7 +93,6 @@ impl Statistics {
         self.columns.iter().find(|column| column.quantity.name() == name)
     }
 
-    /// The treatment of failed runs.
     pub fn treatment(&self) -> String {
         match self.samples() - self.ok() {
             0 => "every run was computed".to_owned(),

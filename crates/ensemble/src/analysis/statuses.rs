@@ -76,7 +76,6 @@ impl Statuses {
         self.list.iter().any(|ended| ended.status == Status::Done && ended.of_population < ended.count)
     }
 
-    /// Counted samples without numbers.
     pub fn loss(&self) -> Loss {
         Loss::of(&self.of_population())
     }

@@ -29,10 +29,8 @@ const MOST_OUTCOMES: usize = 32;
 /// Fewest runs with quantiles.
 const FIRST_GROWTH: u64 = 16;
 
-/// An outcome on the page.
 #[derive(Clone, Debug)]
 pub struct SurveyedOutcome {
-    /// Name, unit, meaning.
     pub quantity: Quantity,
     /// True if it is an outcome of the campaign.
     pub is_outcome: bool,
@@ -42,7 +40,6 @@ pub struct SurveyedOutcome {
     pub worst: WorstRuns,
     /// Value in the nominal run, or NaN.
     pub nominal: f64,
-    /// Confidence of its intervals.
     pub confidence: f64,
     /// Quantiles of the first runs: number of runs, median, 99%-quantile with the ends of its interval, runs above a
     /// half, runs lost so far.
@@ -68,7 +65,6 @@ pub struct Survey {
     pub thinned: Thinned,
     /// Sample, estimated and true error of audited runs, at most [`SCATTER`].
     pub audits: Vec<[f64; 3]>,
-    /// Number of audited runs.
     pub audited: u64,
     /// Runs farthest from their requirements, by [`shortfall`]; empty without a requirement on single runs.
     pub against: WorstRuns,
@@ -125,7 +121,6 @@ fn wanted(ensemble: &Ensemble<'_>) -> (Vec<String>, usize) {
     (unique(asked.into_iter().chain(main).chain(motion)), count)
 }
 
-/// Gathers the data of the page.
 #[derive(Clone, Debug)]
 pub struct Surveyor {
     observed: Vec<Observed>,
@@ -145,7 +140,6 @@ pub struct Surveyor {
 pub struct SurveyedPart {
     counted: Vec<SampleId>,
     outcomes: Vec<Vec<f64>>,
-    /// Values of the nominal run.
     nominal: Option<Vec<f64>>,
     thinned: Thinned,
     audits: Vec<[f64; 3]>,
@@ -329,7 +323,6 @@ impl SurveyedOutcome {
         rows
     }
 
-    /// Quantiles of `sketch`, with `lost` other runs.
     fn quantiles(&self, sketch: &Sketch, lost: u64) -> [f64; 7] {
         const HIGH: f64 = 0.99;
         let (count, ranks) = (sketch.count(), sketch.ranks());

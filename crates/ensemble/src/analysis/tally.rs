@@ -34,7 +34,6 @@ pub struct Tally {
     pub statuses: Statuses,
     /// True if statistics leave out the nominal sample; else it is the only one.
     pub without_nominal: bool,
-    /// The worst runs of observed errors and required observables.
     pub worst: Vec<Worst>,
     pub audits: Option<AuditTally>,
     /// Runs beyond the heights of the air table; `None` without a table or observed distances.

@@ -106,7 +106,6 @@ pub fn mass_properties(scene: &Scene) -> [f64; 7] {
 pub const CHUNK: u64 = 1 << 16;
 
 impl DrawnScenes {
-    /// Draws up to `count` samples from `first` on.
     pub fn new(plan: &Plan, first: SampleId, count: u64) -> Self {
         let mut drawn = DrawnScenes::empty(plan, false);
         drawn.draw(plan, &mut SceneDraws::new(plan), first.0..first.0.saturating_add(count).min(plan.samples));

@@ -155,7 +155,6 @@ impl<'p> EventFinder<'p> {
         earliest.map(|(event, (found, _))| RunEnd { event, time: found.time.max(SHORTEST * self.grid.duration()) })
     }
 
-    /// Locates the crossings and extremes of these runs.
     pub fn locate(&mut self, runs: Runs<'_>) {
         let (events, lookup, found) = (&self.plan.events, &self.lookup, &mut self.found);
         let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]) * self.grid.duration();
@@ -238,7 +237,6 @@ impl<'p> EndFinder<'p> {
         Some(EndFinder { runs, events: EventFinder::new(plan, &plan.grid, engines)? })
     }
 
-    /// The end of one run, if an event ends it.
     pub fn end(&mut self, scene: &Scene, draw: &[LawDraw]) -> Option<RunEnd> {
         let EndFinder { runs, events } = self;
         let one = Runs::one(scene, draw);

@@ -20,7 +20,6 @@ use crate::scene::{Arc, ControlInput, SceneInput};
 #[derive(Clone, Debug)]
 pub struct LawDraw {
     pub sample: SampleId,
-    /// Drawn parameters of the law.
     pub parameters: ControlInput,
 }
 
@@ -197,7 +196,6 @@ fn at_surface(plan: &Plan, one: Runs<'_>, run: &CompletedRun<'_>, times: &[f64],
     Some(Outcome { status: Status::Surface, time, points, ..*run.outcome })
 }
 
-/// The state at the last point of a run under a law.
 fn state_at_end(scene: &Scene, table: &StateTable) -> (BodyState, WheelState) {
     let last = table.points() - 1;
     let body = BodyState {

@@ -17,16 +17,13 @@ use crate::storage::rows_reader::{PartReader, RowsError};
 use crate::storage::store::Store;
 use crate::table::{Column, Content, Values};
 
-/// Metadata key of the description of the bands.
 const LAYOUT_KEY: &str = "spindrift.bands";
 const RUNS_KEY: &str = "spindrift.bands.runs";
-/// Number of counted runs.
 const COUNTED_KEY: &str = "spindrift.bands.counted";
 /// By place (series by series, then points): smallest and largest kept number, NaN for none.
 const EXTREMES_KEYS: [&str; 2] = ["spindrift.bands.min", "spindrift.bands.max"];
 /// Number of runs without a number there.
 const WITHOUT_KEY: &str = "spindrift.bands.without";
-/// Number of rows of each place.
 const ROWS_KEY: &str = "spindrift.bands.rows";
 
 const BUCKET: (&str, &str) = (

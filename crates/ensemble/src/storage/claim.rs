@@ -27,7 +27,6 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// True if it computes the part.
     pub fn has(self, part: PartId) -> bool {
         part.0 % self.of == self.number - 1
     }
@@ -37,7 +36,6 @@ fn shown(store: &dyn Store) -> String {
     store.root().display().to_string()
 }
 
-/// The state of the place of a result.
 #[derive(Debug)]
 pub enum Claim {
     Ready(Box<Ready>),
@@ -63,22 +61,18 @@ pub struct Ready {
     pub dataset: Dataset,
     /// Its final folder, if it replaces another result.
     pub replaces: Option<PathBuf>,
-    /// Existing rows.
     pub rows: u64,
     /// Damaged files, computed again, with their damage.
     pub damaged: Vec<String>,
-    /// Foreign entries, left alone.
     pub notes: Vec<String>,
     _locks: Vec<Lock>,
 }
 
-/// Options of a claim.
 #[derive(Clone, Copy)]
 pub struct ClaimOptions<'a> {
     /// Opens folders beside the result.
     pub folders: &'a OpenFolder<'a>,
     pub overwrite: bool,
-    /// The share of this process.
     pub shard: Option<Shard>,
     pub threads: usize,
 }

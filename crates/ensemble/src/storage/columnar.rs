@@ -20,7 +20,6 @@ use parquet::schema::types::{ColumnPath, Type, TypePtr};
 use crate::storage::arrow_metadata;
 use crate::table::{Column, Content, Table, Values};
 
-/// Why columns could not be encoded.
 pub use parquet::errors::ParquetError as EncodingError;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,7 +134,6 @@ impl<W: Write + Send> GroupWriter<'_, W> {
         Ok(())
     }
 
-    /// Ends the file.
     pub fn finish(self) -> Result<()> {
         self.writer.close()?;
         Ok(())

@@ -26,7 +26,6 @@ use crate::storage::rows_file::identity;
 use crate::storage::rows_reader::RowsReader;
 use crate::storage::store::{Store, StoreError};
 
-/// A file with its checksum.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {
     /// Name below the folder of the dataset, with `/`.
@@ -50,7 +49,6 @@ pub struct PartRecord {
     pub files: Vec<FileRecord>,
 }
 
-/// Record and content of a file of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartFile {
     pub record: FileRecord,
@@ -188,12 +186,10 @@ impl Dataset {
         self.files().parts.values().cloned().collect()
     }
 
-    /// The present rows and bands.
     pub fn rows(&self) -> RowsReader {
         rows(&self.store, &self.parts())
     }
 
-    /// The missing ones of `parts`.
     pub fn missing(&self, parts: impl IntoIterator<Item = Part>) -> Vec<Part> {
         let files = self.files();
         parts.into_iter().filter(|part| files.parts.get(&part.id.0).is_none_or(|there| there.part != *part)).collect()
@@ -255,7 +251,6 @@ impl Dataset {
         Ok(())
     }
 
-    /// Removes a file, if present.
     pub fn remove(&self, name: &str) -> Result<(), StoreError> {
         self.files().derived.remove(name);
         self.store.remove(name).map_err(self.store.at(name))

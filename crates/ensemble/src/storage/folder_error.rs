@@ -12,7 +12,6 @@ const LISTED: usize = 12;
 
 #[derive(Debug, Error)]
 pub enum FolderError {
-    /// It has the rows of another plan.
     #[error(
         "`{folder}` contains {what} of another plan:\n  {differences}\nchoose another --out, or replace it with \
         --overwrite"
@@ -23,37 +22,31 @@ pub enum FolderError {
         /// The differing keys, a line each.
         differences: String,
     },
-    /// A store with another plan.
     #[error(
         "{folder}: is the result of another plan:\n  {differences}\nchoose another --out; what is in a store is not \
         replaced"
     )]
     Kept { folder: String, differences: String },
-    /// A store with changed objects.
     #[error(
         "{folder}: objects are not what was put; remove those that have changed, and the campaign's command with this \
         --out puts them again\n  {damaged}"
     )]
     Changed { folder: String, damaged: String },
-    /// More rows than the plan.
     #[error(
         "`{folder}` contains {found} rows of this plan, more than its {asked} samples; leave --samples out, choose \
         another --out, or replace it with --overwrite"
     )]
     Larger { folder: String, found: u64, asked: u64 },
-    /// A result of an earlier version of the program.
     #[error(
         "`{folder}` contains a result of format 5, which an earlier version of spindrift made and this one does not \
         read; remove it, or choose another --out"
     )]
     Old { folder: String },
-    /// A complete result, while a shard has other keys that change no row.
     #[error(
         "`{folder}` is finished, and the plan of this shard has other keys that change no row; run the campaign \
         without --shard: it answers from the rows that are there"
     )]
     Answered { folder: String },
-    /// Other shards have other keys that change no row.
     #[error(
         "`{folder}` has shards that ask other questions:\n  {differences}\nrun all shards with one plan, or the \
         campaign without --shard: it answers from the rows that are there"
@@ -64,16 +57,13 @@ pub enum FolderError {
         --out"
     )]
     Foreign { folder: String, entry: String },
-    /// Another process writes to it.
     #[error("another process is using `{folder}`; wait for it, or choose another folder")]
     Busy { folder: String },
-    /// A result to be replaced that cannot be renamed.
     #[error(
         "`{folder}` cannot be replaced, because it cannot be renamed: {why}; choose a folder below it or another one \
         as --out, and run the command in another folder, or remove what is in it and leave --overwrite out"
     )]
     Immovable { folder: String, why: std::io::Error },
-    /// No result.
     #[error("`{folder}` has no result of spindrift: {why}")]
     Nothing { folder: String, why: String },
     #[error(transparent)]

@@ -45,7 +45,6 @@ impl Found {
         notes.map(|entry| format!("{entry}: not part of the result; left alone")).collect()
     }
 
-    /// The first foreign entry.
     pub(super) fn not_its_own(&self) -> Option<&str> {
         self.foreign.iter().chain(&self.strays).map(String::as_str).chain(self.unlisted()).next()
     }

@@ -29,9 +29,7 @@ pub const ARITHMETIC: u32 = 7;
 pub struct Identity {
     /// Always `dataset`, the mark of a folder.
     pub spindrift: String,
-    /// [`FORMAT`].
     pub format: u32,
-    /// [`ARITHMETIC`].
     pub arithmetic: u32,
     /// SHA-256 of the row plan, in hexadecimal.
     pub row_hash: String,
@@ -100,7 +98,6 @@ pub fn sealed(bytes: &[u8]) -> Option<String> {
     (expected.as_bytes() == seal).then_some(sha256)
 }
 
-/// The identity of rows of `plan` with these columns.
 pub fn of(plan: &Plan, columns: &[Column]) -> Identity {
     let line = |column: &Column| format!("{} {:?} {}\n", column.quantity.name(), column.content, column.nullable);
     let columns: String = columns.iter().map(line).collect();
@@ -119,7 +116,6 @@ pub fn part_metadata(part: Part, first: SampleId) -> [(&'static str, String); 3]
     [(PART_KEY, part.id.0.to_string()), (FIRST_KEY, first.to_string()), (SAMPLES_KEY, part.count.to_string())]
 }
 
-/// The metadata of a file of rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RowsMetadata {
     pub identity: Identity,

@@ -19,9 +19,7 @@ pub const OBSERVABLES: &str = "observables.parquet";
 pub const SENSITIVITY: &str = "sensitivity.parquet";
 pub const BANDS: &str = "bands.parquet";
 pub const REPORT: &str = "report.html";
-/// Files of rows.
 pub const RUNS: &str = "runs";
-/// Bands of parts.
 pub const PART_BANDS: &str = "bands";
 /// Retained time series.
 pub const TRAJECTORIES: &str = "trajectories";
@@ -30,19 +28,15 @@ pub const DATA: &str = crate::campaign::data::COPIES;
 /// Suffix of an unfinished file.
 pub const UNFINISHED: &str = ".tmp";
 
-/// The files at the top of a dataset.
 pub const TOP_FILES: [&str; 10] =
     [HEAD, PLAN, MANIFEST, SUCCESS, SUMMARY, STATISTICS, OBSERVABLES, SENSITIVITY, BANDS, REPORT];
 
-/// The folders of a dataset.
 pub const FOLDERS: [&str; 4] = [RUNS, PART_BANDS, TRAJECTORIES, DATA];
 
-/// The file of rows of `part`.
 pub fn rows_of(part: PartId) -> String {
     format!("{RUNS}/part-{:06}.parquet", part.0)
 }
 
-/// The file of bands of `part`.
 pub fn bands_of(part: PartId) -> String {
     format!("{PART_BANDS}/part-{:06}.parquet", part.0)
 }
@@ -53,7 +47,6 @@ pub fn part_of(name: &str) -> Option<PartId> {
     Some(PartId(number)).filter(|part| rows_of(*part) == name)
 }
 
-/// True if the file `name` belongs to a part.
 pub fn is_of_part(name: &str) -> bool {
     [RUNS, PART_BANDS].contains(&name.split('/').next().unwrap_or_default())
 }

@@ -21,7 +21,6 @@ use crate::storage::lock::lock;
 use crate::storage::names::{FOLDERS, HEAD, is_digits};
 use crate::storage::store::{OpenFolder, Store, StoreError, at};
 
-/// The folder beside `root` with these digits.
 fn beside(root: &Path, digits: &str, what: &str) -> PathBuf {
     let mut name = OsString::from(".");
     name.push(root.file_name().unwrap_or_default());
@@ -29,7 +28,6 @@ fn beside(root: &Path, digits: &str, what: &str) -> PathBuf {
     root.with_file_name(name)
 }
 
-/// The digits of a dataset with this head.
 fn digits(head: &[u8]) -> String {
     sha256(head)[..16].to_owned()
 }

@@ -15,9 +15,7 @@ use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::{self, BANDS_KEY, Identity, SEAL_KEY, UNSEALED, part_metadata, row_provenance};
 use crate::table::{Column, Content, Values};
 
-/// Column of sample numbers.
 pub const SAMPLE_ID: &str = "sample_id";
-/// Column of run statuses.
 pub const STATUS: &str = "status";
 
 /// Column of reasons why a run is not `ok`.
@@ -30,7 +28,6 @@ pub const AUDIT_REASON: &str = "audit_reason";
 pub struct RowsFile {
     layout: Layout,
     contents: Vec<Content>,
-    /// Columns of audits, if any.
     audits: Vec<AuditValue>,
     /// Indices of the observables with columns of numerical errors.
     audited: Vec<usize>,
@@ -58,7 +55,6 @@ pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
     if ensemble.plan().audit_fraction > 0.0 { headlines(ensemble.request()) } else { Vec::new() }
 }
 
-/// The columns of a row.
 pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
     let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, \
@@ -90,12 +86,10 @@ pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
         .collect()
 }
 
-/// The identity of the rows of `ensemble`.
 pub fn identity(ensemble: &Ensemble<'_>) -> Identity {
     identity::of(ensemble.plan(), &columns(ensemble))
 }
 
-/// The columns of dispersed values.
 pub fn parameter_columns(plan: &Plan) -> impl Iterator<Item = Column> {
     let columns = plan.dispersions.columns().iter();
     columns.map(|column| Column::new(parameter_quantity(column.parameter, column.component), Content::Real))

@@ -140,7 +140,6 @@ impl PartReader {
         self.rows
     }
 
-    /// The metadata value of `key`.
     pub fn metadata(&self, key: &str) -> Option<&str> {
         let pairs = self.reader.metadata().file_metadata().key_value_metadata()?;
         pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
@@ -152,7 +151,6 @@ impl PartReader {
         schema.columns().iter().map(|column| column.name().to_owned()).collect()
     }
 
-    /// The sample numbers by row.
     pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
         match self.values(SAMPLE_ID)? {
             Values::Count(values) => Ok(values.into_iter().map(SampleId).collect()),
@@ -195,7 +193,6 @@ impl PartReader {
         }
     }
 
-    /// The values of the column `name` by row.
     pub fn values(&self, name: &str) -> Result<Values<'static>, RowsError> {
         Ok(match self.decoded(name)? {
             (Decoded::Real(values), None) => Values::Real(values.into()),

@@ -51,7 +51,6 @@ pub trait Store: Debug + Send + Sync {
     /// A lock of another process, or a failure.
     fn lock(&self, is_shared: bool) -> Result<Option<File>, TryLockError>;
 
-    /// Renames the folder to `to`.
     fn rename(&self, to: &Path) -> io::Result<()>;
 
     /// True if files can be replaced and removed.
@@ -143,7 +142,6 @@ pub struct Entry {
     pub size: u64,
 }
 
-/// A failed file operation, with the path.
 #[derive(Debug, Error)]
 #[error("{}: {source}", path.display())]
 pub struct StoreError {

@@ -9,7 +9,6 @@ use crate::storage::identity::provenance;
 use crate::storage::store::Failure;
 use crate::table::{Table, csv};
 
-/// The formats of a table in a single file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableFormat {
     Parquet,

@@ -4,7 +4,6 @@ use serde_json::{Map, Value, json};
 
 use crate::table::{Cell, Table};
 
-/// The rows of `table`.
 pub fn objects(table: &Table<'_>) -> Vec<Value> {
     let cell = |cell: Cell<'_>| match cell {
         Cell::Null => Value::Null,

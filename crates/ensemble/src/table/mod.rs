@@ -29,9 +29,7 @@ pub enum Content {
 pub struct Column {
     pub quantity: Quantity,
     pub content: Content,
-    /// True if values may be absent.
     pub nullable: bool,
-    /// Alignment as text.
     pub align: Align,
 }
 
@@ -48,7 +46,6 @@ impl Column {
     }
 }
 
-/// The values of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values<'a> {
     /// Non-finite numbers are null, so that aggregates stay finite.
@@ -90,7 +87,6 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The value in row `row`.
     pub fn cell(&self, row: usize) -> Cell<'_> {
         match self {
             Values::Real(values) if values[row].is_finite() => Cell::Real(values[row]),
@@ -162,7 +158,6 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Builder of a table with a row for each of `rows`.
 #[derive(Debug)]
 pub struct TableOf<'a, R> {
     rows: &'a [R],
@@ -212,13 +207,11 @@ impl<'a, R> TableOf<'a, R> {
         self
     }
 
-    /// Adds a note to the table.
     pub fn note(&mut self, key: &str, text: impl Into<String>) -> &mut Self {
         self.table.notes.insert(key.to_owned(), text.into());
         self
     }
 
-    /// The finished table.
     pub fn finish(&mut self) -> Table<'a> {
         std::mem::take(&mut self.table)
     }

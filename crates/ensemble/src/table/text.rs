@@ -83,7 +83,6 @@ impl<'t> Text<'t> {
         Text { least: widths.to_vec(), ..self }
     }
 
-    /// Limits the table to its first `rows` rows.
     #[must_use]
     pub fn first(mut self, rows: usize) -> Self {
         self.rows.truncate(self.heads.saturating_add(rows));
@@ -113,12 +112,10 @@ impl<'t> Text<'t> {
         self.blocks(width).concat()
     }
 
-    /// The heads only.
     pub fn head(&self, width: usize) -> String {
         self.blocks(width)[..self.heads].concat()
     }
 
-    /// The rows only.
     pub fn body(&self, width: usize) -> String {
         self.blocks(width)[self.heads..].concat()
     }

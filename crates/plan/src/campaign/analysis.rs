@@ -27,7 +27,6 @@ pub struct Analysis {
     pub display: Display,
 }
 
-/// Default quantiles.
 pub const QUANTILES: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
 
 const QUANTILE_LIST: ListLimit = ListLimit {

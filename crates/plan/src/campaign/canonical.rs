@@ -19,7 +19,6 @@ fn digest(text: &str) -> String {
 }
 
 impl Plan {
-    /// The canonical text.
     pub fn text(&self) -> String {
         self.text_of(true)
     }

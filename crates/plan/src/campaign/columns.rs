@@ -34,7 +34,6 @@ pub fn request(
     }
 }
 
-/// The column of a dispersed component.
 pub fn parameter_quantity(parameter: Parameter, component: usize) -> Quantity {
     let unit = match parameter.unit() {
         "1" => String::new(),

@@ -56,7 +56,6 @@ fn variable(name: &str, scene: &SceneInput, known: &KnownColumns) -> Option<Vari
 }
 
 impl DerivedObservable {
-    /// Reads one table; `None` after a problem.
     pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         let written = table.whole(&ROWS, &[]);
         let name = written.as_ref().and_then(|written| name(table, written.text("name")?));

@@ -22,7 +22,6 @@ pub struct ShownUnit {
 }
 
 impl ShownUnit {
-    /// The column's own unit.
     pub fn own(unit: &str) -> Self {
         ShownUnit { unit: unit.to_owned(), size: [1.0; 2] }
     }
@@ -46,7 +45,6 @@ impl ShownUnit {
         self.size[0] == self.size[1]
     }
 
-    /// `value` in this unit.
     pub fn value(&self, value: f64) -> f64 {
         if self.is_own() { value } else { value * self.size[1] / self.size[0] }
     }

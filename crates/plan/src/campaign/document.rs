@@ -27,7 +27,6 @@ pub struct Overrides<L = ()> {
     /// `--set`: dotted keys and values.
     pub settings: Vec<(String, String)>,
     pub law: Option<OwnLaw>,
-    /// The reader of control loops.
     pub loops: L,
 }
 

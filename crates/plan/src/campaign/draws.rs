@@ -1,5 +1,5 @@
-//! `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read and as canonical text. Designs and distributions
-//! declare their keys ([`crate::sampling::design`], [`crate::sampling::distribution`]).
+//! `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read (`None` after a problem) and as canonical text.
+//! Designs and distributions declare their keys ([`crate::sampling::design`], [`crate::sampling::distribution`]).
 
 use super::parameter::{PARAMETER, name_of};
 use super::prelude::*;
@@ -24,7 +24,6 @@ pub const DERIVE: [Row; 2] = [
         .required_as("arithmetic over other parameters", "\"wheels.w1.density_kg_m3\""),
 ];
 
-/// Reads a `[[correlate]]` table; `None` after a problem.
 pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
     let written = table.whole(&CORRELATE, &[MEASURE])?;
     let numbers = |measure: Measure| Some((measure, written.values(measure.key())?.clone()));
@@ -42,7 +41,6 @@ pub fn correlation(table: &mut Section<'_, '_>) -> Option<Correlation> {
     })
 }
 
-/// Reads a `[[derive]]` table; `None` after a problem.
 pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     let written = table.whole(&DERIVE, &[])?;
     let (parameter, component) = Parameter::find(&table.document.scene, written.text("parameter")?)?;
@@ -55,7 +53,6 @@ pub fn derivation(table: &mut Section<'_, '_>) -> Option<Derivation> {
     })
 }
 
-/// Reads `[design]`; `None` after a problem.
 pub fn design(table: &mut Section<'_, '_>) -> Option<Design> {
     if !table.is_present() {
         return Some(Design::DEFAULT);
@@ -80,7 +77,6 @@ pub fn design(table: &mut Section<'_, '_>) -> Option<Design> {
     Design::of(name, written).filter(|_| is_right)
 }
 
-/// Reads a `[[disperse]]` table; `None` after a problem.
 pub fn dispersion(table: &mut Section<'_, '_>) -> Option<Dispersion> {
     let kind = table.plain_text("distribution").and_then(DistributionKind::from_name);
     if kind.is_some_and(DistributionKind::names_parameters) {

@@ -23,7 +23,6 @@ impl KnownColumns {
         KnownColumns { request, observables, bands }
     }
 
-    /// Adds a derived observable.
     pub fn add(&mut self, quantity: Quantity) {
         self.observables.push(quantity);
     }

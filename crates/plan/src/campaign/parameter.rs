@@ -21,7 +21,6 @@ pub(super) fn parameter(table: &mut Section<'_, '_>, key: &str) -> Option<Value>
     found.map(|found| name_of(found).as_str().into())
 }
 
-/// The parameters that `key` names.
 pub(super) fn parameters(table: &mut Section<'_, '_>, key: &str) -> Option<Value> {
     let names = table.texts(key, "[\"wheels.w1.radius_m\", \"wheels.w1.length_m\"]")?;
     let mut found = Vec::with_capacity(names.len());

@@ -173,7 +173,6 @@ impl Plan {
         Self::from_text_in(Path::new(""), file, text, overrides)
     }
 
-    /// The requested observables.
     pub fn request(&self) -> Request {
         self.request_over(self.grid.duration())
     }

@@ -7,7 +7,6 @@ use crate::sampling::SampleId;
 use crate::statistics::looks::looks;
 
 impl Plan {
-    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.chosen.as_ref().map_or(self.samples, |chosen| chosen.len() as u64)
     }

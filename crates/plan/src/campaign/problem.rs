@@ -18,7 +18,6 @@ pub struct Problem {
     /// Follows `must be`; for an unknown key, `not a key of`.
     pub allowed: String,
     pub remedy: String,
-    /// True if the key is unknown.
     pub is_unknown: bool,
     pub excerpt: Option<Excerpt>,
 }

@@ -123,7 +123,6 @@ pub const RULES: [Rule; 7] = [
 ];
 
 impl Requirement {
-    /// Reads one table; `None` after a problem.
     pub(super) fn read(table: &mut Section<'_, '_>) -> Option<Self> {
         table.describes(None, units::UNKNOWN);
         let written = table.whole(&ROWS, &RULES)?.completed(&ROWS, &RULES);

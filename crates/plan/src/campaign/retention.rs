@@ -29,7 +29,6 @@ pub const ROWS: [Row; 1] = [Row::new(
 const MOST: u64 = 1_000_000;
 
 impl Retention {
-    /// Reads the table; `None` after a problem.
     pub(super) fn read(section: &mut Section<'_, '_>) -> Option<Self> {
         let written = section.whole(&ROWS, &[])?;
         let retention = written.text(KEY).map_or(Some(Retention::None), |text| parsed(section, text))?;

@@ -14,7 +14,6 @@ pub struct Field {
     pub row: Row,
     /// Its value; `None` to omit it from canonical text.
     pub get: fn(&SceneInput, usize) -> Option<Value>,
-    /// Sets the value read.
     pub set: fn(&mut SceneInput, usize, &Value),
 }
 
@@ -41,7 +40,6 @@ impl SceneTable {
         SceneTable { numbers, fields: [&[], &[]], most: None, add: None, is_shown, check: |_, _, _| {} }
     }
 
-    /// A list of at most `most` tables.
     pub const fn list(numbers: &'static [Table], most: usize, add: Add) -> Self {
         SceneTable { most: Some(most), add: Some(add), ..Self::new(numbers, |_| true) }
     }

@@ -84,7 +84,6 @@ impl Sources {
         self.text.push('\n');
     }
 
-    /// The source at byte `offset`.
     pub fn at(&self, offset: usize) -> &SourceText {
         let found = self.list.iter().rfind(|source| source.range.start <= offset);
         found.unwrap_or(&self.list[0])

@@ -95,7 +95,6 @@ impl Spec {
         spec
     }
 
-    /// The keys of the settings table `header`.
     pub fn settings(&self, header: &str) -> &Written {
         static NONE: Written = Written::NONE;
         self.settings.iter().find(|(known, _)| *known == header).map_or(&NONE, |(_, written)| written)
@@ -121,7 +120,6 @@ impl Spec {
         }
     }
 
-    /// `observe.nutation_axis`.
     pub fn nutation_axis(&self) -> NutationAxis {
         let written = self.settings("observe");
         match (written.text("nutation_axis"), written.vector("nutation_axis")) {

@@ -518,7 +518,6 @@ impl Written {
         if let Value::Counts(Values::One(count)) = self.get(key)? { Some(*count) } else { None }
     }
 
-    /// True if `key` is true.
     pub fn flag(&self, key: &str) -> bool {
         self.get(key) == Some(&Value::Flag(true))
     }

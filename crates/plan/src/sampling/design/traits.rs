@@ -33,7 +33,6 @@ pub enum Size {
     TooMany,
 }
 
-/// Properties of a kind of design.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
     pub name: &'static str,
