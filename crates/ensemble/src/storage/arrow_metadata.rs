@@ -4,11 +4,10 @@
 //! Arrow, *Columnar Format*, "Serialization and Interprocess Communication", `Message.fbs`, `Schema.fbs`). The
 //! FlatBuffer is written by hand: the crate that encodes it takes a sixth of a cold build.
 
+use super::prelude::*;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use parquet::file::metadata::KeyValue;
-
-use crate::table::{Column, Content};
 
 const KEY: &str = "ARROW:schema";
 

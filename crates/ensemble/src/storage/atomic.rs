@@ -3,9 +3,9 @@
 //! A file is written under a unique temporary name in its own folder (a rename cannot cross file systems), flushed, and
 //! renamed. The name identifies leftovers of a crash.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use super::prelude::*;
+use std::fs::{self, OpenOptions};
+use std::io::{BufWriter, Write};
 
 use crate::storage::names::unfinished;
 

@@ -2,20 +2,16 @@
 //!
 //! The metadata describe the bands, so that a file explains its own buckets.
 
-use crate::ensemble::prelude::*;
-use std::sync::Arc;
-
+use super::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::{BandLayout, Bands, Part, PartBands, RunsOfColumn};
+use crate::ensemble::{BandLayout, Bands, PartBands, RunsOfColumn};
 use crate::observables::band_series::Form;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
 use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::identity::{PART_KEY, part_metadata};
 use crate::storage::parallel::in_order;
 use crate::storage::rows_reader::{PartReader, RowsError};
-use crate::storage::store::Store;
-use crate::table::{Column, Content, Values};
 
 const LAYOUT_KEY: &str = "spindrift.bands";
 const RUNS_KEY: &str = "spindrift.bands.runs";

@@ -1,12 +1,7 @@
 //! [`claim`]: whether a campaign may write to the place of a result.
 
-use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
-use crate::campaign::Plan;
+use super::prelude::*;
 use crate::campaign::difference::{KeyDifference, text_differences};
-use crate::ensemble::{Ensemble, PartId};
 use crate::storage::atomic::explained;
 use crate::storage::dataset::{Dataset, Head, PartRecord, unfinish};
 use crate::storage::folder_error::{self, FolderError, all_differences, other_questions, reasons};
@@ -16,7 +11,7 @@ use crate::storage::lock::{Lock, lock};
 use crate::storage::names::{HEAD, PLAN, SUMMARY};
 use crate::storage::replacement::{self, remove_replaced, replace};
 use crate::storage::rows_file::identity;
-use crate::storage::store::{OpenFolder, Store, StoreError, at};
+use crate::storage::store::{OpenFolder, at};
 
 /// One of several processes of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

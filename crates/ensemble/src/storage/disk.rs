@@ -6,13 +6,12 @@
 //! Files that a command writes elsewhere are in [`super::atomic`], data files of a campaign in
 //! [`crate::campaign::input_file`].
 
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, ErrorKind, Read, Write};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use super::prelude::*;
+use std::fs::{self, OpenOptions, TryLockError};
+use std::io::{Read, Write};
 
 use crate::storage::names::unfinished;
-use crate::storage::store::{Entry, Store, Unfit, content};
+use crate::storage::store::{Entry, Unfit, content};
 
 #[derive(Clone, Debug)]
 pub struct Disk(PathBuf);

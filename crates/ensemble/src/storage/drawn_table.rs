@@ -1,8 +1,6 @@
 //! Sampled parameters as a table, Parquet or CSV, written while drawn.
 
-use crate::ensemble::prelude::*;
-use std::path::Path;
-
+use super::prelude::*;
 use crate::ensemble::DrawnScenes;
 use crate::ensemble::drawn::MASS_COLUMNS;
 use crate::storage::atomic;
@@ -11,7 +9,7 @@ use crate::storage::identity::provenance;
 use crate::storage::rows_file::{SAMPLE_ID, STATUS, parameter_columns};
 use crate::storage::store::Failure;
 use crate::storage::table_file::TableFormat;
-use crate::table::{Column, Content, Values, csv};
+use crate::table::csv;
 
 /// Status of a physical sample; others have the status of their row.
 pub const PHYSICAL: &str = "drawn";

@@ -1,11 +1,10 @@
 //! [`FolderError`]: why a place cannot take a result.
 
+use super::prelude::*;
 use thiserror::Error;
 
-use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
 use crate::storage::identity::Identity;
-use crate::storage::store::StoreError;
 
 /// Most keys in a refusal.
 const LISTED: usize = 12;

@@ -1,9 +1,9 @@
 //! [`contents`]: the contents of the place of a dataset; [`Found::examine`]: its whole parts.
 
-use crate::ensemble::prelude::*;
+use super::prelude::*;
 use std::collections::BTreeSet;
 
-use crate::ensemble::{Part, PartId, Parts};
+use crate::ensemble::Parts;
 use crate::storage::dataset::{FileRecord, Head, Manifest, PartRecord};
 use crate::storage::folder_error::FolderError;
 use crate::storage::identity::{Identity, RowsMetadata, sealed, sha256};
@@ -12,7 +12,6 @@ use crate::storage::names::{
     part_of, rows_of,
 };
 use crate::storage::parallel::in_parallel;
-use crate::storage::store::{Store, StoreError};
 
 /// Manifest of earlier formats.
 const OLD_MANIFEST: &str = "manifest.jsonl";

@@ -1,11 +1,11 @@
 //! [`lock`]: keeps other processes away from a result, for people; results are right without it.
 
-use std::fs::{File, TryLockError};
+use super::prelude::*;
+use std::fs::TryLockError;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::storage::folder_error::FolderError;
-use crate::storage::store::Store;
 
 /// Longest wait for a lock: a killed process keeps its lock until its files are closed, and a child shares it for a
 /// moment.

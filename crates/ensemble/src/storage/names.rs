@@ -1,9 +1,7 @@
 //! The names of the files of a dataset. Files with other names are foreign and never changed.
 
+use super::prelude::*;
 use std::hash::{BuildHasher, RandomState};
-use std::path::{Path, PathBuf};
-
-use crate::ensemble::PartId;
 
 /// Identity of the dataset.
 pub const HEAD: &str = "dataset.json";

@@ -1,9 +1,9 @@
 //! [`in_parallel`]: independent items on several threads; [`in_order`]: merged in their order. Threads that cannot
 //! start are done without.
 
+use super::prelude::*;
 use std::convert::Infallible;
-use std::num::NonZeroUsize;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, MutexGuard, PoisonError};
 use std::thread::Builder;
 
 /// Applies `each` to the items on `threads` threads, in their order.

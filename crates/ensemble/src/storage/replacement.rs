@@ -6,11 +6,9 @@
 //!
 //! Only files that a dataset lists or names are ever removed.
 
+use super::prelude::*;
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use crate::storage::dataset::{Head, unfinish};
 use crate::storage::disk::{above, sync_folder};
@@ -19,7 +17,7 @@ use crate::storage::found::{Found, contents};
 use crate::storage::identity::sha256;
 use crate::storage::lock::lock;
 use crate::storage::names::{FOLDERS, HEAD, is_digits};
-use crate::storage::store::{OpenFolder, Store, StoreError, at};
+use crate::storage::store::{OpenFolder, at};
 
 fn beside(root: &Path, digits: &str, what: &str) -> PathBuf {
     let mut name = OsString::from(".");

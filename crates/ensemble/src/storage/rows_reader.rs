@@ -3,10 +3,9 @@
 //! Parquet's typed column reader decodes a column to a list of numbers without Arrow's arrays. Memory does not depend
 //! on the number of rows. Panics of the Parquet reader on damaged files become errors.
 
-use crate::ensemble::prelude::*;
+use super::prelude::*;
 use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 
 use bytes::Bytes;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -17,8 +16,6 @@ use thiserror::Error;
 
 use crate::storage::parallel::in_order;
 use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
-use crate::storage::store::Store;
-use crate::table::Values;
 
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{path}: {what}")]

@@ -5,12 +5,10 @@
 //! content is success, absence a reason to retry, anything else is refused, since nothing in a store is replaced or
 //! removed.
 
-use std::collections::BTreeMap;
+use super::prelude::*;
 use std::error::Error as _;
-use std::fs::{File, TryLockError};
-use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::fs::TryLockError;
+use std::sync::PoisonError;
 use std::time::Duration;
 
 use bytes::Bytes;
@@ -21,7 +19,7 @@ use tokio::runtime::{Builder, Runtime};
 
 use super::address::Address;
 use super::identity::sha256;
-use super::store::{Entry, Store};
+use super::store::Entry;
 
 /// Retries of a request, with pauses up to 15 s, about a minute in all.
 const RETRIES: usize = 10;

@@ -1,13 +1,11 @@
 //! Tables in a single file: [`save`], in the [`TableFormat`] of its extension.
 
-use std::path::Path;
-
-use crate::campaign::Plan;
+use super::prelude::*;
 use crate::storage::atomic;
 use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
 use crate::storage::store::Failure;
-use crate::table::{Table, csv};
+use crate::table::csv;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableFormat {

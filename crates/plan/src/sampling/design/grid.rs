@@ -1,8 +1,8 @@
 //! `grid`: all combinations of levels; the first dimension changes fastest.
 
 use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
-use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, Size, by_point};
-use crate::sampling::keys::Written;
+use super::prelude::*;
+use super::traits::Size;
 
 #[derive(Debug)]
 pub struct Grid {

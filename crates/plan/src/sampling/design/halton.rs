@@ -5,10 +5,10 @@
 //! proportional; a random line a d + c for each digit is cheaper, but leaves correlations of 0.5 between pairs in 12
 //! dimensions with 256 points. Digits continue below those of the point, to about 2^-52.
 
-use super::hash::{below, keyed};
+use super::hash::below;
+use super::prelude::*;
 use super::replicates::Sequence;
 use super::sobol::MAX_DIMENSIONS;
-use crate::sampling::stream::key;
 
 /// Most cells of the finest scrambled digit: half a cell still shows next to one.
 const FINEST: u64 = 1 << 52;

@@ -5,11 +5,10 @@
 //! next even number of bits, walked until below n (J. Black & P. Rogaway, *Ciphers with arbitrary finite domains*,
 //! CT-RSA 2002). Within it a sample lies as in the random design. n = samples - 1, without the nominal scene.
 
-use super::hash::keyed;
+use super::prelude::*;
 use super::replicates::{self, REPLICATES};
-use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, streams};
-use crate::sampling::keys::Written;
-use crate::sampling::stream::{Stream, key};
+use super::traits::streams;
+use crate::sampling::stream::Stream;
 
 /// Four make a pseudorandom permutation of an ideal round function (M. Luby & C. Rackoff, 1988); two more for safety.
 const ROUNDS: usize = 6;

@@ -3,9 +3,10 @@
 //! A level is a value of u: the midpoints of n equally likely intervals, (i + 1/2)/n, or the listed quantiles, computed
 //! on demand.
 
-use super::traits::{Dimensions, MAX_SAMPLES};
-use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{ALL_BUT_ONE, Kind, Row, Rule, Value, Values, Written, inside};
+use super::prelude::*;
+use super::traits::MAX_SAMPLES;
+use crate::sampling::error::{Table, error_of};
+use crate::sampling::keys::{ALL_BUT_ONE, Kind, Value, Values, inside};
 
 pub const LEVELS: [Row; 2] = [
     Row::new(

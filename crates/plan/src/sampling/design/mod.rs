@@ -25,6 +25,7 @@ pub mod hash;
 pub mod latin;
 pub mod levels;
 pub mod one_at_a_time;
+mod prelude;
 pub mod random;
 pub mod replicates;
 pub mod saltelli;

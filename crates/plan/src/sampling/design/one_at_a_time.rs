@@ -1,8 +1,8 @@
 //! `one_at_a_time`: one dimension after the other through its levels, the others nominal.
 
 use super::levels::{LEVELS, Levels, ONE_OF_LEVELS};
-use super::traits::{BLOCK, Dimensions, Facts, Kind, NOMINAL, PointSource, Size, by_point};
-use crate::sampling::keys::Written;
+use super::prelude::*;
+use super::traits::{NOMINAL, Size};
 
 #[derive(Debug)]
 pub struct OneAtATime {

@@ -1,7 +1,7 @@
 //! `random`: independent uniform numbers, one stream for each dimension.
 
-use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, streams};
-use crate::sampling::keys::Written;
+use super::prelude::*;
+use super::traits::streams;
 use crate::sampling::stream::Stream;
 
 #[derive(Debug)]

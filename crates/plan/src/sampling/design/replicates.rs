@@ -6,9 +6,10 @@
 //!
 //! Sample k >= 1 is point (k - 1) / R of replicate (k - 1) mod R.
 
-use super::traits::{BLOCK, Dimensions, Facts, Kind, MAX_SAMPLES, PointSource, by_point};
-use crate::sampling::error::{DispersionError, Table, error_of};
-use crate::sampling::keys::{self, Row, Written};
+use super::prelude::*;
+use super::traits::MAX_SAMPLES;
+use crate::sampling::error::{Table, error_of};
+use crate::sampling::keys;
 use std::fmt::Debug;
 
 /// Each has its own scrambling in memory.

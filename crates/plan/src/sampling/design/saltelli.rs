@@ -9,14 +9,10 @@
 //! dimensions, leading bits of three depend on each other: it estimated the first-order index of x in the exclusive or
 //! of x and y as -1 instead of 0.
 
-use super::hash::keyed;
 use super::latin::Permutation;
+use super::prelude::*;
 use super::replicates::{Sequence, whole_blocks};
 use super::sobol::Sobol;
-use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, by_point};
-use crate::sampling::error::DispersionError;
-use crate::sampling::keys::Written;
-use crate::sampling::stream::key;
 
 #[derive(Clone, Debug)]
 pub struct Saltelli {

@@ -6,11 +6,11 @@
 //! hash the bits below. Point 0 is used (A. B. Owen, *On dropping the first Sobol' point*, 2020): the sequence is best
 //! in 2^m points, 2^m + 1 samples with the nominal one.
 
+use super::prelude::*;
 use std::collections::HashMap;
 
-use super::hash::keyed;
 use super::replicates::Sequence;
-use crate::sampling::stream::{key, unit};
+use crate::sampling::stream::unit;
 
 /// Dimensions in the table of directions.
 pub const MAX_DIMENSIONS: usize = 512;

@@ -1,8 +1,9 @@
 //! `table`: the rows of a file, for the parameters in its columns; other parameters are drawn as in the random design.
 
+use super::prelude::*;
 use super::random::Random;
-use super::traits::{BLOCK, Dimensions, Facts, Kind, PointSource, Size};
-use crate::sampling::keys::{FILE_OF_PARAMETERS, Written};
+use super::traits::Size;
+use crate::sampling::keys::FILE_OF_PARAMETERS;
 
 #[derive(Debug)]
 pub struct TableRows(Random);
