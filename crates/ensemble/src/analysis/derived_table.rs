@@ -5,7 +5,7 @@
 use super::prelude::*;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
-use crate::storage::rows_file::{SAMPLE_ID, STATUS};
+use crate::storage::rows_file::fixed_columns;
 use crate::storage::rows_reader::PartReader;
 use crate::storage::store::Failure;
 use crate::table::{Column, Content, Values};
@@ -20,11 +20,7 @@ pub fn encoded(plan: &Plan, reader: &RowsReader) -> Result<Option<Vec<u8>>, Fail
     if derived.is_empty() {
         return Ok(None);
     }
-    let fixed = [
-        (SAMPLE_ID, "Number of the sample within the campaign; 0 is the nominal scene.", Content::Count),
-        (STATUS, "How the run ended, as in the rows.", Content::Word),
-    ];
-    let fixed = fixed.map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content));
+    let fixed = fixed_columns("How the run ended, as in the rows.");
     let of_derived = derived.iter().map(|one| Column::new(one.quantity.clone(), Content::Real));
     let columns: Vec<Column> = fixed.into_iter().chain(of_derived).collect();
     let layout = Layout::new(&columns, provenance(plan), Packing::Zstd)?;

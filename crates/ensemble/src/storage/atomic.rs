@@ -4,16 +4,17 @@
 //! renamed. The name identifies leftovers of a crash.
 
 use super::prelude::*;
-use std::fs::{self, OpenOptions};
+use std::fs;
 use std::io::{BufWriter, Write};
 
+use crate::storage::disk::above;
 use crate::storage::names::unfinished;
 
 /// Refuses a `path` that a rename must not replace: a device or a pipe.
 fn check_replaceable(path: &Path) -> io::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if !(found.is_file() || found.is_symlink()) => Err(io::Error::new(
-            io::ErrorKind::AlreadyExists,
+            ErrorKind::AlreadyExists,
             "there is something of that name that is not a regular file; move it away, or choose another name",
         )),
         _ => Ok(()),
@@ -22,16 +23,16 @@ fn check_replaceable(path: &Path) -> io::Result<()> {
 
 /// An error of creating `path` in words: the obstacle and the remedy.
 pub fn explained(path: &Path, error: io::Error) -> io::Error {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = above(path);
     let text = match error.kind() {
-        io::ErrorKind::AlreadyExists if path.is_dir() => "is a folder; choose another name".to_owned(),
-        io::ErrorKind::AlreadyExists => {
+        ErrorKind::AlreadyExists if path.is_dir() => "is a folder; choose another name".to_owned(),
+        ErrorKind::AlreadyExists => {
             "is there already, and is not replaced; move it away, or choose another name".to_owned()
         }
-        io::ErrorKind::NotFound => {
+        ErrorKind::NotFound => {
             format!("there is no folder `{}`; make it, or choose another path", folder.display())
         }
-        io::ErrorKind::NotADirectory => {
+        ErrorKind::NotADirectory => {
             let file = path.ancestors().find(|part| part.is_file()).unwrap_or(folder);
             format!("`{}` is a file and not a folder; choose another path", file.display())
         }
@@ -62,8 +63,7 @@ pub fn write<E: From<io::Error>>(
 ) -> Result<(), E> {
     check_replaceable(path)?;
     let temporary = unfinished(path);
-    let file = OpenOptions::new().write(true).create_new(true).open(&temporary);
-    let file = file.map_err(|error| explained(path, error))?;
+    let file = File::create_new(&temporary).map_err(|error| explained(path, error))?;
     let written = (|| {
         let mut file = BufWriter::with_capacity(1 << 16, file);
         content(&mut file)?;
@@ -87,28 +87,15 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::PathBuf;
-
-    fn folder(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("spindrift-atomic-{}-{name}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
-        folder
-    }
+    use crate::storage::scratch::Scratch;
 
     /// Law: obstacles are named in words, with the remedy and without numbers of the system.
     #[test]
     fn what_is_in_the_way_is_said() {
-        let folder = folder("words");
+        let folder = Scratch::new("atomic-words");
         let file = folder.join("a");
         fs::write(&file, b"a").unwrap();
-        let create = |path: &Path| {
-            OpenOptions::new()
-                .write(true)
-                .create_new(true)
-                .open(path)
-                .map(|_| ())
-                .map_err(|error| explained(path, error))
-        };
+        let create = |path: &Path| File::create_new(path).map(drop).map_err(|error| explained(path, error));
         let cases = [
             (create(&file), "is there already, and is not replaced; move it away"),
             (create(&folder), "is a folder; choose another name"),
@@ -122,13 +109,12 @@ mod tests {
             let said = found.expect_err(words).to_string();
             assert!(said.contains(words) && !said.contains("os error"), "{words}: {said}");
         }
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     /// Law: an unfinished file has no final name; after an error the old content stays and no temporary file is left.
     #[test]
     fn the_name_appears_when_the_file_is_whole() {
-        let folder = folder("whole");
+        let folder = Scratch::new("atomic-whole");
         let path = folder.join("x.txt");
         for (content, fails) in [("old", false), ("half", true)] {
             let written = write(&path, |file| {
@@ -140,7 +126,6 @@ mod tests {
             assert_eq!(written.is_err(), fails);
             assert_eq!((fs::read(&path).unwrap(), fs::read_dir(&folder).unwrap().count()), (b"old".to_vec(), 1));
         }
-        fs::remove_dir_all(&folder).unwrap();
     }
 
     /// Law: links under the temporary or final name are not followed, an existing temporary file is kept, and a pipe is
@@ -149,7 +134,7 @@ mod tests {
     #[test]
     fn links_are_not_followed() {
         use std::os::unix::fs::symlink;
-        let folder = folder("links");
+        let folder = Scratch::new("atomic-links");
         let (path, precious) = (folder.join("s.csv"), folder.join("precious"));
         fs::write(&precious, b"precious").unwrap();
         symlink(&precious, folder.join("s.csv.tmp")).unwrap();
@@ -164,6 +149,5 @@ mod tests {
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         assert!(write_bytes(&pipe, b"new").is_err());
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 5);
-        fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -216,10 +216,9 @@ pub fn read(store: &dyn Store, files: &[String], threads: Option<NonZeroUsize>) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::PartId;
     use crate::storage::disk::folder as store;
     use crate::storage::names::unfinished;
-    use std::path::Path;
+    use crate::storage::scratch::Scratch;
 
     fn layout(nominal: f64) -> BandLayout {
         let angle = Quantity::new("angle_rad", "rad", "An angle; with letters beyond ASCII: \u{3b1}.");
@@ -239,7 +238,7 @@ mod tests {
 
     fn file(folder: &Path, part: u64, nominal: f64, rows: &[[u64; 2]], lengths: &str, extremes: [&str; 2]) -> String {
         let column = |index: usize| Values::Count(rows.iter().map(|row| row[index]).collect());
-        let part = Part { id: PartId(part), first: crate::sampling::SampleId(0), count: 9 };
+        let part = Part { id: PartId(part), first: SampleId(0), count: 9 };
         let mut own = vec![(RUNS_KEY, "11".to_owned()), (COUNTED_KEY, "9".to_owned())];
         own.extend([(ROWS_KEY, lengths), (WITHOUT_KEY, "0 11 11 9")].map(|(key, text)| (key, text.to_owned())));
         own.extend(EXTREMES_KEYS.into_iter().zip(extremes.map(str::to_owned)));
@@ -254,8 +253,7 @@ mod tests {
     /// Law: files are merged in their order; invalid, damaged, foreign and repeated ones are refused by name.
     #[test]
     fn files_are_merged_or_refused_by_name() {
-        let folder = std::env::temp_dir().join(format!("spindrift-bands-file-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = Scratch::new("bands-file");
         let ends = ["1.0 NaN NaN -3.0", "2.5 NaN NaN 4.0"];
         let (sound, lengths) = ([[0, 4], [700, 5], [9, 1]], "2 0 0 1");
         let [first, second] = [0, 1].map(|part| file(&folder, part, 1.0, &sound, lengths, ends));
@@ -286,6 +284,5 @@ mod tests {
         );
         std::fs::write(folder.join(&first), b"PAR1").unwrap();
         assert!(refused(&[&first]).starts_with(folder.join(&first).to_str().unwrap()));
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -7,7 +7,7 @@
 //! [`crate::campaign::input_file`].
 
 use super::prelude::*;
-use std::fs::{self, OpenOptions, TryLockError};
+use std::fs::{self, TryLockError};
 use std::io::{Read, Write};
 
 use crate::storage::names::unfinished;
@@ -132,7 +132,7 @@ impl Store for Disk {
 }
 
 fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    let mut file = File::create_new(path)?;
     file.write_all(bytes)?;
     file.sync_all()
 }
@@ -268,9 +268,8 @@ mod tests {
     /// Law: a file is read as put; altered, occupied and irregular ones are refused; only empty folders are removed.
     #[test]
     fn a_file_is_whole_or_absent() {
-        let root = std::env::temp_dir().join(format!("spindrift-disk-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&root);
-        let disk = Disk(root.clone());
+        let root = crate::storage::scratch::Scratch::new("disk");
+        let disk = Disk(root.to_owned());
         disk.put("runs/a", b"12345").unwrap();
         disk.put_if_absent("runs/a", b"other").unwrap();
         assert_eq!(disk.get("runs/a").unwrap(), b"12345");

@@ -6,7 +6,7 @@ use crate::ensemble::drawn::MASS_COLUMNS;
 use crate::storage::atomic;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
-use crate::storage::rows_file::{SAMPLE_ID, STATUS, parameter_columns};
+use crate::storage::rows_file::{fixed_columns, parameter_columns};
 use crate::storage::store::Failure;
 use crate::storage::table_file::TableFormat;
 use crate::table::csv;
@@ -16,10 +16,7 @@ pub const PHYSICAL: &str = "drawn";
 
 /// The columns: number, status, dispersed values, mass properties.
 pub fn columns(plan: &Plan) -> Vec<Column> {
-    let number = "Number of the sample within the campaign; 0 is the nominal scene.";
-    let status = "drawn, or invalid_sample where the scene is not physical.";
-    let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word)]
-        .map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content));
+    let fixed = fixed_columns("drawn, or invalid_sample where the scene is not physical.");
     let mass = MASS_COLUMNS.map(|[name, unit, meaning]| Column::new(Quantity::new(name, unit, meaning), Content::Real));
     fixed.into_iter().chain(parameter_columns(plan)).chain(mass).collect()
 }
@@ -29,7 +26,7 @@ pub fn values(drawn: &DrawnScenes) -> Vec<Values<'_>> {
     let first = drawn.first.0;
     let fixed = [
         Values::Count((first..first + drawn.count() as u64).collect()),
-        Values::words(drawn.physical.iter().map(|physical| status(*physical))),
+        Values::words(drawn.physical.iter().map(|is| if *is { PHYSICAL } else { Status::InvalidSample.name() })),
     ];
     let numbers = drawn.columns.iter().chain(&drawn.mass).map(|column| Values::Real(column.into()));
     fixed.into_iter().chain(numbers).collect()
@@ -61,8 +58,4 @@ pub fn save(plan: &Plan, path: &Path, mut seen: impl FnMut(&DrawnScenes)) -> Res
             })
         }
     }
-}
-
-fn status(physical: bool) -> &'static str {
-    if physical { PHYSICAL } else { Status::InvalidSample.name() }
 }

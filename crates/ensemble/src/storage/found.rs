@@ -170,8 +170,8 @@ fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, Strin
 /// Damage of an absent file.
 pub const MISSING: &str = "missing";
 
-fn reason(error: &std::io::Error) -> String {
-    if error.kind() == std::io::ErrorKind::NotFound { MISSING.to_owned() } else { error.to_string() }
+fn reason(error: &io::Error) -> String {
+    if error.kind() == ErrorKind::NotFound { MISSING.to_owned() } else { error.to_string() }
 }
 
 /// The part `id`, possibly `listed` in the manifest, or its damage.
@@ -243,8 +243,7 @@ pub fn contents(store: &dyn Store) -> Result<Found, FolderError> {
         }
     }
     let read = |name: &str| found.files.contains(name).then(|| store.read(name)).transpose();
-    let bytes =
-        |read: &Option<Result<Vec<u8>, std::io::Error>>| read.as_ref().and_then(|read| read.as_ref().ok().cloned());
+    let bytes = |read: &Option<Result<Vec<u8>, io::Error>>| read.as_ref().and_then(|read| read.as_ref().ok().cloned());
     let (head, manifest) = (read(HEAD)?, read(MANIFEST)?);
     let there = bytes(&head).filter(|bytes| sealed(bytes).is_some());
     let there: Option<Head> = there.and_then(|bytes| serde_json::from_slice(&bytes).ok());

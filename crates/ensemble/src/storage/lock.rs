@@ -44,8 +44,7 @@ mod tests {
     /// Law: a lock that ends within a moment is awaited; a held one is refused within a second.
     #[test]
     fn a_lock_that_ends_is_waited_for() {
-        let root = std::env::temp_dir().join(format!("spindrift-lock-{}", std::process::id()));
-        std::fs::create_dir_all(&root).expect("a folder");
+        let root = crate::storage::scratch::Scratch::new("lock");
         let store = folder(&root);
         let held = store.lock(false).expect("the first lock");
         let start = Instant::now();
@@ -59,6 +58,6 @@ mod tests {
             });
             lock(&*store, false).expect("a lock after the other has ended");
         });
-        std::fs::remove_dir(&root).expect("no file of the test");
+        std::fs::remove_dir(&*root).expect("no file of the test");
     }
 }

@@ -36,6 +36,8 @@ pub mod rows_file;
 pub mod rows_reader;
 #[cfg(feature = "cloud")]
 pub mod s3;
+#[cfg(test)]
+mod scratch;
 pub mod store;
 pub mod table_file;
 pub mod timeseries;

@@ -54,29 +54,35 @@ pub fn audited_observables(ensemble: &Ensemble<'_>) -> Vec<usize> {
     if ensemble.plan().audit_fraction > 0.0 { headlines(ensemble.request()) } else { Vec::new() }
 }
 
-pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
+/// The columns of numbers and of statuses, with the meaning `status`.
+pub fn fixed_columns(status: &'static str) -> [Column; 2] {
     let number = "Number of the sample within the campaign; 0 is the nominal scene.";
+    [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word)]
+        .map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content))
+}
+
+fn audit_values(ensemble: &Ensemble<'_>) -> impl Iterator<Item = AuditValue> + use<> {
+    let is_audited = ensemble.plan().audit_fraction > 0.0;
+    AuditValue::of_scenes(ensemble.request().debris).filter(move |_| is_audited)
+}
+
+pub fn columns(ensemble: &Ensemble<'_>) -> Vec<Column> {
     let status = "How the run ended: ok, step_limit, step_floor, non_finite, invalid_sample, inaccurate, \
         internal_error, \
          surface, diverged.";
-    let reason = "Why the run is not ok.";
-    let fixed = [(SAMPLE_ID, number, Content::Count), (STATUS, status, Content::Word), (REASON, reason, Content::Word)]
-        .map(|(name, meaning, content)| Column::new(Quantity::new(name, "", meaning), content))
-        .map(|column| if column.quantity.name() == REASON { column.nullable() } else { column });
+    let reasons = |name, meaning| Column::new(Quantity::new(name, "", meaning), Content::Word).nullable();
     let observables = ensemble
         .request()
         .columns()
         .into_iter()
         .map(|column| Column::new(column.quantity.clone(), content(column.kind)).nullable());
-    let audited = ensemble.plan().audit_fraction > 0.0;
-    let audits = AuditValue::of_scenes(ensemble.request().debris)
-        .filter(|_| audited)
-        .map(|value| Column::new(value.quantity().clone(), Content::Real));
+    let audits = audit_values(ensemble).map(|value| Column::new(value.quantity().clone(), Content::Real));
     let errors = error_columns(ensemble, audited_observables(ensemble));
     let without = "Why a run that was selected for an audit has none; null in other rows.";
-    let reason = audited.then(|| Column::new(Quantity::new(AUDIT_REASON, "", without), Content::Word).nullable());
-    fixed
+    let reason = (ensemble.plan().audit_fraction > 0.0).then(|| reasons(AUDIT_REASON, without));
+    fixed_columns(status)
         .into_iter()
+        .chain([reasons(REASON, "Why the run is not ok.")])
         .chain(parameter_columns(ensemble.plan()))
         .chain(observables)
         .chain(audits)
@@ -117,8 +123,7 @@ impl RowsFile {
         let origin = row_provenance(plan, &identity::of(plan, &columns));
         let layout = Layout::new(&columns, origin, packing(plan))?;
         let contents = ensemble.request().columns().into_iter().map(|column| content(column.kind)).collect();
-        let is_audited = ensemble.plan().audit_fraction > 0.0;
-        let audits = AuditValue::of_scenes(ensemble.request().debris).filter(|_| is_audited).collect();
+        let audits = audit_values(ensemble).collect();
         Ok(RowsFile { layout, contents, audits, audited: audited_observables(ensemble) })
     }
 

@@ -268,36 +268,17 @@ mod tests {
     use super::*;
     use crate::storage::columnar::{Layout, Packing};
     use crate::storage::disk::folder as store;
-    use crate::table::{Column, Content};
+    use crate::storage::scratch::Scratch;
 
-    struct Folder(std::path::PathBuf);
-
-    impl Folder {
-        fn reader(&self, files: Vec<String>) -> RowsReader {
-            RowsReader::new(store(&self.0), files, Vec::new())
-        }
-    }
-
-    impl Folder {
-        fn new(name: &str) -> Self {
-            let folder = std::env::temp_dir().join(format!("spindrift-rows-{}-{name}", std::process::id()));
-            let _ = std::fs::remove_dir_all(&folder);
-            std::fs::create_dir_all(&folder).expect("a folder");
-            Folder(folder)
-        }
-    }
-
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            let _ = std::fs::remove_dir_all(&self.0);
-        }
+    fn reader(folder: &Path, files: Vec<String>) -> RowsReader {
+        RowsReader::new(store(folder), files, Vec::new())
     }
 
     fn heading(name: &'static str, content: Content) -> Column {
         Column::new(Quantity::new(name, "", "A column."), content)
     }
 
-    fn file(folder: &Folder, first: u64) -> String {
+    fn file(folder: &Path, first: u64) -> String {
         let headings = [
             heading(SAMPLE_ID, Content::Count),
             heading(STATUS, Content::Word),
@@ -307,7 +288,7 @@ mod tests {
         ];
         let layout = Layout::new(&headings, BTreeMap::new(), Packing::Lz4).expect("a layout");
         let name = format!("part-{first:06}.parquet");
-        let out = std::fs::File::create(folder.0.join(&name)).expect("a file");
+        let out = File::create(folder.join(&name)).expect("a file");
         let x = [first as f64 + 0.5, f64::NAN, 41.5];
         let values = [
             Values::Count((first..first + 3).collect()),
@@ -323,8 +304,8 @@ mod tests {
     /// Law: rows are read as written; null is NaN, counts are doubles.
     #[test]
     fn rows_are_read_as_written() {
-        let folder = Folder::new("read");
-        let reader = folder.reader(vec![file(&folder, 40)]);
+        let folder = Scratch::new("rows-read");
+        let reader = reader(&folder, vec![file(&folder, 40)]);
         let part = reader.part(0).expect("one part").expect("readable");
         assert_eq!((part.rows(), part.samples()), (3, Ok(vec![SampleId(40), SampleId(41), SampleId(42)])));
         assert_eq!(part.statuses(), Ok(vec![Status::Done, Status::StepLimit, Status::Done]));
@@ -341,17 +322,17 @@ mod tests {
     /// Law: a file with other than one row group is refused.
     #[test]
     fn files_of_many_groups_are_refused() {
-        let folder = Folder::new("groups");
+        let folder = Scratch::new("rows-groups");
         let layout =
             Layout::new(&[heading(SAMPLE_ID, Content::Count)], BTreeMap::new(), Packing::Lz4).expect("a layout");
         let opened = |groups: u64| {
-            let path = folder.0.join(format!("{groups}.parquet"));
-            let mut writer = layout.begin(std::fs::File::create(&path).expect("a file"), &[]).expect("begun");
+            let path = folder.join(format!("{groups}.parquet"));
+            let mut writer = layout.begin(File::create(&path).expect("a file"), &[]).expect("begun");
             for group in 0..groups {
                 writer.group(std::iter::once(Values::Count(vec![group]))).expect("written");
             }
             writer.finish().expect("finished");
-            PartReader::open(&*store(&folder.0), &format!("{groups}.parquet")).map(|part| part.rows())
+            PartReader::open(&*store(&folder), &format!("{groups}.parquet")).map(|part| part.rows())
         };
         assert_eq!(opened(1), Ok(1));
         for groups in [0, 2, 6000] {
@@ -362,24 +343,24 @@ mod tests {
     /// Law: the fewest parts with the first n rows are read.
     #[test]
     fn the_first_parts_have_the_first_rows() {
-        let folder = Folder::new("first");
-        let reader = folder.reader((0..3).map(|k| file(&folder, 3 * k)).collect());
+        let folder = Scratch::new("rows-first");
+        let reader = reader(&folder, (0..3).map(|k| file(&folder, 3 * k)).collect());
         let parts = |rows: usize| reader.first_parts(rows).map(|part| part.expect("readable").rows()).sum::<usize>();
         assert_eq!([0, 1, 3, 4, 6, 7, 9, 100].map(parts), [0, 3, 3, 6, 6, 9, 9, 9]);
-        let missing = folder.reader(vec!["none.parquet".to_owned()]);
+        let missing = reader(&folder, vec!["none.parquet".to_owned()]);
         assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
     }
 
     /// Law: a file damaged at any byte is an error that names it, never a panic.
     #[test]
     fn damaged_files_are_errors() {
-        let folder = Folder::new("damaged");
+        let folder = Scratch::new("rows-damaged");
         let whole = file(&folder, 0);
-        let bytes = std::fs::read(folder.0.join(whole)).expect("bytes");
-        let path = folder.0.join("damaged.parquet");
+        let bytes = std::fs::read(folder.join(whole)).expect("bytes");
+        let path = folder.join("damaged.parquet");
         let read = |content: &[u8]| -> Result<(), RowsError> {
             std::fs::write(&path, content).expect("written");
-            let part = PartReader::open(&*store(&folder.0), "damaged.parquet")?;
+            let part = PartReader::open(&*store(&folder), "damaged.parquet")?;
             part.samples()?;
             part.statuses()?;
             part.reasons()?;
@@ -401,6 +382,6 @@ mod tests {
             assert!(read(&bytes[..length]).is_err(), "{length} bytes");
         }
         std::fs::remove_file(&path).expect("removed");
-        assert!(PartReader::open(&*store(&folder.0), "damaged.parquet").is_err());
+        assert!(PartReader::open(&*store(&folder), "damaged.parquet").is_err());
     }
 }
