@@ -1,10 +1,12 @@
 //! Campaigns of known truth and their comparison, for tests here and in the package of findings.
 
-use super::prelude::*;
 use crate::analysis::comparison::{Absence, Comparison, adjust, compared};
+use crate::analysis::population::Population;
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
 use crate::math::normal::quantile;
-use crate::sampling::Stream;
+use crate::run::{Quantity, Status};
+use crate::sampling::{SampleId, Stream};
+use crate::statistics::moments::Moments;
 
 const NAMES: [&str; 3] = ["a", "b", "c"];
 

@@ -124,7 +124,7 @@ mod tests {
                 if fails { Err(io::Error::other("the disk is full")) } else { Ok(()) }
             });
             assert_eq!(written.is_err(), fails);
-            assert_eq!((fs::read(&path).unwrap(), fs::read_dir(&folder).unwrap().count()), (b"old".to_vec(), 1));
+            assert_eq!((fs::read(&path).unwrap(), fs::read_dir(&*folder).unwrap().count()), (b"old".to_vec(), 1));
         }
     }
 
@@ -148,6 +148,6 @@ mod tests {
         let pipe = folder.join("pipe.csv");
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         assert!(write_bytes(&pipe, b"new").is_err());
-        assert_eq!(fs::read_dir(&folder).unwrap().count(), 5);
+        assert_eq!(fs::read_dir(&*folder).unwrap().count(), 5);
     }
 }

@@ -270,7 +270,7 @@ mod tests {
     use crate::storage::disk::folder as store;
     use crate::storage::scratch::Scratch;
 
-    fn reader(folder: &Path, files: Vec<String>) -> RowsReader {
+    fn reader_of(folder: &Path, files: Vec<String>) -> RowsReader {
         RowsReader::new(store(folder), files, Vec::new())
     }
 
@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn rows_are_read_as_written() {
         let folder = Scratch::new("rows-read");
-        let reader = reader(&folder, vec![file(&folder, 40)]);
+        let reader = reader_of(&folder, vec![file(&folder, 40)]);
         let part = reader.part(0).expect("one part").expect("readable");
         assert_eq!((part.rows(), part.samples()), (3, Ok(vec![SampleId(40), SampleId(41), SampleId(42)])));
         assert_eq!(part.statuses(), Ok(vec![Status::Done, Status::StepLimit, Status::Done]));
@@ -344,10 +344,10 @@ mod tests {
     #[test]
     fn the_first_parts_have_the_first_rows() {
         let folder = Scratch::new("rows-first");
-        let reader = reader(&folder, (0..3).map(|k| file(&folder, 3 * k)).collect());
+        let reader = reader_of(&folder, (0..3).map(|k| file(&folder, 3 * k)).collect());
         let parts = |rows: usize| reader.first_parts(rows).map(|part| part.expect("readable").rows()).sum::<usize>();
         assert_eq!([0, 1, 3, 4, 6, 7, 9, 100].map(parts), [0, 3, 3, 6, 6, 9, 9, 9]);
-        let missing = reader(&folder, vec!["none.parquet".to_owned()]);
+        let missing = reader_of(&folder, vec!["none.parquet".to_owned()]);
         assert!(missing.first_parts(1).next().is_some_and(|part| part.is_err()));
     }
 

@@ -5,10 +5,12 @@
 //! content is success, absence a reason to retry, anything else is refused, since nothing in a store is replaced or
 //! removed.
 
-use super::prelude::*;
+use std::collections::BTreeMap;
 use std::error::Error as _;
-use std::fs::TryLockError;
-use std::sync::PoisonError;
+use std::fs::{File, TryLockError};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use bytes::Bytes;
@@ -19,7 +21,7 @@ use tokio::runtime::{Builder, Runtime};
 
 use super::address::Address;
 use super::identity::sha256;
-use super::store::Entry;
+use super::store::{Entry, Store};
 
 /// Retries of a request, with pauses up to 15 s, about a minute in all.
 const RETRIES: usize = 10;
