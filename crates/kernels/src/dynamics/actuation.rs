@@ -1,8 +1,7 @@
 //! Actuation of a spacecraft, arc by arc.
 //!
 //! At the end of an *arc* of constant actuation the engine passes the state of the run to its [`ActuationLaw`], which
-//! returns the next actuation and its end. Values are *applied* values: a law models the scales, delays and limits of
-//! its actuators itself.
+//! returns the next actuation and its end. Values are *applied* ones: a law models scales, delays and limits itself.
 
 use crate::run::Telemetry;
 pub use crate::scene::schedule::actuation_at;
@@ -40,8 +39,8 @@ impl WheelState {
 
 /// Decides the actuation of one run, arc by arc; any closure `|time, body, wheels| -> Actuation` does.
 pub trait ActuationLaw {
-    /// Actuation from `time` (s since the start of the run) on. Called at time zero and at the end of every arc;
-    /// `until` must exceed `time`, and another source or the end of the run may cut the arc short.
+    /// Actuation from `time`, s, on: at time zero and at the end of every arc; `until` must exceed `time`. Another
+    /// source or the end of the run may cut the arc short.
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation;
 
     /// Called once with the final state, after the last arc.
@@ -55,7 +54,7 @@ pub trait ActuationLaw {
         None
     }
 
-    /// The telemetry of the run, if the law records it.
+    /// The telemetry of the run, if recorded.
     fn telemetry(&self) -> Option<&Telemetry> {
         None
     }
@@ -67,7 +66,7 @@ impl<F: FnMut(f64, &BodyState, &WheelState) -> Actuation> ActuationLaw for F {
     }
 }
 
-/// Samples a law at times 0, T, 2T, ... and holds each actuation for a period, whatever its `until`.
+/// Samples a law at times 0, T, 2T, ... and holds each actuation for a period.
 #[derive(Clone, Debug)]
 pub struct ZeroOrderHold<L> {
     period: f64,
@@ -78,7 +77,7 @@ pub struct ZeroOrderHold<L> {
 }
 
 impl<L: ActuationLaw> ZeroOrderHold<L> {
-    /// `law` at a control period of `period` > 0 seconds.
+    /// `law` at a control period of `period` > 0, s.
     pub fn new(period: f64, law: L) -> Self {
         ZeroOrderHold { period, law, next: 0, held: Actuation::none(0.0) }
     }
@@ -152,7 +151,7 @@ impl Laws<'_> {
         }
     }
 
-    /// The same laws, for a shorter time.
+    /// The same laws for a shorter time.
     pub fn reborrow(&mut self) -> Laws<'_> {
         match self {
             Laws::OpenLoop => Laws::OpenLoop,

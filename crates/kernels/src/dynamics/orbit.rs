@@ -30,7 +30,7 @@ const MOST_CORRECTIONS: usize = 30;
 /// section 6.6).
 const START: f64 = 0.85;
 
-/// Defines the orbit with its scalars, which are broadcast and copied alike.
+/// Defines the orbit with its scalars, which are treated alike.
 macro_rules! kepler_orbit {
     ($($(#[$doc:meta])* $scalar:ident,)*) => {
         /// A two-body orbit, one run per lane.
@@ -131,7 +131,7 @@ impl KeplerOrbit<f64> {
         (self.gravity.mu / lowest).sqrt() / lowest
     }
 
-    /// An arbitrary circle, for empty lanes.
+    /// Any circle, for empty lanes.
     pub fn blank() -> Self {
         KeplerOrbit::new(&Orbit {
             mu: 1.0,

@@ -15,7 +15,7 @@ pub struct DoubleDouble {
     pub low: f64,
 }
 
-/// [`sums::two_sum`].
+/// `sums::two_sum`.
 #[inline(always)]
 pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let (high, low) = sums::two_sum(a, b);

@@ -1,10 +1,10 @@
 //! [`Conditioning`]: estimated error of a run, and amplification of small errors of its rotational state.
 //!
-//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys eta' = eta x omega
-//! + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the energy T;
-//! Zhukovskii's gyrostat: V. Volterra, Acta Math. 22, 1899), which gives the error across the curve of H at any time;
-//! only the shift along the curve is integrated. With w, the part of omega across H, and v = H x w, eta = X H/|H| + Y
-//! w/|w| + Z v/|v|:
+//! With H = K omega + wheels' momentum in the body frame and A = K^-1, a small error eta of H obeys
+//! eta' = eta x omega + H x A eta. Without torque H . eta and omega . eta are constant (changes of |H|^2/2 and of the
+//! energy T; Zhukovskii's gyrostat: V. Volterra, Acta Math. 22, 1899), which gives the error across the curve of H at
+//! any time; only the shift along the curve is integrated. With w, the part of omega across H, and v = H x w,
+//! eta = X H/|H| + Y w/|w| + Z v/|v|:
 //!
 //! ```text
 //! X constant;   |w_i| Y_i = |w_k| Y_k + (mu_k - mu_i) |H| X,   mu = omega . H/|H|^2;   Z = alpha |H| |w|,

@@ -214,41 +214,20 @@ fn of_bodies<S: Simd, const W: usize>(simd: S, run: &MeasuredRun<'_>, out: &mut 
         }
         _ => None,
     };
-    let blocks = out.blocks(
-        const {
-            [
-                Series::ComBody.block(1),
-                Series::ComWheel.block(W),
-                Series::ComWheels.block(1),
-                Series::ComTotal.block(1),
-                Series::ComError.block(1),
-                Series::EnergyBody.block(1),
-                Series::EnergyWheel.block(W),
-                Series::EnergyDebris.block(1),
-                Series::EnergyTotal.block(1),
-                Series::EnergyError.block(1),
-                Series::EnergyTerms.block(1),
-            ]
-        },
-    );
-    let [
-        com_body,
-        com_wheel,
-        com_wheels,
-        com_total,
-        com_error,
-        energy_body,
-        energy_wheel,
-        energy_debris,
-        energy_total,
-        energy_error,
-        energy_terms,
-    ] = blocks;
-    let [com_body, com_wheels, com_total, com_error] =
-        [com_body, com_wheels, com_total, com_error].map(|block| only(block, vectors));
-    let [energy_body, energy_debris, energy_total, energy_error, energy_terms] =
-        [energy_body, energy_debris, energy_total, energy_error, energy_terms].map(|block| only(block, vectors));
-    let [com_wheel, energy_wheel]: [[_; W]; 2] = [each(com_wheel, vectors), each(energy_wheel, vectors)];
+    macro_rules! blocks {
+        (one $($one:ident: $series:ident),+; each $($each:ident: $of_wheels:ident),+) => {
+            let [$($one,)+ $($each),+] =
+                out.blocks(const { [$(Series::$series.block(1),)+ $(Series::$of_wheels.block(W)),+] });
+            $(let $one = only($one, vectors);)+
+            $(let $each: [_; W] = each($each, vectors);)+
+        };
+    }
+    blocks! {
+        one com_body: ComBody, com_wheels: ComWheels, com_total: ComTotal, com_error: ComError,
+            energy_body: EnergyBody, energy_debris: EnergyDebris, energy_total: EnergyTotal,
+            energy_error: EnergyError, energy_terms: EnergyTerms;
+        each com_wheel: ComWheel, energy_wheel: EnergyWheel
+    }
     let mut com_first = Lanes::broadcast(simd, 0.0);
     let mut balance_first = com_first;
     for at in 0..vectors {

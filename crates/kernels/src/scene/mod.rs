@@ -1,4 +1,4 @@
-//! Layer 1: the simulated scene: mass properties, actuators, initial state; validated, immutable, SI.
+//! Layer 1: the simulated scene: mass properties, actuators, initial state; validated, SI.
 
 pub(crate) mod actuated;
 pub(crate) mod alignment;
@@ -49,7 +49,7 @@ pub use thruster::Thruster;
 /// A physically valid scene, the input of kernels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Mass properties of all bodies and of the spacecraft as a whole.
+    /// Mass properties of all bodies and of the spacecraft.
     pub mass: MassProperties,
     /// The state at time zero.
     pub initial: InitialState,
@@ -57,7 +57,7 @@ pub struct Scene {
     pub thrusters: Vec<Thruster>,
     /// The torque rods.
     pub torque_rods: Vec<TorqueRod>,
-    /// Arcs of constant actuation as applied, in order, not overlapping, start < end.
+    /// Arcs of constant actuation as applied, in order, not overlapping.
     pub schedule: Vec<Arc>,
     /// Orbit of the centre of mass; `None` without gravity.
     pub orbit: Option<Orbit>,
@@ -67,13 +67,13 @@ pub struct Scene {
     pub offsets: Option<Offsets>,
     /// Effects of the environment, as written.
     pub environment: EnvironmentInput,
-    /// True if the schedule commands thrust, whatever the thrusters apply.
+    /// True if the schedule commands thrust, even if the thrusters apply none.
     pub commands_thrust: bool,
     /// True if the schedule commands motor torque.
     pub commands_torque: bool,
     /// Actuator models for commands of a control law.
     pub actuators: ActuatorModels,
-    /// Failures during a run; the schedule already includes them.
+    /// Failures during a run, as in the schedule.
     pub failures: Vec<FailureInput>,
 }
 
@@ -197,12 +197,12 @@ pub struct InitialState {
 }
 
 impl Scene {
-    /// Force of the thrusts `thrust` (N, in the order of the thrusters) in F_s, N (72).
+    /// Force of the thrusts `thrust` (N, by thruster) in F_s, N (72).
     pub fn thruster_force_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
         thruster::force_s(&self.thrusters, thrust)
     }
 
-    /// Torque of the thrusts `thrust` about the centre of mass c, F_s, N m (72).
+    /// Their torque about the centre of mass c, F_s, N m (72).
     pub fn thruster_torque_s(&self, thrust: [f64; MAX_THRUSTERS]) -> [f64; 3] {
         thruster::torque_s(&self.thrusters, thrust, self.mass.center)
     }

@@ -35,7 +35,7 @@ impl Parameter {
         })
     }
 
-    /// The parameter `name` of `scene`, and its component if the name ends in one (`.y`, or `.1` for numbered ones).
+    /// The parameter `name` of `scene`, and its component if the name ends in one (`.y` or `.1`).
     pub fn find(scene: &SceneInput, name: &str) -> Option<(Parameter, Option<usize>)> {
         let whole = |name: &str| Self::all(scene).find(|parameter| parameter.name() == name);
         if let Some(parameter) = whole(name) {
@@ -108,7 +108,7 @@ impl Parameter {
         self.key.read(scene, self.instance()).is_some()
     }
 
-    /// Adds the key to `scene`, if its table exists, with NaN as numbers.
+    /// Adds the key, with NaN as numbers, if its table exists.
     pub fn open(self, scene: &mut SceneInput) {
         if !self.exists(scene) {
             self.key.open(scene, self.instance());
@@ -125,7 +125,7 @@ impl Parameter {
         })
     }
 
-    /// Sets a component and its mirror image in a symmetric tensor; nothing if the scene does not have the key.
+    /// Sets a component and its mirror image in a symmetric tensor, if the scene has the key.
     #[inline]
     pub fn set(self, scene: &mut SceneInput, component: usize, value: f64) {
         let Some(numbers) = self.key.write(scene, self.instance()) else { return };
@@ -180,7 +180,7 @@ impl Parameter {
 }
 
 impl SceneInput {
-    /// Sets a parameter, whole or one component, by its name in campaign files.
+    /// Sets a parameter, whole or one component, by its name.
     ///
     /// # Panics
     /// If there is no such parameter or key, or the number of values is wrong.

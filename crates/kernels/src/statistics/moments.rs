@@ -1,4 +1,4 @@
-//! [`Moments`]: count, extremes, mean and central moments up to order four of a stream of numbers, mergeable.
+//! [`Moments`]: count, extremes, mean and central moments up to order four of numbers, mergeable.
 //!
 //! A block is reduced in two passes, with a correction for the rounding of its mean (T. F. Chan, G. H. Golub & R. J.
 //! LeVeque, *Am. Stat.* 37 (1983) 242), and merged by P. Pébay, SAND2008-6212 (2008); in order, for the same bits with
@@ -76,7 +76,7 @@ impl Moments {
         self.max = self.max.max(other.max);
     }
 
-    /// Number of added numbers.
+    /// Number of numbers.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -137,7 +137,7 @@ impl Moments {
     }
 }
 
-/// Moments of a block, with the same bits on all instruction sets.
+/// Moments of a block, the same bits on all instruction sets.
 struct Block<'v>(&'v [f64]);
 
 impl Work for Block<'_> {

@@ -13,7 +13,7 @@ pub fn quantile(ascending: &[f64], p: f64) -> Option<f64> {
 }
 
 /// The `p`-quantile of `count` values, whose order statistics, from zero, are `at`: with (n-1) p = k - 1 + t, x_(k) + t
-/// (x_(k+1) - x_(k)), computed from the nearer end.
+/// (x_(k+1) - x_(k)), from the nearer end.
 fn quantile_of(count: usize, p: f64, at: impl Fn(usize) -> f64) -> Option<f64> {
     let last = count.checked_sub(1)?;
     let place = last as f64 * p;
@@ -27,8 +27,8 @@ fn quantile_of(count: usize, p: f64, at: impl Fn(usize) -> f64) -> Option<f64> {
     Some(if part < 0.5 { low + part * width } else { high - (1.0 - part) * width })
 }
 
-/// Values with their order statistics ([`f64::total_cmp`]): the announced ones are found together, a few in a third of
-/// the time of a sort.
+/// Values with their order statistics ([`f64::total_cmp`]): a few are announced and found together in a third of the
+/// time of a sort.
 #[derive(Clone, Debug)]
 pub struct OrderStatistics {
     /// Partitioned at each of `places`.
@@ -47,7 +47,7 @@ impl OrderStatistics {
         OrderStatistics { values, places }
     }
 
-    /// The values, in arbitrary order.
+    /// The values, in any order.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -62,13 +62,13 @@ impl OrderStatistics {
         Some(copy[place])
     }
 
-    /// The `p`-quantile, see [`quantile`].
+    /// [`quantile`].
     pub fn quantile(&self, p: f64) -> Option<f64> {
         quantile_of(self.values.len(), p, |place| self.at(place).unwrap_or(f64::NAN))
     }
 }
 
-/// Puts the order statistics at ascending `places` into place; `values` is the part from `first` on.
+/// Puts the order statistics at ascending `places` into place; `values` start at place `first`.
 fn place_ascending(values: &mut [f64], first: usize, places: &[usize]) {
     let (before, from) = places.split_at(places.len() / 2);
     let Some((place, after)) = from.split_first() else { return };
@@ -107,8 +107,8 @@ pub fn interval_ranks(count: u64, p: f64, confidence: f64) -> Ranks {
     Ranks { lower: lower_rank(count, p, risk), upper: upper_rank(count, p, risk) }
 }
 
-/// Probability P(r <= X <= s - 1) that [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution; a missing
-/// end is infinite.
+/// P(r <= X <= s - 1), the probability that [x_(r), x_(s)] covers the `p`-quantile of a continuous distribution; a
+/// missing end is infinite.
 pub fn coverage(count: u64, p: f64, ranks: Ranks) -> f64 {
     let below = ranks.lower.map_or(0.0, |rank| at_most(rank - 1, count, p));
     let above = ranks.upper.map_or(0.0, |rank| at_least(rank, count, p));

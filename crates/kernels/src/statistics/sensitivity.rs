@@ -9,9 +9,9 @@
 //!   bias for x^3 + y and 100 runs is 0.13, with a coverage of 0.15.
 //!
 //! Intervals come from the [`jackknife`](super::jackknife) for independent blocks or rows; for sequences see
-//! [`Samples`]. For plain samples they also allow for features that the rows do not show: `UNSEEN` more extreme rows,
-//! curves steeper than the lines (`ALMOST_ALL`, `Rest::noise`) and tails (`MOST_KURTOSIS`). An interval from 0 to 1
-//! means that the share is unknown. Shares of correlated inputs overlap.
+//! [`Samples`]. For plain samples they also allow for hidden features: `UNSEEN` more extreme rows, curves steeper than
+//! the lines (`ALMOST_ALL`, `Rest::noise`) and tails (`MOST_KURTOSIS`). An interval from 0 to 1 means that the share is
+//! unknown. Shares of correlated inputs overlap.
 
 use super::correlation::Estimate;
 use super::jackknife::{ends, of_whole, ratio, spaced_rows};
@@ -19,7 +19,7 @@ use super::mean::one_sided;
 use super::moments::Moments;
 
 /// Share of the variance of `y` explained by a line in `x`, or by a parabola if its bend is significant; zero if one of
-/// these zero-mean columns does not vary. No first-order index, but it ranks inputs.
+/// these zero-mean columns does not vary. It ranks inputs, but is no first-order index.
 pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -41,7 +41,7 @@ pub fn share_of_parabola(x: &[f64], y: &[f64]) -> f64 {
 /// F statistic above which a bend is significant.
 const CERTAIN_BEND: f64 = 12.0;
 
-/// One block of a Saltelli design, for one input.
+/// A block of a Saltelli design, for one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     /// At point A.
@@ -52,7 +52,7 @@ pub struct Block {
     pub mixed: f64,
 }
 
-/// First-order and total index of an input from a Saltelli design; `None` if the observable does not vary.
+/// First-order and total index of an input; `None` if the observable does not vary.
 pub fn saltelli_indices(blocks: &[Block], confidence: f64) -> Option<[Estimate; 2]> {
     let n = blocks.len() as f64;
     let mean = blocks.iter().map(|block| block.a + block.b).sum::<f64>() / (2.0 * n);
@@ -72,7 +72,7 @@ pub enum Samples {
     Independent,
     /// Even in several inputs together (Sobol and Halton sequences). A cell is then even in the other inputs, too, and
     /// its line has less noise than with independent rows, or none: the estimate is the middle of the indices with and
-    /// without correction for that noise, the interval spans both.
+    /// without correction for it, the interval spans both.
     Even,
 }
 
@@ -137,7 +137,7 @@ pub fn first_order_index(order: &[usize], x: &[f64], y: &[f64], samples: Samples
     Some(Estimate { value, lower: lower.max(0.0).min(value), upper: upper.min(1.0).max(value) })
 }
 
-/// Parts of the risk 1 - confidence of the lower and the upper end: lower ends of strong inputs miss more often.
+/// Parts of the risk 1 - confidence at the lower and the upper end: lower ends of strong inputs miss more often.
 /// Measured (`drivers_of_structures`): at most 5% in all.
 const RISKS: [f64; 2] = [0.1, 0.6];
 /// Unseen rows as far from the mean as the farthest: of 4.7 expected rows at most one occurs in 5% of all cases. The
@@ -153,8 +153,8 @@ const MOST_KURTOSIS: f64 = 4.5;
 /// Skewness above which unseen rows may decide; rises in the same way.
 const MOST_SKEWNESS: f64 = 0.6;
 
-/// True if unseen rows may decide the variance of `column`: its kurtosis or skewness exceeds these multiples of the
-/// limits.
+/// True if unseen rows may decide the variance of `column`: its kurtosis or skewness exceeds the limits times these
+/// factors.
 pub fn has_tails(column: &[f64], [kurtosis, skewness]: [f64; 2]) -> bool {
     let moments = Moments::of_block(column);
     let [smallest, largest] = [moments.min(), moments.max()];
@@ -202,10 +202,10 @@ pub(super) fn left_by_lines(order: &[usize], x: &[f64], y: &[f64]) -> Vec<f64> {
     left
 }
 
-/// Residuals of the line of a cell.
+/// Residuals of a cell's line.
 struct Rest {
     values: Vec<f64>,
-    /// Number of rows over the remaining degrees of freedom.
+    /// Number of rows over the degrees of freedom.
     correction: f64,
     /// True if the input varies in the cell.
     varies: bool,

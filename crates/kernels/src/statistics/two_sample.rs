@@ -18,7 +18,7 @@ use super::student::{two_sided_quantile, two_sided_tail};
 pub struct Difference {
     /// Second mean minus first, with its interval.
     pub shift: Estimate,
-    /// Probability of a difference at least as large if the means are equal.
+    /// Probability of a difference at least as large for equal means.
     pub p_value: f64,
 }
 
@@ -38,7 +38,7 @@ pub fn paired(differences: &Moments, confidence: f64) -> Option<Difference> {
     Some(difference(shift, error, (differences.count() - 1) as f64, confidence))
 }
 
-/// Student's test of `shift` with its standard error; certain without error.
+/// Student's test of `shift` by its standard error; certain without error.
 fn difference(shift: f64, error: f64, degrees: f64, confidence: f64) -> Difference {
     if error == 0.0 {
         let p_value = if shift == 0.0 { 1.0 } else { 0.0 };
@@ -49,7 +49,7 @@ fn difference(shift: f64, error: f64, degrees: f64, confidence: f64) -> Differen
     Difference { shift, p_value: two_sided_tail(shift.value.abs() / error, degrees) }
 }
 
-/// Kolmogorov and Smirnov's statistic of two samples in ascending order, and its p-value.
+/// Kolmogorov and Smirnov's statistic of two ascending samples, and its p-value.
 pub fn kolmogorov_smirnov(first: &[f64], second: &[f64]) -> Option<(f64, f64)> {
     if first.is_empty() || second.is_empty() {
         return None;
@@ -148,12 +148,12 @@ pub fn marginals(pairs: &[[f64; 2]]) -> Option<f64> {
     Some((limits.len() as f64 * smallest).min(1.0))
 }
 
-/// McNemar's exact test: p-value of the numbers of pairs of which only the first, and only the second, has a property.
+/// McNemar's exact test: p-value of the numbers of pairs with a property of the first alone, and of the second alone.
 pub fn mcnemar(alone: [u64; 2]) -> f64 {
     (2.0 * at_most(alone[0].min(alone[1]), alone[0] + alone[1], 0.5)).min(1.0)
 }
 
-/// P-values adjusted for their number (Holm 1979): true hypotheses yield any of alpha or less with at most the
+/// P-values adjusted for their number (Holm 1979): of true hypotheses, any is at most alpha with at most the
 /// probability alpha.
 pub fn holm(p_values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();

@@ -93,8 +93,7 @@ macro_rules! effects {
                 least
             }
 
-            /// Fraction of a step at which a positive switch function may dip below zero
-            /// ([`crate::ode::switches::dip`]).
+            /// [`crate::ode::switches::dip`] of all switch functions.
             #[inline(always)]
             pub fn dip(&self, motions: &[within_arcs::Motion<R>; 4]) -> R {
                 let mut first = motions[0].time.splat(f64::INFINITY);
@@ -141,7 +140,7 @@ macro_rules! effects {
                 }
             }
 
-            /// Keeps the coefficients of the orbit, for an integration by them.
+            /// Keeps the coefficients of the orbit.
             pub fn with_orbit(self) -> Self {
                 ChangingSeries { keeps_orbit: true, ..self }
             }
@@ -203,7 +202,7 @@ macro_rules! effects {
                 own
             }
 
-            /// Coefficients of the total torque with its constant part, B, N m in the unit of time.
+            /// Coefficients of the whole torque, B, N m in the unit of time.
             #[inline(always)]
             pub fn torque(&self) -> &[[R; 3]] {
                 &self.torque
@@ -238,7 +237,7 @@ macro_rules! effects {
     (all { $($file:ident: $Constants:ident, [$($begin_arc:ident, $set_arc:ident)?];)* }) => {
         $(pub(crate) mod $file;)*
 
-        /// Constants of the effects that change within an arc, one run per lane; `None` if inactive.
+        /// Constants of the effects that change within an arc, one run per lane.
         #[derive(Clone, Copy, Debug)]
         pub struct ChangingEffects<R> {
             $(
@@ -255,7 +254,7 @@ macro_rules! effects {
                 ChangingEffects { $($file: None,)* is_coupled: false }
             }
 
-            /// The effects on `scene` in the frame B, which `c_sb` maps to F_s.
+            /// The effects on `scene` in the frame B (`c_sb`: B -> F_s).
             pub fn of(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Self {
                 ChangingEffects { $($file: $file::of(zero, scene, c_sb),)* is_coupled: scene.environment.moves() }
             }
@@ -286,7 +285,7 @@ macro_rules! effects {
                 )?)*
             }
 
-            /// Copies the constants of the present arc of `own` into lane `lane`.
+            /// Copies the constants of the present arc.
             #[inline(always)]
             pub fn set_arc(&mut self, lane: usize, own: &ChangingEffects<f64>) {
                 $($(

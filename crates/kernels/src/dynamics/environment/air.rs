@@ -99,7 +99,7 @@ impl<R: Real> Air<R> {
         Air { scale: zero, surface: zero, exponential: [zero; 3], tables, layer: [zero; 6] }
     }
 
-    /// Atmosphere above a surface of radius `surface` m, its density times `scale`; no layer is chosen.
+    /// Air above a surface of radius `surface` m, its density times `scale`; no layer is chosen.
     pub fn new(scale: R, surface: R, exponential: [R; 3], table: AirTable) -> Self {
         Air { scale, surface, exponential, tables: [table; WIDEST], ..Self::none(scale.zero()) }
     }
@@ -113,7 +113,7 @@ impl<R: Real> Air<R> {
         set_lanes(&mut self.layer, lane, &air.layer);
     }
 
-    /// Chooses the layer in the lanes `lanes`, at `distance` m from the Earth's centre.
+    /// Chooses the layer in the lanes `lanes` at `distance` m from the Earth's centre.
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, distance: R) {
         let height = distance - self.surface;
@@ -122,7 +122,7 @@ impl<R: Real> Air<R> {
         }
     }
 
-    /// Calls `visit` with the switch functions of both ends of the chosen layer, at `M` distances, m.
+    /// Calls `visit` with the switch functions of both ends of the layer at `M` distances, m.
     #[inline(always)]
     pub fn switches<const M: usize>(&self, distances: &[R; M], visit: &mut impl FnMut([R; M])) {
         let number = |value: f64| self.scale.splat(value);

@@ -1,7 +1,6 @@
 //! Series of steps and their evaluation, each lane at its own time.
 #![expect(
     clippy::needless_range_loop,
-    clippy::manual_memcpy,
     reason = "components are numbered alike in several arrays; a copy by slices leaves the registers"
 )]
 

@@ -86,7 +86,7 @@ impl StepRule {
         StepRule { order, log_safety, share, turn, log_slowest, log_growth }
     }
 
-    /// Sum of the terms beyond the last one of omega's series, as a share of that one.
+    /// Sum of the terms beyond the last one of omega's series over that one.
     pub(super) fn rest(&self) -> f64 {
         let ratio = libm::exp2(self.log_safety);
         ratio / (1.0 - ratio)
@@ -118,7 +118,7 @@ impl StepRule {
         of_rate.smaller(of_turn / number(self.share).mul_add(of_turn / of_rate, number(1.0)))
     }
 
-    /// Step for any series alone, from the squares of its first, last but one and last coefficient.
+    /// Step for any series alone, by the squares of its first, last but one and last coefficient.
     #[inline(always)]
     pub fn step_of_series<R: Real>(&self, [first, before, last]: [R; 3]) -> R {
         let number = |value: f64| first.splat(value);
@@ -128,14 +128,14 @@ impl StepRule {
         clamped_exp2(from_last.smaller(from_before) + number(self.log_safety))
     }
 
-    /// Step allowed by the series of the angular impulse: an effect's torque turns up to twice as fast as the body.
+    /// Step for the series of the angular impulse: an effect's torque turns up to twice as fast as the body.
     #[inline(always)]
     pub fn step_of_impulse<R: Real, const N: usize>(&self, jet: &[[R; N]]) -> R {
         let size = |n: usize| squared(&jet[n], ANGULAR_IMPULSE);
         self.step_of_series([size(1), size(self.order - 1), size(self.order)])
     }
 
-    /// Step allowed by the motion relative to an orbit, from the series of its momentum.
+    /// Step for the motion relative to an orbit, by the series of its momentum.
     #[inline(always)]
     pub fn step_of_offset<R: Real, const N: usize>(&self, jet: &[[R; N]], mass: R) -> R {
         let size = |n: usize| squared(&jet[n], IMPULSE);
@@ -161,7 +161,7 @@ fn clamped_exp2<R: Real>(log: R) -> R {
     exp2_rough(log.smaller(log.splat(30.0)).larger(log.splat(-900.0)))
 }
 
-/// Square of the vector from component `first` on.
+/// Square of the vector at component `first`.
 #[inline(always)]
 fn squared<R: Real, const N: usize>(coefficients: &[R; N], first: usize) -> R {
     let vector = three(coefficients, first);

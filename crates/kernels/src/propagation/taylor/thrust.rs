@@ -93,11 +93,11 @@ impl<R: Real> Push<R> {
         Push { impulse: [zero; 3], path: [zero; 3], angular: [zero; 3] }
     }
 
-    /// Increase of the components from [`MOTOR_WORK`] on, from the start of a step to `x` after it, zero in the others.
+    /// Increase of the components from [`MOTOR_WORK`] on, from the start of a step to `x` after it; zero in the others.
     ///
-    /// `start` is the state and `constants` hold at the start of the step; `angle` is the increase of the angle until
-    /// `x`. The work of thrust needs no quadrature: Gauss collocation conserves quadratic invariants (J. M. Sanz-Serna,
-    /// BIT 28, 1988), so that the sum of force times impulse over the nodes is half the change of the squared impulse.
+    /// `start` and `constants` hold at the start of the step; `angle` is the increase of the angle until `x`. The work
+    /// of thrust needs no quadrature: Gauss collocation conserves quadratic invariants (J. M. Sanz-Serna, BIT 28,
+    /// 1988), so that the sum of force times impulse over the nodes is half the change of the squared impulse.
     #[inline(always)]
     pub fn growth<const N: usize>(&self, constants: &Constants<R>, start: &[R; N], angle: [R; 3], x: R) -> [R; N] {
         let half = x.splat(0.5);
@@ -179,7 +179,7 @@ impl<R: Real> AttitudeProducts<R> {
         }
     }
 
-    /// Weighted sum of the direction cosine matrices, by rows; see [`crate::math::vector::dcm_from_quaternion`].
+    /// Weighted sum of the direction cosine matrices, by rows ([`crate::math::vector::dcm_from_quaternion`]).
     #[inline(always)]
     fn dcm(&self) -> [[R; 3]; 3] {
         let [ww, xx, yy, zz] = self.squares;
