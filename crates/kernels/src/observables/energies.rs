@@ -3,7 +3,6 @@
 //! With d_b = r_b - c in F_s and u = C_es^T v_c, body b moves with v_b = u + omega x d_b, and (36) splits into T_b =
 //! T_b^c + m_b (u . (omega x d_b) + u . u / 2) with T_b^c a quadratic form of omega. A wheel adds J_i Omega_i (omega .
 //! a_i + Omega_i / 2). Over the spacecraft the mixed terms cancel: T = T^c + m v_c . v_c / 2.
-#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

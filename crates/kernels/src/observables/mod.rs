@@ -1,5 +1,6 @@
 //! Layer 3: observables of a run, by Berdoz, *Final Report - ADR Spacecraft*, (36), and the balances of the gyrostat
 //! (Zhukovskii; Volterra 1899). Every error is measured from the computed states; nothing is assumed to be conserved.
+#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 #[macro_use]
 mod rows;

@@ -4,7 +4,6 @@
 //! minus the angular impulse of thrusters and body torques; for the debris m_d v_d and C_ed J_d omega_d. Errors are
 //! relative to the magnitudes of these terms, which may cancel: |J omega| + sum |J_i Omega_i| + |impulse| and, if the
 //! velocity of p is integrated, m (|v_c| + |omega| |c - p|) + |impulse|.
-#![expect(clippy::needless_range_loop, reason = "wheels and vectors are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

@@ -1,8 +1,6 @@
 //! Stages of explicit Runge-Kutta methods, and the compensated step y' = y + h sum_i b_i k_i of all methods, which
 //! carries its rounding error to the next step (Kahan 1965).
 
-#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not always inlined, see `each`")]
-
 use core::marker::PhantomData;
 use core::ops::Range;
 

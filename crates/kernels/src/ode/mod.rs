@@ -1,4 +1,5 @@
 //! Layer 1: integrators of ordinary differential equations, without physics; imports [`crate::math`] only.
+#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not always inlined, see `explicit::each`")]
 
 pub(crate) mod adaptive;
 pub(crate) mod embedded;

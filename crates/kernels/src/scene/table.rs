@@ -169,29 +169,26 @@ tables! {
     Failure, "failure", &[FailureInput::ROWS], scene.failures.get(instance), scene.failures.get_mut(instance);
 }
 
+macro_rules! declared {
+    ($name:ident, $get:ident $(, $mut:tt)?) => {
+        #[inline]
+        fn $name(self, scene: &$($mut)? SceneInput, instance: usize) -> Option<&$($mut)? DeclaredTable> {
+            match self {
+                Table::Control => Some(&$($mut)? scene.control.law),
+                Table::Sensors => scene.control.sensors.$get(instance),
+                Table::Guidance => scene.control.guidance.$get(instance),
+                _ => None,
+            }
+        }
+    };
+}
+
 impl Table {
     /// Tables whose keys are declared by a control law and its parts.
     pub const DECLARED: [Table; 3] = [Table::Control, Table::Sensors, Table::Guidance];
 
-    #[inline]
-    fn declared(self, scene: &SceneInput, instance: usize) -> Option<&DeclaredTable> {
-        match self {
-            Table::Control => Some(&scene.control.law),
-            Table::Sensors => scene.control.sensors.get(instance),
-            Table::Guidance => scene.control.guidance.get(instance),
-            _ => None,
-        }
-    }
-
-    #[inline]
-    fn declared_mut(self, scene: &mut SceneInput, instance: usize) -> Option<&mut DeclaredTable> {
-        match self {
-            Table::Control => Some(&mut scene.control.law),
-            Table::Sensors => scene.control.sensors.get_mut(instance),
-            Table::Guidance => scene.control.guidance.get_mut(instance),
-            _ => None,
-        }
-    }
+    declared!(declared, get);
+    declared!(declared_mut, get_mut, mut);
 
     /// Dotted name of `key`, in the instance `owner` for a list.
     pub fn name(self, owner: Name, key: &str) -> String {

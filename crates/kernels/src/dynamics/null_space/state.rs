@@ -108,8 +108,8 @@ impl<const W: usize> State<W> {
     #[inline(always)]
     pub fn from_components<const N: usize>(x: &[f64; N]) -> Self {
         const { assert!(N == components(W), "as many components as the wheels make") }
-        let [v_p, omega_s, rates, v_gd, omega_d] = Self::SPEED;
-        let [work, impulse, angular_impulse, angles] = Self::INTEGRAL;
+        let [v_p, omega_s, wheel_rates, v_gd, omega_d] = Self::SPEED;
+        let [work, impulse, angular_impulse, wheel_angles] = Self::INTEGRAL;
         let fuselage = Pose::read(x, 0);
         let mut wheels = [fuselage; W];
         for (w, wheel) in wheels.iter_mut().enumerate() {
@@ -121,13 +121,13 @@ impl<const W: usize> State<W> {
             debris: Pose::read(x, 1 + W),
             v_p: part(x, v_p),
             omega_s: part(x, omega_s),
-            wheel_rates: part(x, rates),
+            wheel_rates: part(x, wheel_rates),
             v_gd: part(x, v_gd),
             omega_d: part(x, omega_d),
             work: part(x, work),
             impulse: part(x, impulse),
             angular_impulse: part(x, angular_impulse),
-            wheel_angles: part(x, angles),
+            wheel_angles: part(x, wheel_angles),
         }
     }
 
@@ -135,23 +135,18 @@ impl<const W: usize> State<W> {
     #[inline(always)]
     pub fn components<const N: usize>(&self) -> [f64; N] {
         const { assert!(N == components(W), "as many components as the wheels make") }
-        let [v_p, omega_s, rates, v_gd, omega_d] = Self::SPEED;
-        let [work, impulse, angular_impulse, angles] = Self::INTEGRAL;
+        let [v_p, omega_s, wheel_rates, v_gd, omega_d] = Self::SPEED;
+        let [work, impulse, angular_impulse, wheel_angles] = Self::INTEGRAL;
         let mut x = [0.0; N];
         self.fuselage.write(&mut x, 0);
         for (w, wheel) in self.wheels.iter().enumerate() {
             wheel.write(&mut x, 1 + w);
         }
         self.debris.write(&mut x, 1 + W);
-        x[v_p..v_p + 3].copy_from_slice(&self.v_p);
-        x[omega_s..omega_s + 3].copy_from_slice(&self.omega_s);
-        x[rates..rates + W].copy_from_slice(&self.wheel_rates);
-        x[v_gd..v_gd + 3].copy_from_slice(&self.v_gd);
-        x[omega_d..omega_d + 3].copy_from_slice(&self.omega_d);
-        x[work..work + 2].copy_from_slice(&self.work);
-        x[impulse..impulse + 3].copy_from_slice(&self.impulse);
-        x[angular_impulse..angular_impulse + 3].copy_from_slice(&self.angular_impulse);
-        x[angles..angles + W].copy_from_slice(&self.wheel_angles);
+        macro_rules! write {
+            ($($field:ident)+) => { $(x[$field..$field + self.$field.len()].copy_from_slice(&self.$field);)+ };
+        }
+        write!(v_p omega_s wheel_rates v_gd omega_d work impulse angular_impulse wheel_angles);
         x
     }
 }

@@ -3,8 +3,6 @@
 //! In each lane by itself, stages are iterated until the change is zero or stops decreasing (Hairer, McLachlan &
 //! Razakarivony 2008). Rotations are not stiff: a few sweeps cost less than the Jacobian of Newton's method.
 
-#![allow(clippy::needless_range_loop, reason = "iterators over lanes are not always inlined, see `explicit::each`")]
-
 use super::super::error_model::Remainder;
 use super::super::explicit::{Carried, Step, chosen, each, poison, scaled, weighted};
 use super::super::fixed::{Advance, FixedStep};

@@ -1,8 +1,4 @@
 //! Series of steps and their evaluation, each lane at its own time.
-#![expect(
-    clippy::needless_range_loop,
-    reason = "components are numbered alike in several arrays; a copy by slices leaves the registers"
-)]
 
 use core::convert::identity;
 

@@ -2,7 +2,6 @@
 //!
 //! A step is a few vector operations for all lanes; a single lane is examined only at an observation point, a return of
 //! omega, the end of an arc or a failure.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

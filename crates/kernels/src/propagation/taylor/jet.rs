@@ -4,7 +4,6 @@
 //! (R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Jorba & M. Zou, Experimental Mathematics 14, 2005, section 2).
 //! The recurrences of thrust serve [`super::reference_solution`] alone; integration in `f64` uses [`super::thrust`], so
 //! that each tests the other.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use crate::dynamics::effects::ChangingSeries;
 use crate::dynamics::gyrostat::equations::Constants;

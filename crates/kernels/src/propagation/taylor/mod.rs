@@ -4,6 +4,7 @@
 //! turns the attitude by a fixed rotation about the constant angular momentum L, so that a run costs one period plus
 //! its observation points. Without a period (near the separatrix, or with torque) the same steps integrate the whole
 //! run.
+#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 mod brief;
 pub(crate) mod dense;

@@ -4,7 +4,6 @@
 //! velocity. Over a period P the attitude turns by a fixed rotation about L, constant in F_e (L. Poinsot, *Theorie
 //! nouvelle de la rotation des corps*, 1851; gyrostats: V. Volterra, 1899): q(t + n P) = r^n (x) q(t), r = q(P) (x)
 //! q(0)*. Integrals of periodic quantities grow equally in every period.
-#![expect(clippy::needless_range_loop, reason = "components and orders are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

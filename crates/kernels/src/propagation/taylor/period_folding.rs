@@ -2,7 +2,6 @@
 //!
 //! Folded points are scattered over the few steps of a period: sorted by series and evaluated eight at a time for all
 //! waiting lanes, so that a series stays in the first-level cache.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use fearless_simd::Simd;
 

@@ -1,5 +1,4 @@
 //! Observation points: of all lanes during a step, and one by one from kept series.
-#![expect(clippy::needless_range_loop, reason = "components are numbered alike in several arrays")]
 
 use super::dense::{Segment, value_at, values};
 use super::lane_state::SeriesLane;
