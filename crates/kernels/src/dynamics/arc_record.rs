@@ -1,5 +1,5 @@
-//! [`ArcRecord`]: the arcs of a run as differences, since a control loop has an arc per tick and changes few numbers
-//! (40 bytes per arc with three wheels instead of 264).
+//! [`ArcRecord`]: the arcs of a run as differences: a control loop has an arc per tick and changes few numbers (40
+//! bytes per arc with three wheels instead of 264).
 
 use crate::scene::{Actuation, Arc, MAX_THRUSTERS, MAX_WHEELS};
 
@@ -34,7 +34,7 @@ impl ArcRecord {
         (self.count, self.last) = (0, START);
     }
 
-    /// Appends an arc, which starts at the end of the last one.
+    /// Appends an arc to the last one.
     #[inline]
     pub fn push(&mut self, arc: &Arc) {
         let (words, last, new) = (&mut self.words, &mut self.last.applied, &arc.applied);

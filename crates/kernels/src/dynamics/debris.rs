@@ -58,7 +58,7 @@ pub fn complete_translation<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table:
     }
 }
 
-/// Fills position and velocity of a debris of `mass` kg on the path `relative`, and adds gravity's work on it.
+/// Fills position and velocity of debris of `mass` kg on the path `relative`, and adds gravity's work on it.
 pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, table: &mut StateTable) {
     let (has_position, has_velocity) = (table.has(StateField::DebrisPosition), table.has(StateField::DebrisVelocity));
     let has_work = table.has(StateField::Work);
@@ -88,7 +88,7 @@ pub fn complete_orbit(relative: &mut RelativeOrbit, mass: f64, grid: &Grid, tabl
 }
 
 /// Fills attitude and rate of isotropic debris: q_ed(t) = q_ed(0) (x) exp(omega t/2) with constant omega in F_d. The
-/// angle is reduced to a fraction of a turn as a sum of two numbers, so that no digits are lost after 1e10 rad.
+/// angle is reduced to a fraction of a turn as a sum of two numbers: no digits are lost after 1e10 rad.
 #[inline(always)]
 pub fn complete_isotropic<S: Simd>(simd: S, scene: &Scene, grid: &Grid, table: &mut StateTable) {
     let omega = scene.initial.omega_de_d;

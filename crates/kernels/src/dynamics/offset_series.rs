@@ -76,7 +76,7 @@ impl<R: Real> OffsetSeries<R> {
         self.orbit.begin(gravity, position, velocity);
     }
 
-    /// Coefficient n of the tide, m per unit squared, from that of the offset; in ascending order of `n`.
+    /// Coefficient n of the tide, m per unit squared, from that of the offset, for ascending `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, of_offset: [R; 3]) -> [R; 3] {
         let OffsetSeries { orbit, offset, lever, place, ratio, power, nearer, stretched, flattened } = self;

@@ -41,7 +41,7 @@ impl<R: Real> OrbitInBody<R> {
         }
     }
 
-    /// Computes the coefficients n from those of the motion, in ascending order of `n`.
+    /// Computes the coefficients n from those of the motion, for ascending `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize, motion: &MotionSeries<R>) {
         if motion.is_on_two_body_orbit() {

@@ -56,7 +56,7 @@ impl<R: Real> OrbitSeries<R> {
         self.position[1] = velocity;
     }
 
-    /// Computes the coefficients n of rho and its power and n + 2 of r, in ascending order of `n`.
+    /// Computes the coefficients n of rho and its power and n + 2 of r, for ascending `n`.
     #[inline(always)]
     pub fn extend(&mut self, n: usize) {
         let Gravity { mu, oblateness } = self.gravity;
@@ -98,7 +98,7 @@ impl<R: Real> OrbitSeries<R> {
         &self.position
     }
 
-    /// Sets coefficient `n` of a known position and computes that of rho, in ascending order of `n`.
+    /// Sets coefficient `n` of a known position and computes that of rho, for ascending `n`.
     #[inline(always)]
     pub fn place(&mut self, n: usize, position: [R; 3]) {
         self.position[n] = position;
@@ -116,7 +116,7 @@ impl<R: Real> OrbitSeries<R> {
         &self.square
     }
 
-    /// The state `within` units of time after the start of the step; the velocity is per unit.
+    /// The state `within` units after the start of the step; the velocity is per unit.
     #[inline(always)]
     pub fn at(&self, within: R) -> OrbitState<R> {
         let zero = within.zero();

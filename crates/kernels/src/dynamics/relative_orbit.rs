@@ -58,7 +58,7 @@ impl RelativeOrbit {
         self.step_from([self.start.position, self.start.velocity]);
     }
 
-    /// The state on the orbit at `time`, s, and the offset there.
+    /// The state on the orbit at `time`, s, and the offset.
     pub fn at(&mut self, time: f64) -> (OrbitState<f64>, Offset) {
         if time < self.time[0] {
             self.rewind();

@@ -6,10 +6,10 @@ use super::reduction::ErrorStatistic;
 use super::request::Request;
 use super::table::{ColumnId, Series, error_id};
 
-/// Estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) from which a
-/// run is `inaccurate`.
+/// Estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) of an
+/// `inaccurate` run.
 pub const INACCURATE_STATE: f64 = 0.1;
-/// Relative error of a balance (energy, momentum) from which a run is `inaccurate`.
+/// Relative error of a balance (energy, momentum) of an `inaccurate` run.
 pub const INACCURATE_BALANCE: f64 = 1e-2;
 
 /// Relative errors of the balances; their maximum is the conservation error of a run.

@@ -53,7 +53,7 @@ impl MeasuredRun<'_> {
     }
 }
 
-/// Values of every series, padded by one vector, so that every point has a readable neighbour.
+/// Values of every series, padded by one vector, so that every point has a neighbour.
 #[derive(Clone, Debug)]
 pub struct SeriesTable {
     columns: [Vec<[f64; WIDTH]>; Series::COUNT],

@@ -31,9 +31,9 @@ pub struct Request {
     pub wheels: List<Name, MAX_WHEELS>,
     /// Axis of nutation.
     pub nutation_axis: NutationAxis,
-    /// Reports of the control law; their columns precede those of the windows.
+    /// Reports of the control law; their columns precede windows.
     pub of_law: LawColumns,
-    /// Extremes over intervals of time: the last columns.
+    /// Extremes over intervals of time.
     pub windows: Windows,
 }
 
@@ -104,7 +104,7 @@ pub(super) struct SeriesTask {
     pub(super) series: Series,
     pub(super) passes: Passes,
     pub(super) stored: Stored,
-    /// Divisor of its errors or fraction: a statistic of an earlier task.
+    /// Divisor of its errors or fraction, of an earlier task.
     pub(super) scale: Option<(Series, Reduction)>,
 }
 
@@ -114,7 +114,7 @@ impl Request {
         Facts { debris, actuated, effects, constrained, wheels: self.wheels.len() }
     }
 
-    /// Columns of a row, in order: those of the requested groups that exist in this scene.
+    /// Columns of a row, in order: those of the groups that exist in this scene.
     pub fn columns(&self) -> Vec<Column> {
         let shown = |(column, wheel): (&Column, Option<usize>)| match wheel {
             Some(index) => column.of_wheel(index, self.wheels[index]),
@@ -198,7 +198,7 @@ impl Request {
         of_columns.chain(self.of_law.over_time.series()).fold(SeriesSet::default(), SeriesSet::with)
     }
 
-    /// Passes over the observed series; scales of others come first.
+    /// Passes over the observed series; scales come first.
     pub(super) fn tasks(&self) -> Vec<SeriesTask> {
         let (observed, values) = (self.observed(), self.ids().map(|id| id.value).collect::<Vec<_>>());
         let passes = |series: Series| {

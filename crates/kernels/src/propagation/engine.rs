@@ -24,7 +24,7 @@ pub type CompletionCallback<'a> = dyn FnMut(CompletedRun<'_>) + 'a;
 
 /// Memory and code of a method for one worker and one instruction set.
 pub trait Engine: Send {
-    /// Runs every scene by its own schedule and passes it to `finish` in order of completion.
+    /// Runs every scene by its own schedule; calls `finish` in order of completion.
     fn propagate(&mut self, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
         self.propagate_under(Laws::OpenLoop, scenes, finish);
     }

@@ -1,5 +1,5 @@
-//! [`GyrostatBatch`]: a batch of scenes as gyrostats: runs of the spacecraft, rotation of non-isotropic debris, and
-//! completion to state tables.
+//! [`GyrostatBatch`]: scenes as gyrostats: runs of the spacecraft, rotation of non-isotropic debris, and completion to
+//! state tables.
 
 use fearless_simd::Simd;
 
@@ -100,7 +100,7 @@ pub struct DebrisRuns<'b> {
 }
 
 impl StateCompletion {
-    /// Completes run `index` to physical states and passes it to `finish`.
+    /// Completes run `index` and passes it to `finish`.
     #[expect(clippy::too_many_arguments, reason = "one call per engine; a struct would be taken apart at once")]
     pub fn complete<S: Simd>(
         &mut self,

@@ -9,7 +9,7 @@ use crate::math::vector::{scaled, sum, three};
 use crate::ode::Remainder;
 use crate::run::{Grid, LocalErrors, Outcome, Trajectory};
 
-/// Maximum number of points of a run at which the series is expanded.
+/// Most points of a run at which the series is expanded.
 const EXPANSIONS: usize = 16;
 
 const N: usize = WITH_ATTITUDE;
@@ -34,7 +34,7 @@ impl Remainders {
         }
     }
 
-    /// Error sums of a run of equal steps, from the series at up to sixteen observation points.
+    /// Error sums of a run of equal steps, from the series at some observation points.
     pub fn sum(&mut self, run: &Gyrostat<f64>, states: &Trajectory, grid: &Grid, outcome: &Outcome) -> LocalErrors {
         let (points, steps) = (outcome.points, outcome.effort.steps);
         if points == 0 || steps == 0 {

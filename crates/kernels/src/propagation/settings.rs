@@ -49,8 +49,7 @@ impl PropagationSettings {
         }
     }
 
-    /// Settings for runs under laws that command `commands` in addition to the schedules; a law observes the whole
-    /// state.
+    /// Settings for runs under laws that command `commands` beside the schedules; a law observes the whole state.
     #[must_use]
     pub fn with_feedback(self, commands: Actuated) -> Self {
         let thrust = self.thrust || commands.external();

@@ -13,7 +13,7 @@ use crate::math::incomplete_gamma::incomplete_gamma;
 /// Association of an event and a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RankShift {
-    /// Probability that a run with the event has a larger value than one without; ties count half.
+    /// Probability that a run with the event has the larger value; ties count half.
     pub chance: f64,
     /// Probability of a chance at least as far from one half if the event is independent of the column.
     pub p_value: f64,

@@ -39,7 +39,7 @@ pub fn independent_inputs(inputs: &[Vec<f64>]) -> Vec<bool> {
     independent
 }
 
-/// Smallest pivot of independent inputs; correlations are accurate to about 1e-15.
+/// Smallest pivot of independent inputs; correlations have errors of 1e-15.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
 /// Inputs prepared for the regression of any number of columns.
@@ -47,7 +47,7 @@ const SMALLEST_PIVOT: f64 = 1e-10;
 pub struct Regressors {
     inputs: Vec<Vec<f64>>,
     inverse: DMatrix<f64>,
-    /// Part of each input that the others do not have, over its sum of squares: sum_k C_jk x_k.
+    /// Part of each input independent of the others, over its sum of squares: sum_k C_jk x_k.
     alone: Vec<Vec<f64>>,
     /// Weight, 0 to 1, of each row's own value in its fitted value.
     leverages: Vec<f64>,

@@ -35,9 +35,9 @@ pub fn fraction_bounds(fractions: &[f64], runs: u64, confidence: f64) -> [f64; 2
 /// Step of the distribution function of a replicate at one of its values, or buckets of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// The value, or the upper end of its bucket.
+    /// The value, or the upper end of a bucket.
     pub value: f64,
-    /// The value, or the lower end of its bucket.
+    /// The value, or the lower end.
     pub lower: f64,
     /// Replicate, from zero.
     pub replicate: usize,

@@ -15,15 +15,14 @@ use super::jackknife::{Estimate, explained_share};
 /// Fewest values other than the most frequent one.
 pub const FEWEST_OTHERS: usize = 10;
 
-/// Number of values of `pairs` other than the most frequent one.
+/// Number of values other than the most frequent one.
 pub fn others(pairs: &[[f64; 2]]) -> usize {
     let mut values: Vec<f64> = pairs.iter().flatten().copied().collect();
     values.sort_unstable_by(f64::total_cmp);
     values.len() - values.chunk_by(|a, b| a == b).map(<[f64]>::len).max().unwrap_or(0)
 }
 
-/// Share of the variance within `pairs`; `None` if all values are equal, or if some, but fewer than [`FEWEST_OTHERS`],
-/// differ.
+/// Share of the variance within `pairs`; `None` if all values are equal, or fewer than [`FEWEST_OTHERS`] differ.
 pub fn share_within(pairs: &[[f64; 2]], confidence: f64) -> Option<Estimate> {
     let count = pairs.len();
     let mean = pairs.iter().flatten().sum::<f64>() / (2 * count) as f64;

@@ -16,19 +16,19 @@ use crate::scene::{Actuation, EnvironmentInput, Offsets, Scene, SceneInput};
 /// The role of an effect in an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Form {
-    /// A torque that is constant over an arc, and part of it.
+    /// A torque that is constant over an arc and part of it.
     Constant,
-    /// A torque that changes within an arc, with recurrences for its Taylor series.
+    /// A torque that changes within an arc, by recurrences for its Taylor series.
     Series,
-    /// A torque that changes within an arc and is not analytic: it can only be evaluated.
+    /// A torque that changes within an arc and is not analytic.
     Evaluated,
     /// A motion of the centre of mass in closed form, without torque.
     Translation,
-    /// A force that depends on the offset from that motion, with recurrences for its Taylor series.
+    /// A force that depends on the offset from that motion, by recurrences for its Taylor series.
     Force,
 }
 
-/// Properties of a scene that decide which effects act.
+/// Properties of a scene by which effects act.
 struct Facts<'a> {
     environment: &'a EnvironmentInput,
     is_on_orbit: bool,
@@ -94,7 +94,7 @@ impl ForceModel {
         Effect::ALL.into_iter().filter(|effect| effect.acts(facts)).fold(Self::NONE, Self::with)
     }
 
-    /// The effects, in the order of the list.
+    /// The effects in order.
     pub fn effects(self) -> impl Iterator<Item = Effect> {
         Effect::ALL.into_iter().filter(move |effect| self.contains(*effect))
     }
@@ -104,7 +104,7 @@ impl ForceModel {
         self.effects().all(|effect| integrated(effect.form()))
     }
 
-    /// True if an effect must be in the kernel, unlike those in closed form.
+    /// True if an effect must be in the kernel.
     pub fn changes_within_arcs(self) -> bool {
         self.effects().any(|effect| matches!(effect.form(), Form::Series | Form::Evaluated | Form::Force))
     }

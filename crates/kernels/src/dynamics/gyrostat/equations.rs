@@ -19,7 +19,7 @@ pub struct Constants<R> {
     pub torque: [R; 3],
     /// Force of the thrusters, B, N.
     pub force: [R; 3],
-    /// Velocity of c at time zero, F_e, m/s; zero if the impulse components describe a motion relative to an orbit.
+    /// Velocity of c at time zero, F_e, m/s; zero if the impulse components are those of a motion relative to an orbit.
     pub velocity: [R; 3],
     /// m, kg.
     pub mass: R,
@@ -53,7 +53,7 @@ impl<R: Real> Constants<R> {
         }
     }
 
-    /// Copies the constants of a run into lane `lane`; the lane's unit of time `unit`, s, is a power of two.
+    /// Copies the constants of a run into lane `lane`; its unit of time `unit`, s, is a power of two.
     #[inline(always)]
     pub fn set_run(&mut self, lane: usize, run: &Gyrostat<f64>, unit: f64) {
         let j = run.moments;
@@ -86,8 +86,7 @@ impl<R: Real> Constants<R> {
         self.start.set_lane(lane, arc.arc.start / unit);
     }
 
-    /// The constants of arc `arc` in the arithmetic of the run, as by [`Constants::set_run`] and
-    /// [`Constants::set_arc`].
+    /// The constants of arc `arc`, as by [`Constants::set_run`] and [`Constants::set_arc`].
     #[inline(always)]
     pub fn of(run: &Gyrostat<R>, arc: usize, unit: f64) -> Self {
         let arc = &run.arcs[arc];
@@ -116,7 +115,7 @@ impl<R: Real> Constants<R> {
         constants
     }
 
-    /// Part of omega' in B from constant external and motor torques.
+    /// Part of omega' in B from constant torques.
     #[inline(always)]
     pub fn torque_acceleration(&self) -> [R; 3] {
         let [x, y, z] = difference(self.torque, self.momentum_rate);

@@ -1,4 +1,4 @@
-//! Time scale of the motion of a gyrostat, and the unit of time that follows from it.
+//! Time scale of a gyrostat's motion, and its unit of time.
 
 use crate::math::Real;
 

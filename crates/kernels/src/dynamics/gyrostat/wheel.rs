@@ -2,7 +2,7 @@
 
 use crate::math::prelude::*;
 
-/// One wheel of a run, in the frame B of [`super::Gyrostat`].
+/// A wheel of a run, in the frame B of [`super::Gyrostat`].
 #[derive(Clone, Copy, Debug)]
 pub struct GyrostatWheel<R> {
     /// Unit spin axis a_i in B.

@@ -23,11 +23,11 @@ use crate::scene::{Epoch, FieldModel, Scene};
 #[derive(Clone, Copy, Debug)]
 pub struct MagneticField<R> {
     tables: &'static Tables,
-    /// The largest degree of any lane.
+    /// Largest degree of any lane.
     degree: usize,
-    /// One in lanes with degrees above the first, zero in others.
+    /// One in lanes with degrees above the first, else zero.
     higher: R,
-    /// Years after 2025, and (negative) before 2025; zero otherwise.
+    /// Years after 2025, and (negative) before; else zero.
     after: R,
     before: R,
     /// Rotation angle of the Earth at time zero, turns.

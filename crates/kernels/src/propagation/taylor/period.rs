@@ -12,12 +12,12 @@ use crate::math::prelude::*;
 use crate::math::sine::sin_cos_turns;
 use crate::math::{Lanes, Real};
 
-/// Tolerated distance of a return from the start as a share of the curve's extent: far below the distance of two
+/// Largest distance of a return from the start as a share of the curve's extent: far below the distance of two
 /// branches.
 const RETURN_OF_EXTENT: f64 = 1e-6;
-/// Tolerated distance as a share of the rate: round-off on a curve that is small compared with |omega|.
+/// Largest distance as a share of the rate: round-off on a curve small compared with |omega|.
 const RETURN_OF_RATE: f64 = 1e-13;
-/// Tolerated distance in units of the tolerance: truncation at loose tolerances.
+/// Largest distance in units of the tolerance: truncation at loose tolerances.
 const RETURN_OF_TOLERANCE: f64 = 100.0;
 /// Limit of Newton steps on one polynomial; three or four are usual.
 const NEWTON_STEPS: usize = 12;
@@ -115,8 +115,7 @@ impl PoincareSection {
 
 impl Period {
     /// The period of length `length` that takes the attitude from `start` to `end`, with the angular momentum
-    /// `momentum_e` in F_e and its reference magnitude |J| |omega|, `scale`; `None` if the axis is too inaccurate for
-    /// many repetitions.
+    /// `momentum_e` in F_e and its reference |J| |omega|, `scale`; `None` if the axis is too inaccurate to be repeated.
     #[inline]
     pub fn new(length: [f64; 2], start: [f64; 4], end: [f64; 4], momentum_e: [f64; 3], scale: f64) -> Option<Self> {
         let magnitude = norm(momentum_e);

@@ -1,5 +1,5 @@
 //! `[control]`, `[[sensors]]`, `[[guidance]]`: the parameters of a control law, as the law and its parts declare them,
-//! in the terms of every other key of a scene, under names such as `control.gain_n_m`.
+//! with names such as `control.gain_n_m`.
 
 use std::sync::Mutex;
 
@@ -19,7 +19,7 @@ pub struct LawParameter {
 }
 
 impl LawParameter {
-    /// A number that a campaign file must give; `unit` as in the key's name (`gain_n_m`: `N m`).
+    /// A number that a campaign file must give; `unit` as at the end of the key.
     pub const fn number(key: &'static str, unit: &'static str, meaning: &'static str, limit: Limit) -> Self {
         let facts = Facts {
             key,
@@ -51,7 +51,7 @@ impl LawParameter {
     }
 }
 
-/// The parameters of `parts`, one after the other, kept for good.
+/// The parameters of all `parts`, kept for good.
 pub fn kept(parts: &[&[LawParameter]]) -> &'static [LawParameter] {
     static KEPT: Mutex<Vec<&'static [LawParameter]>> = Mutex::new(Vec::new());
     let facts = |parameter: &LawParameter| (parameter.facts.key, parameter.facts.meaning, parameter.default);
@@ -69,14 +69,14 @@ impl PartialEq for LawParameters {
     }
 }
 
-/// A table of parameters that a part of a control law declares, and their values.
+/// Parameters that a part of a control law declares, and their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeclaredTable {
-    /// The name of the table among others of its kind; [`Name::NONE`] for a single one.
+    /// The name among others of its kind; [`Name::NONE`] for a single table.
     pub name: Name,
     /// The declarations.
     pub declared: LawParameters,
-    /// The numbers of all parameters, one after the other.
+    /// The numbers of all parameters in order.
     pub values: Vec<f64>,
 }
 
@@ -85,7 +85,7 @@ impl DeclaredTable {
     pub const NONE: DeclaredTable =
         DeclaredTable { name: Name::NONE, declared: LawParameters(&[]), values: Vec::new() };
 
-    /// The parameters `declared` of the table called `name` at their defaults; NaN without one.
+    /// The parameters `declared` at their defaults; NaN without one.
     pub fn of(name: Name, declared: &'static [LawParameter]) -> Self {
         let default = |parameter: &LawParameter| match parameter.default {
             Some(default) => default.to_vec(),
@@ -106,13 +106,13 @@ impl DeclaredTable {
         self.values.get(self.place(index))
     }
 
-    /// The numbers, to be changed.
+    /// [`DeclaredTable::numbers`], mutable.
     pub fn numbers_mut(&mut self, index: usize) -> Option<&mut [f64]> {
         let place = self.place(index);
         self.values.get_mut(place)
     }
 
-    /// The numbers of the parameter called `key`; `None` if it is not declared.
+    /// The numbers of the parameter `key`; `None` if it is not declared.
     pub fn named(&self, key: &str) -> Option<&[f64]> {
         self.numbers(self.declared.0.iter().position(|parameter| parameter.facts.key == key)?)
     }
@@ -153,7 +153,7 @@ impl ControlInput {
     /// No law.
     pub const NONE: ControlInput = ControlInput { law: DeclaredTable::NONE, sensors: Vec::new(), guidance: Vec::new() };
 
-    /// The parameters `declared` of `[control]` at their defaults; NaN without one.
+    /// The parameters `declared` of `[control]`, as [`DeclaredTable::of`].
     pub fn of(declared: &'static [LawParameter]) -> Self {
         ControlInput { law: DeclaredTable::of(Name::NONE, declared), ..Self::NONE }
     }
@@ -170,12 +170,12 @@ impl ControlInput {
         std::iter::once(("control", &self.law)).chain(sensors).chain(guidance)
     }
 
-    /// The numbers of the parameter of `[control]` called `key`; `None` if the law does not declare it.
+    /// [`DeclaredTable::named`] of `[control]`.
     pub fn named(&self, key: &str) -> Option<&[f64]> {
         self.law.named(key)
     }
 
-    /// Takes the values of `other`, which has the same tables, without allocation.
+    /// Takes the values of the same tables of `other`, without allocation.
     pub fn take_values(&mut self, other: &ControlInput) {
         self.law.values.clone_from(&other.law.values);
         let own = self.sensors.iter_mut().chain(&mut self.guidance);
@@ -184,7 +184,7 @@ impl ControlInput {
         }
     }
 
-    /// Notes which numbers violate their limits.
+    /// Notes violated limits.
     pub(in crate::scene) fn check(&self, problems: &mut Problems) {
         self.tables().for_each(|(header, table)| table.check(header, problems));
     }
