@@ -1,4 +1,4 @@
-//! [`Actuated`]: which actuation does work on a spacecraft, or changes its momentum, during a run.
+//! [`Actuated`]: actuation that does work on a spacecraft, or changes its momentum.
 
 use super::input::SceneInput;
 use super::schema::{Device, FailureInput, WheelInput, WheelMode};

@@ -6,7 +6,7 @@ use crate::math::prelude::*;
 ///
 /// `tilt` are components along [`across`] of the rotation vector theta from the nominal direction a_0 to the true one:
 /// a = cos|theta| a_0 + sin|theta|/|theta| theta x a_0 (O. Rodrigues, 1840). The angle is good to `f64`, the length to
-/// all digits of the type; without a tilt an axis of F_s is exact.
+/// all digits; without a tilt an axis of F_s is exact.
 pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     if tilt == [0.0; 2] {
         let written = constant(one, direction);
@@ -20,8 +20,8 @@ pub fn aligned<R: Real>(direction: [f64; 3], tilt: [f64; 2], one: R) -> [R; 3] {
     turned(nominal(direction), theta, one)
 }
 
-/// Two unit vectors of F_s for an alignment error of `direction`: for an axis of F_s the others, in order; for an
-/// oblique direction a the axis of F_s farthest from it, orthogonalised, and a x that.
+/// Two unit vectors of F_s for an alignment error of `direction`: for an axis of F_s the others, in order; else the
+/// axis of F_s farthest from `direction`, orthogonalised, and the product of both.
 pub fn across(direction: [f64; 3]) -> [[f64; 3]; 2] {
     if let Some((axis, _)) = along_axis(direction) {
         let others = [[1, 2], [0, 2], [0, 1]][axis];

@@ -1,5 +1,5 @@
-//! Rigid bodies from their input: parts of the spacecraft's body, the body as a whole, the debris. Solids (`solids`):
-//! Berdoz, *Final Report - ADR Spacecraft*, (60)-(67).
+//! Rigid bodies from their input: parts, the spacecraft's body, the debris. Solids (`solids`): Berdoz, *Final Report -
+//! ADR Spacecraft*, (60)-(67).
 
 use super::input::SceneInput;
 use super::schema::{DebrisInput, MAX_WHEELS, PartInput, PartShape, WheelMode};
@@ -65,7 +65,7 @@ impl<R: Real> Body<R> {
         Body { mass, inertia: self.inertia.map(|row| scaled(ratio, row)), ..self }
     }
 
-    /// At least one rigid body, joined by sums over pairs, without differences from the common centre.
+    /// At least one rigid body, joined by sums over pairs.
     fn together(bodies: &[Self]) -> Self {
         let Some((first, others)) = bodies.split_first() else { unreachable!("there is at least one body") };
         let mass =

@@ -1,6 +1,5 @@
 //! Mass properties of the spacecraft: its body ([`super::body`]) and turning wheels (`wheel`). Sums over bodies use
-//! distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation. Generic over the
-//! number type.
+//! distances between pairs, sum over i < j of m_i m_j / m (r^2 1 - r r^T), without cancellation.
 
 use super::input::SceneInput;
 use super::schema::{MAX_WHEELS, WheelMode};
@@ -10,7 +9,7 @@ pub use super::wheel::Wheel;
 use crate::math::list::List;
 use crate::math::prelude::*;
 
-/// Mass properties of all bodies, and of the spacecraft (body and wheels) as a whole.
+/// Mass properties of all bodies, and of the spacecraft (body and wheels).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties<R = f64> {
     /// The body without turning wheels.
@@ -72,8 +71,7 @@ impl<R: Real> MassProperties<R> {
         MassProperties { inertia, inertia_free, ..self }
     }
 
-    /// The inertia that resists a change of omega, kg m^2, by rows: J* plus the axial inertias of wheels of constant
-    /// speed.
+    /// The inertia that resists a change of omega, kg m^2, by rows: J* plus axial inertias of wheels of constant speed.
     pub fn inertia_rotating(&self) -> [[R; 3]; 3] {
         let held = self.wheels.iter().filter(|wheel| wheel.mode == WheelMode::SpeedHeld);
         held.fold(self.inertia_free, |sum, wheel| matrix_sum(sum, wheel.axial_inertia()))

@@ -38,7 +38,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Resolves into an existing scene in its memory: no allocation unless the schedule is longer than ever before.
+    /// [`Scene::resolve`] into the memory of a scene: no allocation unless the schedule is longer than ever before.
     ///
     /// # Errors
     /// All problems of `input`; the scene is then unchanged.

@@ -133,10 +133,7 @@ impl Actuation {
         Actuation { thrust: first(thrust), ..self }
     }
 
-    /// Sets the motor torques of the first wheels to `torque` (N m), the others to zero.
-    ///
-    /// # Panics
-    /// If there are more than [`MAX_WHEELS`].
+    /// Sets the motor torques of the first wheels to `torque` (N m), as [`Actuation::with_thrust`].
     #[must_use]
     pub fn with_motor_torque(self, torque: &[f64]) -> Self {
         Actuation { motor_torque: first(torque), ..self }

@@ -24,7 +24,7 @@ pub fn inertia<R: Real>(s: [[R; 3]; 3]) -> [[R; 3]; 3] {
 
 impl PrincipalInertia {
     /// The tensor in the body frame, kg m^2, by rows, in the type of `one`: C diag(moments) C^T with C from the
-    /// normalised quaternion; exactly diagonal without a rotation.
+    /// normalised quaternion; diagonal without a rotation.
     pub fn tensor<R: Real>(&self, one: R) -> [[R; 3]; 3] {
         let zero = one.zero();
         let moments = match self.moments {

@@ -53,10 +53,7 @@ impl ActuationInput {
         self
     }
 
-    /// This arc with `torque_n_m` for the first wheels.
-    ///
-    /// # Panics
-    /// If there are more than a spacecraft may have.
+    /// This arc with `torque_n_m` for the first wheels, as [`ActuationInput::with_thrust`].
     #[must_use]
     pub fn with_torque(mut self, torque_n_m: &[f64]) -> Self {
         self.torque_n_m[..torque_n_m.len()].copy_from_slice(torque_n_m);
