@@ -18,21 +18,3 @@ pub mod orbit_path;
 pub(crate) mod orbit_series;
 pub mod orbit_state;
 pub mod relative_orbit;
-
-use crate::math::Real;
-
-#[inline(always)]
-pub(crate) fn set_lanes<R: Real, const K: usize>(lanes: &mut [R; K], lane: usize, values: &[f64; K]) {
-    for (own, value) in lanes.iter_mut().zip(values) {
-        own.set_lane(lane, *value);
-    }
-}
-
-#[inline(always)]
-pub(crate) fn lane_of<R: Real, const K: usize>(lanes: &[R; K], lane: usize) -> [f64; K] {
-    let mut values = [0.0; K];
-    for (value, own) in values.iter_mut().zip(lanes) {
-        *value = own.lane(lane);
-    }
-    values
-}

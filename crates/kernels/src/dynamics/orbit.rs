@@ -14,7 +14,6 @@
 
 use super::gravity::Gravity;
 use super::orbit_state::OrbitState;
-use super::set_lanes;
 use crate::math::prelude::*;
 use crate::math::sine::sin_cos_turns;
 use crate::math::{Mask, Real};

@@ -1,6 +1,5 @@
 //! [`OrbitState`]: position and velocity relative to the central body.
 
-use super::set_lanes;
 use crate::math::prelude::*;
 
 /// Position and velocity relative to the central body, one run per lane.

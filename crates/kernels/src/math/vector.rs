@@ -143,3 +143,19 @@ pub fn quaternion_from_dcm<R: Real>(c: [[R; 3]; 3]) -> [R; 4] {
     q[largest] = half * root;
     if q[0].lane(0) < 0.0 { q.map(|x| -x) } else { q }
 }
+
+#[inline(always)]
+pub(crate) fn set_lanes<R: Real, const K: usize>(lanes: &mut [R; K], lane: usize, values: &[f64; K]) {
+    for (own, value) in lanes.iter_mut().zip(values) {
+        own.set_lane(lane, *value);
+    }
+}
+
+#[inline(always)]
+pub(crate) fn lane_of<R: Real, const K: usize>(lanes: &[R; K], lane: usize) -> [f64; K] {
+    let mut values = [0.0; K];
+    for (value, own) in values.iter_mut().zip(lanes) {
+        *value = own.lane(lane);
+    }
+    values
+}

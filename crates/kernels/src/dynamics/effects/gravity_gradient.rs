@@ -6,7 +6,6 @@
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::orbit_in_body::OrbitInBody;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
 use crate::scene::Scene;

@@ -5,7 +5,6 @@ pub(super) use super::plates::largest_rate;
 use super::within_arcs::{Motion, MotionSeries};
 use crate::dynamics::magnetic_field::series::FieldSeries;
 use crate::dynamics::magnetic_field::{MagneticField, largest};
-use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::scene::Scene;
 

@@ -3,7 +3,6 @@
 //! The switch function of a plate is the cosine of its normal to the incoming direction. If steps end at switches, the
 //! chosen side is frozen.
 
-use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
 use crate::scene::{MAX_PLATES, Plate, Scene};

@@ -7,8 +7,8 @@
 
 use super::{EARTH_RATE, each_lane};
 use crate::dynamics::orbit_state::OrbitState;
-use crate::dynamics::set_lanes;
 use crate::math::lanes::WIDEST;
+use crate::math::vector::set_lanes;
 use crate::math::{Mask, Real};
 use crate::scene::EnvironmentInput;
 

@@ -6,7 +6,6 @@
 
 use super::each_lane;
 use super::sun::{ASTRONOMICAL_UNIT, Sun};
-use crate::dynamics::set_lanes;
 use crate::math::prelude::*;
 use crate::math::{Mask, Real};
 use crate::scene::Shadow;

@@ -3,7 +3,6 @@
 use super::wheel::WheelMotion;
 use super::{ANGLE, ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::actuation::{BodyState, WheelState};
-use crate::dynamics::lane_of;
 use crate::math::prelude::*;
 use crate::scene::MAX_WHEELS;
 

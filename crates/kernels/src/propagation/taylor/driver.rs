@@ -15,9 +15,8 @@ use super::thrust::Push;
 use super::workspace::Workspace;
 use crate::dynamics::effects::within_arcs::WithinArcs;
 use crate::dynamics::gyrostat::{ANGLE, Gyrostat, OMEGA, WITH_THRUST};
-use crate::dynamics::lane_of;
 use crate::math::sums::{fast_two_sum, two_sum};
-use crate::math::vector::{scaled, three};
+use crate::math::vector::{lane_of, scaled, three};
 use crate::math::{Mask, Real};
 use crate::propagation::arc_source::ArcSource;
 use crate::run::{Grid, Status};
@@ -34,27 +33,20 @@ pub fn integrate<'a, S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J
     workspace: &'a mut Workspace<R, J>,
     finish: &mut RunCallback<'_>,
 ) {
-    let lanes = RunLanes::new(simd, zero, runs, arcs, grid, workspace);
-    let mut driver = Driver::<S, R, E, N, J, FORCED> { lanes };
+    let mut lanes = RunLanes::<S, R, E, N, J>::new(simd, zero, runs, arcs, grid, workspace);
     for lane in 0..R::LANES {
-        driver.lanes.load_lane(lane);
+        lanes.load_lane(lane);
     }
-    while driver.lanes.states[..R::LANES].iter().any(Option::is_some) {
-        driver.step(finish);
+    while lanes.states[..R::LANES].iter().any(Option::is_some) {
+        lanes.step::<FORCED>(finish);
     }
 }
 
-struct Driver<'a, S, R, E, const N: usize, const J: usize, const FORCED: bool> {
-    lanes: RunLanes<'a, S, R, E, N, J>,
-}
-
-impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const FORCED: bool>
-    Driver<'_, S, R, E, N, J, FORCED>
-{
+impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize> RunLanes<'_, S, R, E, N, J> {
     #[inline(always)]
-    fn step(&mut self, finish: &mut RunCallback<'_>) {
-        let has_begun = FORCED && core::mem::take(&mut self.lanes.has_begun);
-        let RunLanes { vectors, work, truncation, effects, .. } = &mut self.lanes;
+    fn step<const FORCED: bool>(&mut self, finish: &mut RunCallback<'_>) {
+        let has_begun = FORCED && core::mem::take(&mut self.has_begun);
+        let RunLanes { vectors, work, truncation, effects, .. } = self;
         let zero = vectors.time.zero();
         let infinite = zero.splat(f64::INFINITY);
         let mut constants = vectors.constants;
@@ -140,33 +132,33 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
         let continues = zero.lt(left);
         let covered = R::select(finite, R::select(continues, time, infinite), -infinite);
         let taken = TakenStep { constants, begin, order, length, push };
-        while self.lanes.vectors.next_point.lt(covered).any() {
-            self.observe(&taken, covered);
+        while self.vectors.next_point.lt(covered).any() {
+            self.observe::<FORCED>(&taken, covered);
         }
 
-        let back = self.lanes.detector.passes(omega);
+        let back = self.detector.passes(omega);
         let stuck = length.lt(time * zero.splat(f64::EPSILON * f64::EPSILON));
         let calm = finite & continues & !(stuck | back);
-        if (!calm).any() || self.lanes.work.ring.clock >= self.lanes.alarm {
+        if (!calm).any() || self.work.ring.clock >= self.alarm {
             self.examine(calm, back, length, finish);
         }
     }
 
     /// Evaluates the next observation point of every lane that has one before `covered`.
     #[inline(always)]
-    fn observe(&mut self, step: &TakenStep<R, N>, covered: R) {
-        let RunLanes { vectors, work, .. } = &mut self.lanes;
+    fn observe<const FORCED: bool>(&mut self, step: &TakenStep<R, N>, covered: R) {
+        let RunLanes { vectors, work, .. } = self;
         let due = vectors.next_point.lt(covered);
         let Workspace { ring, quadrature, .. } = &mut **work;
         let mut series = StepSeries { segment: ring.last(), step, quadrature, per_unit: vectors.per_unit };
         let rows = series.components::<FORCED>(vectors.next_point, due);
-        self.lanes.write_points(&rows, due);
+        self.write_points(&rows, due);
     }
 
     /// Examines the lanes that are not `calm`; at an alarm all of them.
     #[inline(never)]
     fn examine(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
-        self.lanes.simd.vectorize(
+        self.simd.vectorize(
             #[inline(always)]
             || self.examine_lanes(calm, back, length, finish),
         );
@@ -174,28 +166,27 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
 
     #[inline(always)]
     fn examine_lanes(&mut self, calm: R::Mask, back: R::Mask, length: R, finish: &mut RunCallback<'_>) {
-        let all = self.lanes.work.ring.clock >= self.lanes.alarm;
+        let all = self.work.ring.clock >= self.alarm;
         for lane in 0..R::LANES {
             if all || !calm.test(lane) {
                 self.examine_lane(lane, back.test(lane), length.lane(lane), finish);
             }
         }
-        if is_due(&self.lanes.states, self.lanes.work.ring.clock, self.lanes.work.ring.len()) {
+        if is_due(&self.states, self.work.ring.clock, self.work.ring.len()) {
             self.fold(finish);
         }
-        let lanes = &mut self.lanes;
-        let clock = lanes.work.ring.clock;
-        let mut occupied = lanes.states.iter().flatten();
+        let clock = self.work.ring.clock;
+        let mut occupied = self.states.iter().flatten();
         if clock > 0 && occupied.all(|state| state.begun == clock && state.steps_before == 0) {
             // all lanes have just been loaded: restart the ring to keep its memory small
-            lanes.work.ring.clock = 0;
-            lanes.states.iter_mut().flatten().for_each(|state| state.begun = 0);
+            self.work.ring.clock = 0;
+            self.states.iter_mut().flatten().for_each(|state| state.begun = 0);
         }
         self.set_alarm();
     }
 
     fn set_alarm(&mut self) {
-        let RunLanes { work, states, .. } = &self.lanes;
+        let RunLanes { work, states, .. } = &*self;
         let (clock, kept) = (work.ring.clock, work.ring.len());
         let mut alarm = usize::MAX;
         for state in states.iter().flatten() {
@@ -209,58 +200,57 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             };
             alarm = alarm.min(at).min(usize::try_from(given_up).unwrap_or(usize::MAX));
         }
-        self.lanes.alarm = alarm.max(clock + 1);
+        self.alarm = alarm.max(clock + 1);
     }
 
     /// Handles a lane after a step: folding by a period, end of an arc or a run.
     #[inline(always)]
     fn examine_lane(&mut self, lane: usize, back: bool, length: f64, finish: &mut RunCallback<'_>) {
-        let lanes = &mut self.lanes;
-        let Some(state) = lanes.states[lane] else { return };
+        let Some(state) = self.states[lane] else { return };
         if state.waiting.is_some() {
             return;
         }
-        let omega = lanes.vectors.omega(lane);
+        let omega = self.vectors.omega(lane);
         if !(omega[0].is_finite() && omega[1].is_finite() && omega[2].is_finite()) {
-            lanes.fail(lane, Status::NonFinite, finish);
+            self.fail(lane, Status::NonFinite, finish);
             return;
         }
-        let time = lanes.vectors.time.lane(lane);
-        let left = (state.length - time) - lanes.vectors.time_low.lane(lane);
-        let (ring, settings) = (&lanes.work.ring, &lanes.work.settings);
+        let time = self.vectors.time.lane(lane);
+        let left = (state.length - time) - self.vectors.time_low.lane(lane);
+        let (ring, settings) = (&self.work.ring, &self.work.settings);
         if state.is_searching
             && left > 0.0
-            && let Some(within) = return_time(&lanes.detector.section(lane), lanes.work, &state, lane, back, length)
+            && let Some(within) = return_time(&self.detector.section(lane), self.work, &state, lane, back, length)
             && let Some(period) = {
-                let momentum_b = lane_of(&lanes.vectors.constants.momentum, lane);
-                period(&lanes.runs[state.run], ring, &state, lane, within, momentum_b)
+                let momentum_b = lane_of(&self.vectors.constants.momentum, lane);
+                period(&self.runs[state.run], ring, &state, lane, within, momentum_b)
             }
         {
-            lanes.wait(lane, Some(period));
+            self.wait(lane, Some(period));
         } else if left <= 0.0 {
             if state.is_searching && state.is_last {
-                lanes.wait(lane, None);
+                self.wait(lane, None);
                 return;
             }
             if state.is_searching {
                 // the next arc starts from the state at the end of this one
-                lanes.evaluate_kept(lane, Until::EndOfArc);
+                self.evaluate_kept(lane, Until::EndOfArc);
             }
-            lanes.end_arc(lane, finish);
+            self.end_arc(lane, finish);
         } else if state.gives_up(ring.clock, time, settings.max_steps) {
-            lanes.fail(lane, Status::StepLimit, finish);
+            self.fail(lane, Status::StepLimit, finish);
         } else if length <= f64::EPSILON * time * f64::EPSILON {
-            lanes.fail(lane, Status::StepFloor, finish);
+            self.fail(lane, Status::StepFloor, finish);
         } else if state.is_searching && ring.clock - state.begun >= ring.len() {
-            lanes.keep_more_series(lane);
+            self.keep_more_series(lane);
         }
     }
 
     /// Evaluates all points of the waiting lanes' arcs and continues those lanes.
     #[inline(never)]
     fn fold(&mut self, finish: &mut RunCallback<'_>) {
-        let simd = self.lanes.simd;
-        let RunLanes { states, grid, work, vectors, .. } = &mut self.lanes;
+        let simd = self.simd;
+        let RunLanes { states, grid, work, vectors, .. } = self;
         let folded = folded_lanes(states, grid);
         let Workspace { ring, folds, trajectories, .. } = &mut **work;
         let mut folding = PeriodFolding::<S, R, J> { simd, grid, ring, folds, trajectories };
@@ -286,7 +276,7 @@ impl<S: Simd, R: Real, E: WithinArcs<R>, const N: usize, const J: usize, const F
             }
         }
         for share in folded.iter().flatten() {
-            self.lanes.end_arc(share.lane, finish);
+            self.end_arc(share.lane, finish);
         }
     }
 }

@@ -2,9 +2,8 @@
 
 use crate::dynamics::gyrostat::equations::Constants;
 use crate::dynamics::gyrostat::{ANGULAR_IMPULSE, IMPULSE, MOTOR_WORK, OMEGA, THRUST_WORK, WITH_MOTORS, WITH_THRUST};
-use crate::dynamics::lane_of;
 use crate::math::Real;
-use crate::math::vector::three;
+use crate::math::vector::{lane_of, three};
 
 /// State, time and arc constants of the lanes, in their units of time.
 #[derive(Clone, Copy, Debug)]

@@ -12,7 +12,6 @@ use super::lane_vectors::si_factors;
 use super::period::Period;
 use super::series_ring::SeriesRing;
 use crate::dynamics::gyrostat::{ANGLE, ATTITUDE, WITH_ANGLES, WITH_ATTITUDE};
-use crate::dynamics::lane_of;
 use crate::math::lanes::TWO_52;
 use crate::math::prelude::*;
 use crate::math::{Lanes, Real};

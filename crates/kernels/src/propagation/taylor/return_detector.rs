@@ -1,7 +1,6 @@
 //! [`ReturnDetector`]: search for the period of omega in all lanes, by their [`super::period::PoincareSection`]s.
 
 use super::period::PoincareSection;
-use crate::dynamics::{lane_of, set_lanes};
 use crate::math::prelude::*;
 
 const NONE: PoincareSection = PoincareSection { start: [0.0; 3], direction: [0.0; 3], extent2: 0.0, side: 0.0 };
