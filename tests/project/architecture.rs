@@ -3,7 +3,8 @@
 
 use crate::prelude::*;
 
-const LAYERS: [(&str, u32); 21] = [
+const LAYERS: [(&str, u32); 22] = [
+    ("testing", 0),
     ("math", 0),
     ("scene", 1),
     ("run", 1),

@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use fearless_simd::{Level, Simd};
 
 use crate::math::lanes::Lanes;
+use crate::math::pair::Pair;
 use crate::math::real::Real;
 
 /// Environment variable that forces a path: `avx512`, `avx2` or `plain`.
@@ -131,7 +132,7 @@ impl Isa {
         dispatch! { self, simd,
             "avx512" as_avx512 => {
                 let zero = Lanes::broadcast(simd, 0.0);
-                work.run(simd, super::Pair(zero, zero))
+                work.run(simd, Pair(zero, zero))
             },
             "avx2" as_avx2 => work.run(simd, Lanes::broadcast(simd, 0.0)),
             plain => work.run(simd, 0.0),
