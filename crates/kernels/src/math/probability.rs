@@ -8,8 +8,8 @@ pub struct Probability {
     pub upper: f64,
 }
 
-/// Replaces a zero, so that Lentz's method for continued fractions continues (I. J. Thompson & A. R. Barnett, *J. Comput.
-/// Phys.* 64 (1986) 490).
+/// Replaces a zero, so that Lentz's method for continued fractions continues (I. J. Thompson & A. R. Barnett, *J.
+/// Comput. Phys.* 64 (1986) 490).
 pub const TINY: f64 = 1e-300;
 
 /// `value`, or [`TINY`] if it is zero.

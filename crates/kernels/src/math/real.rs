@@ -148,8 +148,8 @@ pub trait Real:
     /// Writes the numbers to the start of a slice, as [`Real::lane`].
     fn write(self, values: &mut [f64]);
 
-    /// Does long `work`, needed in several places, in a function of its own, compiled for the instruction set of lanes or
-    /// the baseline of the target.
+    /// Does long `work`, needed in several places, in a function of its own, compiled for the instruction set of lanes
+    /// or the baseline of the target.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()

@@ -1,6 +1,6 @@
 //! Symmetric 3x3 matrices: definiteness, and principal axes by Jacobi rotations (Golub & Van Loan, *Matrix
-//! Computations*, 4th ed. (2013), section 8.5), which keep the relative accuracy of small positive eigenvalues (Demmel &
-//! Veselic 1992).
+//! Computations*, 4th ed. (2013), section 8.5), which keep the relative accuracy of small positive eigenvalues (Demmel
+//! & Veselic 1992).
 
 use crate::math::real::Real;
 

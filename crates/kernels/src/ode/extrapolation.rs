@@ -1,8 +1,8 @@
 //! [`Extrapolation`]: steps of high order in any arithmetic, for reference solutions.
 //!
 //! Gragg's midpoint rule with 2, 4, 6, ... parts, without smoothing, extrapolated by Neville's scheme in the square of
-//! their length (Hairer, Norsett & Wanner 1993, section II.9, (9.10) and (9.13)); order 2j after j columns. Coefficients
-//! are ratios of integers, exact in any arithmetic, unlike the 16 to 20 published digits of Runge-Kutta methods.
+//! their length (Hairer, Norsett & Wanner 1993, section II.9, (9.10) and (9.13)); order 2j after j columns.
+//! Coefficients are ratios of integers, exact in any arithmetic, unlike the digits published for Runge-Kutta methods.
 
 use super::explicit::{Step, each};
 use super::system::{System, Tolerance};
@@ -21,8 +21,8 @@ impl<R: Real, const N: usize> Extrapolation<R, N> {
         Extrapolation { row: [[zero; N]; COLUMNS] }
     }
 
-    /// Takes a step from `start` with the derivative `slope`. Returns its end, and the number of columns after which two
-    /// agree to the tolerance; `None` if they never do.
+    /// Takes a step from `start` with the derivative `slope`. Returns its end, and the number of columns after which
+    /// two agree to the tolerance; `None` if they never do.
     #[inline(always)]
     pub fn step<Q: System<R, N>>(
         &mut self,

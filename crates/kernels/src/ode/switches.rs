@@ -20,8 +20,8 @@ use crate::math::real::{Mask, Real};
 /// A switch function below minus this has changed sign; functions are of order one, rounding some 1e-15.
 const NOISE: f64 = 1e-12;
 
-/// Undershoot allowed at the end of a step to a switch, over the square root of the tolerance: an error of second order,
-/// 1e-4/2 of the tolerance.
+/// Undershoot allowed at the end of a step to a switch, over the square root of the tolerance: an error of second
+/// order, 1e-4/2 of the tolerance.
 const LANDED: f64 = 1e-2;
 
 /// Branches are chosen after this fraction of a step: beyond the error of location, negligible at second order.

@@ -26,7 +26,7 @@ pub trait System<R: Real, const N: usize> {
         time.splat(f64::INFINITY)
     }
 
-    /// Lanes in which f is not smooth within its branches, as near a fractional power, so that high order gains nothing.
+    /// Lanes in which f is not smooth within its branches, as near a fractional power: high order gains nothing.
     #[inline(always)]
     fn is_rough(&self, zero: R) -> R::Mask {
         zero.never()

@@ -83,8 +83,8 @@ impl Outcome {
     };
 }
 
-/// Reference rate of errors of omega, rad/s: the largest |omega| of the run, at least one radian over the `duration`, s:
-/// if a body turns by less, the error is the resulting angle.
+/// Reference rate of errors of omega, rad/s: the largest |omega| of the run, at least one radian over the `duration`,
+/// s: if a body turns by less, the error is the resulting angle.
 #[inline(always)]
 pub fn rate_scale(largest: f64, duration: f64) -> f64 {
     if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }
