@@ -35,7 +35,6 @@ pub fn setting(text: &str) -> Result<(String, String), String> {
         .ok_or_else(|| "must be KEY=VALUE, for instance campaign.duration_s=20".to_owned())
 }
 
-/// A shard: 3/8.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
     let shard = numbers.map(|(number, of)| Shard { number, of });

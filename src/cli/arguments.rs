@@ -92,7 +92,6 @@ pub enum Command {
     Columns(ColumnsOptions),
 }
 
-/// Overrides of a campaign file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Changed {
     /// Override a key, KEY as shown in error messages: --set campaign.duration_s=20, --set "wheels.w1.rate_rad_s=20
@@ -102,13 +101,11 @@ pub struct Changed {
 }
 
 impl Changed {
-    /// As what the reader of the file takes.
     pub fn overrides(&self) -> Overrides {
         Overrides { settings: self.settings.clone(), ..Overrides::default() }
     }
 }
 
-/// The samples that are drawn.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Drawn {
     /// Number of samples; overrides the file.
@@ -129,7 +126,6 @@ impl Drawn {
     }
 }
 
-/// Number of threads.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Number of threads, at most four per core [default: one per core]; nothing that is computed depends on it.
@@ -152,7 +148,6 @@ pub struct Written {
 }
 
 impl Written {
-    /// What is made of the rows.
     pub fn outputs(&self) -> Outputs {
         Outputs { without_page: self.no_report, figures: self.figures.clone(), junit: self.junit.clone() }
     }

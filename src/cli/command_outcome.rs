@@ -6,7 +6,6 @@ use crate::run::Status;
 /// A command that could not run: code 2 for arguments or campaign file, code 4 for other files.
 pub use crate::workflow::WorkflowError as Failure;
 
-/// The end of a command that ran.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
     /// Code 0.
@@ -24,12 +23,10 @@ pub enum CommandOutcome {
 }
 
 impl CommandOutcome {
-    /// The outcome of a single run.
     pub fn of(status: Status) -> Self {
         Self::of_campaign(u64::from(status != Status::Done), 0, 0)
     }
 
-    /// The outcome of a finished result.
     pub fn of_end(end: &SummaryEnd) -> Self {
         let undecided = end.count("UNDECIDED") + usize::from(!end.is_reached);
         Self::of_campaign(end.failed + end.not_covered, end.count("FAIL"), undecided)

@@ -7,6 +7,7 @@ use crate::findings::end::SummaryEnd;
 use crate::findings::number::{bytes, counted};
 use crate::findings::numerics::cost;
 use crate::report::screen;
+use crate::table::wrapped::wrapped;
 use crate::workflow::Completed;
 use crate::workflow::outcome::place;
 
@@ -56,7 +57,7 @@ fn headline(completed: &Completed) -> String {
     // all other counts are of dispersed runs
     let has_nominal = end.rows == completed.plan.samples && end.rows > 1;
     let nominal = if has_nominal { " (1 nominal)" } else { "" };
-    format!("{name}: {ok}{}{nominal} computed{run}, seed {seed}\n", counted(end.rows, "run"))
+    wrapped(&format!("{name}: {ok}{}{nominal} computed{run}, seed {seed}\n", counted(end.rows, "run")), width())
 }
 
 /// Samples per second, with one decimal below ten.

@@ -26,7 +26,6 @@ pub fn run(options: &SampleOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::Done)
 }
 
-/// Prints the applied numbers of one sample.
 fn one(plan: &Plan, sample: u64) -> Result<CommandOutcome, Failure> {
     if sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);

@@ -9,7 +9,6 @@ pub const GRACE: Duration = Duration::from_secs(5);
 /// Time before a hanging run is abandoned; committed parts are always whole.
 const LAST: Duration = Duration::from_millis(1500);
 
-/// Requests of the signals.
 #[derive(Debug)]
 pub struct Signals {
     pub stop: AtomicBool,
@@ -26,7 +25,6 @@ impl Signals {
     }
 }
 
-/// The name of a handled signal.
 pub fn name(signal: i32) -> &'static str {
     match signal {
         1 => "SIGHUP",

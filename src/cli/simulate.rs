@@ -72,7 +72,6 @@ pub fn run(options: &SimulateOptions) -> Result<CommandOutcome, Failure> {
     Ok(CommandOutcome::of(run.outcome.status))
 }
 
-/// Prints the errors against a reference solution.
 fn audit(options: &SimulateOptions, plan: &Plan, run: &SingleRun, isa: Isa) -> Result<(), Failure> {
     let sample = options.sample;
     let found = match run.audit(plan, isa) {

@@ -10,7 +10,6 @@ use crate::cli::signals::{self, Signals};
 use crate::cli::{completed_text, screen, signals::asked};
 use crate::workflow::Watch;
 
-/// Redraws per second.
 const REFRESH_HZ: u8 = 8;
 
 /// Standard error, and the signals of this process.
@@ -20,7 +19,6 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// The signal that stopped the work.
     pub fn signal(&self) -> Option<i32> {
         asked().first()
     }

@@ -38,7 +38,6 @@ pub fn plain(cell: Cell<'_>) -> [String; 2] {
     [String::new(), content]
 }
 
-/// The text of a cell as markup.
 pub fn markup(cell: Cell<'_>) -> String {
     if let Cell::Text(markup) = cell { markup.to_owned() } else { String::new() }
 }

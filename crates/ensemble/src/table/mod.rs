@@ -39,7 +39,6 @@ impl Column {
         Column { quantity, content, nullable: content == Content::Real, align: content.into() }
     }
 
-    /// Allows absent values.
     #[must_use]
     pub fn nullable(self) -> Self {
         Column { nullable: true, ..self }
@@ -66,7 +65,6 @@ pub enum Cell<'a> {
 }
 
 impl<'a> Values<'a> {
-    /// Texts without nulls.
     pub fn words<T: Into<Cow<'a, str>>>(words: impl IntoIterator<Item = T>) -> Self {
         Values::Text(words.into_iter().map(|word| Some(word.into())).collect())
     }
@@ -193,12 +191,10 @@ impl<'a, R> TableOf<'a, R> {
         self.push(name, meaning, Content::Word, true, Values::Text(values))
     }
 
-    /// Adds a column of texts.
     pub fn word<T: Into<Cow<'a, str>>>(&mut self, name: &str, meaning: &str, value: impl Fn(&'a R) -> T) -> &mut Self {
         self.push(name, meaning, Content::Word, false, Values::words(self.rows.iter().map(value)))
     }
 
-    /// Sets the unit of the last column.
     pub fn unit(&mut self, unit: &str) -> &mut Self {
         if let Some(Column { quantity, .. }) = self.table.columns.last_mut() {
             let [name, meaning] = [quantity.name(), quantity.meaning()].map(str::to_owned);

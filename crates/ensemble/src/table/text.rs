@@ -89,8 +89,21 @@ impl<'t> Text<'t> {
         self
     }
 
+    /// Widths of the values of a column and of their intervals, which stand below each other.
+    fn parts(&self, column: usize) -> [usize; 2] {
+        let is_right = self.aligns[column] == Align::Right;
+        let parts = self.rows[self.heads..].iter().map(|row| split(&row[column], is_right).map(letters));
+        parts.fold([0; 2], |[a, b], [value, interval]| [a.max(value), b.max(interval)])
+    }
+
+    /// Width of a column whose cells have these `parts`.
+    fn wide(&self, column: usize, parts: [usize; 2]) -> usize {
+        let heads = self.rows[..self.heads].iter().map(|row| letters(&row[column]));
+        heads.fold(self.least[column].max(parts[0] + parts[1]), usize::max)
+    }
+
     fn widest(&self, column: usize) -> usize {
-        self.rows.iter().map(|row| letters(&row[column])).fold(self.least[column], usize::max)
+        self.wide(column, self.parts(column))
     }
 
     fn used(&self, widths: &[usize]) -> usize {
@@ -120,16 +133,16 @@ impl<'t> Text<'t> {
         self.blocks(width)[self.heads..].concat()
     }
 
-    /// The first column of each line of a row, filled greedily from column `first`.
-    fn starts(&self, widths: &[usize], first: usize, width: usize) -> Vec<usize> {
+    /// The first column of each line of a row, filled greedily; lines after the first are `continued` by more spaces.
+    fn starts(&self, widths: &[usize], width: usize, continued: usize) -> Vec<usize> {
         let [before, between] = self.gaps;
-        let (mut starts, mut used) = (vec![first], before);
-        for (column, needed) in widths.iter().enumerate().skip(first) {
+        let (mut starts, mut used) = (vec![0], before);
+        for (column, needed) in widths.iter().enumerate() {
             let is_first = starts.last() == Some(&column);
             let wider = used + if is_first { 0 } else { between } + needed;
             used = if wider > width && !is_first {
                 starts.push(column);
-                before + CONTINUED + needed
+                before + continued + needed
             } else {
                 wider
             };
@@ -156,8 +169,18 @@ impl<'t> Text<'t> {
             widths[widest] = widths[widest].min(widths[widest].saturating_sub(excess).max(LEAST_NAME));
         }
         // a title above leaves its gap, so that columns keep their place
-        let starts = self.starts(&widths, 0, width);
+        let continued = if is_above { between } else { CONTINUED };
+        let mut parts: Vec<[usize; 2]> = (0..count).map(|column| self.parts(column)).collect();
+        if is_above && self.starts(&widths, width, continued).len() > 1 {
+            // the lines of a row share their columns
+            let most = parts[1..].iter().fold([0; 2], |[a, b], [value, interval]| [a.max(*value), b.max(*interval)]);
+            let widest = (1..count).map(|column| self.wide(column, most)).max().unwrap_or(0);
+            parts[1..].fill(most);
+            widths[1..].fill(widest);
+        }
+        let starts = self.starts(&widths, width, continued);
         let mut blocks = Vec::with_capacity(self.rows.len());
+        let mut alike = 0;
         for (index, row) in self.rows.iter().enumerate() {
             let is_head = index < self.heads;
             let (mut text, mut line) = (String::new(), " ".repeat(before));
@@ -171,9 +194,13 @@ impl<'t> Text<'t> {
                 let is_start = starts.contains(&column);
                 if is_start && column > 0 {
                     push_line(&mut text, &line);
-                    line = " ".repeat(before + CONTINUED);
+                    line = " ".repeat(before + continued);
                 }
-                let cell = fitted(cell, *cell_width, letters);
+                let [value, interval] = split(cell, *align == Align::Right && !is_head);
+                let cell = match parts[column][1] {
+                    wide if wide > 0 && !is_head => format!("{value}{interval:wide$}"),
+                    _ => fitted(cell, *cell_width, letters),
+                };
                 let space = " ".repeat(cell_width - letters(&cell));
                 line += &" ".repeat(if is_start { 0 } else { between });
                 line += &if *align == Align::Right { space + &cell } else { cell + &space };
@@ -181,10 +208,14 @@ impl<'t> Text<'t> {
             let sentence = row.last().filter(|_| has_sentences).map_or("", |sentence| sentence);
             if is_below || starts.len() > 1 {
                 push_line(&mut text, &line);
-                // repeated sentences appear once
-                let is_said_later = self.rows.get(index + 1).is_some_and(|next| next.last() == row.last());
-                if !sentence.is_empty() && !is_head && !is_said_later {
-                    text += &wrapped(&format!("{:BELOW$}{sentence}\n", ""), width);
+                // repeated sentences appear once, with the number of their rows
+                alike = if is_head { 0 } else { alike + 1 };
+                if self.rows.get(index + 1).is_none_or(|next| next.last() != row.last()) {
+                    let of = if alike > 1 { format!("the {alike} above: ") } else { String::new() };
+                    if !sentence.is_empty() && alike > 0 {
+                        text += &wrapped(&format!("{:BELOW$}{of}{sentence}\n", ""), width);
+                    }
+                    alike = 0;
                 }
             } else {
                 let begin = letters(&line) + between;
@@ -197,6 +228,12 @@ impl<'t> Text<'t> {
         }
         blocks
     }
+}
+
+/// A number and its interval, " [1, 2]", if it `has_interval`.
+fn split(cell: &str, has_interval: bool) -> [&str; 2] {
+    let at = cell.find(" [").filter(|_| has_interval).unwrap_or(cell.len());
+    cell.split_at(at).into()
 }
 
 fn push_line(text: &mut String, line: &str) {
@@ -237,7 +274,8 @@ mod tests {
         }
     }
 
-    /// Law: columns are aligned; a wide table has a line per row; repeated sentences below rows appear once.
+    /// Law: columns are aligned; a wide table has a line per row; repeated sentences below rows appear once, with
+    /// the number of their rows.
     #[test]
     fn columns_stand_below_each_other() {
         let text = table().text(120);
@@ -247,8 +285,23 @@ mod tests {
         assert!(lines[1].find("12.5").map(|at| at + 4) == end && lines[2].find("-3").map(|at| at + 2) == end, "{text}");
         assert!(lines[3].starts_with("  b  ") && lines[1].starts_with("  initial.position_m.x  "), "{text}");
         let narrow = table().text(40);
-        assert_eq!(narrow.matches("normal about").count(), 1, "{narrow}");
+        assert_eq!(narrow.matches("the 2 above: normal about").count(), 1, "{narrow}");
         assert!(narrow.lines().any(|line| line.trim() == "uniform"), "{narrow}");
+    }
+
+    /// Law: numbers, with and without intervals, stand below each other, also on the several lines of a row.
+    #[test]
+    fn intervals_are_aligned() {
+        let heads = ["median", "p5", "mean", "max"].map(|head| (head, Align::Right));
+        let mut table = Table::with([("outcome", Align::Title)].into_iter().chain(heads));
+        table.row(["a", "0.51 [0.38, 0.60]", "1.5 [?, 2]", "0.502 [0.433, 0.581]", "1.16"]);
+        table.row(["b", "2030 [1870, 2160]", "-", "-0.0030 [-0.0038, 0.0033]", "3194"]);
+        for (width, lines, columns) in [(200, 3, 3), (60, 9, 2), (40, 15, 1)] {
+            let text = table.text(width);
+            let places = text.lines().flat_map(|line| line.match_indices(" [").map(|(at, _)| at));
+            let places = places.collect::<std::collections::BTreeSet<_>>();
+            assert_eq!((text.lines().count(), places.len()), (lines, columns), "{width}:\n{text}");
+        }
     }
 
     #[test]

@@ -9,7 +9,6 @@ use crate::table::text::Align;
 use crate::table::wrapped::fitted;
 
 const LONGEST_VALUE: usize = 40;
-/// Stands for the value of a key that the plan lacks.
 const ABSENT: &str = "-";
 /// Stands for the values of several keys.
 const THERE: &str = "there";
@@ -83,14 +82,13 @@ fn common(key: &str, other: &str, values: &[String; 2], of_other: &[String; 2]) 
 mod tests {
     use super::*;
     use crate::campaign::difference::{said, text_differences};
-    use spindrift_control::control::tables::Overrides;
+    use crate::shipped;
 
     /// Law: keys with the same change share one line, tables that only one plan has take one line, every key is counted
     /// once.
     #[test]
     fn keys_that_changed_alike_stand_together() {
-        let text = include_str!("../../../../campaigns/net_launch.toml");
-        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let plan = shipped::plan("net_launch");
         let gains = |gain: &str| {
             format!("[[guidance]]\nphase = \"a\"\ngain = {gain}\nk = 1\n[[guidance]]\nphase = \"b\"\ngain = {gain}\n")
         };
@@ -125,8 +123,7 @@ mod tests {
     /// neither; requirements about different quantities keep their own.
     #[test]
     fn both_values_are_in_one_unit() {
-        let text = include_str!("../../../../campaigns/net_launch.toml");
-        let plan = Plan::from_text("net_launch", text, Overrides::default()).expect("valid");
+        let plan = shipped::plan("net_launch");
         let radians = core::f64::consts::PI / 180.0;
         let rates = "initial.angular_velocity_rad_s";
         let ten = format!("[0.0, 0.0, {:?}]", 10.0 * radians);
@@ -143,8 +140,7 @@ mod tests {
             let found = said(Some([&plan; 2]), key, values.map(Some));
             assert_eq!(found.each_ref().map(Option::as_deref), known.map(Some), "{key}");
         }
-        let text = include_str!("../../../../campaigns/nadir_pointing.toml");
-        let other = Plan::from_text("nadir_pointing", text, Overrides::default()).expect("valid");
+        let other = shipped::plan("nadir_pointing");
         let limit = format!("{:?}", 0.1 * radians);
         let found = said(Some([&plan, &other]), "require[0].at_most", [Some("1.0"), Some(&limit)]);
         assert_eq!(found, ["1", "0.1 deg"].map(|text| Some(text.to_owned())));

@@ -4,7 +4,7 @@ use crate::campaign::{Plan, failed_device};
 use crate::ensemble::Ensemble;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe, part_of_run};
 use crate::findings::finding::{Finding, Kind};
-use crate::findings::number::{brief, bytes, counted, short, trimmed};
+use crate::findings::number::{brief, bytes, counted, duration, short, trimmed};
 use crate::findings::{dispersions, loss, scene};
 use crate::loops::ControlLaw;
 use crate::observables::{Group, Request};
@@ -12,12 +12,10 @@ use crate::ode::{PACE_STEPS, is_out_of_reach};
 use crate::run::{StateField, Status};
 use crate::scene::{Scene, WheelMode};
 
-/// A campaign as known before it runs.
 #[derive(Debug)]
 pub struct Probed<'p> {
     pub ensemble: &'p Ensemble<'p>,
     pub scene: Scene,
-    /// Probe of the first runs.
     pub runs: RunProbe,
     /// Probe of their audits, or the sample whose audit takes too long; `None` without audits.
     pub audits: Option<Result<AuditProbe, crate::sampling::SampleId>>,
@@ -75,12 +73,12 @@ fn summary(plan: &Plan) -> String {
         Some(step) => format!("steps of {} s", trimmed(step, 6)),
         None => format!("tolerance {:e}", plan.tolerance.relative),
     };
-    let (rows, seconds) = (counted(plan.rows(), "run"), trimmed(plan.grid.duration(), 6));
+    let (rows, duration) = (counted(plan.rows(), "run"), duration(plan.grid.duration()));
     let requirements = match plan.analysis.requirements.len() {
         0 => "no requirement".to_owned(),
         count => counted(count, "requirement"),
     };
-    format!("{}: {rows} of {seconds} s, method {}, {steps}, {requirements}", plan.name, plan.method.name())
+    format!("{}: {rows} of {duration}, method {}, {steps}, {requirements}", plan.name, plan.method.name())
 }
 
 fn failures(title: &str, plan: &Plan, probe: &RunProbe) -> Vec<Finding> {
@@ -99,7 +97,6 @@ fn failures(title: &str, plan: &Plan, probe: &RunProbe) -> Vec<Finding> {
     head.into_iter().chain([Finding { children, ..all }]).chain(more).collect()
 }
 
-/// Device failures, events and extremes.
 fn happenings(plan: &Plan) -> Vec<Finding> {
     let end = plan.grid.duration();
     let failure = |failure: &crate::scene::FailureInput| {
@@ -234,7 +231,6 @@ fn estimate(probed: &Probed<'_>) -> Vec<Finding> {
     [about(&title, time), about(&title, space)].into_iter().chain(failed).chain([audits]).collect()
 }
 
-/// Audit time extrapolated from the probe.
 fn audit_estimate(title: &str, probed: &Probed<'_>) -> Finding {
     let plan = probed.ensemble.plan();
     let said = match &probed.audits {

@@ -10,10 +10,8 @@ use crate::findings::requirement::EndVerdict;
 use crate::statistics::contingency::fisher;
 use crate::statistics::two_sample::holm;
 
-/// A requirement of either result with its verdicts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComparedVerdict {
-    /// The requirement as a sentence.
     pub requirement: String,
     pub verdicts: [Option<EndVerdict>; 2],
     /// Probability that two results of one campaign differ this much by chance, adjusted for the number of requirements
@@ -104,7 +102,6 @@ pub struct Compared<'c> {
     pub names: [String; 2],
     pub plans: [&'c Plan; 2],
     pub comparison: Comparison,
-    /// Keys in which the plans differ.
     pub keys: Vec<KeyDifference>,
     pub verdicts: Vec<ComparedVerdict>,
     /// Allowed shift, as a share of the spread.
@@ -114,14 +111,12 @@ pub struct Compared<'c> {
 }
 
 impl<'c> Compared<'c> {
-    /// Compares `names` of `plans`, without a tolerance.
     pub fn new(names: [String; 2], plans: [&'c Plan; 2], comparison: Comparison, ends: [Vec<EndVerdict>; 2]) -> Self {
         let verdicts = verdicts(ends, &comparison);
         let keys = differences(plans[0], plans[1]);
         Compared { names, plans, comparison, keys, verdicts, tolerance: None, is_strict: false }
     }
 
-    /// The verdicts whose change counts.
     pub fn counted(&self) -> impl Iterator<Item = &ComparedVerdict> {
         self.verdicts.iter().filter(|one| self.is_strict || !one.is_within_chance)
     }

@@ -318,7 +318,6 @@ fn columns(compared: &Compared<'_>) -> Option<Finding> {
     (table.rows() > 0).then(|| Finding { rank: 1, ..with_table(Kind::Outcome, "columns", "columns", table) })
 }
 
-/// The result behind the exit code.
 fn end(compared: &Compared<'_>) -> Vec<Finding> {
     let Compared { comparison, verdicts, tolerance, .. } = compared;
     let count = |change: Ordering| compared.counted().filter(|one| one.change() == Some(change)).count();

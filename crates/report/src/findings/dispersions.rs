@@ -63,7 +63,6 @@ pub fn drawn(plan: &Plan) -> Vec<Finding> {
     of_percentiles(plan, &percentiles)
 }
 
-/// As [`drawn`], for existing draws.
 pub fn of_percentiles(plan: &Plan, drawn: &Percentiles) -> Vec<Finding> {
     let columns = plan.dispersions.columns();
     if columns.is_empty() {

@@ -17,6 +17,7 @@ use crate::math::normal;
 use crate::sampling::Design;
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::contingency::Occurrence;
+use crate::statistics::correlation::Estimate;
 use crate::statistics::quantile::percent;
 
 const NAMED: usize = 2;
@@ -25,13 +26,9 @@ pub const SEE_INTERACTIONS: &str =
     "interactions of inputs are not included, but are in total indices (design.kind = \"saltelli\")";
 
 /// The observables of `all` that are outcomes of the campaign, in their order.
-pub fn outcomes<'a>(plan: &Plan, all: &'a [InputSensitivity]) -> Vec<&'a str> {
-    let mut names: Vec<&str> = all.iter().map(|one| one.observable.as_str()).collect();
-    names.dedup();
-    let order = crate::analysis::outcomes::outcomes(plan);
-    let place = |name: &&str| order.iter().position(|outcome| outcome == name);
-    names.retain(|name| place(name).is_some());
-    names.sort_by_key(place);
+pub fn outcomes(plan: &Plan, all: &[InputSensitivity]) -> Vec<String> {
+    let mut names = crate::analysis::outcomes::outcomes(plan);
+    names.retain(|name| all.iter().any(|one| one.observable == *name));
     names
 }
 
@@ -53,7 +50,6 @@ pub fn ranked<'a>(plan: &Plan, all: &'a [InputSensitivity], outcome: &str) -> Ve
     rankings(all, outcome, 1.0 - plan.analysis.confidence)
 }
 
-/// The event of `outcome` as a verb: "fail".
 pub fn verb(plan: &Plan, outcome: &str, event: &Event, runs: u64) -> String {
     let of = |one: &'static str, several: &'static str| if runs == 1 { one } else { several };
     match event.occurs {
@@ -96,7 +92,15 @@ fn such_runs(plan: &Plan, outcome: &str, event: &Event) -> String {
 
 pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
     let said = match &ranking.question {
-        Question::Event(event) => of_event(plan, [outcome, &such_runs(plan, outcome, event)], event, ranking),
+        Question::Event(event) => {
+            // the title has the limit
+            let occurs = match event.occurs {
+                Occurs::Missed { requirement, .. } => Occurs::Missed { requirement, is_only: true },
+                other => other,
+            };
+            let event = &Event { occurs, ..*event };
+            of_event(plan, [outcome, &such_runs(plan, outcome, event)], event, ranking)
+        }
         Question::Spread => of_spread(plan, ranking),
     };
     said + &correlations(plan, ranking)
@@ -105,7 +109,7 @@ pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
 fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let mut pairs: Vec<[&str; 2]> = Vec::new();
     let mut said = String::new();
-    let has_shares = ranking.drivers().take(NAMED).any(|driver| driver.share.filter(is_known).is_some());
+    let has_shares = told(ranking).is_some();
     for driver in ranking.drivers().take(NAMED) {
         let one = driver.input.input.as_str();
         let with = driver.input.correlated_with.as_ref();
@@ -116,10 +120,10 @@ fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
         pairs.push([one, other]);
         let r = with.filter(|(name, _)| name == other).map_or_else(String::new, |(_, r)| format!(" ({r:.2})"));
         let [one, other] = [one, other].map(|column| names::of_input_column(plan, column));
-        let apart = match (driver.instead(), &ranking.question) {
-            (Some(_), _) => ", and these runs do not tell which of them acts",
-            (None, Question::Spread) if has_shares => ", so their shares overlap",
-            (None, _) => "",
+        let apart = match driver.instead() {
+            Some(_) => ", and these runs do not tell which of them acts",
+            None if has_shares => ", so their shares overlap",
+            None => "",
         };
         said += &format!("; {one} and {other} are correlated{r}{apart}");
     }
@@ -183,7 +187,11 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
         let power = power_on_event(plan, ranking, of, &verb);
         return format!("{} of {} runs {verb}; no input was found that explains which{power}", of.events, of.runs);
     }
-    named.join("; ")
+    let mut said = named.join("; ");
+    if let Some((again, _)) = said.match_indices(runs).nth(1) {
+        said.replace_range(again..again + runs.len(), "these runs");
+    }
+    said
 }
 
 /// One phrase for several named drivers that are all farther from, or all nearer to, their medians; else `None`.
@@ -202,6 +210,37 @@ fn at_a_distance(plan: &Plan, runs: &str, ranking: &Ranking<'_>) -> Option<Strin
     Some(format!("{} are {word} their medians in {runs}", listed.join(" and ")))
 }
 
+/// The drivers that are named: next to large shares no negligible ones.
+fn named<'r, 'a>(ranking: &'r Ranking<'a>) -> Vec<&'r Ranked<'a>> {
+    let is_small = |ranked: &&Ranked<'_>| ranked.share.filter(is_known).is_some_and(|share| share.value < LEAST_SHARE);
+    let (small, large): (Vec<_>, Vec<_>) = ranking.drivers().take(NAMED).partition(is_small);
+    if large.is_empty() { small } else { large }
+}
+
+/// True if the runs leave a share open; those of chosen samples have no interval.
+fn is_open(ranked: &Ranked<'_>) -> bool {
+    /// Widest interval of a share that may be zero.
+    const MOST_WIDTH: f64 = 0.5;
+    ranked.share.filter(|share| share.lower.is_nan()).is_none()
+        && ranked
+            .share
+            .filter(is_known)
+            .is_none_or(|share| share.value <= 0.0 || share.lower <= 0.0 && share.upper - share.lower > MOST_WIDTH)
+}
+
+/// The shares of the named drivers of a spread, if the runs show all of them.
+fn told(ranking: &Ranking<'_>) -> Option<Vec<String>> {
+    let share = |driver: &Ranked<'_>| {
+        // a negligible estimate contradicts the test that found the input
+        let is_told = |share: &Estimate| !share.lower.is_nan() && share.value >= LEAST_SHARE;
+        let share = driver.share.filter(|share| is_told(share) && !is_open(driver))?;
+        let within = |end: f64| end.clamp(0.0, 1.0);
+        Some(number::share([within(share.value); 2], [share.lower, share.upper].map(within)))
+    };
+    let shares = named(ranking).into_iter().map(share).collect();
+    if ranking.question == Question::Spread { shares } else { None }
+}
+
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let Some(first) = ranking.inputs.first() else { return String::new() };
     let runs = counted(first.input.rows, "run");
@@ -212,10 +251,7 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
         None => "",
     };
     let rest = rest(plan, ranking).map_or_else(String::new, |rest| format!("; {rest}"));
-    let is_small = |ranked: &&Ranked<'_>| ranked.share.filter(is_known).is_some_and(|share| share.value < LEAST_SHARE);
-    let (small, large): (Vec<&Ranked<'_>>, Vec<&Ranked<'_>>) = ranking.drivers().take(NAMED).partition(is_small);
-    // next to large shares negligible ones are not listed
-    let drivers = if large.is_empty() { small } else { large };
+    let drivers = named(ranking);
     if drivers.is_empty() {
         let most = ranking.inputs.iter().map(|ranked| ranked.share.filter(is_known).map(|share| share.upper));
         return match most.collect::<Option<Vec<f64>>>() {
@@ -234,32 +270,24 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
         };
         return format!("total Sobol indices: {}", drivers.iter().map(of).collect::<Vec<_>>().join(", "));
     }
-    let mut is_said = false;
-    let of = |driver: &&Ranked<'_>| {
-        // a negligible estimate contradicts the test that found the input
-        let share = driver.share.filter(|share| is_known(share) && !share.lower.is_nan() && share.value >= LEAST_SHARE);
-        let within = |end: f64| end.clamp(0.0, 1.0);
-        let share = share.map(|share| number::share([within(share.value); 2], [share.lower, share.upper].map(within)));
-        let share = match share {
-            Some(share) if is_said => format!(" {share}"),
-            Some(share) => format!(" explains {share} of the variance"),
-            None => String::new(),
+    let shares = told(ranking);
+    let of = |(place, driver): (usize, &&Ranked<'_>)| {
+        let share = match (&shares, place) {
+            (Some(shares), 0) => format!(" explains {} of the variance", shares[0]),
+            (Some(shares), _) => format!(" {}", shares[place]),
+            (None, _) => String::new(),
         };
-        is_said |= !share.is_empty();
         format!("{}{share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
     };
-    let said = drivers.iter().map(of).collect::<Vec<_>>().join(", ");
-    if is_said { said + &rest } else { said }
+    let said = drivers.iter().enumerate().map(of).collect::<Vec<_>>().join(", ");
+    if shares.is_some() { said + &rest } else { said }
 }
 
-/// The number of runs, if it is too small to estimate the shares of the named drivers. `None` if a share is known, or
-/// none exists because the samples were chosen.
+/// The number of runs, if it is too small to estimate the shares of the named drivers.
 fn too_few(ranking: &Ranking<'_>) -> Option<u64> {
-    let input = ranking.drivers().next()?.input;
-    let is_said = |ranked: &Ranked<'_>| {
-        ranked.share.is_some_and(|share| share.lower.is_nan() || is_known(&share) && share.value > 0.0)
-    };
-    let is_open = input.total.is_none() && !ranking.drivers().take(NAMED).any(is_said);
+    let drivers = named(ranking);
+    let input = drivers.first()?.input;
+    let is_open = input.total.is_none() && drivers.into_iter().any(is_open);
     (ranking.question == Question::Spread && is_open).then_some(input.rows)
 }
 
@@ -311,7 +339,6 @@ fn power_on_event(plan: &Plan, ranking: &Ranking<'_>, of: Occurrence, verb: &str
     )
 }
 
-/// One sentence per ranking with drivers.
 pub(super) fn found(plan: &Plan, all: &[InputSensitivity], outcome: &str) -> Vec<String> {
     let rankings = ranked(plan, all, outcome);
     let known = rankings.iter().filter(|ranking| ranking.drivers().next().is_some());
@@ -340,11 +367,11 @@ pub(super) fn findings(
     let mut few: Vec<(String, u64)> = Vec::new();
     for outcome in outcomes(plan, all) {
         let has_runs = |ranking: &&Ranking<'_>| ranking.inputs.first().is_some_and(|first| first.input.rows > 0);
-        for ranking in ranked(plan, all, outcome).iter().filter(has_runs) {
-            let one = finding(plan, analysed, outcome, ranking);
+        for ranking in ranked(plan, all, &outcome).iter().filter(has_runs) {
+            let one = finding(plan, analysed, &outcome, ranking);
             few.extend(too_few(ranking).map(|runs| (one.title.clone(), runs)));
-            let order = [one.children.is_empty(), is_met(verdicts, outcome), is_settled(verdicts, ranking)];
-            found.push((one, (order, place(outcome))));
+            let order = [one.children.is_empty(), is_met(verdicts, &outcome), is_settled(verdicts, ranking)];
+            found.push((one, (order, place(&outcome))));
         }
     }
     found.sort_by(|(one, order), (other, after)| order.cmp(after).then(strength(other).total_cmp(&strength(one))));
@@ -460,36 +487,45 @@ pub fn part(event: &Event) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::correlation::Estimate;
-    use spindrift_control::control::tables::Overrides;
 
-    /// Law: a share appears with its interval and only if that is informative: not for too few runs, an interval near
-    /// [0, 1], or chosen samples. "No input explains more than" needs the upper ends of all inputs. Drivers are always
-    /// named.
+    /// The sentence on the spread if these inputs have these shares and are drivers or not.
+    fn said<const N: usize>(inputs: &[InputSensitivity; N], shares: [(Option<Estimate>, bool); N]) -> String {
+        let of = |(input, (share, is_driver))| Ranked { input, effect: None, share, is_driver };
+        let inputs = inputs.iter().zip(shares).map(of).collect();
+        sentence(&crate::shipped::plan("spin_sweep"), "y", &Ranking { question: Question::Spread, inputs })
+    }
+
+    fn input(name: &str) -> InputSensitivity {
+        InputSensitivity { input: name.to_owned(), rows: 77, ..Default::default() }
+    }
+
+    /// Law: shares appear with their intervals, of all named drivers or of none, and only if that is informative: not for
+    /// too few runs, a wide interval, or chosen samples. "No input explains more than" needs the upper ends of all
+    /// inputs. Drivers are always named.
     #[test]
     fn shares_are_said_with_intervals_or_not_at_all() {
-        let text = include_str!("../../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let known = Some(Estimate { value: 0.5, lower: 0.4, upper: 0.625 });
-        for (share, is_known) in [
-            (known, true),
-            (None, false),
-            (Some(Estimate { value: 0.99, lower: 0.0, upper: 1.0 }), false),
-            (Some(Estimate { value: 0.5, lower: 0.1, upper: 0.95 }), false),
-            (Some(Estimate { value: 0.5, lower: f64::NAN, upper: f64::NAN }), false),
+        let estimate = |value, lower, upper| Some(Estimate { value, lower, upper });
+        let known = estimate(0.5, 0.4, 0.625);
+        for (share, is_told, most) in [
+            (known, true, Some(63)),
+            (None, false, None),
+            (estimate(0.99, 0.0, 1.0), false, None),
+            (estimate(0.5, 0.1, 0.95), false, None),
+            (estimate(0.33, -0.1, 0.57), false, Some(57)),
+            (estimate(0.5, f64::NAN, f64::NAN), false, None),
         ] {
             for is_driver in [true, false] {
-                let input = |name: &str| InputSensitivity { input: name.to_owned(), rows: 77, ..Default::default() };
                 let inputs = ["first_one", "second_one"].map(input);
-                let of = |place: usize, share| Ranked { input: &inputs[place], effect: None, share, is_driver };
-                let ranking = Ranking { question: Question::Spread, inputs: vec![of(0, share), of(1, known)] };
-                let said = sentence(&plan, "y", &ranking);
-                assert_eq!(said.contains("first"), is_driver, "{said}");
-                assert_eq!(said.contains("more than 63% of the variance"), is_known && !is_driver, "{said}");
-                assert_eq!(said.contains("explains 50% [40, 63] of the variance"), is_driver, "{said}");
-                let alone = Ranking { question: Question::Spread, inputs: vec![of(0, share)] };
-                let said = sentence(&plan, "y", &alone);
-                assert_eq!(said.contains('%'), is_known, "{said}");
+                let both = said(&inputs, [share, known].map(|share| (share, is_driver)));
+                assert_eq!(both.contains("first"), is_driver, "{both}");
+                let is_most = both.contains("more than 63% of the variance");
+                assert_eq!(is_most, most.is_some() && !is_driver, "{both}");
+                let all = "first one explains 50% [40, 63] of the variance, second one 50% [40, 63]";
+                assert_eq!(both.contains(all), is_driver && is_told, "{both}");
+                assert_eq!(both.contains('%'), is_told || is_most, "{both}");
+                let alone = said(&[input("first_one")], [(share, is_driver)]);
+                let is_most = most.is_some_and(|most| alone.contains(&format!("more than {most}% of")));
+                assert!(alone.contains('%') == (is_told || is_most) && is_most == (most.is_some() && !is_driver));
             }
         }
     }
@@ -497,22 +533,10 @@ mod tests {
     /// Law: a negligible share is not listed, alone or next to a large one.
     #[test]
     fn negligible_shares_are_not_listed() {
-        let text = include_str!("../../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let inputs = ["first_one", "second_one"].map(|name| InputSensitivity {
-            input: name.to_owned(),
-            rows: 400,
-            ..Default::default()
-        });
         let estimate = |value: f64| Some(Estimate { value, lower: 0.5 * value, upper: (2.0 * value).min(1.0) });
         for (shares, names) in [([0.4, 1e-4], [true, false]), ([0.4, 0.3], [true; 2]), ([1e-4, 1e-4], [true; 2])] {
-            let of = |place: usize| Ranked {
-                input: &inputs[place],
-                effect: None,
-                share: estimate(shares[place]),
-                is_driver: true,
-            };
-            let said = sentence(&plan, "y", &Ranking { question: Question::Spread, inputs: vec![of(0), of(1)] });
+            let inputs = ["first_one", "second_one"].map(input);
+            let said = said(&inputs, shares.map(|share| (estimate(share), true)));
             assert_eq!(["first", "second"].map(|name| said.contains(name)), names, "{said}");
             assert!(!said.contains("0.0"), "{said}");
         }
@@ -521,28 +545,18 @@ mod tests {
     /// Law: the correlation of two inputs appears once, with whether the rows separate them.
     #[test]
     fn correlated_inputs_are_told() {
-        let text = include_str!("../../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let input = |name: &str, other: &str, instead: bool| InputSensitivity {
-            input: name.to_owned(),
+        let correlated = |name: &str, other: &str, instead: bool| InputSensitivity {
             correlated_with: Some((other.to_owned(), 0.8)),
             instead: instead.then(|| other.to_owned()),
-            ..Default::default()
+            ..input(name)
         };
-        for (instead, said) in [
+        for (instead, told) in [
             (false, "; a and b are correlated (0.80)"),
             (true, "; a and b are correlated (0.80), and these runs do not tell which of them acts"),
         ] {
-            let inputs = [input("a", "b", instead), input("b", "a", false)];
+            let inputs = [correlated("a", "b", instead), correlated("b", "a", false)];
             for is_driver in [true, false] {
-                let of = |place: usize| Ranked {
-                    input: &inputs[place],
-                    effect: None,
-                    share: None,
-                    is_driver: place == 0 || is_driver,
-                };
-                let ranking = Ranking { question: Question::Spread, inputs: vec![of(0), of(1)] };
-                assert!(sentence(&plan, "y", &ranking).ends_with(said));
+                assert!(said(&inputs, [(None, true), (None, is_driver)]).ends_with(told));
             }
         }
     }

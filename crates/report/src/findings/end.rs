@@ -8,7 +8,6 @@ use crate::analysis::stopping::Stopping;
 use crate::findings::number::counted;
 use crate::findings::requirement::EndVerdict;
 
-/// The end of a campaign; derived from its rows, or read from its summary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SummaryEnd {
     pub rows: u64,
@@ -16,7 +15,6 @@ pub struct SummaryEnd {
     pub failed: u64,
     /// Audited runs whose errors exceed their estimates, if more than promised; else 0.
     pub not_covered: u64,
-    /// Warnings as the summary shows them.
     pub warnings: Vec<String>,
     pub verdicts: Vec<EndVerdict>,
     /// True if a campaign with `[stop]` reached its goal; `true` without `[stop]`.
@@ -36,7 +34,6 @@ impl SummaryEnd {
         }
     }
 
-    /// Without warnings and prose.
     pub fn without_words(&self) -> Self {
         let bare = |one: &EndVerdict| EndVerdict {
             requirement: one.requirement.clone(),

@@ -12,7 +12,6 @@ use crate::table::Table;
 pub enum Verdict {
     Pass,
     Fail,
-    /// The runs do not decide.
     Undecided,
 }
 
@@ -44,10 +43,8 @@ pub struct Number {
     pub value: f64,
     /// NaN at an end that the runs do not bound.
     pub interval: [f64; 2],
-    /// Required limit, in `unit`.
     pub limit: Option<GateLimit>,
     pub of: u64,
-    /// Unit on screens and pages.
     pub shown: ShownUnit,
     /// Digits without an interval; more keep neighbours apart.
     pub digits: usize,
@@ -59,7 +56,6 @@ impl Number {
         Number { name, unit, value, interval, limit: None, of, shown, digits: 3 }
     }
 
-    /// A share of `of` runs.
     pub fn share(name: &str, value: f64, interval: [f64; 2], of: u64) -> Self {
         Number::new(name, (value, interval), of, SHARE, &ShownUnit::own(SHARE))
     }
@@ -117,7 +113,6 @@ pub struct Figures {
     pub large: Option<String>,
 }
 
-/// The subject of a finding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     /// Precedes all numbers; its title is in capitals.
@@ -133,7 +128,6 @@ pub enum Kind {
     Outcome,
     Driver,
     Numerics,
-    /// Runs worth a look.
     Runs,
 }
 
@@ -157,7 +151,6 @@ pub struct Finding {
     /// The title names its rows if some are hidden.
     pub table: Option<Table<'static>>,
     pub figures: Figures,
-    /// A sample that shows it.
     pub sample: Option<SampleId>,
     pub children: Vec<Finding>,
 }
@@ -199,7 +192,6 @@ impl Findings {
         self.confidence.map(|confidence| format!(" [{}%]", percent(confidence)))
     }
 
-    /// The meaning of the intervals.
     pub fn brackets(&self) -> Option<String> {
         let confidence = self.confidence?;
         Some(format!("two-sided {}% intervals (Clopper-Pearson for shares)", percent(confidence)))

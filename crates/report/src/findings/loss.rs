@@ -31,6 +31,9 @@ pub fn remedy(plan: &Plan, status: Status) -> Option<String> {
             Some(step) => format!("to fix: decrease integrator.step_s ({})", written(step)),
             None => format!("to fix: decrease integrator.tolerance ({tolerance})"),
         },
+        Status::InvalidSample => {
+            "to fix: choose distributions without such values, for instance truncated_normal".to_owned()
+        }
         Status::Surface => {
             "to fix: raise the orbit, or end such runs before by an [[event]] with ends_run = true".to_owned()
         }
@@ -38,10 +41,13 @@ pub fn remedy(plan: &Plan, status: Status) -> Option<String> {
     })
 }
 
-/// A reason for people: six digits instead of all bits, words instead of column names.
+/// A reason for people: six digits instead of all bits, words instead of column names, no advice on a drawn value, which
+/// nobody wrote.
 pub fn readable(reason: &str) -> String {
     let is_error = |word: &str| word.ends_with("_error_max") || word.ends_with("_error_estimate");
     let said = |word: &str| if is_error(word) { names::of_column(word, "") } else { word.to_owned() };
+    let parts: Vec<&str> = reason.split("; ").filter(|part| part.contains(REFUSED)).collect();
+    let reason = if parts.is_empty() { reason.to_owned() } else { parts.join("; ") };
     let reason = reason.split(' ').map(said).collect::<Vec<_>>().join(" ");
     with_numbers(&reason, |number| {
         // keep a full stop after the number
@@ -52,6 +58,9 @@ pub fn readable(reason: &str) -> String {
         }
     })
 }
+
+/// In the reason of a sample that is not physical; advice for who wrote the value follows.
+const REFUSED: &str = ": must be ";
 
 pub fn status_words(status: Status) -> &'static str {
     match status {
@@ -278,9 +287,8 @@ pub fn of_run(row: &[(String, f64)]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spindrift_control::control::tables::Overrides;
 
-    /// Known: long numbers are rounded; names, counts, short numbers and full stops stay.
+    /// Known: long numbers are rounded; names, counts, short numbers and full stops stay; advice goes.
     #[test]
     fn long_numbers_are_rounded() {
         for (reason, said) in [
@@ -288,6 +296,7 @@ mod tests {
             ("at -1.2345678901234567e-7.", "at -1.23457e-7."),
             ("wheels.w1.mass_kg is 12.5; 1000000000 steps. 2.", "wheels.w1.mass_kg is 12.5; 1000000000 steps. 2."),
             ("sha 0123456789abc.5", "sha 0123456789abc.5"),
+            ("a.b = -1.0: must be above zero; write a positive number", "a.b = -1.0: must be above zero"),
         ] {
             assert_eq!(readable(reason), said);
         }
@@ -298,8 +307,7 @@ mod tests {
     fn every_status_is_explained() {
         let keys = include_str!("../../../../docs/campaign-files.md");
         let columns = include_str!("../../../../docs/columns.md");
-        let campaign = include_str!("../../../../campaigns/no_debris.toml");
-        let plan = Plan::from_text("x.toml", campaign, Overrides::default()).unwrap();
+        let plan = crate::shipped::plan("no_debris");
         for (place, status) in Status::ALL.into_iter().enumerate() {
             let name = status.name();
             assert!(keys.contains(&format!("\n| `{name}` |")), "{name} is not in campaign-files.md");

@@ -21,7 +21,6 @@ const STATISTICS: [(&str, [&str; 2]); 9] = [
 /// Columns of a control loop that are durations; other `_time` columns are times of events.
 const DURATIONS: [&str; 5] = ["settling_time", "mission_settling_time", "plume_time", "rod_saturated_time", "end_time"];
 
-/// Replacements for words that read badly.
 const SAID: [(&str, &str); 7] = [
     ("dcm ", "rotation matrix "),
     ("nees", "NEES"),
@@ -108,7 +107,6 @@ fn window_of(text: &str) -> Option<(String, &str)> {
     (!window.is_empty()).then(|| (window, &rest[1..]))
 }
 
-/// The name of a quantity over time.
 fn of_series(stem: &str) -> String {
     let spoken = |stem: &str| stem.replace('_', " ");
     let owner = |of: &str| if ["body", "debris"].contains(&of) { format!("the {of}") } else { spoken(of) };
@@ -146,7 +144,6 @@ pub fn of_component(parameter: Parameter, component: usize) -> String {
     }
 }
 
-/// As [`of_component`], without the component.
 pub fn of_parameter(parameter: Parameter) -> String {
     let name = parameter.name();
     let words: Vec<&str> = without_unit(&name, parameter.unit()).split('.').collect();
@@ -157,7 +154,7 @@ pub fn of_parameter(parameter: Parameter) -> String {
         ["sensors", owner, key] => [owner, key].join(" "),
         ["guidance", owner, key] => ["phase", owner, key].join(" "),
         ["actuation", owner, key] => ["arc", owner, key].join(" "),
-        ["failure", owner, "at"] => format!("time of failure {owner}"),
+        ["failure", owner, "at"] => format!("time of failure of {owner}"),
         ["control", key] => key.to_owned(),
         _ => words.join(" "),
     };
@@ -211,7 +208,6 @@ pub fn sentence(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spindrift_control::control::tables::Overrides;
 
     #[test]
     fn names_become_words() {
@@ -240,12 +236,11 @@ mod tests {
     /// Known: parameters of body, part, wheel and thruster, with components.
     #[test]
     fn parameters_become_words() {
-        let of = |name: &str, text: &str| {
-            let plan = Plan::from_text(name, text, Overrides::default()).expect("valid");
+        let of = |name: &str| {
+            let plan = crate::shipped::plan(name);
             (0..plan.dispersions.columns().len()).map(|place| of_input(&plan, place)).collect::<Vec<_>>()
         };
-        let spin = of("spin_sweep", include_str!("../../../../campaigns/spin_sweep.toml"));
-        let launch = of("net_launch", include_str!("../../../../campaigns/net_launch.toml"));
+        let (spin, launch) = (of("spin_sweep"), of("net_launch"));
         for (names, known) in [
             (&spin, "initial angular velocity y"),
             (&spin, "wheel w1 rate"),

@@ -68,12 +68,22 @@ pub fn time(seconds: f64) -> String {
     format!("{} {}", trimmed(shown.value(seconds), 6), shown.unit)
 }
 
+/// As [`time`], a long one that is no round number with three digits: "11.6 days".
+pub fn duration(seconds: f64) -> String {
+    const LONG: f64 = 1e5;
+    let exact = time(seconds);
+    if seconds < LONG || !exact.ends_with(" s") {
+        return exact;
+    }
+    let shown = ShownUnit::own("s").of_time(seconds, None);
+    format!("{} {}", trimmed(shown.value(seconds), 3), shown.unit)
+}
+
 /// "1 run", "3 runs"; `thing` has a regular plural.
 pub fn counted<C: core::fmt::Display + PartialEq + From<u8>>(count: C, thing: &str) -> String {
     format!("{count} {thing}{}", if count == C::from(1) { "" } else { "s" })
 }
 
-/// A file size in decimal units.
 pub fn bytes(size: u64) -> String {
     const UNITS: [&str; 5] = ["B", "kB", "MB", "GB", "TB"];
     let mut value = size as f64;
@@ -118,17 +128,19 @@ fn at_place(value: f64, place: i32, largest: f64) -> String {
 const MOST_DIGITS: i32 = 15;
 /// Extra digits for an estimate that would otherwise show as zero.
 const MOST_MORE: i32 = 2;
-/// If numbers of one sign differ by a larger ratio, each keeps its own digits.
+/// If numbers of one sign without bounds differ by a larger ratio, each keeps its own digits.
 const MOST_RATIO: f64 = 100.0;
 
 /// An estimate and its interval to a common decimal place, as fine as the interval supports, ends rounded outward;
-/// unknown ends (NaN) give `None`. No end is shown at one of the `bounds` unless it is exactly there.
+/// unknown ends (NaN) give `None`. No end is shown at one of the `bounds` unless it is exactly there; numbers without
+/// bounds over several decades have three digits each.
 fn interval_texts(value: f64, ends: [f64; 2], bounds: [f64; 2]) -> (String, [Option<String>; 2]) {
     let known: Vec<f64> = ends.into_iter().filter(|end| end.is_finite()).collect();
     let all = || known.iter().copied().chain([value]);
     let sizes = || all().map(f64::abs).filter(|size| *size > 0.0);
     let [least, most] = [sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max)];
-    let is_wide = all().all(|one| one >= 0.0) | all().all(|one| one <= 0.0) && most > MOST_RATIO * least;
+    let is_free = bounds.iter().all(|bound| bound.is_nan());
+    let is_wide = is_free && (all().all(|one| one >= 0.0) || all().all(|one| one <= 0.0)) && most > MOST_RATIO * least;
     let half = match known[..] {
         [low, high] => 0.5 * (high - low).abs(),
         [end] => (end - value).abs(),
@@ -353,6 +365,7 @@ mod tests {
         }
         assert_eq!(share([0.984; 2], [0.914_6, 0.999_58]), "98.40% [91.46, 99.96]");
         assert_eq!(share([1.0; 2], [0.988, 1.0]), "100.00% [98.80, 100.00]");
+        assert_eq!(share([0.003_34; 2], [0.000_084_6, 0.018_48]), "0.334% [0.008, 1.848]");
         assert_eq!(share([0.25, 0.98], [f64::NAN; 2]), "25% to 98%");
         let shares = [0.0, 0.95, 0.982, 0.005_027, 0.999_51, 0.999_987, 1.0 - 2e-9].map(percent);
         assert_eq!(shares, ["0", "95", "98.2", "0.503", "99.95", "99.999", "99.9999998"]);
@@ -364,6 +377,7 @@ mod tests {
         assert_eq!(apart([1.000_001_2, 1.000_003_4, 2.0]), ["1.000001", "1.000003", "2"]);
         assert_eq!(apart([0.5, 0.5]), ["0.500", "0.500"]);
         assert_eq!([90.0, 7200.0, 172_800.0, 12_345.6].map(time), ["90 s", "2 h", "2 days", "12345.6 s"]);
+        assert_eq!([12_345.6, 172_800.0, 1e6].map(duration), ["12345.6 s", "2 days", "11.6 days"]);
         assert_eq!(unbroken("2 deg/s, 3 [1, 4] N m, 3 of 5"), "2\u{a0}deg/s, 3 [1, 4]\u{a0}N m, 3 of 5");
         assert_eq!(unbroken("density_kg_m3 from s3 at"), "density_kg_m3 from s3 at");
         assert_eq!(typeset("-3e-13 [-4, 5-6]"), "\u{2212}3\u{202f}\u{d7}\u{202f}10⁻¹³ [\u{2212}4, 5-6]");

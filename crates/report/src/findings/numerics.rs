@@ -48,13 +48,10 @@ impl Quantiles {
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Audited runs with this error.
     pub audited: u64,
     /// Runs whose estimate covers the true error.
     pub covered: u64,
-    /// Fraction of the audited runs.
     pub coverage: Option<f64>,
-    /// Median of estimate over true error.
     pub median_ratio: Option<f64>,
     pub promised: f64,
     /// Probability of at most this coverage if the promise holds.
@@ -109,7 +106,6 @@ impl Numerics {
         Numerics::new(analysed.tally.audits.as_ref()?, index, analysed.statistics.column(name)?.spread?)
     }
 
-    /// Errors of the headline `index`; `None` without errors.
     fn new(audits: &AuditTally, index: usize, spread: f64) -> Option<Self> {
         let errors = &audits.observables[index];
         let (count, p95) = (errors.count(), errors.quantile(0.95)?);
@@ -119,12 +115,10 @@ impl Numerics {
 }
 
 impl AuditSummary {
-    /// `None` without audits.
     pub fn of(plan: &Plan, tally: &Tally) -> Option<Self> {
         tally.audits.as_ref().map(|audits| AuditSummary::new(audits, plan.audit_fraction))
     }
 
-    /// Statistics of `audits` of a `fraction` of the samples.
     pub fn new(audits: &AuditTally, fraction: f64) -> Self {
         AuditSummary {
             fraction,
@@ -170,7 +164,6 @@ pub fn cost([runs, audits]: [f64; 2]) -> String {
     format!("{} s of CPU time, {:.1}% of the total", short(audits), 100.0 * audits / (runs + audits).max(1e-9))
 }
 
-/// The errors of the numerics sentence, with their subjects.
 const ERRORS: [(&str, &str); 5] = [
     ("energy_error_max", "energy"),
     ("angular_momentum_error_max", "angular momentum"),
@@ -283,7 +276,6 @@ fn coverage(name: &str, one: &Estimate) -> Finding {
     Finding { numbers: vec![covered], ..Finding::new(Kind::Numerics, "coverage", "audited errors", said) }
 }
 
-/// Numerical errors of the outcomes compared with their spread.
 fn observed(plan: &Plan, analysed: &Analysed) -> Option<Finding> {
     let of = |name: &String| {
         let column = analysed.statistics.column(name)?;
@@ -308,7 +300,6 @@ fn number(name: &str, value: Option<f64>, runs: u64, unit: &str) -> Number {
     Number { digits: 4, ..Number::new(name, value, runs, unit, &ShownUnit::own(unit)) }
 }
 impl AuditSummary {
-    /// The number of audited runs, their references and errors.
     fn finding(&self) -> Finding {
         let (audited, plain) = (self.audited, self.audited - self.in_double_double);
         let mut said = format!(

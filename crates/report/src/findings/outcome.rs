@@ -13,7 +13,7 @@ use crate::observables::Group;
 use crate::observables::headlines::headlines;
 use crate::statistics::quantile::percent;
 
-const MOST_MAIN: usize = 6;
+const MOST_MAIN: usize = 7;
 /// Shown after the observables of the motion.
 const MAIN: [&str; 4] =
     ["angular_momentum_error_max", "linear_momentum_error_max", "state_error_estimate", "dcm_orthonormality_max"];

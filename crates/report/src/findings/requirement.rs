@@ -2,6 +2,7 @@
 
 use crate::analysis::assessment::{Assessment, RARE};
 use crate::analysis::order_statistics::without_value;
+use crate::analysis::outcomes::unique;
 use crate::analysis::statistics::Statistics;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, ShownUnit, Statement};
@@ -21,7 +22,6 @@ const _: () = assert!(POWER == 0.9);
 
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct EndVerdict {
-    /// The requirement as a sentence.
     pub requirement: String,
     /// `PASS`, `FAIL` or `UNDECIDED`.
     pub word: String,
@@ -76,14 +76,9 @@ pub fn findings(plan: &Plan, verdicts: &Verdicts, statistics: &Statistics) -> Ve
 /// requirements.
 pub fn required<'f>(plan: &Plan, found: impl IntoIterator<Item = &'f Finding>) -> Vec<String> {
     let place = |one: &Finding| one.id.strip_prefix("requirement_")?.parse::<usize>().ok()?.checked_sub(1);
-    let mut names: Vec<String> = Vec::new();
-    for one in found.into_iter().filter_map(place).filter_map(|place| plan.analysis.requirements.get(place)) {
-        for name in one.observable().into_iter().chain([one.name()]) {
-            if !names.iter().any(|known| known == name) {
-                names.push(name.to_owned());
-            }
-        }
-    }
+    let found = found.into_iter().filter_map(place).filter_map(|place| plan.analysis.requirements.get(place));
+    let names = found.flat_map(|one| one.observable().into_iter().chain([one.name()])).map(str::to_owned);
+    let mut names: Vec<String> = unique(names);
     names.sort_by_key(|name| name != LAUNCHED);
     names
 }

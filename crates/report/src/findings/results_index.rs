@@ -23,7 +23,6 @@ pub struct IndexEntry {
     pub changed: Option<String>,
 }
 
-/// A folder whose result cannot be read.
 #[derive(Clone, Debug)]
 pub struct Unreadable {
     /// Relative to the index.
@@ -37,7 +36,6 @@ impl IndexEntry {
         if counts.is_empty() { "-".to_owned() } else { counts.join(", ") }
     }
 
-    /// True if the folder has the name of the campaign.
     pub fn is_named(&self) -> bool {
         self.folder.file_name().is_some_and(|name| name == self.campaign.as_str())
     }
@@ -49,7 +47,6 @@ impl IndexEntry {
     }
 }
 
-/// A table of `entries`, and one of unreadable folders.
 pub fn findings(entries: &[IndexEntry], unreadable: &[Unreadable]) -> Vec<Finding> {
     let mut table = Table::with([
         ("result", Align::Title),

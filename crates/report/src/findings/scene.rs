@@ -43,12 +43,10 @@ pub fn attitude(initial: &InitialInput) -> String {
     format!("initial attitude: {} deg from {frame}, about {axis}", six(angle))
 }
 
-/// Angular momentum of the spacecraft about its centre of mass at the start, in F_s.
-fn momentum(scene: &Scene) -> [f64; 3] {
-    let (mass, initial) = (&scene.mass, &scene.initial);
-    let body = product(mass.inertia, initial.omega_se_s);
-    let wheels = mass.wheels.iter().zip(initial.wheel_rates);
-    wheels.fold(body, |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
+/// Angular momentum of the spacecraft about its centre of mass in F_s at this angular velocity and these wheel rates.
+pub fn momentum(mass: &MassProperties, omega: [f64; 3], rates: impl IntoIterator<Item = f64>) -> [f64; 3] {
+    let wheels = mass.wheels.iter().zip(rates);
+    wheels.fold(product(mass.inertia, omega), |total, (wheel, rate)| sum(total, scaled(wheel.axial * rate, wheel.axis)))
 }
 
 /// Masses, centre of mass, inertia, principal axes and the largest part.
@@ -97,7 +95,7 @@ pub fn momenta(input: &SceneInput, scene: &Scene, display: &Display) -> Vec<Find
     let title = "Momenta and torques of the nominal scene";
     let about = |sentence: String| Finding::new(Kind::Note, "momenta", title, sentence);
     let (mass, initial) = (&scene.mass, &scene.initial);
-    let total = momentum(scene);
+    let total = momentum(mass, initial.omega_se_s, initial.wheel_rates);
     let mut list = vec![about(format!(
         "angular momentum of the spacecraft about its centre of mass, in F_s: {} N m s, of magnitude {}",
         vector(total),
@@ -119,7 +117,6 @@ pub fn momenta(input: &SceneInput, scene: &Scene, display: &Display) -> Vec<Find
     list
 }
 
-/// The body part or wheel with the largest mass, and its share of the total.
 fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f64)> {
     let parts = input.parts.iter().map(|part| (format!("body.parts.{}", part.name), Body::part(part, 1.0).mass));
     let wheels = input.wheels.iter().map(|wheel| (format!("wheels.{}", wheel.name), Wheel::new(wheel, 1.0).mass));
@@ -127,7 +124,6 @@ fn largest_part(input: &SceneInput, mass: &MassProperties) -> Option<(String, f6
     (!input.parts.is_empty()).then_some((largest.0, largest.1 / mass.total))
 }
 
-/// A matrix with rounding errors shown as 0.
 fn rows(rows: [[f64; 3]; 3]) -> Table<'static> {
     let largest = rows.iter().flatten().fold(0.0, |most: f64, entry| most.max(entry.abs()));
     let shown = |entry: f64| if entry.abs() < ROUNDING * largest { "0".to_owned() } else { six(entry) };

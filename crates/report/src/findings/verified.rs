@@ -5,11 +5,9 @@ use crate::findings::number::counted;
 
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// The compared files and rows.
     pub what: String,
     /// Number of problems, all repaired.
     pub problems: usize,
-    /// True if the result is finished.
     pub is_finished: bool,
     /// Missing parts of an unfinished result.
     pub missing: usize,

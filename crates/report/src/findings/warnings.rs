@@ -25,7 +25,6 @@ pub(super) fn warnings(plan: &Plan, analysed: &Analysed) -> Vec<Finding> {
     lost.into_iter().chain(beyond).chain(audit).collect()
 }
 
-/// Many runs without numbers, and their drivers.
 fn not_computed(plan: &Plan, analysed: &Analysed) -> Option<String> {
     let loss = analysed.statistics.loss();
     let Loss { missing, runs, .. } = loss;

@@ -9,7 +9,6 @@ use crate::findings::number::short;
 pub enum Hue {
     /// The body without the wheels.
     Body,
-    /// A wheel, by its index.
     Wheel(usize),
     Debris,
     /// All bodies, or none.
@@ -116,13 +115,11 @@ impl Axis {
         Axis { step: Some(30.0), ..Axis::linear(quantity, "deg").within(-most, most) }
     }
 
-    /// Sets the column or parameter shown.
     #[must_use]
     pub fn showing(self, column: impl Into<String>) -> Self {
         Axis { column: column.into(), ..self }
     }
 
-    /// Converts the axis to the unit of `display`.
     fn take_unit(&mut self, display: &Display) -> ShownUnit {
         let shown = display.of(&self.column, &self.unit);
         self.unit.clone_from(&shown.unit);
@@ -149,7 +146,6 @@ pub enum Mark {
         x: Vec<f64>,
         y: Vec<f64>,
     },
-    /// The area between two curves.
     Band {
         label: String,
         hue: Hue,
@@ -184,7 +180,6 @@ pub enum Mark {
         low: Vec<f64>,
         high: Vec<f64>,
     },
-    /// A straight line across the figure.
     Limit {
         label: String,
         at: f64,
@@ -199,7 +194,6 @@ pub enum Mark {
     },
     /// A square matrix of correlations, names on the vertical axis.
     Matrix {
-        /// Row by row.
         values: Vec<f64>,
     },
 }
@@ -240,7 +234,6 @@ impl Mark {
         Mark::Band { label: label.into(), hue, opacity, x, low, high, stacked: false }
     }
 
-    /// Points without samples.
     pub fn points(label: impl Into<String>, (hue, shape): (Hue, PointShape), x: Vec<f64>, y: Vec<f64>) -> Self {
         Mark::Points { label: label.into(), hue, shape, x, y, samples: Vec::new() }
     }
@@ -296,7 +289,6 @@ pub enum FigureSection {
 }
 
 impl FigureSection {
-    /// Anchor of the section.
     pub const fn anchor(self) -> &'static str {
         match self {
             FigureSection::Outcome => "outcome",
@@ -328,7 +320,6 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Converted to the units of `display`.
     #[must_use]
     pub fn in_units(mut self, display: &Display) -> Self {
         let [x, y] = [self.x.take_unit(display), self.y.take_unit(display)];
@@ -357,7 +348,6 @@ impl Figure {
         Figure { name, section, title, caption, columns: 6, is_over_time: false, x, y, marks }
     }
 
-    /// Sets the width in columns of twelve.
     #[must_use]
     pub fn wide(self, columns: u8) -> Self {
         Figure { columns, ..self }
@@ -372,14 +362,12 @@ impl Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Plan;
-    use spindrift_control::control::tables::Overrides;
+    use crate::shipped::plan_of;
 
     /// Law: a change of unit converts values, range and a value within a label, and leaves the other axis.
     #[test]
     fn a_figure_changes_as_a_whole() {
-        let text = include_str!("../../../../assets/start.toml");
-        let display = Plan::from_text("start", text, Overrides::default()).expect("valid").analysis.display;
+        let display = plan_of(include_str!("../../../../assets/start.toml"), &[]).analysis.display;
         let half = core::f64::consts::FRAC_PI_2;
         let limit = |label: String, vertical| Mark::Limit { label, at: half, vertical };
         let marks = vec![

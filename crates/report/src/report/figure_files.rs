@@ -46,7 +46,6 @@ pub enum FigureError {
     /// The extension is neither HTML nor SVG.
     #[error("a plot is written as .html or .svg, and `{0}` is neither")]
     Format(String),
-    /// The scripts failed.
     #[error("drawing failed: {0}")]
     Drawing(String),
 }
@@ -57,7 +56,6 @@ const TITLE: f64 = 44.0;
 /// Figures side by side.
 const ACROSS: usize = 2;
 
-/// Figures under one title.
 #[derive(Clone, Debug)]
 pub struct FigureSheet {
     pub title: String,
@@ -88,7 +86,6 @@ pub fn instead(written: &Path) -> String {
 }
 
 impl FigureSheet {
-    /// Converted to the units of `display`.
     #[must_use]
     pub fn in_units(self, display: &Display) -> Self {
         FigureSheet { figures: self.figures.into_iter().map(|figure| figure.in_units(display)).collect(), ..self }
@@ -128,14 +125,12 @@ impl FigureSheet {
         Ok((self.figures.len(), None))
     }
 
-    /// An SVG for each figure.
     fn drawn(&self, draw: Draw) -> Result<Vec<String>, FigureError> {
         let mut numbers = Payload::inline();
         let list: Vec<Value> = self.figures.iter().map(|figure| json_of(figure, &mut numbers)).collect();
         draw(&Value::from(list).to_string()).map_err(FigureError::Drawing)
     }
 
-    /// One SVG with all figures.
     fn svg(&self, draw: Draw) -> Result<String, FigureError> {
         let mut drawn = self.drawn(draw)?;
         if self.title.is_empty() && drawn.len() == 1 {
@@ -164,7 +159,6 @@ impl FigureSheet {
         Ok(text)
     }
 
-    /// A page with the figures.
     fn html(&self) -> String {
         let mut payload = Payload::default();
         let section = FigureSection::Time;
@@ -180,7 +174,7 @@ impl FigureSheet {
             fold: None,
         };
         let first = format!("<h1>{}</h1>", escaped(&self.title));
-        document(&self.title, &first, &[section], &data, &payload.text())
+        document(&self.title, (&first, None), &[section], &data, &payload.text())
     }
 }
 

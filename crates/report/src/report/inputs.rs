@@ -107,37 +107,26 @@ fn asked(plan: &Plan, shown: &[usize]) -> Vec<Vec<f64>> {
     for correlation in &plan.correlated {
         let place = |of| shown.iter().position(|index| (all[*index].parameter, all[*index].component) == of);
         let together: Vec<Option<usize>> = correlation.components().into_iter().map(place).collect();
-        let mut set = |a: Option<usize>, b: Option<usize>, value: f64| {
-            if let (Some(a), Some(b)) = (a, b) {
-                (found[a][b], found[b][a]) = (value, value);
-            }
+        let rows = match &correlation.numbers {
+            Values::One(r) => vec![vec![*r]],
+            Values::Rows(rows) => rows.clone(),
+            Values::Each(_) => continue, // no table of correlations is a list
+        };
+        // a square matrix of all components, or a block of those of the first parameter with the others
+        let first = if rows.len() == together.len() { 0 } else { rows.len() };
+        let scale = |i: usize, j: usize| match correlation.measure {
+            Measure::Covariance if first == 0 => libm::sqrt(rows[i][i] * rows[j][j]),
+            _ => 1.0,
         };
         let ranks = |r: f64| {
             if correlation.measure == Measure::Ranks { r } else { 6.0 / PI * libm::asin(0.5 * r.clamp(-1.0, 1.0)) }
         };
-        match &correlation.numbers {
-            Values::One(r) => set(together[0], together.get(1).copied().flatten(), ranks(*r)),
-            Values::Rows(rows) if rows.len() == together.len() => {
-                for (i, row) in rows.iter().enumerate() {
-                    for (j, value) in row.iter().enumerate().filter(|(j, _)| *j != i) {
-                        let scale = if correlation.measure == Measure::Covariance {
-                            libm::sqrt(rows[i][i] * rows[j][j])
-                        } else {
-                            1.0
-                        };
-                        set(together[i], together[j], ranks(value / scale));
-                    }
-                }
+        let pairs = (0..rows.len()).flat_map(|i| (0..rows[i].len()).map(move |j| (i, j)));
+        for (i, j) in pairs.filter(|(i, j)| *i != first + j) {
+            if let (Some(a), Some(b)) = (together[i], together[first + j]) {
+                let value = ranks(rows[i][j] / scale(i, j));
+                (found[a][b], found[b][a]) = (value, value);
             }
-            Values::Rows(rows) => {
-                let (first, others) = together.split_at(rows.len());
-                for (row, a) in rows.iter().zip(first) {
-                    for (value, b) in row.iter().zip(others) {
-                        set(*a, *b, ranks(*value));
-                    }
-                }
-            }
-            Values::Each(_) => {} // no table of correlations is a list
         }
     }
     found

@@ -13,7 +13,6 @@ const MOST_ERROR: f64 = 1e1;
 
 type Pick = fn(&Measurement) -> Option<Deviation>;
 
-/// Title and error of each panel.
 const PANELS: [(&str, Pick); 4] = [
     ("Angular velocity: maximum relative error", |m| m.rate),
     ("Attitude: maximum error, rad", |m| m.attitude),

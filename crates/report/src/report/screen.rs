@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::analysis::outcomes::unique;
 use crate::ensemble::precision::Measurement;
 use crate::findings::end::SummaryEnd;
 use crate::findings::names::sentence;
@@ -19,11 +20,13 @@ const MOST_REASONS: [usize; 2] = [3, 12];
 /// Rows on a screen: compared requirements, differing keys.
 const MOST_REQUIREMENTS: usize = 6;
 const MOST_KEYS: usize = 4;
-/// Outcomes shown regardless of the space, without requirements.
+/// Outcomes shown before any remark, and regardless of the space if there are no requirements.
+const FIRST_OUTCOMES: usize = 3;
 const LEAST_OUTCOMES: usize = 1;
+const ALL: usize = usize::MAX;
 
-/// Fits into `most` lines of `width` characters by omitting outcomes, then remarks, with a count of what is left out.
-/// `file` is the campaign, quoted for a shell.
+/// Fits into `most` lines of `width` characters by omitting outcomes down to the first ones, then remarks, then more
+/// outcomes, with a count of what is left out. `file` is the campaign, quoted for a shell.
 pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> String {
     let of = |kind: Kind| findings.of(kind).filter(|one| one.rank == 0).collect::<Vec<_>>();
     let mut text = lines(&of(Kind::Warning), width);
@@ -40,15 +43,12 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
     let all = of(Kind::Outcome);
     let with = |(outcomes, is_full): (usize, bool)| {
         let (numbers, about): (Vec<&Finding>, Vec<&Finding>) = all.iter().partition(|one| !one.numbers.is_empty());
-        let gap = if text.is_empty() || outcomes == 0 { "" } else { "\n" };
+        let gap = if text.is_empty() || outcomes == 0 || !is_full { "" } else { "\n" };
         let mut said = format!("{text}{gap}");
-        if outcomes < numbers.len() {
-            said += &self::outcomes(&numbers[..outcomes], width, false);
-            said += &left_out(numbers.len() - outcomes, ["outcome", "outcomes"], width);
-            said += &self::outcomes(&about, width, false);
-        } else {
-            said += &self::outcomes(&all, width, false);
-        }
+        let shown = outcomes.min(numbers.len());
+        said += &self::outcomes(&numbers[..shown], width, usize::from(is_full));
+        said += &left_out(numbers.len() - shown, ["outcome", "outcomes"], width);
+        said += &sentences(&about, width);
         said += &sentences(&drivers, width);
         if is_full || remarks.is_empty() {
             said += &sentences(&remarks, width);
@@ -61,7 +61,9 @@ pub fn text(findings: &Findings, file: &str, [most, width]: [usize; 2]) -> Strin
         said + &commands(&runs, file, width)
     };
     let least = if findings.verdict.is_none() { LEAST_OUTCOMES } else { 0 };
-    let choices = (least..=all.len()).rev().map(|outcomes| (outcomes, true)).chain([(least, false)]);
+    let first = FIRST_OUTCOMES.min(all.len());
+    let full = (first..=all.len()).rev().map(|outcomes| (outcomes, true));
+    let choices = full.chain((least..=first).rev().map(|outcomes| (outcomes, false)));
     choices.map(with).find(|said| said.lines().count() <= most).unwrap_or_else(|| with((least, false)))
 }
 
@@ -85,7 +87,7 @@ pub fn verbose(findings: &Findings, file: &str, width: usize) -> String {
     let more = findings.of(Kind::Outcome).filter(|one| one.rank > 1).count();
     let more =
         if more > 0 { format!("  and {more} more in statistics.parquet, with all others\n") } else { String::new() };
-    parts.push(outcomes(&of(Kind::Outcome), width, true) + &more);
+    parts.push(outcomes(&of(Kind::Outcome), width, ALL) + &more);
     parts.push(findings.brackets().map_or(String::new(), |said| {
         wrapped(&format!("  in brackets: {said}; ?: not bounded by so few runs\n"), width)
     }));
@@ -94,7 +96,7 @@ pub fn verbose(findings: &Findings, file: &str, width: usize) -> String {
     parts.push(if drivers.rows() > 0 { drivers.text(width) } else { String::new() });
     for one in of(Kind::Numerics) {
         let children: Vec<&Finding> = one.children.iter().collect();
-        let columns = distinct(children.iter().flat_map(|one| &one.numbers).map(|number| &number.name));
+        let columns = unique(children.iter().flat_map(|one| &one.numbers).map(|number| number.name.clone()));
         let table = numbers_table(&children, ("", &columns), true);
         let head = if one.sentence.is_empty() { format!("  {}\n", one.title) } else { sentences(&[one], width) };
         parts.push(head + &if children.is_empty() { String::new() } else { table.text(width) });
@@ -193,10 +195,13 @@ fn verdict_table([required, found]: [&str; 2], rows: &[[String; 4]], width: usiz
         table.row([word, required, found, notes]);
         let said = [found, notes].into_iter().filter(|text| !text.is_empty()).map(String::as_str);
         let said = said.collect::<Vec<_>>().join("; ");
-        lines += &wrapped(&format!("  {word:longest$}  {required}\n"), width);
-        if !said.is_empty() {
-            lines += &wrapped(&format!("  {:longest$}    {said}\n", ""), width);
-        }
+        let whole = format!("  {word:longest$}  {required}: {said}");
+        lines += &if whole.chars().count() <= width && !said.is_empty() {
+            whole + "\n"
+        } else {
+            let below = wrapped(&format!("  {:longest$}    {said}\n", ""), width);
+            wrapped(&format!("  {word:longest$}  {required}\n"), width) + if said.is_empty() { "" } else { &below }
+        };
     }
     if Text::of(&table).width_of(3) > width { lines } else { table.text(width) }
 }
@@ -229,7 +234,6 @@ fn reasons(findings: &Findings, most: usize, width: usize) -> String {
     findings.of(Kind::Loss).map(|one| reason_lines(&one.children, most, width)).collect()
 }
 
-/// A line for each failure reason, with its remedy.
 fn reason_lines(all: &[Finding], most: usize, width: usize) -> String {
     let mut text = String::new();
     for one in all.iter().take(most) {
@@ -254,9 +258,10 @@ fn commands(list: &[&Finding], file: &str, width: usize) -> String {
     message(&list.iter().filter_map(line).collect::<String>(), width)
 }
 
-/// A table of outcomes with as many numbers as fit: median, required quantiles or spread, maximum; `is_all` adds means
-/// and minima. Yes-or-no outcomes and remarks are sentences.
-fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
+/// A table of outcomes with as many numbers as fit: median, required quantiles or spread, maximum; [`ALL`] notes add
+/// means and minima. Yes-or-no outcomes and remarks are sentences.
+fn outcomes(list: &[&Finding], width: usize, most_notes: usize) -> String {
+    let is_all = most_notes == ALL;
     let is_in_table = |one: &&&Finding| !one.numbers.is_empty() && one.number("yes").is_none();
     let shown: Vec<&Finding> = list.iter().filter(is_in_table).copied().collect();
     let others: Vec<&Finding> = list.iter().filter(|one| !is_in_table(one)).copied().collect();
@@ -268,7 +273,7 @@ fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
     }
     let numbers = || shown.iter().flat_map(|one| &one.numbers);
     let named = |is_chosen: &dyn Fn(&Number) -> bool| {
-        distinct(numbers().filter(|number| is_chosen(number)).map(|number| &number.name))
+        unique(numbers().filter(|number| is_chosen(number)).map(|number| number.name.clone()))
     };
     let is_one_of = |names: &'static [&'static str]| move |number: &Number| names.contains(&number.name.as_str());
     let mut columns = named(&is_one_of(&["value", "median"]));
@@ -292,13 +297,12 @@ fn outcomes(list: &[&Finding], width: usize, is_all: bool) -> String {
         Some((name, _)) if name.starts_with('p') => with_max.iter().any(|one| one == name),
         _ => is_all,
     };
-    let notes = distinct(shown.iter().flat_map(|one| &one.notes).filter(is_shown));
-    let notes = notes.into_iter().take(if is_all { usize::MAX } else { 1 });
-    let notes: String = notes.map(|note| wrapped(&format!("  {note}\n"), width)).collect();
+    let notes = unique(shown.iter().flat_map(|one| &one.notes).filter(is_shown));
+    let notes = notes.into_iter().take(most_notes).map(|note| wrapped(&format!("  {note}\n"), width));
+    let notes: String = notes.collect();
     table + &yes_or_no + &notes + &about
 }
 
-/// The numbers called `columns` of each finding.
 fn numbers_table(list: &[&Finding], (title, columns): (&str, &[String]), has_intervals: bool) -> Table<'static> {
     let heads = columns.iter().map(|name| (name.clone(), Align::Right));
     let mut table = Table::with([(title.to_owned(), Align::Title)].into_iter().chain(heads));
@@ -310,14 +314,4 @@ fn numbers_table(list: &[&Finding], (title, columns): (&str, &[String]), has_int
         table.row([title.trim_end_matches(", ").to_owned()].into_iter().chain(cells));
     }
     table
-}
-
-fn distinct<'s>(all: impl Iterator<Item = &'s String>) -> Vec<String> {
-    let mut found: Vec<String> = Vec::new();
-    for one in all {
-        if !found.contains(one) {
-            found.push(one.clone());
-        }
-    }
-    found
 }

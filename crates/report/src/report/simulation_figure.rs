@@ -37,23 +37,23 @@ mod tests {
     use crate::report::figure::Mark;
     use crate::run::Grid;
     use crate::sampling::SampleId;
+    use crate::shipped;
     use crate::storage::timeseries::time_series;
-    use spindrift_control::control::tables::Overrides;
+
+    fn nominal(plan: &Plan, points: usize) -> SingleRun {
+        let grid = Grid::uniform(plan.grid.duration(), points);
+        SingleRuns::new(plan, grid, Isa::best(), &GROUPS, false).run(SampleId(0)).expect("a run")
+    }
 
     /// Law: an idle thruster keeps its curve and is marked; curves that share a panel have labels; all-zero figures are
     /// omitted and listed.
     #[test]
     fn a_dead_thruster_is_drawn() {
-        let text =
-            include_str!("../../../../campaigns/net_launch.toml").replace("duration_s = 2400.0", "duration_s = 60.0");
+        let text = shipped::text("net_launch");
         for (dead, names) in [("p2", ["p1", "p2: none", "p3"]), ("p1", ["p1: none", "p2", "p3"])] {
-            let of = |name: &str| (format!("thrusters.{name}.thrust_scale"), "0.0".to_owned());
-            let overrides = Overrides { settings: vec![of(dead)], ..Overrides::default() };
-            let plan = Plan::from_text("n", &text, overrides).unwrap_or_else(|error| panic!("{error}"));
-            let run = SingleRuns::new(&plan, Grid::uniform(60.0, 61), Isa::best(), &GROUPS, false)
-                .run(SampleId(0))
-                .expect("a run");
-            let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
+            let scale = format!("thrusters.{dead}.thrust_scale");
+            let plan = shipped::plan_of(&text, &[("campaign.duration_s", "60.0"), (&scale, "0.0")]);
+            let panels = simulation_figure("x".to_owned(), &plan, &nominal(&plan, 61)).figures;
             for title in ["Thrust", "Impulse of the thrusters"] {
                 let panel = panels.iter().find(|panel| panel.title == title).expect(title);
                 let drawn: Vec<&str> = panel.marks.iter().map(Mark::legend).filter(|name| !name.is_empty()).collect();
@@ -73,10 +73,8 @@ mod tests {
         // without thrusters their figures are not called for; a spin about one axis has that axis's label
         let text = "[campaign]\nname = \"o\"\nsamples = 1\nseed = 1\nduration_s = 9.0\n[body]\nmass_kg = \
             10.0\nprincipal_moments_kg_m2 = [1.0, 2.0, 2.5]\n[initial]\nangular_velocity_rad_s = [0.0, 0.0, 0.1]\n";
-        let plan = Plan::from_text("o", text, Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
-        let run = SingleRuns::new(&plan, Grid::uniform(9.0, 10), Isa::best(), &GROUPS, false)
-            .run(SampleId(0))
-            .expect("a run");
+        let plan = shipped::plan_of(text, &[]);
+        let run = nominal(&plan, 10);
         let panels = simulation_figure("x".to_owned(), &plan, &run).figures;
         let rate = panels.iter().find(|panel| panel.title.starts_with("Angular velocity of the body")).expect("a rate");
         assert_eq!(rate.marks.iter().map(Mark::legend).collect::<Vec<_>>(), ["z"]);
@@ -86,10 +84,8 @@ mod tests {
     /// Law: every curve is the column named by panel and label.
     #[test]
     fn curves_are_their_columns() {
-        let text = include_str!("../../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
-        let run =
-            SingleRuns::new(&plan, plan.grid.clone(), Isa::best(), &GROUPS, false).run(SampleId(0)).expect("a run");
+        let plan = shipped::plan("spin_sweep");
+        let run = nominal(&plan, plan.grid.points());
         let series = time_series(SampleId(0), &run, |_| true);
         let column = |name: String| -> Vec<f64> {
             let found = series.numbers(&name);

@@ -97,7 +97,6 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// Statistics of a column; missing ones are null.
 fn observable(analysed: &Analysed, column: &ColumnStatistics) -> Value {
     let known = |value: Option<f64>| value.filter(|value| value.is_finite());
     let (name, moments) = (column.quantity.name(), &column.moments);

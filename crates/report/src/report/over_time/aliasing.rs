@@ -61,7 +61,6 @@ impl<'a> Curves<'a> {
         self.flown.iter().filter_map(of_run).collect()
     }
 
-    /// As [`Curves::caption`], for given `nominal` values.
     pub(super) fn caption_of(&self, name: &str, nominal: &[f64]) -> String {
         let Some(bands) = self.band(name) else { return "The nominal run.".to_owned() };
         if self.is_aliased(bands, nominal) {
@@ -120,13 +119,12 @@ pub(super) fn changes(values: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::Plan;
     use crate::ensemble::replays::GROUPS;
     use crate::ensemble::single::SingleRuns;
     use crate::math::Isa;
     use crate::run::Grid;
     use crate::sampling::SampleId;
-    use spindrift_control::control::tables::Overrides;
+    use crate::shipped;
 
     /// Law: sampling is too coarse if and only if an oscillation has fewer than four samples, for any number of
     /// oscillations.
@@ -165,8 +163,7 @@ mod tests {
     /// values of their runs; with dense times, bands are drawn.
     #[test]
     fn a_band_never_aliases() {
-        let text = include_str!("../../../../../campaigns/spin_sweep.toml");
-        let plan = Plan::from_text("spin_sweep", text, Overrides::default()).expect("valid");
+        let plan = shipped::plan("spin_sweep");
         let grid = Grid::uniform(plan.grid.duration(), 601);
         let mut runs = SingleRuns::new(&plan, grid, Isa::best(), &GROUPS, true);
         let flown: Vec<SingleRun> =

@@ -16,7 +16,6 @@ const SIGMAS: f64 = 3.0;
 const HALF: f64 = 0.32;
 
 impl Curves<'_> {
-    /// The error of an estimate with the filter's 3 sigma.
     pub(super) fn estimated(&self, listed: &ListedFigure, series: Series, expected: &str) -> Option<Figure> {
         let (name, unit) = self.name(series);
         let mut marks = self.marks(&name, self.nominal(series), listed.hue, "");
@@ -159,7 +158,6 @@ impl Curves<'_> {
         Some(self.judged(listed, (&name, &unit), (listed.title, caption), marks))
     }
 
-    /// Propellant used, if the specific impulse is known.
     pub(super) fn propellant(&self, listed: &ListedFigure) -> Option<Figure> {
         let isp = self.constant("isp_s").filter(|isp| *isp > 0.0)?;
         let mass =
@@ -177,7 +175,6 @@ impl Curves<'_> {
         self.plan.nominal.control.law.named(key).and_then(|numbers| numbers.first().copied())
     }
 
-    /// Keep-out sphere and station as limits.
     pub(super) fn distances(&self, name: &str, unit: &str) -> Vec<Mark> {
         let launches = self.plan.law.as_ref().and_then(|law| law.spec()).is_some_and(|spec| spec.launches());
         let station = self.constant("launch_distance_m").filter(|_| launches);

@@ -15,7 +15,6 @@ use crate::scene::Name;
 /// Quantiles of a series over time, over the ok runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeBands {
-    /// Column name in a time series.
     pub name: String,
     pub times: Vec<f64>,
     /// The 5, 25, 50, 75 and 95% quantiles at these times.
@@ -32,7 +31,6 @@ pub const FEWEST: u64 = 20;
 /// The time axis ends when this share of the runs is left.
 const LEFT: f64 = 0.01;
 
-/// Curves of one run, and bands of the ensemble.
 #[derive(Clone, Debug)]
 pub struct Curves<'a> {
     pub(super) plan: &'a Plan,
@@ -41,9 +39,7 @@ pub struct Curves<'a> {
     pub(super) wheels: &'a [Name],
     pub(super) traits: Traits,
     place: Place,
-    /// Observables whose figures come first.
     order: Vec<String>,
-    /// Replayed runs of the page, including `run`.
     pub(super) flown: Vec<&'a SingleRun>,
 }
 
@@ -81,7 +77,6 @@ impl<'a> Curves<'a> {
         self.run.map_or_else(Vec::new, |run| run.grid.times()[..run.outcome.points.min(run.grid.points())].to_vec())
     }
 
-    /// A series of the nominal run; empty if absent.
     pub fn nominal(&self, series: Series) -> Vec<f64> {
         let Some(run) = self.run else { return Vec::new() };
         let values = run.series.iter().find(|(other, _)| *other == series).map(|(_, values)| values.as_slice());
@@ -281,7 +276,6 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Runs of consecutive points that have values.
 fn pieces(count: usize, is_there: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for point in (0..count).filter(|point| is_there(*point)) {
@@ -293,7 +287,6 @@ fn pieces(count: usize, is_there: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
     found
 }
 
-/// A curve, split at missing values.
 pub(super) fn lines(label: &str, (hue, dash): (Hue, Dash), x: &[f64], y: &[f64]) -> Vec<Mark> {
     let line = |piece: Range<usize>| Mark::line(label, hue, dash, x[piece.clone()].to_vec(), y[piece].to_vec());
     pieces(x.len().min(y.len()), |point| y[point].is_finite()).into_iter().map(line).collect()

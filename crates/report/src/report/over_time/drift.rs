@@ -10,7 +10,6 @@ const ROUNDING: f64 = 10.0 * f64::EPSILON;
 const FAR: f64 = 3.0;
 
 impl Curves<'_> {
-    /// The relative tolerance of a method with step control.
     fn tolerance(&self) -> Option<f64> {
         (!self.plan.method.has_fixed_step()).then_some(self.plan.tolerance.relative)
     }

@@ -12,7 +12,6 @@ use crate::report::over_time::figure_list::ListedFigure;
 const ROUNDING: f64 = 1e-12;
 
 impl Curves<'_> {
-    /// Series, name and colour of the body and of each wheel.
     fn bodies(&self, series: [Series; 2]) -> impl Iterator<Item = (Series, String, Hue)> {
         core::iter::once((series[0], "the body".to_owned(), Hue::Body)).chain(self.each_wheel(series[1]))
     }

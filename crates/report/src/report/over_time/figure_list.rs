@@ -63,7 +63,6 @@ impl Traits {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// The nominal run and bands.
     Page,
     Plot,
 }
@@ -108,9 +107,7 @@ pub enum Shows {
     Impulse,
     Propellant,
     Energies,
-    /// A figure per body with bands.
     Changes,
-    /// Over time and as a spectrum.
     Transfer,
     Drift,
 }
@@ -122,7 +119,6 @@ pub struct ListedFigure {
     pub title: &'static str,
     pub quantity: &'static str,
     pub hue: Hue,
-    /// True if a scene calls for it.
     called: fn(&Traits, Place) -> bool,
     /// Observables whose requirements call for it too; their limits are drawn.
     pub judged_by: &'static [&'static str],
@@ -134,7 +130,6 @@ impl ListedFigure {
     }
 }
 
-/// The figures of a scene at `place`, in order.
 pub fn figures_of(traits: &Traits, place: Place) -> impl Iterator<Item = &'static ListedFigure> {
     FIGURES.iter().filter(move |figure| (figure.called)(traits, place) || figure.is_asked(traits))
 }

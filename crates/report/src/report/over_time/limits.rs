@@ -1,6 +1,7 @@
 //! Limits in figures over time, of requirements and of actuators.
 
-use crate::campaign::{Plan, ShownUnit};
+use crate::analysis::outcomes::unique;
+use crate::campaign::{Plan, Requirement, ShownUnit};
 use crate::findings::number::typeset;
 use crate::findings::requirement::limit_text;
 use crate::report::figure::Mark;
@@ -16,8 +17,8 @@ const VARIES: f64 = 0.5;
 /// The limits of the requirements on `names`; `unit` is that of the plan.
 pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) -> Vec<Mark> {
     let names: Vec<String> = names.collect();
-    let mut marks: Vec<Mark> = Vec::new();
-    for requirement in plan.analysis.requirements.iter().filter(|one| names.iter().any(|name| name == one.name())) {
+    let of = |one: &&Requirement| names.iter().any(|name| name == one.name());
+    let mark = |requirement: &Requirement| {
         let (name, at) = (requirement.name(), requirement.limit.value());
         let limit = limit_text(requirement.limit, &plan.analysis.display.of(name, unit));
         let when = match name {
@@ -25,13 +26,9 @@ pub fn required(plan: &Plan, names: impl Iterator<Item = String>, unit: &str) ->
             name if name.contains("_final_") => " at the end".to_owned(),
             _ => requirement.times(),
         };
-        let label = typeset(&(limit + &when));
-        let mark = Mark::Limit { label, at, vertical: false };
-        if !marks.contains(&mark) {
-            marks.push(mark);
-        }
-    }
-    marks
+        Mark::Limit { label: typeset(&(limit + &when)), at, vertical: false }
+    };
+    unique(plan.analysis.requirements.iter().filter(of).map(mark))
 }
 
 /// A line per distinct actuator limit in the unit `shown`, named unless common to all. `signed`: also below zero.

@@ -4,7 +4,7 @@
 use crate::analysis::survey::Survey;
 use crate::campaign::{Plan, Requirement, Statement};
 use crate::findings::names::sentence;
-use crate::findings::number::{time, trimmed, typeset, unbroken};
+use crate::findings::number::{duration, trimmed, typeset, unbroken};
 use crate::findings::numerics::WORST_RUN;
 use crate::findings::requirement::limit_text;
 use crate::findings::{Finding, Findings, Kind, Verdict};
@@ -15,6 +15,7 @@ use crate::table::html::escaped;
 
 const EXAMPLE: &str = "[[require]]\nobservable = \"energy_error_max\"\nquantile = 0.99\nat_most = 1e-9";
 const MOST_OUTCOMES: usize = 8;
+pub const FOUND: &str = "What was found";
 
 /// A text of a finding as HTML.
 pub fn text(said: &str) -> String {
@@ -114,7 +115,7 @@ pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
     let question =
         question.map_or_else(String::new, |said| format!("<p class=\"question\">{}</p>", coded(&sentence(said))));
     let hash = plan.hash();
-    let duration = time(plan.grid.duration());
+    let duration = duration(plan.grid.duration());
     let (each, design) = match plan.samples {
         1 => ("", String::new()),
         _ => (" each", format!("{} design, ", plan.design.name())),
@@ -137,7 +138,6 @@ pub fn header(plan: &Plan, found: &Findings, survey: &Survey) -> String {
     )
 }
 
-/// The run to look at, with a link to its replay.
 fn look(found: &Findings) -> String {
     let worst = found.of(Kind::Runs).find(|one| one.rank == 0 && one.id == WORST_RUN);
     worst.and_then(|one| one.sample.map(|sample| (one, sample))).map_or_else(String::new, |(one, sample)| {
@@ -160,8 +160,13 @@ pub fn first(found: &Findings) -> String {
 fn reason(one: &Finding) -> String {
     let notes: String = one.notes.iter().map(|note| format!(" {}", full(note))).collect();
     let command = one.command("plan.toml");
-    let command = command.map_or_else(String::new, |command| format!(" Replay: <code>{}</code>", escaped(&command)));
-    format!("<b>{}</b>: {}.{notes}{command}", text(&one.title), text(one.sentence.trim_end_matches('.')))
+    let command = command.map(|command| format!(" To replay it, in this folder: <code>{}</code>", escaped(&command)));
+    format!(
+        "<b>{}</b>: {}.{notes}{}",
+        text(&one.title),
+        text(one.sentence.trim_end_matches('.')),
+        command.unwrap_or_default()
+    )
 }
 
 struct Row<'f> {
@@ -219,7 +224,8 @@ impl<'f> Row<'f> {
         // the assumption of a verdict on a mean, or the bound on one side that decides where the interval does not
         let is_decided = matches!(self.finding.verdict, Some(Verdict::Pass | Verdict::Fail));
         let why = self.finding.notes.first().filter(|_| self.is_of_mean || is_decided);
-        let name = Some(&number.name).filter(|_| self.is_of_mean || why.is_none());
+        // the only number of a single run needs no name
+        let name = Some(&number.name).filter(|name| (self.is_of_mean || why.is_none()) && *name != "value");
         let below = name.into_iter().chain(why);
         let below: String = below.map(|line| format!("<br><span class=\"quiet\">{}</span>", text(line))).collect();
         format!("<b>{}</b> <span class=\"quiet\">{}</span>{below}", text(value), text(&rest))
@@ -233,10 +239,11 @@ impl<'f> Row<'f> {
             (None, None) => String::new(),
         };
         let below = self.outcome.map_or_else(String::new, pictures::said_of);
-        format!("{picture}<span class=\"quiet\">{}</span>", escaped(&below))
+        let below = if below.is_empty() { below } else { format!("<span class=\"quiet\">{}</span>", escaped(&below)) };
+        picture + &below
     }
 
-    fn html(&self, scale: &str) -> String {
+    fn html(&self, pictures: &str) -> String {
         let finding = self.finding;
         let line = |said: String| format!("<p class=\"detail\">{said}</p>");
         let mut details: String = Some(&finding.sentence)
@@ -253,13 +260,12 @@ impl<'f> Row<'f> {
         format!(
             "<details class=\"answer {}\" id=\"answer_{}\"><summary><span class=\"judged\">{}</span><span \
             class=\"asked\">{}</span><span \
-            class=\"number\">{}</span><span>{scale}</span><span>{}</span></summary>{details}</details>\n",
+            class=\"number\">{}</span>{pictures}</summary>{details}</details>\n",
             finding.verdict.map_or("finding", class),
             escaped(&finding.id),
             self.judged(),
             text(&sentence(&finding.title).replace("<=", "\u{2264}").replace(">=", "\u{2265}")),
             self.found(),
-            self.picture(),
         )
     }
 }
@@ -282,7 +288,7 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
             String::new(),
         ),
         false => (
-            "What was found",
+            FOUND,
             ["outcome", "found", "interval, on the scale of all values", "runs"],
             format!(
                 "<details class=\"example\"><summary>The campaign file has no requirement. Add one to get a verdict \
@@ -292,12 +298,20 @@ pub fn table(plan: &Plan, found: &Findings, figures: &[Figure]) -> String {
             ),
         ),
     };
-    let body: String = rows.iter().zip(&scales).map(|(row, scale)| row.html(scale)).collect();
-    let heads = heads.map(|head| format!("<span>{head}</span>")).concat();
+    let cells: Vec<[String; 2]> = rows.iter().zip(scales).map(|(row, scale)| [scale, row.picture()]).collect();
+    // one run has nothing to draw
+    let is_drawn = cells.iter().flatten().any(|cell| !cell.is_empty());
+    let spans = |cells: &[String]| cells.iter().map(|cell| format!("<span>{cell}</span>")).collect::<String>();
+    let drawn = |cells: &[String]| if is_drawn { spans(cells) } else { String::new() };
+    let body: String = rows.iter().zip(&cells).map(|(row, cells)| row.html(&drawn(cells))).collect();
+    let heads = heads.map(str::to_owned);
+    let (heads, class) = (spans(&heads[..2]) + &drawn(&heads[2..]), if is_drawn { "" } else { " bare" });
     let body = match body.is_empty() {
         true => "<p>No results: no dispersed run produced a value for any outcome.</p>".to_owned(),
         false => {
-            format!("{HATCH}<div class=\"answers\"><p class=\"answer head\"><span></span>{heads}</p>\n{body}</div>")
+            format!(
+                "{HATCH}<div class=\"answers{class}\"><p class=\"answer head\"><span></span>{heads}</p>\n{body}</div>"
+            )
         }
     };
     let needed = found.of(Kind::Verdicts).filter(|one| one.rank == 0);

@@ -40,7 +40,6 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 pub struct PageSection {
     pub anchor: &'static str,
     pub title: &'static str,
-    /// Summary in one sentence.
     pub lead: String,
     pub html: String,
     pub has_figures: bool,
@@ -74,11 +73,17 @@ pub(in crate::report) fn head(title: &str, policy: &str, style: &str) -> String 
     )
 }
 
-/// The whole page. `data` locates the numbers in the compressed payload `numbers`; `title` is that of the tab.
-pub fn document(title: &str, first_screen: &str, sections: &[PageSection], data: &Value, numbers: &str) -> String {
-    // pages of figures alone have no verdicts
-    let answers = first_screen.contains("id=\"verdicts\"").then_some(("verdicts", "Verdicts"));
+/// The whole page. `answers` names the table of its first screen, if any; `data` locates the numbers in the compressed
+/// payload `numbers`; `title` is that of the tab.
+pub fn document(
+    title: &str,
+    (first_screen, answers): (&str, Option<&'static str>),
+    sections: &[PageSection],
+    data: &Value,
+    numbers: &str,
+) -> String {
     let links: String = answers
+        .map(|name| ("verdicts", name))
         .into_iter()
         .chain(sections.iter().map(|section| (section.anchor, section.title)))
         .map(|(anchor, title)| format!("<a href=\"#{anchor}\">{}</a>", escaped(title)))

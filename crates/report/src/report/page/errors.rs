@@ -189,7 +189,6 @@ fn exceedance(outcome: &SurveyedOutcome, has_intervals: bool) -> Figure {
     Figure::of(FigureSection::Numerics, said, [x, Axis::log("fraction of runs", "")], marks)
 }
 
-/// Error estimates against audits.
 fn audits(survey: &Survey) -> Option<Figure> {
     let shown: Vec<&[f64; 3]> = survey.audits.iter().filter(|audit| audit[1] > 0.0 && audit[2] > 0.0).collect();
     let ends = shown

@@ -7,7 +7,6 @@ use crate::run::Status;
 /// The fate of a run with regard to the limits of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// Within all limits.
     Met,
     /// Violates a requirement on runs, or its mission failed.
     Missed,
@@ -15,7 +14,6 @@ pub enum Fate {
 }
 
 impl Fate {
-    /// Code in the page.
     pub const fn place(self) -> f64 {
         match self {
             Fate::Met => 0.0,

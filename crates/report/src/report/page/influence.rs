@@ -31,8 +31,8 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
     let mut figures: Vec<Figure> = Vec::new();
     let mut seen: Vec<Vec<(String, [u64; 3])>> = Vec::new();
     for name in outcomes(plan, all) {
-        let Some((index, outcome)) = survey.outcome(name) else { continue };
-        for ranking in ranked(plan, all, name).iter().filter(|ranking| ranking.drivers().next().is_some()) {
+        let Some((index, outcome)) = survey.outcome(&name) else { continue };
+        for ranking in ranked(plan, all, &name).iter().filter(|ranking| ranking.drivers().next().is_some()) {
             let shares = shares(ranking);
             if let Question::Event(_) = ranking.question {
                 let ranks: Vec<(String, [u64; 3])> =
@@ -54,7 +54,7 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
                     Question::Event(Event { occurs: Occurs::Missed { requirement, .. }, .. }) => {
                         plan.analysis.requirements.get(*requirement)
                     }
-                    _ => fates::only_limit(plan, name),
+                    _ => fates::only_limit(plan, &name),
                 };
                 // a scatter plot of yes or no adds nothing
                 let is_plotted = !outcome.is_yes_or_no(&survey.thinned.outcomes[index]);
@@ -70,7 +70,7 @@ pub fn figures(plan: &Plan, survey: &Survey, all: &[InputSensitivity], has_inter
             let is_known =
                 |(_, share): &(String, [f64; 3])| share[0].is_finite() && !(share[1] <= 0.0 && share[2] >= 1.0);
             if shares.iter().any(is_known) {
-                figures.push(tornado(plan, (name, ranking), outcome, &shares));
+                figures.push(tornado(plan, (&name, ranking), outcome, &shares));
             }
         }
     }

@@ -15,13 +15,11 @@ use crate::run::StateField;
 /// Values below this share of the maximum over the run are rounding errors.
 const ROUND_OFF: f64 = 1e-12;
 
-/// A quantity over time, with one or more components.
 struct LiveNumber {
     name: String,
     /// Column that determines the unit.
     column: String,
     unit: &'static str,
-    /// Names of the components; empty for a scalar.
     components: Vec<String>,
     /// Held until the next point, as values at the ticks of a loop are.
     is_held: bool,

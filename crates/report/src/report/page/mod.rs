@@ -68,7 +68,6 @@ impl Contents<'_> {
 pub struct Page {
     pub html: String,
     pub figures: Vec<Figure>,
-    /// Listed runs that are not replayed, with the command to replay them.
     pub left_out: Option<String>,
 }
 
@@ -77,7 +76,6 @@ pub fn is_independent(plan: &Plan) -> bool {
     matches!(plan.design, Design::Random(_))
 }
 
-/// Events of the file at their median times.
 fn event_times(plan: &Plan, statistics: &[ColumnStatistics]) -> Vec<Mark> {
     let times = statistics.iter().filter_map(|column| event_time(plan, column));
     times.map(|(label, at)| Mark::Limit { label, at, vertical: true }).collect()
@@ -116,7 +114,8 @@ impl Page {
         let word = answer::word(found, survey);
         let title = word.map_or_else(|| plan.name.clone(), |word| format!("{word}: {}", plan.name));
         let sections = sections(plan, contents, &shown, has_replay, &figures);
-        let html = document(&title, &first_screen.concat(), &sections, &data, &payload.text());
+        let answers = if found.verdict.is_some() { "Verdicts" } else { answer::FOUND };
+        let html = document(&title, (&first_screen.concat(), Some(answers)), &sections, &data, &payload.text());
         Page { html, figures, left_out: runs::left_out(&shown) }
     }
 }
@@ -158,7 +157,6 @@ fn figures(
     figures.into_iter().map(|figure| figure.in_units(&plan.analysis.display)).collect()
 }
 
-/// The sections after the first screen; empty ones are omitted.
 fn sections(
     plan: &Plan,
     contents: &Contents<'_>,

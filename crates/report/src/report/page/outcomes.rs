@@ -2,6 +2,7 @@
 
 use crate::analysis::bins::counts;
 use crate::analysis::order_statistics::share_interval;
+use crate::analysis::outcomes::unique;
 use crate::analysis::statistics::ColumnStatistics;
 use crate::analysis::survey::{Survey, SurveyedOutcome};
 use crate::campaign::{Plan, Requirement, Statement};
@@ -141,13 +142,7 @@ fn limits(plan: &Plan, outcome: &SurveyedOutcome) -> Vec<Mark> {
         let (label, at) = (typeset(&limit_text(requirement.limit, &shown)), requirement.limit.value());
         Mark::Limit { label, at, vertical: true }
     };
-    let mut marks: Vec<Mark> = Vec::new();
-    for one in plan.analysis.requirements.iter().filter(of).map(mark) {
-        if !marks.contains(&one) {
-            marks.push(one);
-        }
-    }
-    marks
+    unique(plan.analysis.requirements.iter().filter(of).map(mark))
 }
 
 /// Excludes far limits from the axis; they are named at its edge, and the runs keep a third of it.

@@ -7,7 +7,6 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::{Compression, GzBuilder};
 use serde_json::{Value, json};
 
-/// Concatenated arrays.
 #[derive(Clone, Debug, Default)]
 pub struct Payload {
     doubles: Vec<u8>,

@@ -20,7 +20,6 @@ pub const HATCH: &str = "<svg width=\"0\" height=\"0\" class=\"defs\" aria-hidde
     width=\"4\" height=\"4\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\"><rect class=\"ground\" \
     width=\"4\" height=\"4\"/><line x1=\"0\" x2=\"0\" y1=\"0\" y2=\"4\"/></pattern></defs></svg>\n";
 
-/// The range of a picture's axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     ends: [f64; 2],
@@ -36,12 +35,10 @@ impl Span {
         (low < high).then_some(Span { ends: [low, high], is_log })
     }
 
-    /// The name of a logarithmic axis.
     fn mark(&self) -> &'static str {
         if self.is_log { "<text class=\"log\" x=\"0\" y=\"8\">log</text>" } else { "" }
     }
 
-    /// Relative position of `value`.
     fn part(&self, value: f64) -> f64 {
         let of = |value: f64| if self.is_log { libm::log10(value.max(f64::MIN_POSITIVE)) } else { value };
         let [low, high] = self.ends.map(of);
@@ -74,7 +71,7 @@ fn picture(class: &str, height: f64, name: &str, inside: &str) -> String {
 }
 
 /// Estimate and interval of a number with its limit take at least this part of a shared scale; else it has its own.
-const LEAST_PART: f64 = 0.02;
+const LEAST_PART: f64 = 0.1;
 
 /// The first number of each finding on a scale shared by its unit: estimate, interval, limit and required side. Without
 /// a limit the scale spans all numbers of the outcome. Empty if there is nothing to compare.
@@ -224,7 +221,6 @@ fn ends(axis: &Axis, span: Span, limits: &[f64], at: &dyn Fn(f64) -> f64) -> Str
     said.iter().map(|(x, text)| label(*x, HEIGHT + WORDS - 2.0, text)).collect()
 }
 
-/// The two shares of a yes-or-no outcome as a bar.
 pub fn shares(yes: &Number) -> String {
     let width = WIDTH * yes.value.clamp(0.0, 1.0);
     let count = libm::round(yes.value * yes.of as f64) as u64;

@@ -7,7 +7,6 @@ pub fn number(value: f64) -> String {
     if value.is_nan() { "-".to_owned() } else { typeset(&trimmed(value, 4)) }
 }
 
-/// As [`number`], with its unit.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
         _ if unit.is_empty() || value.is_nan() => number(value),
@@ -16,7 +15,6 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
-/// With its interval if known.
 pub fn in_brackets(value: f64, interval: [f64; 2]) -> String {
     match interval.iter().any(|end| end.is_finite()) {
         true => typeset(&with_interval(value, interval)),

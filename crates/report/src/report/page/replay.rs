@@ -7,6 +7,7 @@ use crate::analysis::outcomes::outcomes;
 use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
 use crate::findings::names;
+use crate::findings::scene::momentum as momentum_in_body;
 use crate::loops::launch_geometry::LaunchState;
 use crate::loops::launch_numbers::DebrisNumbers;
 use crate::math::vector::{dcm_from_quaternion, difference, product};
@@ -40,7 +41,6 @@ pub fn shown_parts(plan: &Plan) -> Vec<ShownPart> {
     }
 }
 
-/// The bodies of the nominal scene as shapes in F_s.
 pub fn scene(plan: &Plan) -> Value {
     let (input, resolved) = (&plan.nominal, Scene::resolve(&plan.nominal).ok());
     let center = resolved.as_ref().map_or([0.0; 3], |scene| scene.mass.center);
@@ -63,7 +63,6 @@ pub fn scene(plan: &Plan) -> Value {
     })
 }
 
-/// A plate as a square of its area.
 fn plate(plate: &Plate) -> Value {
     json!({ "side": libm::sqrt(plate.area), "normal": plate.normal, "center": plate.center })
 }
@@ -85,12 +84,16 @@ fn part(part: &PartInput) -> ShownPart {
     }
 }
 
-/// The box with the mass and moments of inertia of the body: l_x^2 = 6 (I_y + I_z - I_x)/m.
+/// Sides of the box with these mass and moments of inertia: l_x^2 = 6 (I_y + I_z - I_x)/m.
+fn equivalent_sides(mass: f64, moments: [f64; 3]) -> [f64; 3] {
+    let sum: f64 = moments.iter().sum();
+    moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / mass).max(1e-6)))
+}
+
 fn equivalent_box(scene: &Scene) -> ShownPart {
     let body = &scene.mass.body;
     let (moments, turn) = crate::math::symmetric::principal_axes(body.inertia);
-    let sum: f64 = moments.iter().sum();
-    let size = moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / body.mass).max(1e-6)));
+    let size = equivalent_sides(body.mass, moments);
     ShownPart { name: "body".to_owned(), shape: "box", size: size.to_vec(), position: body.center, turn }
 }
 
@@ -120,11 +123,9 @@ fn debris(debris: &DebrisInput) -> Value {
     match debris {
         DebrisInput::Cube { side_m, .. } => json!([side_m, side_m, side_m]),
         DebrisInput::Box { size_m, .. } => json!(size_m),
-        // of unknown size: the equivalent box
+        // of unknown size
         DebrisInput::Tensor { mass_kg, inertia_kg_m2 } => {
-            let moments = [0, 1, 2].map(|axis| inertia_kg_m2[axis][axis]);
-            let sum: f64 = moments.iter().sum();
-            json!(moments.map(|moment| libm::sqrt((6.0 * (sum - 2.0 * moment) / mass_kg).max(1e-6))))
+            json!(equivalent_sides(*mass_kg, [0, 1, 2].map(|axis| inertia_kg_m2[axis][axis])))
         }
         DebrisInput::Principal { .. } => json!([0.2, 0.2, 0.2]),
     }
@@ -253,12 +254,8 @@ fn numbers(plan: &Plan, shown: &ShownRun) -> Vec<[String; 2]> {
 
 /// Angular momentum of the spacecraft about its centre of mass in F_e, N m s.
 fn momentum(run: &SingleRun, point: usize) -> [f64; 3] {
-    let (mass, table) = (&run.scene.mass, &run.table);
-    let omega: [f64; 3] = table.at(StateField::Rate, point);
-    let mut h = product(mass.inertia, omega);
-    for (wheel, shape) in mass.wheels.iter().enumerate() {
-        let spin = shape.axial * table.column(StateField::WheelRates, wheel)[point];
-        (0..3).for_each(|axis| h[axis] += spin * shape.axis[axis]);
-    }
-    product(dcm_from_quaternion(table.at(StateField::Attitude, point)), h)
+    let table = &run.table;
+    let rates = (0..run.scene.mass.wheels.len()).map(|wheel| table.column(StateField::WheelRates, wheel)[point]);
+    let momentum = momentum_in_body(&run.scene.mass, table.at(StateField::Rate, point), rates);
+    product(dcm_from_quaternion(table.at(StateField::Attitude, point)), momentum)
 }

@@ -13,10 +13,8 @@ const STEP: f64 = 0.07;
 /// Rounding of direction components, to save space.
 const UNIT: f64 = 1.0 / 8192.0;
 
-/// Names of the replay's arrows.
 const NAMES: [&str; 4] = ["nadir", "velocity", "sun", "field"];
 
-/// The vectors at `time` for a position and velocity in F_e; `None` if the scene lacks them.
 fn vectors(around: &Surroundings, time: f64, [position, velocity]: [[f64; 3]; 2]) -> [Option<[f64; 3]>; 4] {
     let sun = around.sun(time, position).map(|(direction, _)| direction);
     [Some(Surroundings::nadir(position)), Some(velocity), sun, around.field(time, position)]

@@ -17,10 +17,8 @@ use crate::table::{Cell, Column, Content, Table, Values};
 
 const MOST_INPUTS: usize = 3;
 
-/// The head of a column, and its value in the row of an observable.
 type Heading<'v> = (String, Box<dyn Fn(&ColumnStatistics) -> f64 + 'v>);
 
-/// The statistics of every observable, with intervals if the design has them.
 pub fn statistics(rows: &[ColumnStatistics], has_intervals: bool, display: &Display) -> String {
     let Some(first) = rows.first() else { return "<p>No run was computed: there are no statistics.</p>".to_owned() };
     let shown = |row: &ColumnStatistics| display.of(row.quantity.name(), row.quantity.unit());
@@ -153,7 +151,7 @@ pub fn worst_runs(plan: &Plan, survey: &Survey, drivers: &[&str], runs: &[ShownR
         "inputs that decide, then farthest from nominal"
     };
     let mut table = Table::with(
-        ["sample", "why it is listed", which, "command", "3D"]
+        ["sample", "why it is listed", which, "command, in this folder", "3D"]
             .map(|head| (head, if head == "sample" { Align::Title } else { Align::Left })),
     );
     for run in runs {
