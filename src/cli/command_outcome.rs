@@ -62,37 +62,3 @@ pub fn exit_code(ended: Result<CommandOutcome, Failure>) -> u8 {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::findings::requirement::EndVerdict;
-
-    /// Law: each shortfall alone has its code: failed runs, audits beyond their estimates, verdicts, unreached
-    /// precision.
-    #[test]
-    fn every_shortfall_has_its_code() {
-        let end = |failed, not_covered, word: &str, is_reached| SummaryEnd {
-            rows: 20,
-            failed,
-            not_covered,
-            warnings: Vec::new(),
-            verdicts: vec![EndVerdict {
-                requirement: "p95".to_owned(),
-                word: word.to_owned(),
-                ..EndVerdict::default()
-            }],
-            is_reached,
-        };
-        for (end, code) in [
-            (end(0, 0, "PASS", true), 0),
-            (end(3, 0, "PASS", true), 1),
-            (end(0, 2, "PASS", true), 1),
-            (end(0, 0, "FAIL", true), 3),
-            (end(0, 0, "UNDECIDED", true), 5),
-            (end(0, 0, "PASS", false), 5),
-        ] {
-            assert_eq!(exit_code(Ok(CommandOutcome::of_end(&end))), code, "{end:?}");
-        }
-    }
-}

@@ -8,8 +8,6 @@
 pub mod findings;
 #[doc(hidden)]
 pub mod report;
-#[cfg(test)]
-mod shipped;
 
 #[doc(hidden)]
 pub use spindrift_ensemble::{analysis, ensemble, storage, table};

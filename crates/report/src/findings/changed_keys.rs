@@ -82,7 +82,7 @@ fn common(key: &str, other: &str, values: &[String; 2], of_other: &[String; 2]) 
 mod tests {
     use super::*;
     use crate::campaign::difference::{said, text_differences};
-    use crate::shipped;
+    use crate::findings::shipped;
 
     /// Law: keys with the same change share one line, tables that only one plan has take one line, every key is counted
     /// once.

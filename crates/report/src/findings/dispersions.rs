@@ -5,7 +5,7 @@ use crate::ensemble::drawn::{MASS_COLUMNS, Magnitude, magnitudes, mass_propertie
 use crate::ensemble::{DrawnScenes, Percentiles};
 use crate::findings::finding::{Finding, Kind};
 use crate::findings::names::unit_of_input;
-use crate::findings::number::{counted, short, trimmed};
+use crate::findings::number::{counted, short, trimmed, with_unit};
 use crate::findings::origin::origin;
 use crate::sampling::{Design, Replaced, SampleId};
 use crate::table::Table;
@@ -152,7 +152,7 @@ pub fn applied(plan: &Plan, sample: SampleId, is_exact: bool) -> Table<'static> 
         let shown = unit_of_input(plan, index);
         let number = |value: f64| match is_exact {
             true => format!("{value:?}"),
-            false => format!("{} {}", trimmed(shown.value(value), SHOWN_DIGITS), shown.unit).trim_end().to_owned(),
+            false => with_unit(trimmed(shown.value(value), SHOWN_DIGITS), &shown.unit),
         };
         let nominal = format!("nominal {}", number(column.nominal));
         table.row([column.parameter.component_name(column.component), number(*value), nominal]);

@@ -10,7 +10,7 @@ use crate::analysis::observed::Observed;
 use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, ShownUnit};
 use crate::findings::finding::{Figures, Finding, Kind, Number};
-use crate::findings::number::{self, brief, counted, outward, short};
+use crate::findings::number::{self, brief, counted, outward, short, with_unit};
 use crate::findings::requirement;
 use crate::findings::{loss, names, noise};
 use crate::math::normal;
@@ -140,7 +140,7 @@ fn of_event(plan: &Plan, [outcome, runs]: [&str; 2], event: &Event, ranking: &Ra
         let name = names::of_input_column(plan, column);
         let shown =
             names::place_of(plan, column).map_or_else(|| ShownUnit::own(""), |place| names::unit_of_input(plan, place));
-        let amount = |value: f64| format!("{} {}", short(shown.value(value)), shown.unit).trim_end().to_owned();
+        let amount = |value: f64| with_unit(short(shown.value(value)), &shown.unit);
         let dependence = ranked.effect.map(|effect| &effect.dependence)?;
         Some(match dependence {
             Dependence::Levels { levels, most, ratio } => {
@@ -492,7 +492,7 @@ mod tests {
     fn said<const N: usize>(inputs: &[InputSensitivity; N], shares: [(Option<Estimate>, bool); N]) -> String {
         let of = |(input, (share, is_driver))| Ranked { input, effect: None, share, is_driver };
         let inputs = inputs.iter().zip(shares).map(of).collect();
-        sentence(&crate::shipped::plan("spin_sweep"), "y", &Ranking { question: Question::Spread, inputs })
+        sentence(&crate::findings::shipped::plan("spin_sweep"), "y", &Ranking { question: Question::Spread, inputs })
     }
 
     fn input(name: &str) -> InputSensitivity {

@@ -89,7 +89,7 @@ impl Number {
     pub fn text(&self) -> String {
         match (self.value.is_finite(), self.unit == SHARE) {
             (true, true) => number::share([self.value; 2], self.interval),
-            (true, false) => format!("{} {}", self.bare(), self.shown.unit).trim_end().to_owned(),
+            (true, false) => number::with_unit(self.bare(), &self.shown.unit),
             (false, _) => "-".to_owned(),
         }
     }
@@ -100,7 +100,7 @@ impl Number {
         if self.unit == SHARE {
             return Some(format!("{}%", percent(limit)));
         }
-        Some(format!("{} {}", number::written(self.shown.written(limit)), self.shown.unit).trim_end().to_owned())
+        Some(number::with_unit(number::written(self.shown.written(limit)), &self.shown.unit))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::ensemble::failure_reasons::with_numbers;
 use crate::ensemble::{FailureReason, FailureReasons};
 use crate::findings::finding::{Finding, Kind, Number};
 use crate::findings::names;
-use crate::findings::number::{brief, share, trimmed, written};
+use crate::findings::number::{brief, share, trimmed, with_unit, written};
 use crate::loops::failure::Failure;
 use crate::run::Status;
 use crate::statistics::quantile::percent as exactly;
@@ -203,14 +203,14 @@ pub fn stop_text(plan: &Plan, stopping: &Stopping) -> String {
             let [estimate, low, high] =
                 [look.estimate, look.interval[0], look.interval[1]].map(|value| value.unwrap_or(f64::NAN));
             let number = Number::new("", (estimate, [low, high]), stopping.samples, unit, &shown);
-            let wanted = format!("{} {}", trimmed(shown.value(goal.half_width), 4), shown.unit);
+            let wanted = with_unit(trimmed(shown.value(goal.half_width), 4), &shown.unit);
             let found = format!(
                 "p{} of {} = {} at {}% confidence, wanted half width {}",
                 exactly(goal.quantile),
                 names::of_column(observable, unit),
                 number.text(),
                 trimmed(100.0 * look.confidence, 6),
-                wanted.trim_end(),
+                wanted,
             );
             (found, "precise enough")
         }
@@ -307,7 +307,7 @@ mod tests {
     fn every_status_is_explained() {
         let keys = include_str!("../../../../docs/campaign-files.md");
         let columns = include_str!("../../../../docs/columns.md");
-        let plan = crate::shipped::plan("no_debris");
+        let plan = crate::findings::shipped::plan("no_debris");
         for (place, status) in Status::ALL.into_iter().enumerate() {
             let name = status.name();
             assert!(keys.contains(&format!("\n| `{name}` |")), "{name} is not in campaign-files.md");

@@ -24,6 +24,8 @@ pub mod requirement;
 pub mod results_index;
 pub mod scene;
 pub mod shell_word;
+#[cfg(test)]
+pub(crate) mod shipped;
 pub mod verified;
 mod warnings;
 

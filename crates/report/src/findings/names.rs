@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn parameters_become_words() {
         let of = |name: &str| {
-            let plan = crate::shipped::plan(name);
+            let plan = crate::findings::shipped::plan(name);
             (0..plan.dispersions.columns().len()).map(|place| of_input(&plan, place)).collect::<Vec<_>>()
         };
         let (spin, launch) = (of("spin_sweep"), of("net_launch"));

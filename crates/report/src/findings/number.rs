@@ -79,6 +79,11 @@ pub fn duration(seconds: f64) -> String {
     format!("{} {}", trimmed(shown.value(seconds), 3), shown.unit)
 }
 
+/// "2 deg"; a pure number alone.
+pub fn with_unit(number: impl core::fmt::Display, unit: &str) -> String {
+    format!("{number} {unit}").trim_end().to_owned()
+}
+
 /// "1 run", "3 runs"; `thing` has a regular plural.
 pub fn counted<C: core::fmt::Display + PartialEq + From<u8>>(count: C, thing: &str) -> String {
     format!("{count} {thing}{}", if count == C::from(1) { "" } else { "s" })

@@ -8,7 +8,7 @@ use crate::analysis::verdicts::Verdicts;
 use crate::campaign::{Plan, ShownUnit, Statement};
 use crate::findings::finding::{Finding, Kind, Number, Verdict};
 use crate::findings::names;
-use crate::findings::number::{self, counted, outward, share, short, time, trimmed, written};
+use crate::findings::number::{self, counted, outward, share, short, time, trimmed, with_unit, written};
 use crate::statistics::binomial::{Decision, POWER};
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::gate::GateLimit;
@@ -153,11 +153,11 @@ pub fn title(one: &Assessment) -> String {
     let side = if matches!(requirement.limit, GateLimit::AtMost(_)) { "<=" } else { ">=" };
     let shown = shown(one);
     let unit = shown.unit.as_str();
-    let limit = format!("{} {unit}", written(shown.written(requirement.limit.value())));
+    let limit = with_unit(written(shown.written(requirement.limit.value())), unit);
     let is = match (requirement.name(), requirement.limit) {
         // yes or no
         ("launched", GateLimit::AtLeast(limit)) if limit > 0.0 => name,
-        _ => format!("{name} {side} {}{}", limit.trim_end(), times(one)),
+        _ => format!("{name} {side} {limit}{}", times(one)),
     };
     match requirement.statement {
         Statement::Quantile(p) if requirement.window().is_some() => {
@@ -179,7 +179,7 @@ pub fn title(one: &Assessment) -> String {
 /// The limit as written, in the unit `shown`: "at most 2 deg".
 pub fn limit_text(limit: GateLimit, shown: &ShownUnit) -> String {
     let word = if matches!(limit, GateLimit::AtMost(_)) { "at most" } else { "at least" };
-    format!("{word} {} {}", written(shown.written(limit.value())), shown.unit).trim_end().to_owned()
+    format!("{word} {}", with_unit(written(shown.written(limit.value())), &shown.unit))
 }
 
 fn times(one: &Assessment) -> String {
@@ -267,12 +267,8 @@ fn notes(one: &Assessment) -> Vec<String> {
 
 /// The assumption of a decision on a mean about unseen rare events.
 pub fn assumed(one: &Assessment) -> Option<String> {
-    let room = format!("{} {}", short(one.shown.value(one.room_for_rare_events()?)), one.shown.unit);
-    Some(format!(
-        "provided that events rarer than {RARE} in {} runs move the mean by less than {}",
-        one.runs,
-        room.trim_end(),
-    ))
+    let room = with_unit(short(one.shown.value(one.room_for_rare_events()?)), &one.shown.unit);
+    Some(format!("provided that events rarer than {RARE} in {} runs move the mean by less than {room}", one.runs,))
 }
 
 /// The deciding bound, if the two-sided interval suggests another verdict: it contains the limit although the one-sided
@@ -292,9 +288,9 @@ fn decided_by(one: &Assessment) -> Option<String> {
         .find(|digits| if is_lower { rounded(*digits) > limit } else { rounded(*digits) < limit })
         .unwrap_or(DIGITS);
     let number = trimmed(rounded(digits), digits as usize);
-    let number = if is_mean { format!("{number} {}", one.shown.unit) } else { format!("{number}% of runs") };
+    let number = if is_mean { with_unit(number, &one.shown.unit) } else { format!("{number}% of runs") };
     let side = if is_lower { "at least" } else { "at most" };
-    Some(format!("{side} {}, one-sided at {}%", number.trim_end(), percent(one.confidences[0])))
+    Some(format!("{side} {number}, one-sided at {}%", percent(one.confidences[0])))
 }
 
 /// Error rates of the verdicts together, and the remedy for undecided ones.

@@ -362,7 +362,7 @@ impl Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shipped::plan_of;
+    use crate::findings::shipped::plan_of;
 
     /// Law: a change of unit converts values, range and a value within a label, and leaves the other axis.
     #[test]

@@ -165,14 +165,8 @@ impl FigureSheet {
         let of_section = |figure: &Figure| Figure { section, columns: 6.max(figure.columns), ..figure.clone() };
         let drawn: Vec<Value> = self.figures.iter().map(|figure| json_of(&of_section(figure), &mut payload)).collect();
         let data = json!({ "name": self.title, "figures": drawn, "replay": null, "pairs": null });
-        let section = PageSection {
-            anchor: section.anchor(),
-            title: "Figures",
-            lead: String::new(),
-            html: String::new(),
-            has_figures: true,
-            fold: None,
-        };
+        let section =
+            PageSection { has_figures: true, ..PageSection::new(section.anchor(), "Figures", "", String::new()) };
         let first = format!("<h1>{}</h1>", escaped(&self.title));
         document(&self.title, (&first, None), &[section], &data, &payload.text())
     }

@@ -33,11 +33,11 @@ mod tests {
     use super::*;
     use crate::ensemble::replays::GROUPS;
     use crate::ensemble::single::SingleRuns;
+    use crate::findings::shipped;
     use crate::math::Isa;
     use crate::report::figure::Mark;
     use crate::run::Grid;
     use crate::sampling::SampleId;
-    use crate::shipped;
     use crate::storage::timeseries::time_series;
 
     fn nominal(plan: &Plan, points: usize) -> SingleRun {

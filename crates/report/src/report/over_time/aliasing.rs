@@ -121,10 +121,10 @@ mod tests {
     use super::*;
     use crate::ensemble::replays::GROUPS;
     use crate::ensemble::single::SingleRuns;
+    use crate::findings::shipped;
     use crate::math::Isa;
     use crate::run::Grid;
     use crate::sampling::SampleId;
-    use crate::shipped;
 
     /// Law: sampling is too coarse if and only if an oscillation has fewer than four samples, for any number of
     /// oscillations.

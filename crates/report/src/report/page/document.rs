@@ -47,6 +47,13 @@ pub struct PageSection {
     pub fold: Option<bool>,
 }
 
+impl PageSection {
+    /// Without figures, and not folded.
+    pub fn new(anchor: &'static str, title: &'static str, lead: impl Into<String>, html: String) -> Self {
+        PageSection { anchor, title, lead: lead.into(), html, has_figures: false, fold: None }
+    }
+}
+
 fn script() -> String {
     script_of(&MODULES.map(|(name, _)| name))
 }

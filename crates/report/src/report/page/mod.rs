@@ -167,16 +167,8 @@ fn sections(
     let (analysed, found) = (contents.analysed, contents.found);
     let (survey, statistics) = (&analysed.survey, &analysed.statistics);
     let has = |section: FigureSection| drawn.iter().any(|figure| figure.section == section);
-    let of = |anchor, title, lead: String, html: String| PageSection {
-        anchor,
-        title,
-        lead,
-        html,
-        has_figures: false,
-        fold: None,
-    };
     let figures = |section: FigureSection, title, lead: &str, html: String| {
-        has(section).then(|| PageSection { has_figures: true, ..of(section.anchor(), title, lead.to_owned(), html) })
+        has(section).then(|| PageSection { has_figures: true, ..PageSection::new(section.anchor(), title, lead, html) })
     };
     let replay = "<div class=\"replay\"><p>The replay needs JavaScript and WebGL.</p></div>".to_owned();
     let drivers: Vec<&str> = found.of(Kind::Driver).flat_map(|one| &one.children).map(|one| one.id.as_str()).collect();
@@ -188,7 +180,7 @@ fn sections(
     } else {
         "The worst run in three dimensions; the next worst, and the nominal one, in the list."
     };
-    let replay = of(
+    let replay = PageSection::new(
         "replay",
         "The run to look at",
         format!("{one}{left_out}"),
@@ -227,9 +219,9 @@ fn sections(
         Some(PageSection {
             has_figures: has(FigureSection::Statistics),
             fold: Some(false),
-            ..of("statistics", "Statistics", String::new(), table)
+            ..PageSection::new("statistics", "Statistics", "", table)
         }),
-        Some(of("provenance", "Provenance", String::new(), tables::provenance(plan, survey, &contents.files))),
+        Some(PageSection::new("provenance", "Provenance", "", tables::provenance(plan, survey, &contents.files))),
     ]
     .into_iter()
     .flatten()
@@ -273,14 +265,8 @@ fn decides(found: &Findings, drawn: &[Figure]) -> Option<PageSection> {
     };
     let list = with.concat();
     let pairs = "<details id=\"pairs\"><summary>Plot any two columns against each other</summary><div></div></details>";
-    Some(PageSection {
-        anchor: FigureSection::Influence.anchor(),
-        title: "What decides it",
-        lead: String::new(),
-        html: format!("{list}{others}{pairs}"),
-        has_figures: false,
-        fold: None,
-    })
+    let html = format!("{list}{others}{pairs}");
+    Some(PageSection::new(FigureSection::Influence.anchor(), "What decides it", "", html))
 }
 
 /// Columns for the reader's own scatter plots: thinned, single precision.

@@ -171,7 +171,7 @@ fn tied(worst: &WorstRuns, value: f64) -> (usize, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shipped;
+    use crate::findings::shipped;
 
     /// Law: the first listed runs are replayed; the others are counted; a run that panicked is neither.
     #[test]
