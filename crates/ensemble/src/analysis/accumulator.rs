@@ -4,7 +4,7 @@
 use std::num::NonZeroUsize;
 
 use crate::analysis::part_columns::PartColumns;
-use crate::storage::rows_reader::{RowsError, RowsReader};
+use crate::storage::rows_reader::{Result, RowsError, RowsReader};
 
 pub trait Accumulator: Sync {
     type Whole: Send;
@@ -13,7 +13,7 @@ pub trait Accumulator: Sync {
     fn nothing(&self) -> Self::Whole;
 
     /// Counts a part, on any thread, once.
-    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError>;
+    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart>;
 
     /// Adds the next part, in the order of the parts.
     fn merge(&self, whole: &mut Self::Whole, part: Self::OfPart);
@@ -28,7 +28,7 @@ impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
         (self.0.nothing(), self.1.nothing())
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<Self::OfPart> {
         Ok((self.0.count(part)?, self.1.count(part)?))
     }
 
@@ -43,7 +43,7 @@ pub fn of_files<A: Accumulator>(
     accumulator: &A,
     reader: &RowsReader,
     threads: Option<NonZeroUsize>,
-) -> Result<A::Whole, RowsError> {
+) -> Result<A::Whole> {
     let mut whole = accumulator.nothing();
     reader.visit(
         threads,

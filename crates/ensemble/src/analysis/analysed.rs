@@ -39,7 +39,7 @@ pub fn computed(
     reader: &RowsReader,
     gathered: Gathered,
     threads: Option<NonZeroUsize>,
-) -> Result<Analysed, RowsError> {
+) -> Result<Analysed> {
     let ended = &gathered.tally.statuses;
     let mut survey = gathered.survey;
     let shown: Vec<String> = survey.outcomes.iter().map(|one| one.quantity.name().to_owned()).collect();

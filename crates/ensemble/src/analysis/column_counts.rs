@@ -2,7 +2,7 @@
 //! hold counts: results do not depend on threads.
 
 use super::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use crate::statistics::sketch::Sketch;
 
@@ -46,8 +46,8 @@ pub(super) const CLOSE: f64 = 0.25;
 pub fn references<P: PartColumns>(
     observed: &[Observed],
     population: Population,
-    parts: impl IntoIterator<Item = Result<P, RowsError>>,
-) -> Result<Vec<f64>, RowsError> {
+    parts: impl IntoIterator<Item = Result<P>>,
+) -> Result<Vec<f64>> {
     let mut first = vec![Vec::new(); observed.len()];
     let mut left = REFERENCE_ROWS;
     for part in parts {
@@ -118,14 +118,14 @@ impl Collector {
         if self.is_exact {
             return GroupCounts { moments, values: values.into_owned(), ..GroupCounts::default() };
         }
-        sketches.lock().unwrap_or_else(PoisonError::into_inner)[index].add_block(&values, &moments);
+        unpoisoned(sketches.lock())[index].add_block(&values, &moments);
         GroupCounts { moments, ..GroupCounts::default() }
     }
 
     /// Attaches the sketches.
     pub fn finish(self, mut collected: Collected) -> Collected {
         for (column, sketches) in collected.columns.iter_mut().zip(self.sketches) {
-            let sketches = sketches.into_inner().unwrap_or_else(PoisonError::into_inner);
+            let sketches = unpoisoned(sketches.into_inner());
             column.groups.iter_mut().zip(sketches).for_each(|(group, sketch)| group.sketch = sketch);
         }
         collected
@@ -142,7 +142,7 @@ impl Accumulator for Collector {
         Collected { columns: vec![column; self.observed.len()], lost: vec![0; self.population.groups()] }
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<Collected, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<Collected> {
         let (samples, ended) = (part.samples()?, part.statuses()?);
         let group = |(sample, status): (&SampleId, &Status)| {
             let is_counted = self.population.contains(*sample) && *status == Status::Done;
@@ -173,7 +173,7 @@ impl Accumulator for Collector {
             let groups = of_groups.into_iter().enumerate().map(of_group).collect();
             Ok(ColumnCounts { without_value, groups, ..ColumnCounts::default() })
         };
-        let columns = self.observed.iter().zip(&self.sketches).map(of_column).collect::<Result<_, RowsError>>()?;
+        let columns = self.observed.iter().zip(&self.sketches).map(of_column).collect::<Result<_>>()?;
         Ok(Collected { columns, lost })
     }
 

@@ -178,11 +178,7 @@ impl Comparison {
 
 const MOST_LEVEL: f64 = 0.1;
 
-pub fn compare(
-    first: ResultRows<'_>,
-    second: ResultRows<'_>,
-    threads: Option<NonZeroUsize>,
-) -> Result<Comparison, RowsError> {
+pub fn compare(first: ResultRows<'_>, second: ResultRows<'_>, threads: Option<NonZeroUsize>) -> Result<Comparison> {
     let of = |ResultRows { plan, reader, .. }: ResultRows<'_>| {
         let ended = of_files(&StatusCounter::new(plan), reader, threads)?;
         statistics::compute(plan, reader, &ended, (None, &[]), threads)
@@ -233,10 +229,7 @@ pub fn compare(
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })
 }
 
-fn values<'o>(
-    result: ResultRows<'_>,
-    observed: impl Iterator<Item = &'o Observed> + Clone,
-) -> Result<Vec<Vec<f64>>, RowsError> {
+fn values<'o>(result: ResultRows<'_>, observed: impl Iterator<Item = &'o Observed> + Clone) -> Result<Vec<Vec<f64>>> {
     let mut columns = vec![Vec::new(); observed.clone().count()];
     for part in result.reader.first_parts(MOST_ROWS) {
         let part = part?;

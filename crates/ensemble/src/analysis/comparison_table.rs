@@ -8,9 +8,7 @@ pub fn table(comparison: &Comparison) -> Table<'_> {
     let rows = &comparison.columns;
     let mut table = Table::of(rows);
     table
-        .text("observable", "Name of the observable.", |row| Some(row.quantity.name()))
-        .text("unit", "Its unit; empty for a pure number.", |row| Some(row.quantity.unit()))
-        .text("meaning", "What it is.", |row| Some(row.quantity.meaning()))
+        .observable(|row| &row.quantity)
         .count("is_required", "1 if a requirement of either plan names it.", |row| u64::from(row.is_required))
         .count("is_shifted", "1 if chance does not explain the difference.", |row| {
             u64::from(comparison.is_shifted(row))
@@ -43,7 +41,7 @@ pub fn table(comparison: &Comparison) -> Table<'_> {
              tests.",
             |row| row.p_value,
         )
-        .real("p_value_mean", "P-value of the test of means.", |row| row.mean.as_ref().map(|found| found.p_value))
+        .real("p_value_mean", "P-value of the test of means.", |row| Some(row.mean?.p_value))
         .real("p_value_distribution", "P-value of the test of distributions.", |row| row.distribution_p_value)
         .real("p_value_moved", "P-value of the signed ranks of the pairs' differences.", |row| row.moved_p_value)
         .real("p_value_spread", "P-value of one result spreading more than the other in the pairs.", |row| {
@@ -53,15 +51,13 @@ pub fn table(comparison: &Comparison) -> Table<'_> {
             row.adjusted_moved_p_value
         })
         .real("mean_shift", "Shift of the mean, second minus first; of pairs, where there are any.", |row| {
-            row.mean.as_ref().map(|found| found.shift.value)
+            Some(row.mean?.shift.value)
         })
-        .real("mean_shift_lower", "Lower end of its interval.", |row| row.mean.as_ref().map(|found| found.shift.lower))
-        .real("mean_shift_upper", "Upper end of its interval.", |row| row.mean.as_ref().map(|found| found.shift.upper))
+        .real("mean_shift_lower", "Lower end of its interval.", |row| Some(row.mean?.shift.lower))
+        .real("mean_shift_upper", "Upper end of its interval.", |row| Some(row.mean?.shift.upper))
         .count("differing_pairs", "Pairs whose values differ.", |row| row.differing_pairs)
-        .text("largest_shift_of", "The statistic with the largest shift.", |row| {
-            row.largest().map(|shift| &*shift.statistic)
-        })
-        .real("largest_shift", "Its shift, in units of scale.", |row| row.largest().map(|shift| shift.relative))
+        .text("largest_shift_of", "The statistic with the largest shift.", |row| Some(&*row.largest()?.statistic))
+        .real("largest_shift", "Its shift, in units of scale.", |row| Some(row.largest()?.relative))
         .real(
             "scale",
             "Standard deviation in the first result; where that is 0 the magnitude of its mean, or 1.",

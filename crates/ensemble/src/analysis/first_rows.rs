@@ -85,7 +85,7 @@ impl Accumulator for FirstRows {
         }
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<RowTable, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<RowTable> {
         if self.is_full.load(Ordering::Relaxed) {
             return Ok(self.nothing());
         }

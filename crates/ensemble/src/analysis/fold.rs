@@ -2,7 +2,7 @@
 //! ([`Gathered::of_files`]), with the same bits.
 
 use super::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
 use crate::analysis::first_rows::{FirstRows, RowTable};
@@ -77,11 +77,7 @@ fn first_batch(plan: &Plan) -> Vec<Observed> {
 
 impl Gathered {
     /// Reads the rows and bands of `ensemble`, on `threads` threads (`None`: one per core).
-    pub fn of_files(
-        ensemble: &Ensemble<'_>,
-        reader: &RowsReader,
-        threads: Option<NonZeroUsize>,
-    ) -> Result<Gathered, RowsError> {
+    pub fn of_files(ensemble: &Ensemble<'_>, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Gathered> {
         let plan = ensemble.plan();
         let bands = bands_file::read(reader.store(), reader.bands(), threads)?;
         // plus the nominal row
@@ -132,8 +128,8 @@ impl RunningFold {
 
     /// The results, if all `parts` were counted.
     pub fn whole(self, parts: Parts) -> Option<Gathered> {
-        let merging = self.merging.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let bands = self.bands.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let merging = unpoisoned(self.merging.into_inner());
+        let bands = unpoisoned(self.bands.into_inner());
         (merging.merged == parts.count()).then(|| self.fold.gathered(merging.whole, bands))
     }
 }
@@ -143,10 +139,10 @@ impl CountRows for RunningFold {
         // an incomplete fold is discarded and the rows are read again
         let Ok(of_part) = self.fold.0.count(&self.names.of(rows)) else { return };
         if let Some(part) = rows.bands() {
-            let mut bands = self.bands.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut bands = unpoisoned(self.bands.lock());
             bands.get_or_insert_with(|| Bands::new(part.layout().clone())).add(part);
         }
-        let mut merging = self.merging.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut merging = unpoisoned(self.merging.lock());
         merging.waiting.insert(rows.part().id.0, of_part);
         while let Some(next) = {
             let next = merging.merged;

@@ -90,7 +90,7 @@ impl Accumulator for MissionCounter {
         MissionCounts { ends: [0; 2 + Failure::NAMES.len()], timeouts: vec![0; self.phases.len()], missing: 0 }
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<MissionCounts, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<MissionCounts> {
         let mut found = self.nothing();
         if !self.has_loop {
             return Ok(found);

@@ -8,7 +8,7 @@ use crate::analysis::part_columns::PartColumns;
 use crate::campaign::known_columns::KnownColumns;
 use crate::observables::ColumnKind;
 use crate::sampling::expression::Expression;
-use crate::storage::rows_reader::RowsError;
+use crate::storage::rows_reader::Result;
 
 #[derive(Clone, Debug, PartialEq)]
 struct Source {
@@ -52,7 +52,7 @@ impl Absence {
         Absence::Extreme { after, delay_s: extreme.delay_s, end }
     }
 
-    fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
+    fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>> {
         let rows = part.rows();
         Ok(match self {
             Absence::Never => vec![false; rows],
@@ -120,20 +120,20 @@ impl Observed {
     }
 
     /// Values in a part; NaN for none.
-    pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>, RowsError> {
+    pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>> {
         let Some(expression) = &self.derived else { return part.numbers(self.quantity.name()) };
         let columns = self.columns(part)?;
         let value = |row: usize| known(expression, |place| columns[place][row]);
         Ok((0..part.rows()).map(value).collect())
     }
 
-    fn columns<'p>(&self, part: &'p impl PartColumns) -> Result<Vec<Cow<'p, [f64]>>, RowsError> {
+    fn columns<'p>(&self, part: &'p impl PartColumns) -> Result<Vec<Cow<'p, [f64]>>> {
         self.sources.iter().map(|source| part.numbers(&source.column)).collect()
     }
 
     /// Rows of `part`, all `ok`, with an undefined value, such as the root of a negative number; in other rows without
     /// a value the subject never happened.
-    pub fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>, RowsError> {
+    pub fn undefined(&self, part: &impl PartColumns) -> Result<Vec<bool>> {
         let columns = self.columns(part)?;
         let own = |row: usize| match &self.derived {
             Some(expression) if columns.iter().all(|column| !column[row].is_nan()) => {

@@ -17,11 +17,7 @@ pub struct ResultRows<'r> {
 
 /// Rows, among the first, of samples that both results drew alike; none if neither the random numbers nor the drawn
 /// values agree.
-pub fn pairs(
-    first: ResultRows<'_>,
-    second: ResultRows<'_>,
-    statuses: [&[Status]; 2],
-) -> Result<Vec<[usize; 2]>, RowsError> {
+pub fn pairs(first: ResultRows<'_>, second: ResultRows<'_>, statuses: [&[Status]; 2]) -> Result<Vec<[usize; 2]>> {
     let mut shared = shared_rows(first.plan, second.plan);
     shared.retain(|[row, other]| *row < statuses[0].len() && *other < statuses[1].len());
     if !(draw_alike(first.plan, second.plan) || drew_same_values(first, second, &shared)?) {
@@ -30,7 +26,7 @@ pub fn pairs(
     Ok(shared)
 }
 
-fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool, RowsError> {
+fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[usize; 2]]) -> Result<bool> {
     let names = |plan: &Plan| -> Vec<String> { plan.dispersions.columns().iter().map(Column::name).collect() };
     let (of_first, of_second) = (names(first.plan), names(second.plan));
     if of_first.len() != of_second.len() || !of_first.iter().all(|name| of_second.contains(name)) {
@@ -48,7 +44,7 @@ fn drew_same_values(first: ResultRows<'_>, second: ResultRows<'_>, shared: &[[us
 }
 
 impl ResultRows<'_> {
-    fn first<T>(self, of: impl Fn(&PartReader) -> Result<Vec<T>, RowsError>) -> Result<Vec<T>, RowsError> {
+    fn first<T>(self, of: impl Fn(&PartReader) -> Result<Vec<T>>) -> Result<Vec<T>> {
         let mut all = Vec::new();
         for part in self.reader.first_parts(MOST_ROWS) {
             all.extend(of(&part?)?);
@@ -58,7 +54,7 @@ impl ResultRows<'_> {
     }
 
     /// The statuses of the first rows.
-    pub fn statuses(self) -> Result<Vec<Status>, RowsError> {
+    pub fn statuses(self) -> Result<Vec<Status>> {
         self.first(PartReader::statuses)
     }
 }

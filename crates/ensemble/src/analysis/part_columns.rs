@@ -8,22 +8,22 @@ use crate::campaign::columns::parameter_quantity;
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Audit, Ensemble, Rows};
 use crate::storage::rows_file::{audit_error_name, audited_observables};
-use crate::storage::rows_reader::{PartReader, RowsError};
+use crate::storage::rows_reader::{PartReader, Result, RowsError};
 
 pub trait PartColumns {
     fn rows(&self) -> usize;
 
-    fn samples(&self) -> Result<Vec<SampleId>, RowsError>;
+    fn samples(&self) -> Result<Vec<SampleId>>;
 
-    fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError>;
+    fn statuses(&self) -> Result<Cow<'_, [Status]>>;
 
     /// Rows that are not `ok`, with reasons.
-    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError>;
+    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>>;
 
     /// The column `name`: counts as doubles, NaN for none.
     ///
     /// # Errors There is no such column of numbers, or it cannot be read.
-    fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError>;
+    fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>>;
 }
 
 impl PartColumns for PartReader {
@@ -31,20 +31,20 @@ impl PartColumns for PartReader {
         self.rows()
     }
 
-    fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
+    fn samples(&self) -> Result<Vec<SampleId>> {
         self.samples()
     }
 
-    fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError> {
+    fn statuses(&self) -> Result<Cow<'_, [Status]>> {
         self.statuses().map(Cow::Owned)
     }
 
-    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError> {
+    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>> {
         let reasons = self.reasons()?.into_iter().enumerate();
         Ok(reasons.filter_map(|(row, reason)| Some((row, reason?))).collect())
     }
 
-    fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError> {
+    fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>> {
         self.numbers(name).map(Cow::Owned)
     }
 }
@@ -95,19 +95,19 @@ impl PartColumns for RowsInMemory<'_> {
         self.rows.part().count
     }
 
-    fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
+    fn samples(&self) -> Result<Vec<SampleId>> {
         Ok(self.rows.samples().to_vec())
     }
 
-    fn statuses(&self) -> Result<Cow<'_, [Status]>, RowsError> {
+    fn statuses(&self) -> Result<Cow<'_, [Status]>> {
         Ok(Cow::Borrowed(self.rows.statuses()))
     }
 
-    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>, RowsError> {
+    fn reasons(&self) -> Result<Cow<'_, [(usize, String)]>> {
         Ok(Cow::Borrowed(self.rows.reasons()))
     }
 
-    fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>, RowsError> {
+    fn numbers(&self, name: &str) -> Result<Cow<'_, [f64]>> {
         let audits = |value: &dyn Fn(&Audit) -> f64| {
             let mut column = vec![f64::NAN; self.rows.part().count];
             let audited = self.rows.audits().iter().filter_map(|(row, audit)| Some((*row, audit.as_ref()?)));

@@ -12,5 +12,5 @@ pub(super) use crate::statistics::binomial::Decision;
 pub(super) use crate::statistics::correlation::Estimate;
 pub(super) use crate::statistics::gate::GateLimit;
 pub(super) use crate::statistics::moments::Moments;
-pub(super) use crate::storage::rows_reader::{RowsError, RowsReader};
+pub(super) use crate::storage::rows_reader::{Result, RowsError, RowsReader};
 pub(super) use std::borrow::Cow;

@@ -117,7 +117,7 @@ pub fn compute(
     ended: &Statuses,
     (mut counted, shown): (Option<Collected>, &[String]),
     threads: Option<NonZeroUsize>,
-) -> Result<Statistics, RowsError> {
+) -> Result<Statistics> {
     let population = Population::of(plan);
     let is_exact = is_exact(plan);
     let loss = ended.loss();

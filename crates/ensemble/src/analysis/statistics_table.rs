@@ -16,9 +16,7 @@ pub fn table(statistics: &Statistics) -> Table<'_> {
     let columns = &statistics.columns;
     let mut table = Table::of(columns);
     table
-        .text("observable", "Name of the observable.", |column| Some(column.quantity.name()))
-        .text("unit", "Its unit; empty for a pure number.", |column| Some(column.quantity.unit()))
-        .text("meaning", "What it is.", |column| Some(column.quantity.meaning()))
+        .observable(|column| &column.quantity)
         .count("count", "Runs that are ok and have a value: those that the numbers are of.", |column| {
             column.moments.count()
         })

@@ -102,7 +102,7 @@ impl Accumulator for StatusCounter {
         Statuses::none(self.0)
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<StatusPart, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<StatusPart> {
         let (samples, statuses) = (part.samples()?, part.statuses()?.into_owned());
         let has_failed = statuses.iter().any(|status| *status != Status::Done);
         let reasons = if has_failed { part.reasons()?.into_owned() } else { Vec::new() };

@@ -68,7 +68,7 @@ impl Accumulator for ObservedValues {
         StopValues::default()
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<StopValues, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<StopValues> {
         let mut found = StopValues::default();
         for observed in &self.observed {
             let (samples, statuses, values) = (part.samples()?, part.statuses()?, observed.column(part)?);
@@ -91,12 +91,7 @@ impl Accumulator for ObservedValues {
 }
 
 /// Looks at the rows and bands of the samples below one of [`Plan::looks`]. `None` without `[stop]`.
-pub fn look(
-    plan: &Plan,
-    rows: &RowsReader,
-    samples: u64,
-    threads: Option<NonZeroUsize>,
-) -> Result<Option<Stopping>, RowsError> {
+pub fn look(plan: &Plan, rows: &RowsReader, samples: u64, threads: Option<NonZeroUsize>) -> Result<Option<Stopping>> {
     match &plan.analysis.stop {
         None => Ok(None),
         Some(Stop { when: When::Precise { .. }, .. }) => {

@@ -201,14 +201,14 @@ impl Accumulator for Surveyor {
         self.nothing.clone()
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<SurveyedPart, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<SurveyedPart> {
         let (samples, statuses) = (part.samples()?, part.statuses()?);
         let done = |row: &usize| statuses[*row] == Status::Done;
         let is_counted = |row: &usize| samples[*row].0 > 0 || !self.has_dispersed;
         let counted: Vec<usize> = (0..samples.len()).filter(done).filter(is_counted).collect();
         let kept: Vec<usize> = (0..samples.len()).filter(|row| is_kept(samples[*row], self.most_hash)).collect();
         let taken = |column: &[f64], rows: &[usize]| rows.iter().map(|row| column[*row]).collect::<Vec<f64>>();
-        let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>, RowsError>>()?;
+        let columns = self.observed.iter().map(|one| one.column(part)).collect::<Result<Vec<_>>>()?;
         let nominal = (0..samples.len()).filter(done).find(|row| samples[*row].0 == 0);
         let inputs = self.inputs.iter().map(|name| Ok(taken(&part.numbers(name)?, &kept)));
         let audits = match self.audited {
@@ -226,7 +226,7 @@ impl Accumulator for Surveyor {
             thinned: Thinned {
                 samples: kept.iter().map(|row| samples[*row].0).collect(),
                 statuses: kept.iter().map(|row| statuses[*row]).collect(),
-                inputs: inputs.collect::<Result<_, RowsError>>()?,
+                inputs: inputs.collect::<Result<_>>()?,
                 outcomes: columns.iter().map(|column| taken(column, &kept)).collect(),
             },
             audits,

@@ -2,7 +2,7 @@
 //! the order of the parts does not matter. The nominal sample 0 is among the worst runs and audits only if it is alone.
 
 use super::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes};
@@ -123,7 +123,7 @@ impl TallyColumns {
         part: &impl PartColumns,
         samples: &[SampleId],
         statuses: &[Status],
-    ) -> Result<Vec<(SampleId, Option<Audit>)>, RowsError> {
+    ) -> Result<Vec<(SampleId, Option<Audit>)>> {
         if self.nothing.audits.is_none() {
             return Ok(Vec::new());
         }
@@ -131,10 +131,10 @@ impl TallyColumns {
             true => Ok(vec![f64::NAN; samples.len()].into()),
             false => part.numbers(value.quantity().name()),
         };
-        let values = AuditValue::ALL.iter().map(read).collect::<Result<Vec<_>, RowsError>>()?;
+        let values = AuditValue::ALL.iter().map(read).collect::<Result<Vec<_>>>()?;
         let error = |index: &usize| part.numbers(&audit_error_name(&self.names[*index]));
-        let errors = self.audited.iter().map(error).collect::<Result<Vec<_>, RowsError>>()?;
-        let mut selection = self.selection.lock().unwrap_or_else(PoisonError::into_inner);
+        let errors = self.audited.iter().map(error).collect::<Result<Vec<_>>>()?;
+        let mut selection = unpoisoned(self.selection.lock());
         let rows = samples.iter().zip(statuses).enumerate();
         let selected = rows
             .filter(|(_, (sample, status))| **status != Status::InvalidSample && selection.contains(**sample))
@@ -157,7 +157,7 @@ impl Accumulator for TallyColumns {
         self.nothing.clone()
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<TallyPart, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<TallyPart> {
         let ended = self.statuses.count(part)?;
         let values = self.wanted.iter().map(|index| Ok((*index, part.numbers(&self.names[*index])?.into_owned())));
         let beyond_air = match self.air {
@@ -169,7 +169,7 @@ impl Accumulator for TallyColumns {
         };
         Ok(TallyPart {
             beyond_air: beyond_air as u64,
-            values: values.collect::<Result<_, RowsError>>()?,
+            values: values.collect::<Result<_>>()?,
             audits: self.audits(part, &ended.0, &ended.1)?,
             ended,
         })

@@ -65,7 +65,7 @@ impl Accumulator for Retained {
         WorstRuns::new(most, false)
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<WorstRuns, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<WorstRuns> {
         let mut found = self.nothing();
         if self.retention == Retention::None {
             return Ok(found);

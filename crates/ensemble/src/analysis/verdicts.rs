@@ -80,7 +80,7 @@ impl Accumulator for RequirementCounter {
         vec![RequirementRuns::new(self.population.groups()); self.requirements.len()]
     }
 
-    fn count(&self, part: &impl PartColumns) -> Result<RequirementCounts, RowsError> {
+    fn count(&self, part: &impl PartColumns) -> Result<RequirementCounts> {
         let mut found = self.nothing();
         if self.requirements.is_empty() {
             return Ok(found);

@@ -33,6 +33,7 @@ pub mod supervision;
 mod surface;
 pub mod surroundings;
 pub mod undefined;
+mod unpoisoned;
 pub mod worker;
 
 pub use audit::{Audit, Auditor, NoAudit};

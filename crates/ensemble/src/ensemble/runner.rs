@@ -5,8 +5,8 @@
 
 use super::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 use crate::ensemble::parts::Part;
@@ -66,7 +66,7 @@ pub fn run<E: Send>(
             }
             if let Err(error) = sink(rows) {
                 is_failed.store(true, Ordering::Relaxed);
-                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                unpoisoned(failure.lock()).get_or_insert(error);
             }
         }
     };
@@ -77,7 +77,7 @@ pub fn run<E: Send>(
         }
         supervision.crew.work(&share);
     });
-    match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+    match unpoisoned(failure.into_inner()) {
         Some(error) => Err(RunError::Sink(error)),
         None => Ok(()),
     }

@@ -1,8 +1,8 @@
 //! [`SingleRun`]: a sample with all its states; [`run_each`]: several. They are drawn and propagated as in campaigns.
 
 use super::prelude::*;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use rayon::ThreadPoolBuilder;
 
@@ -241,7 +241,7 @@ pub fn run_each<T: Send, E: Send>(
             let Some(sample) = samples.get(place) else { break };
             let runs = runs.get_or_insert_with(|| SingleRuns::new(plan, plan.grid.clone(), isa, &GROUPS, false));
             let result = job(runs, *sample);
-            let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut made = unpoisoned(made.lock());
             match (&mut *made, result) {
                 (Ok(list), Ok(one)) => list.push((place, one)),
                 (Ok(_), Err(error)) => {
@@ -252,7 +252,7 @@ pub fn run_each<T: Send, E: Send>(
             }
         }
     });
-    let mut list = made.into_inner().unwrap_or_else(PoisonError::into_inner).map_err(RunError::Sink)?;
+    let mut list = unpoisoned(made.into_inner()).map_err(RunError::Sink)?;
     list.sort_unstable_by_key(|(place, _)| *place);
     Ok(list.into_iter().map(|(_, one)| one).collect())
 }

@@ -11,7 +11,7 @@ use crate::statistics::deviation::{Code, NOT_A_NUMBER};
 use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::identity::{PART_KEY, part_metadata};
 use crate::storage::parallel::in_order;
-use crate::storage::rows_reader::{PartReader, RowsError};
+use crate::storage::rows_reader::{PartReader, Result, RowsError};
 
 const LAYOUT_KEY: &str = "spindrift.bands";
 const RUNS_KEY: &str = "spindrift.bands.runs";
@@ -128,7 +128,7 @@ struct StoredBands {
 }
 
 impl StoredBands {
-    fn open(store: &dyn Store, name: &str) -> Result<Self, RowsError> {
+    fn open(store: &dyn Store, name: &str) -> Result<Self> {
         let file = PartReader::open(store, name)?;
         let (buckets, numbers_in) = (file.numbers(BUCKET.0)?, file.numbers(COUNT.0)?);
         let found = || -> Option<StoredBands> {
@@ -186,7 +186,7 @@ impl StoredBands {
 ///
 /// # Errors
 /// The first file that is unreadable, damaged, of another campaign, or out of order.
-pub fn read(store: &dyn Store, files: &[String], threads: Option<NonZeroUsize>) -> Result<Option<Bands>, RowsError> {
+pub fn read(store: &dyn Store, files: &[String], threads: Option<NonZeroUsize>) -> Result<Option<Bands>> {
     let mut merged: Option<(u64, Bands)> = None;
     in_order(
         files.len(),

@@ -15,7 +15,7 @@
 
 use super::prelude::*;
 use std::collections::BTreeSet;
-use std::sync::{MutexGuard, PoisonError};
+use std::sync::MutexGuard;
 
 use serde::{Deserialize, Serialize};
 
@@ -178,7 +178,7 @@ impl Dataset {
     }
 
     fn files(&self) -> MutexGuard<'_, Files> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        unpoisoned(self.state.lock())
     }
 
     /// The whole parts, in order.

@@ -3,7 +3,7 @@
 
 use super::prelude::*;
 use std::convert::Infallible;
-use std::sync::{Condvar, MutexGuard, PoisonError};
+use std::sync::{Condvar, MutexGuard};
 use std::thread::Builder;
 
 /// Applies `each` to the items on `threads` threads, in their order.
@@ -14,7 +14,7 @@ pub fn in_parallel<T: Send, U: Send>(
 ) -> Vec<U> {
     let waiting: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
     let read = |index: usize| {
-        let item = waiting[index].lock().unwrap_or_else(PoisonError::into_inner).take();
+        let item = unpoisoned(waiting[index].lock()).take();
         Ok::<_, Infallible>(item.map(&each))
     };
     let mut done = Vec::with_capacity(waiting.len());
@@ -59,7 +59,7 @@ pub fn in_order<T: Send, E: Send>(
     } else {
         on_threads(threads, &|| queue.work(items, threads * AHEAD, &read));
     }
-    match queue.state.into_inner().unwrap_or_else(PoisonError::into_inner).error {
+    match unpoisoned(queue.state.into_inner()).error {
         Some((_, error)) => Err(error),
         None => Ok(()),
     }
@@ -83,7 +83,7 @@ struct QueueState<T, E, M> {
 
 impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
     fn lock(&self) -> MutexGuard<'_, QueueState<T, E, M>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        unpoisoned(self.state.lock())
     }
 
     /// Reads items until none is left, at most `ahead` beyond the merged ones.
@@ -92,7 +92,7 @@ impl<T, E, M: FnMut(T) -> Result<(), E>> Queue<T, E, M> {
         loop {
             let mut state = self.lock();
             while state.error.is_none() && state.next < items && state.next - state.merged >= ahead {
-                state = self.moved.wait(state).unwrap_or_else(PoisonError::into_inner);
+                state = unpoisoned(self.moved.wait(state));
             }
             if state.error.is_some() || state.next >= items {
                 return;

@@ -3,8 +3,8 @@
 //! Threads encode their own parts; another one writes files, so that no run waits for the disk.
 
 use super::prelude::*;
+use std::sync::OnceLock;
 use std::sync::mpsc::{SyncSender, sync_channel};
-use std::sync::{OnceLock, PoisonError};
 
 use parquet::errors::ParquetError;
 
@@ -33,7 +33,7 @@ struct Buffers(Mutex<Vec<Vec<Vec<u8>>>>);
 impl Buffers {
     /// Empty memory of the files of a part, if any was returned.
     fn take(&self) -> std::vec::IntoIter<Vec<u8>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default().into_iter()
+        unpoisoned(self.0.lock()).pop().unwrap_or_default().into_iter()
     }
 
     fn give(&self, files: Vec<PartFile>) {
@@ -42,7 +42,7 @@ impl Buffers {
             bytes.clear();
             bytes
         };
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(files.into_iter().map(emptied).collect());
+        unpoisoned(self.0.lock()).push(files.into_iter().map(emptied).collect());
     }
 }
 
@@ -109,14 +109,14 @@ impl PartSink<'_> {
         self.counts.into_iter().for_each(|counts| counts.add(rows));
         // the writer stops after its own error
         self.encoded.send((rows.part(), files)).map_err(|_| "parts are no longer written")?;
-        let mut sums = self.seconds.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sums = unpoisoned(self.seconds.lock());
         sums.iter_mut().zip(rows.seconds()).for_each(|(sum, seconds)| *sum += seconds);
         Ok(())
     }
 
     /// CPU time of runs and audits so far, s, if there are audits.
     pub fn seconds(&self) -> [f64; 2] {
-        *self.seconds.lock().unwrap_or_else(PoisonError::into_inner)
+        *unpoisoned(self.seconds.lock())
     }
 }
 

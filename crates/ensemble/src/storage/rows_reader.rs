@@ -24,6 +24,8 @@ pub struct RowsError {
     pub what: String,
 }
 
+pub type Result<T, E = RowsError> = std::result::Result<T, E>;
+
 /// The parts of a result, in the order of their samples.
 #[derive(Clone, Debug)]
 pub struct RowsReader {
@@ -59,12 +61,12 @@ impl RowsReader {
     ///
     /// # Errors
     /// A file that cannot be opened or is not Parquet.
-    pub fn part(&self, index: usize) -> Option<Result<PartReader, RowsError>> {
+    pub fn part(&self, index: usize) -> Option<Result<PartReader>> {
         self.files.get(index).map(|name| PartReader::open(&*self.store, name))
     }
 
     /// The parts with the first `rows` rows, in order.
-    pub fn first_parts(&self, rows: usize) -> impl Iterator<Item = Result<PartReader, RowsError>> + '_ {
+    pub fn first_parts(&self, rows: usize) -> impl Iterator<Item = Result<PartReader>> + '_ {
         let mut opened = 0;
         (0..self.files.len()).map_while(move |index| {
             let part = self.part(index).filter(|_| opened < rows)?;
@@ -93,7 +95,7 @@ impl RowsReader {
 }
 
 /// The result of `read`, with a panic of the Parquet reader as an error.
-fn caught<T>(path: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, RowsError> {
+fn caught<T>(path: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T> {
     let what = match catch_unwind(AssertUnwindSafe(read)) {
         Ok(Ok(found)) => return Ok(found),
         Ok(Err(error)) => error.to_string(),
@@ -111,7 +113,7 @@ impl PartReader {
     ///
     /// # Errors
     /// A file that cannot be opened or is not Parquet.
-    pub fn open(store: &dyn Store, name: &str) -> Result<Self, RowsError> {
+    pub fn open(store: &dyn Store, name: &str) -> Result<Self> {
         let shown = store.path(name).display().to_string();
         let bytes = store.get(name);
         let bytes = bytes.map_err(|error| RowsError { path: shown.clone(), what: error.to_string() })?;
@@ -148,7 +150,7 @@ impl PartReader {
         schema.columns().iter().map(|column| column.name().to_owned()).collect()
     }
 
-    pub fn samples(&self) -> Result<Vec<SampleId>, RowsError> {
+    pub fn samples(&self) -> Result<Vec<SampleId>> {
         match self.values(SAMPLE_ID)? {
             Values::Count(values) => Ok(values.into_iter().map(SampleId).collect()),
             _ => Err(self.failed(format!("`{SAMPLE_ID}` is not a column of whole numbers without gaps"))),
@@ -159,7 +161,7 @@ impl PartReader {
     ///
     /// # Errors
     /// A missing or damaged column, or an unknown status.
-    pub fn statuses(&self) -> Result<Vec<Status>, RowsError> {
+    pub fn statuses(&self) -> Result<Vec<Status>> {
         let (Decoded::Text(texts), None) = self.decoded(STATUS)? else {
             return Err(self.failed(format!("`{STATUS}` is not a column of texts without gaps")));
         };
@@ -171,7 +173,7 @@ impl PartReader {
     }
 
     /// Why each run is not `ok`, by row.
-    pub fn reasons(&self) -> Result<Vec<Option<String>>, RowsError> {
+    pub fn reasons(&self) -> Result<Vec<Option<String>>> {
         match self.values(REASON)? {
             Values::Text(texts) => Ok(texts.into_iter().map(|text| text.map(Cow::into_owned)).collect()),
             _ => Err(self.failed(format!("`{REASON}` is not a column of texts"))),
@@ -182,7 +184,7 @@ impl PartReader {
     ///
     /// # Errors
     /// A missing or damaged column, or one without numbers.
-    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, RowsError> {
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>> {
         match self.values(name)? {
             Values::Real(values) | Values::Counted(values) => Ok(values.into_owned()),
             Values::Count(values) => Ok(values.into_iter().map(|value| value as f64).collect()),
@@ -190,7 +192,7 @@ impl PartReader {
         }
     }
 
-    pub fn values(&self, name: &str) -> Result<Values<'static>, RowsError> {
+    pub fn values(&self, name: &str) -> Result<Values<'static>> {
         Ok(match self.decoded(name)? {
             (Decoded::Real(values), None) => Values::Real(values.into()),
             (Decoded::Real(values), Some(levels)) => Values::Real(spread(values.into_iter(), &levels, f64::NAN)),
@@ -211,7 +213,7 @@ impl PartReader {
     }
 
     /// The values of the column `name` without gaps, and the present rows (1) unless all are.
-    fn decoded(&self, name: &str) -> Result<(Decoded, Option<Vec<i16>>), RowsError> {
+    fn decoded(&self, name: &str) -> Result<(Decoded, Option<Vec<i16>>)> {
         caught(&self.path, || {
             let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
             let index = schema.columns().iter().position(|column| column.name() == name);
@@ -358,7 +360,7 @@ mod tests {
         let whole = file(&folder, 0);
         let bytes = std::fs::read(folder.join(whole)).expect("bytes");
         let path = folder.join("damaged.parquet");
-        let read = |content: &[u8]| -> Result<(), RowsError> {
+        let read = |content: &[u8]| -> Result<()> {
             std::fs::write(&path, content).expect("written");
             let part = PartReader::open(&*store(&folder), "damaged.parquet")?;
             part.samples()?;

@@ -195,6 +195,13 @@ impl<'a, R> TableOf<'a, R> {
         self.push(name, meaning, Content::Word, false, Values::words(self.rows.iter().map(value)))
     }
 
+    /// Adds the columns of an observable: its name, unit and meaning.
+    pub fn observable(&mut self, quantity: impl Fn(&'a R) -> &'a Quantity) -> &mut Self {
+        self.text("observable", "Name of the observable.", |row| Some(quantity(row).name()))
+            .text("unit", "Its unit; empty for a pure number.", |row| Some(quantity(row).unit()))
+            .text("meaning", "What it is.", |row| Some(quantity(row).meaning()))
+    }
+
     pub fn unit(&mut self, unit: &str) -> &mut Self {
         if let Some(Column { quantity, .. }) = self.table.columns.last_mut() {
             let [name, meaning] = [quantity.name(), quantity.meaning()].map(str::to_owned);

@@ -51,7 +51,7 @@ fn check(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usize) {
     let has_loop = section.document.law.is_some() || section.document.is_loop_unknown;
     if let Some((kind, device)) = read_device(section, scene, has_loop) {
         check_keys(section, kind);
-        check_device(section, scene, device, has_loop);
+        check_device(section, scene, (kind, device), has_loop);
         scene.failures[place].device = device;
     } else {
         scene.failures[place].output = None;
@@ -98,46 +98,28 @@ fn read_device(section: &mut Section<'_, '_>, scene: &SceneInput, has_loop: bool
 }
 
 fn check_keys(section: &mut Section<'_, '_>, kind: usize) {
-    for other in (0..KEYS.len()).filter(|other| *other != kind) {
-        for key in KEYS[other].iter().filter(|key| section.has(key)).collect::<Vec<_>>() {
-            let allowed =
-                format!("left out: a failure of a {} has {}", DEVICES[kind].replace('_', " "), KEYS[kind].join(", "));
-            section.refuse(key, allowed, "delete this line");
-        }
-    }
+    let (device, keys) = (DEVICES[kind].replace('_', " "), KEYS[kind].join(", "));
+    let others = (0..KEYS.len()).filter(|other| *other != kind).flat_map(|other| KEYS[other]).copied();
+    section.refuse_written(others, &format!("left out: a failure of a {device} has {keys}"), "delete this line");
     let own: Vec<&str> = KEYS[kind].iter().copied().filter(|key| section.has(key)).collect();
     if own.is_empty() {
-        let allowed =
-            format!("what becomes of the {}: one of {}", DEVICES[kind].replace('_', " "), KEYS[kind].join(", "));
+        let allowed = format!("what becomes of the {device}: one of {keys}");
         section.require(KEYS[kind][0], &allowed, ["0.0", "0.0", "0.0", "\"silent\""][kind]);
     } else if let (SENSOR, [_, second, ..]) = (kind, &own[..]) {
-        section.refuse(
-            second,
-            format!("the only one of {}", KEYS[kind].join(", ")),
-            "delete it: a sensor fails in one way",
-        );
+        section.refuse(second, format!("the only one of {keys}"), "delete it: a sensor fails in one way");
     }
 }
 
 /// Notes failures that this device cannot have, and a second table about it.
-fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, device: Device, has_loop: bool) {
+fn check_device(section: &mut Section<'_, '_>, scene: &SceneInput, (kind, device): (usize, Device), has_loop: bool) {
     if let Some(first) = scene.failures.iter().find(|failure| failure.device == device) {
-        let key = match device {
-            Device::Wheel(_) => DEVICES[0],
-            Device::Thruster(_) => DEVICES[1],
-            Device::Rod(_) => DEVICES[2],
-            _ => DEVICES[SENSOR],
-        };
         let allowed = format!("a device that does not fail in another table: it does in {}", first.name);
-        section.refuse(key, allowed, "delete one of the two tables");
+        section.refuse(DEVICES[kind], allowed, "delete one of the two tables");
     }
     if let (Device::Wheel(_), false) = (device, has_loop) {
-        for key in FailureInput::OF_WHEELS.into_iter().filter(|key| key.contains("friction")) {
-            if section.has(key) {
-                let remedy = "delete it, or add a [control] table";
-                section.refuse(key, "left out without [control]: a schedule commands what is applied", remedy);
-            }
-        }
+        let keys = FailureInput::OF_WHEELS.into_iter().filter(|key| key.contains("friction"));
+        let allowed = "left out without [control]: a schedule commands what is applied";
+        section.refuse_written(keys, allowed, "delete it, or add a [control] table");
     }
     if let Device::Sensor(place) = device {
         let sensor = &scene.control.sensors[place];

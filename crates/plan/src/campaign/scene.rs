@@ -190,16 +190,12 @@ fn read_loop(root: &mut Section<'_, '_>, scene: &mut SceneInput, loops: &dyn Loo
         root.document.is_loop_unknown = root.document.law.is_none();
         return;
     }
-    for key in ["sensors", "guidance"] {
-        root.know(key);
-        if root.has(key) {
-            root.refuse(key, "left out without [control]", "add a [control] table, or delete this one");
-        }
-    }
-    if root.has("torque_rods") {
-        let allowed = "left out without [control]: a schedule does not command torque rods";
-        root.refuse("torque_rods", allowed, "add a [control] table, or delete this one");
-    }
+    let tables = ["sensors", "guidance"];
+    tables.iter().for_each(|key| root.know(key));
+    let remedy = "add a [control] table, or delete this one";
+    root.refuse_written(tables, "left out without [control]", remedy);
+    let allowed = "left out without [control]: a schedule does not command torque rods";
+    root.refuse_written(["torque_rods"], allowed, remedy);
     let drives = [(Table::Wheel, &WheelInput::DRIVE[..]), (Table::Thruster, &ThrusterInput::DRIVE)];
     for (table, drive) in drives {
         for (place, name) in table.owners(scene).into_iter().enumerate() {
@@ -218,11 +214,7 @@ fn check_wheel(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usi
     let by_mass = WheelInput::MASSES.iter().any(|key| section.has(key));
     let (asked, excluded) =
         if by_mass { (WheelInput::MASSES, WheelInput::SIZES) } else { (WheelInput::SIZES, WheelInput::MASSES) };
-    for key in excluded {
-        if section.has(key) {
-            section.refuse(key, "left out where the wheel is given by mass and inertias", "delete this line");
-        }
-    }
+    section.refuse_written(excluded, "left out where the wheel is given by mass and inertias", "delete this line");
     let [_, axial, transverse] = WheelInput::MASSES.map(|key| section.written(key));
     let of_mass = [5.0, transverse.map_or(0.01, |moment| 1.6 * moment), axial.map_or(0.006, |moment| 0.6 * moment)];
     for (key, example) in asked.into_iter().zip(if by_mass { of_mass } else { [0.25, 0.1, 2700.0] }) {
@@ -278,14 +270,12 @@ fn check_part(section: &mut Section<'_, '_>, scene: &mut SceneInput, place: usiz
         }
     }
     if shape == PartShape::PointMass {
-        if section.has("density_kg_m3") {
-            section.refuse("density_kg_m3", "left out: a point has no volume", "write mass_kg");
-        }
+        section.refuse_written(["density_kg_m3"], "left out: a point has no volume", "write mass_kg");
         section.require("mass_kg", "a finite number", "10.0");
     } else if !section.has("mass_kg") {
         section.require("density_kg_m3", "given (or mass_kg)", "2700.0");
-    } else if section.has("density_kg_m3") {
-        section.refuse("density_kg_m3", "left out where mass_kg is given", "delete one of the two");
+    } else {
+        section.refuse_written(["density_kg_m3"], "left out where mass_kg is given", "delete one of the two");
     }
 }
 
@@ -352,9 +342,8 @@ fn exclude_shapes(section: &mut Section<'_, '_>, _scene: &mut SceneInput, _place
         }
         return;
     }
-    for key in ["side_m", "size_m", "density_kg_m3"].into_iter().filter(|key| section.has(key)).collect::<Vec<_>>() {
-        section.refuse(key, "left out where the debris is given by mass and inertia", "delete this line");
-    }
+    let allowed = "left out where the debris is given by mass and inertia";
+    section.refuse_written(["side_m", "size_m", "density_kg_m3"], allowed, "delete this line");
     if !inertias.iter().any(|key| section.has(key)) {
         let allowed = format!("given with mass_kg (or {MOMENTS}, {SECOND})");
         section.require(TENSOR, &allowed, "[[3, 0, 0], [0, 3, 0], [0, 0, 2]]");
@@ -362,14 +351,7 @@ fn exclude_shapes(section: &mut Section<'_, '_>, _scene: &mut SceneInput, _place
 }
 
 fn refuse_states_of_absent_debris(section: &mut Section<'_, '_>, scene: &mut SceneInput, _place: usize) {
-    let absent = |key: &&str| section.has(key);
-    let keys: Vec<&str> = Table::Initial
-        .keys()
-        .filter(|key| key.read(scene, 0).is_none())
-        .map(|key| key.facts().key)
-        .filter(absent)
-        .collect();
-    for key in keys {
-        section.refuse(key, "left out where there is no debris", "delete this line, or add a [debris] table");
-    }
+    let keys = Table::Initial.keys().filter(|key| key.read(scene, 0).is_none()).map(|key| key.facts().key);
+    let remedy = "delete this line, or add a [debris] table";
+    section.refuse_written(keys, "left out where there is no debris", remedy);
 }

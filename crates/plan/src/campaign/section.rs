@@ -215,6 +215,15 @@ impl<'d, 'a> Section<'d, 'a> {
         parsed
     }
 
+    /// Refuses each of `keys` that is written.
+    pub(super) fn refuse_written<'k>(&mut self, keys: impl IntoIterator<Item = &'k str>, allowed: &str, remedy: &str) {
+        for key in keys {
+            if self.has(key) {
+                self.refuse(key, allowed, remedy);
+            }
+        }
+    }
+
     /// Notes that the value of `key` is wrong; `None`.
     pub fn refused<T>(&mut self, key: &str, allowed: impl Into<String>, remedy: impl Into<String>) -> Option<T> {
         self.refuse(key, allowed, remedy);

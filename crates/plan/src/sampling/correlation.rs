@@ -5,7 +5,7 @@
 
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::Distribution;
-use super::error::{DispersionError, Table, error_of};
+use super::error::{DispersionError, Result, Table, error_of};
 use super::keys::{Values, Written};
 use super::rank::scores_of_ranks;
 use crate::scene::Parameter;
@@ -98,7 +98,7 @@ pub(super) fn copulas<'d>(
 }
 
 /// The dependence of a group of tables with common components, and the replaced matrix.
-fn copula(group: &[Pairs<'_>]) -> Result<(Copula, Option<Replaced>), DispersionError> {
+fn copula(group: &[Pairs<'_>]) -> Result<(Copula, Option<Replaced>)> {
     let mut components: Vec<&(usize, String)> = Vec::new();
     for component in group.iter().flat_map(|pairs| &pairs.components) {
         if !components.iter().any(|(dimension, _)| *dimension == component.0) {
@@ -155,14 +155,11 @@ impl Correlation {
         self.parameters.iter().flat_map(components_of).collect()
     }
 
-    fn refused<T>(&self, value: String, allowed: String, remedy: &str) -> Result<T, DispersionError> {
+    fn refused<T>(&self, value: String, allowed: String, remedy: &str) -> Result<T> {
         Err(error_of(Table::Correlate(self.table), self.measure.key(), value, allowed, remedy))
     }
 
-    fn pairs<'d>(
-        &self,
-        drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
-    ) -> Result<Pairs<'_>, DispersionError> {
+    fn pairs<'d>(&self, drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>) -> Result<Pairs<'_>> {
         let components = self.components();
         let drawn = self.drawn(&components, drawn)?;
         let names: Vec<String> = components.iter().map(|(parameter, k)| parameter.component_name(*k)).collect();
@@ -228,7 +225,7 @@ impl Correlation {
         &self,
         components: &[(Parameter, usize)],
         drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
-    ) -> Result<Vec<Drawn<'d>>, DispersionError> {
+    ) -> Result<Vec<Drawn<'d>>> {
         let mut found: Vec<Drawn<'d>> = Vec::with_capacity(components.len());
         for (parameter, component) in components {
             let refused = |allowed: &str, remedy: &str| {
@@ -250,12 +247,7 @@ impl Correlation {
     }
 
     /// The divisors that turn numbers into correlations; checks the diagonal of a `square` matrix.
-    fn scales(
-        &self,
-        drawn: &[Drawn<'_>],
-        names: &[String],
-        square: Option<&Matrix>,
-    ) -> Result<Vec<f64>, DispersionError> {
+    fn scales(&self, drawn: &[Drawn<'_>], names: &[String], square: Option<&Matrix>) -> Result<Vec<f64>> {
         let mut scales = vec![1.0; drawn.len()];
         for (place, (_, distribution)) in drawn.iter().enumerate() {
             let diagonal = square.map(|matrix| matrix[place][place]);

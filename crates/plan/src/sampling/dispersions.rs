@@ -7,7 +7,7 @@ use super::derivation::{Derivation, Derived, derived};
 use super::design::{Design, Dimensions, MAX_SAMPLES, PointSource, Size};
 use super::distribution::target::Target;
 use super::distribution::{Distribution, Joint, NumberWords, WrittenDistribution};
-use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error, error_of};
+use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Result, Table, error, error_of};
 use super::keys::DataColumn;
 use crate::scene::parameter::Shape;
 use crate::scene::{Parameter, SceneInput};
@@ -173,7 +173,7 @@ impl Dispersions {
         assigned_to(&self.assigned, &self.columns, component)
     }
 
-    fn add_tabled(&mut self, data: &DataColumn, nominal: &SceneInput) -> Result<(), DispersionError> {
+    fn add_tabled(&mut self, data: &DataColumn, nominal: &SceneInput) -> Result<()> {
         let refused = |allowed: &str, remedy: &str| {
             Err(error_of(Table::Design, "parameters", format!("{:?}", data.target_name()), allowed, remedy))
         };
@@ -195,7 +195,7 @@ impl Dispersions {
         Ok(())
     }
 
-    fn add(&mut self, dispersion: &Dispersion, nominal: &SceneInput) -> Result<(), DispersionError> {
+    fn add(&mut self, dispersion: &Dispersion, nominal: &SceneInput) -> Result<()> {
         let Dispersion { table, parameter, component, distribution } = dispersion;
         let components = dispersion.components();
         self.check_components(dispersion, &components, nominal)?;
@@ -245,7 +245,7 @@ impl Dispersions {
         dispersion: &Dispersion,
         components: &[(Parameter, usize)],
         nominal: &SceneInput,
-    ) -> Result<(), DispersionError> {
+    ) -> Result<()> {
         let key = if dispersion.distribution.written.columns().is_empty() { "parameter" } else { "parameters" };
         let refused = |(parameter, component): (Parameter, usize), allowed: &str, remedy: &str| {
             Err(error(dispersion.table, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
@@ -273,7 +273,7 @@ fn assigned_to<'a>(assigned: &'a [Assigned], columns: &Columns, component: (Para
     assigned.iter().find(|assigned| assigned.columns.contains(&column))
 }
 
-fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -> Result<u64, DispersionError> {
+fn fitting_samples(design: &Design, samples: Option<u64>, drawn: &Dispersions) -> Result<u64> {
     let (name, count) = (design.name(), drawn.dimensions.len());
     let refused =
         |table, key, value: String, allowed: String, remedy: &str| Err(error_of(table, key, value, allowed, remedy));

@@ -35,6 +35,8 @@ pub struct DispersionError {
     pub remedy: String,
 }
 
+pub type Result<T, E = DispersionError> = std::result::Result<T, E>;
+
 pub const HAS_KEY: &str = "a key that the scene has";
 pub const GIVE_KEY: &str =
     "give it a nominal value in its table (of debris: add a [debris] table), or disperse another key";

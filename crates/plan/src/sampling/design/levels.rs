@@ -66,7 +66,7 @@ impl Levels {
 }
 
 /// A list has one number of levels for each dimension.
-pub(super) fn check(written: &Written, dimensions: Dimensions<'_>) -> Result<(), DispersionError> {
+pub(super) fn check(written: &Written, dimensions: Dimensions<'_>) -> Result<()> {
     let dimensions = dimensions.names.len();
     match written.get("levels") {
         Some(Value::Counts(Values::Each(list))) if list.len() != dimensions => {

@@ -44,7 +44,7 @@ use self::replicates::Replicated;
 use self::saltelli::Saltelli;
 use self::sobol::Sobol;
 use self::table::TableRows;
-use crate::sampling::error::DispersionError;
+use crate::sampling::error::Result;
 use crate::sampling::keys::{Row, Rule, Written};
 use crate::sampling::stream::SampleId;
 
@@ -94,7 +94,7 @@ macro_rules! designs {
             ///
             /// # Errors
             /// The key that does not fit, or an impossible number of samples.
-            pub fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+            pub fn check(&self, dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<()> {
                 levels::check(self.written(), dimensions)?;
                 replicates::check(self.written(), samples)?;
                 match self { $( Self::$Name(_) => <$Kind as Kind>::check(dimensions, samples), )* }

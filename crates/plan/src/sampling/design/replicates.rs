@@ -35,19 +35,14 @@ pub(super) fn scrambling_names(written: &Written, names: &[String]) -> Vec<Vec<S
 }
 
 /// Replicates have equally many samples.
-pub(super) fn check(written: &Written, samples: Option<u64>) -> Result<(), DispersionError> {
+pub(super) fn check(written: &Written, samples: Option<u64>) -> Result<()> {
     let count = count(written);
     let allowed = format!("1 and a multiple of {count}: the nominal scene and {count} replicates of the design");
     whole_blocks(samples, count, allowed, ", or other replicates in [design]")
 }
 
 /// Checks that `samples` are 1 and a multiple of `block`.
-pub(super) fn whole_blocks(
-    samples: Option<u64>,
-    block: u64,
-    allowed: String,
-    otherwise: &str,
-) -> Result<(), DispersionError> {
+pub(super) fn whole_blocks(samples: Option<u64>, block: u64, allowed: String, otherwise: &str) -> Result<()> {
     let Some(samples) = samples.filter(|samples| *samples > 1 && (samples - 1) % block != 0) else {
         return Ok(());
     };

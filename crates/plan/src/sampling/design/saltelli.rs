@@ -69,7 +69,7 @@ impl Kind for Saltelli {
         ..Facts::new("saltelli", &[], &[])
     };
 
-    fn check(dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<(), DispersionError> {
+    fn check(dimensions: Dimensions<'_>, samples: Option<u64>) -> Result<()> {
         let members = members(dimensions.factors);
         let allowed = format!(
             "1 and a multiple of {members}: the nominal scene and whole blocks of the distributions and two more"

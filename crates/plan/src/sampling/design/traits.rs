@@ -1,6 +1,6 @@
 //! [`Kind`]: the trait of designs.
 
-use crate::sampling::error::DispersionError;
+use crate::sampling::error::Result;
 use crate::sampling::keys::{Row, Rule, Written};
 use crate::sampling::stream::Stream;
 use std::fmt::Debug;
@@ -71,7 +71,7 @@ pub trait Kind: PointSource + Sized {
 
     /// # Errors
     /// An impossible number of samples.
-    fn check(_dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<(), DispersionError> {
+    fn check(_dimensions: Dimensions<'_>, _samples: Option<u64>) -> Result<()> {
         Ok(())
     }
 

@@ -20,7 +20,7 @@ impl<Q: Nested> Together for AboutAxis<Q> {
             .required_as("given, a distribution of one number", "{ distribution = \"normal\", std = 0.1 }"),
     ];
 
-    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self> {
         let nominal = target.attitude(Self::NAME)?;
         let axis = target.axis(target.written.vector("axis").unwrap_or_default())?;
         let angle = Q::nested(target, "angle_rad", 0.0)?;

@@ -28,7 +28,7 @@ impl Together for AttitudeError {
     ];
     const RULES: &'static [Rule] = &[Rule::One(&[&["std_rad"], &["covariance_rad2"]], "0.01", ALL_BUT_ONE)];
 
-    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self> {
         let nominal = target.attitude(Self::NAME)?;
         let (key, shown, covariance) =
             match (target.written.values("std_rad"), target.written.matrix("covariance_rad2")) {
@@ -80,7 +80,7 @@ impl Map for AttitudeError {
     }
 }
 
-fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3], DispersionError> {
+fn variances(index: usize, values: &Values) -> Result<[[f64; 3]; 3]> {
     let list = match (values, &values.flat()[..]) {
         (Values::One(value), _) => [*value; 3],
         (_, &[x, y, z]) => [x, y, z],

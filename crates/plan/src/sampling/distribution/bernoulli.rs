@@ -19,7 +19,7 @@ impl Scalar for Bernoulli {
     ];
     type Quantile = Choice;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Choice>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Choice>> {
         let (p, value) = (target.each("probability")?, target.each("value")?);
         target.all(|k| Ok(Choice::new(&[target.nominals[k], value[k]], &[1.0 - p[k], p[k]])))
     }

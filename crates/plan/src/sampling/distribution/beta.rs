@@ -18,12 +18,12 @@ impl Scalar for Beta {
     const KEYS: &'static [Row] = &[
         shape("alpha", "First shape parameter").required("2.0"),
         shape("beta", "Second shape parameter").required("5.0"),
-        Row::amounts("min", "Lower end").required("0.0"),
-        Row::amounts("max", "Upper end").required("1.0"),
+        MIN.required("0.0"),
+        MAX.required("1.0"),
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.each("alpha").and(target.each("beta")).and(target.ends())?;
         let of = |[alpha, beta, min, max]: [f64; 4]| Beta::new(alpha, beta, min, max);
         target.of_numbers(["alpha", "beta", "min", "max"], of)

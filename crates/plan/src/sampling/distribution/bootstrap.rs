@@ -27,7 +27,7 @@ impl Together for Bootstrap {
     const NAME: &'static str = "bootstrap";
     const KEYS: &'static [Row] = &[FILE_OF_PARAMETERS];
 
-    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self> {
         let columns = target.written.columns();
         let map = Bootstrap {
             file: columns.first().map_or_else(String::new, |column| column.file.clone()),

@@ -53,7 +53,7 @@ impl Scalar for Choice {
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let shown = |list: &[f64]| format!("{list:?}");
         let values = target.written.numbers("values").unwrap_or_default();
         if values.is_empty() || values.iter().any(|x| !x.is_finite()) {

@@ -134,7 +134,7 @@ impl<Q: Nested, S: Spread> Together for Direction<Q, S> {
     const NAME: &'static str = S::NAME;
     const KEYS: &'static [Row] = S::KEYS;
 
-    fn map(target: &Target<'_>) -> Result<Self, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<Self> {
         let nominal = target.vector(S::NAME)?;
         let length = length_of(nominal);
         let axis = match (target.written.vector("axis"), S::AXIS) {

@@ -36,7 +36,7 @@ impl Scalar for Empirical {
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let Some(Value::Column(data)) = target.written.get("file") else {
             return target.refused("file", String::new(), "given", "name a file");
         };

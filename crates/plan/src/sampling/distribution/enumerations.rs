@@ -38,7 +38,7 @@ macro_rules! distributions {
             ///
             /// # Errors
             /// The numbers that do not fit the target.
-            pub fn distributions(self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>, DispersionError> {
+            pub fn distributions(self, target: &Target<'_>) -> Result<Option<Vec<Distribution>>> {
                 Ok(match self {
                     $( Self::$Scalar => {
                         Some($Scalar::of(target)?.into_iter().map(Distribution::$Scalar).collect())
@@ -51,7 +51,7 @@ macro_rules! distributions {
             ///
             /// # Errors
             /// The target or the numbers that do not fit.
-            pub fn joint(self, target: &Target<'_>) -> Result<Option<Joint>, DispersionError> {
+            pub fn joint(self, target: &Target<'_>) -> Result<Option<Joint>> {
                 Ok(match self {
                     $( Self::$Scalar => None, )*
                     $( Self::$Name => Some(Joint::$Name(<$Together as Together>::map(target)?)), )*

@@ -12,13 +12,11 @@ pub struct Exponential {
 
 impl Scalar for Exponential {
     const NAME: &'static str = "exponential";
-    const KEYS: &'static [Row] = &[
-        Row::amounts("scale", "Mean above `min`").required("0.1").scale(),
-        Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
-    ];
+    const KEYS: &'static [Row] =
+        &[Row::amounts("scale", "Mean above `min`").required("0.1").scale(), MIN.or(Presence::Or(0.0))];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.of_numbers(["scale", "min"], |[scale, min]| Exponential { scale, min })
     }
 }

@@ -34,11 +34,11 @@ impl Scalar for Gamma {
             SHAPES,
         ),
         Row::amounts("scale", "Scale above `min`").required("0.1").scale(),
-        Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
+        MIN.or(Presence::Or(0.0)),
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.of_numbers(["shape", "scale", "min"], |[shape, scale, min]| Gamma::new(shape, scale, min))
     }
 }

@@ -18,7 +18,7 @@ impl Scalar for LogNormal {
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let log_std = target.each("log_std")?;
         let medians = target.positive_or_nominal("median")?;
         target.all(|k| Ok(Self { median: medians[k], log_std: log_std[k] }))

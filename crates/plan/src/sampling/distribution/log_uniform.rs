@@ -22,8 +22,8 @@ impl LogUniform {
 impl Scalar for LogUniform {
     const NAME: &'static str = "log_uniform";
     const KEYS: &'static [Row] = &[
-        Row::amounts("min", "Lower end").within("> 0", LOGARITHM, above(0.0)),
-        Row::amounts("max", "Upper end"),
+        MIN.within("> 0", LOGARITHM, above(0.0)),
+        MAX,
         Row::values(
             "factor",
             "The range is from the nominal value divided by this factor to the nominal value times it",
@@ -36,7 +36,7 @@ impl Scalar for LogUniform {
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         if !target.written.has("factor") {
             let (min, max) = target.ends()?;
             return target.all(|k| Ok(Self::new(min[k], max[k])));

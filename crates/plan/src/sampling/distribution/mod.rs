@@ -60,7 +60,7 @@ use self::truncated_normal::TruncatedNormal;
 use self::uniform::Uniform;
 use self::uniform_attitude::UniformAttitude;
 use self::weibull::Weibull;
-use crate::sampling::error::DispersionError;
+use crate::sampling::error::Result;
 use crate::sampling::keys::{Kind, Row, Rule, Value, Written};
 use std::ops::Deref;
 
@@ -111,7 +111,7 @@ pub struct WrittenDistribution {
 }
 
 impl Nested for Distribution {
-    fn nested(target: &Target<'_>, key: &'static str, nominal: f64) -> Result<Self, DispersionError> {
+    fn nested(target: &Target<'_>, key: &'static str, nominal: f64) -> Result<Self> {
         let Some(Value::Distribution(name, written)) = target.written.get(key) else {
             return target.lacks(key, "given", "write a distribution of one number");
         };

@@ -25,7 +25,7 @@ impl Scalar for Normal {
     const RULES: &'static [Rule] = &[ONE_SPREAD];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let stds = target.amounts("std", "relative_std")?;
         target.all(|k| Ok(Self { mean: target.nominals[k], std: stds[k] }))
     }

@@ -16,7 +16,7 @@ impl Scalar for Offset {
     const RULES: &'static [Rule] = &[Rule::One(&[&["offset"], &["relative_offset"]], "0.1", ALL_BUT_ONE)];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let offsets = target.amounts("offset", "relative_offset")?;
         target.all(|k| Ok(Self(target.nominals[k] + offsets[k])))
     }

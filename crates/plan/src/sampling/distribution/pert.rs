@@ -7,6 +7,7 @@
 //! do not overshoot.
 
 use super::prelude::*;
+use super::triangular::Triangular;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pert {
@@ -39,14 +40,10 @@ impl Pert {
 
 impl Scalar for Pert {
     const NAME: &'static str = "pert";
-    const KEYS: &'static [Row] = &[
-        Row::amounts("min", "Lower end").required("0.0"),
-        Row::amounts("max", "Upper end").required("1.0"),
-        Row::amounts("mode", "Most likely value").or(Presence::OrNominal),
-    ];
+    const KEYS: &'static [Row] = Triangular::KEYS;
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.check_mode()?;
         target.of_numbers(["min", "mode", "max"], |[min, mode, max]| Pert::new(min, mode, max))
     }

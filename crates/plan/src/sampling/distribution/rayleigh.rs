@@ -16,7 +16,7 @@ impl Scalar for Rayleigh {
         .within("> 0", "the standard deviation of each of two components, in the parameter's unit", above(0.0))];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.of_numbers(["scale"], |[scale]| Rayleigh { scale })
     }
 }

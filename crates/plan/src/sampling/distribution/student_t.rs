@@ -49,7 +49,7 @@ impl Scalar for StudentT {
     const RULES: &'static [Rule] = &[Rule::One(&[&["scale"], &["relative_scale"]], "0.1", ALL_BUT_ONE)];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let degrees = target.each("degrees_of_freedom")?;
         let scale = target.amounts("scale", "relative_scale")?;
         target.all(|k| Ok(Self::new(degrees[k], target.nominals[k], scale[k])))

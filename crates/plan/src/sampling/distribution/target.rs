@@ -1,6 +1,6 @@
 //! [`Target`]: what a distribution applies to, with common checks.
 
-use crate::sampling::error::{DispersionError, error};
+use crate::sampling::error::{DispersionError, Result, error};
 use crate::sampling::keys::{Presence, Row, Values, Written};
 use crate::scene::Parameter;
 use crate::scene::parameter::Shape;
@@ -20,9 +20,11 @@ pub struct Target<'a> {
     pub written: &'a Written,
 }
 
+pub(super) const MIN: Row = Row::amounts("min", "Lower end");
+pub(super) const MAX: Row = Row::amounts("max", "Upper end");
 pub(super) const LOGARITHM: &str = "a logarithm needs a positive number";
 
-pub(super) type Numbers = Result<Vec<f64>, DispersionError>;
+pub(super) type Numbers = Result<Vec<f64>>;
 
 impl Target<'_> {
     pub(super) fn refused<T>(
@@ -31,11 +33,11 @@ impl Target<'_> {
         value: impl Into<String>,
         allowed: impl Into<String>,
         remedy: impl Into<String>,
-    ) -> Result<T, DispersionError> {
+    ) -> Result<T> {
         Err(error(self.index, key, value, allowed, remedy))
     }
 
-    pub(super) fn all<T>(&self, of: impl Fn(usize) -> Result<T, DispersionError>) -> Result<Vec<T>, DispersionError> {
+    pub(super) fn all<T>(&self, of: impl Fn(usize) -> Result<T>) -> Result<Vec<T>> {
         (0..self.nominals.len()).map(of).collect()
     }
 
@@ -59,7 +61,7 @@ impl Target<'_> {
         &self,
         keys: [&'static str; N],
         of: impl Fn([f64; N]) -> T,
-    ) -> Result<Vec<T>, DispersionError> {
+    ) -> Result<Vec<T>> {
         let lists = keys.into_iter().map(|key| self.each(key)).collect::<Result<Vec<_>, _>>()?;
         Ok((0..self.nominals.len()).map(|component| of(std::array::from_fn(|key| lists[key][component]))).collect())
     }
@@ -113,7 +115,7 @@ impl Target<'_> {
     }
 
     /// `min` < `max`, component by component.
-    pub(super) fn ends(&self) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
+    pub(super) fn ends(&self) -> Result<(Vec<f64>, Vec<f64>)> {
         let (min, max) = (self.each("min")?, self.each("max")?);
         match min.iter().zip(&max).find(|(min, max)| min >= max) {
             Some((low, high)) => {
@@ -125,7 +127,7 @@ impl Target<'_> {
     }
 
     /// `min` < `max`, and `mode` within them.
-    pub(super) fn check_mode(&self) -> Result<(), DispersionError> {
+    pub(super) fn check_mode(&self) -> Result<()> {
         let (min, max) = self.ends()?;
         let modes = self.each("mode")?;
         match modes.iter().zip(min.iter().zip(&max)).find(|(mode, (min, max))| mode < min || mode > max) {
@@ -142,18 +144,18 @@ impl Target<'_> {
         key: &'static str,
         allowed: impl Into<String>,
         remedy: impl Into<String>,
-    ) -> Result<T, DispersionError> {
+    ) -> Result<T> {
         Err(DispersionError { value: None, ..error(self.index, key, "", allowed, remedy) })
     }
 
-    pub(super) fn attitude(&self, distribution: &str) -> Result<[f64; 4], DispersionError> {
+    pub(super) fn attitude(&self, distribution: &str) -> Result<[f64; 4]> {
         match <[f64; 4]>::try_from(self.nominals) {
             Ok(nominal) if self.component.is_none() && self.parameter.shape() == Shape::Quaternion => Ok(nominal),
             _ => self.misplaced("an attitude (w, x, y, z)", distribution, "initial.attitude"),
         }
     }
 
-    pub(super) fn vector(&self, distribution: &str) -> Result<[f64; 3], DispersionError> {
+    pub(super) fn vector(&self, distribution: &str) -> Result<[f64; 3]> {
         let parameter = self.parameter;
         let is_vector = parameter.shape() == Shape::Plain && parameter.components() == ["x", "y", "z"];
         // pure numbers are factors and shears, except for directions
@@ -171,7 +173,7 @@ impl Target<'_> {
         self.parameter.facts().limit == Limit::Direction
     }
 
-    fn misplaced<T>(&self, what: &str, distribution: &str, example: &str) -> Result<T, DispersionError> {
+    fn misplaced<T>(&self, what: &str, distribution: &str, example: &str) -> Result<T> {
         let name = self.component.map_or(self.parameter.name().to_owned(), |c| self.parameter.component_name(c));
         let allowed = format!("{what} as a whole with distribution {distribution:?}");
         let remedy = format!("write {example:?}, or choose another distribution");
@@ -179,7 +181,7 @@ impl Target<'_> {
     }
 
     /// `axis`, refused if zero; scaled by its largest component if its square would overflow or vanish.
-    pub(super) fn axis(&self, axis: [f64; 3]) -> Result<[f64; 3], DispersionError> {
+    pub(super) fn axis(&self, axis: [f64; 3]) -> Result<[f64; 3]> {
         let largest = axis.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
         if largest == 0.0 {
             return self.refused("axis", format!("{axis:?}"), "a vector other than zero", "write it like [0, 0, 1]");

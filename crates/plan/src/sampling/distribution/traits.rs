@@ -2,7 +2,7 @@
 
 use super::target::Target;
 use crate::math::normal::{quantile, quantiles};
-use crate::sampling::error::DispersionError;
+use crate::sampling::error::Result;
 use crate::sampling::keys::{Row, Rule};
 use std::fmt::Debug;
 use std::ops::Deref;
@@ -28,7 +28,7 @@ pub trait Scalar {
     ///
     /// # Errors
     /// Numbers that do not fit the target.
-    fn of(target: &Target<'_>) -> Result<Vec<Self::Quantile>, DispersionError>;
+    fn of(target: &Target<'_>) -> Result<Vec<Self::Quantile>>;
 }
 
 /// A quantile function: either [`Quantile::quantile`] or [`Quantile::at_score`] is its own.
@@ -96,7 +96,7 @@ pub trait Together: Map + Sized {
 
     /// # Errors
     /// A target or numbers that do not fit.
-    fn map(target: &Target<'_>) -> Result<Self, DispersionError>;
+    fn map(target: &Target<'_>) -> Result<Self>;
 }
 
 /// A map from several u in (0, 1) to the values of several components.
@@ -122,5 +122,5 @@ pub trait Nested: Deref<Target = dyn Quantile> + Clone + Debug + PartialEq {
     ///
     /// # Errors
     /// The distribution is not one of one number, or its numbers do not fit.
-    fn nested(target: &Target<'_>, key: &'static str, nominal: f64) -> Result<Self, DispersionError>;
+    fn nested(target: &Target<'_>, key: &'static str, nominal: f64) -> Result<Self>;
 }

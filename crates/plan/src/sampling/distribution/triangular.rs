@@ -11,14 +11,11 @@ pub struct Triangular {
 
 impl Scalar for Triangular {
     const NAME: &'static str = "triangular";
-    const KEYS: &'static [Row] = &[
-        Row::amounts("min", "Lower end").required("0.0"),
-        Row::amounts("max", "Upper end").required("1.0"),
-        Row::amounts("mode", "Most likely value").or(Presence::OrNominal),
-    ];
+    const KEYS: &'static [Row] =
+        &[MIN.required("0.0"), MAX.required("1.0"), Row::amounts("mode", "Most likely value").or(Presence::OrNominal)];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.check_mode()?;
         target.of_numbers(["min", "mode", "max"], |[min, mode, max]| Triangular { min, mode, max })
     }

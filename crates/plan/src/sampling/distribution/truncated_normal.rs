@@ -87,14 +87,14 @@ impl Scalar for TruncatedNormal {
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         let stds = target.amounts("std", "relative_std")?;
         let (lower, upper) = bounds(target, &stds)?;
         target.all(|k| truncated(target, target.nominals[k], stds[k], lower[k], upper[k]))
     }
 }
 
-fn bounds(target: &Target<'_>, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DispersionError> {
+fn bounds(target: &Target<'_>, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>)> {
     let end = |[absolute, relative, sigmas]: [&'static str; 3], sign: f64| {
         let away = if target.written.has(sigmas) {
             target.each(sigmas)?.iter().zip(stds).map(|(sigmas, std)| sign * sigmas * std).collect()
@@ -122,13 +122,7 @@ fn bounds(target: &Target<'_>, stds: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Dis
     }
 }
 
-fn truncated(
-    target: &Target<'_>,
-    mean: f64,
-    std: f64,
-    lower: f64,
-    upper: f64,
-) -> Result<TruncatedNormal, DispersionError> {
+fn truncated(target: &Target<'_>, mean: f64, std: f64, lower: f64, upper: f64) -> Result<TruncatedNormal> {
     let refused = || {
         let allowed = format!(
             "bounds with some of the normal distribution of mean {mean:?} and standard deviation {std:?} between them"

@@ -14,8 +14,8 @@ impl Scalar for Uniform {
     const KEYS: &'static [Row] = &[
         Row::amounts("half_width", "Distance from the nominal value to either end").not_negative(),
         Row::values("relative_half_width", "The same as a fraction of the nominal value").not_negative(),
-        Row::amounts("min", "Lower end"),
-        Row::amounts("max", "Upper end"),
+        MIN,
+        MAX,
     ];
     const RULES: &'static [Rule] = &[
         Rule::One(&[&["half_width"], &["relative_half_width"], &["min", "max"]], "0.1", ALL_BUT_ONE),
@@ -23,7 +23,7 @@ impl Scalar for Uniform {
     ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         if target.written.has("min") {
             let (min, max) = target.ends()?;
             return target.all(|k| Ok(Self { min: min[k], max: max[k] }));

@@ -10,7 +10,7 @@ impl Together for UniformAttitude {
     const NAME: &'static str = "uniform_attitude";
     const KEYS: &'static [Row] = &[];
 
-    fn map(target: &Target<'_>) -> Result<UniformAttitude, DispersionError> {
+    fn map(target: &Target<'_>) -> Result<UniformAttitude> {
         target.attitude(Self::NAME).map(|_| UniformAttitude)
     }
 }

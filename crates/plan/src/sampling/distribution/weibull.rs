@@ -23,11 +23,11 @@ impl Scalar for Weibull {
                 .required("2.0")
                 .within("a number from 0.05 to 1e4", "1 is the exponential distribution", SHAPES),
             Row::amounts("scale", "Scale above `min`: 63% of the values are below").required("0.1").scale(),
-            Row::amounts("min", "Lower end").or(Presence::Or(0.0)),
+            MIN.or(Presence::Or(0.0)),
         ];
     type Quantile = Self;
 
-    fn of(target: &Target<'_>) -> Result<Vec<Self>, DispersionError> {
+    fn of(target: &Target<'_>) -> Result<Vec<Self>> {
         target.of_numbers(["shape", "scale", "min"], |[shape, scale, min]| Weibull { shape, scale, min })
     }
 }
