@@ -1,9 +1,8 @@
 //! [`Accumulator`]: one pass over the parts of a campaign, counted on any thread and merged in order, so that results
 //! depend neither on threads nor on the source of the rows.
 
-use std::num::NonZeroUsize;
-
 use crate::analysis::part_columns::PartColumns;
+use crate::ensemble::prelude::Threads;
 use crate::storage::rows_reader::{Result, RowsError, RowsReader};
 
 pub trait Accumulator: Sync {
@@ -38,12 +37,8 @@ impl<A: Accumulator, B: Accumulator> Accumulator for (A, B) {
     }
 }
 
-/// Runs `accumulator` over the files of `reader`, on `threads` threads (`None`: one per core).
-pub fn of_files<A: Accumulator>(
-    accumulator: &A,
-    reader: &RowsReader,
-    threads: Option<NonZeroUsize>,
-) -> Result<A::Whole> {
+/// Runs `accumulator` over the files of `reader`, on `threads` threads.
+pub fn of_files<A: Accumulator>(accumulator: &A, reader: &RowsReader, threads: Threads) -> Result<A::Whole> {
     let mut whole = accumulator.nothing();
     reader.visit(
         threads,

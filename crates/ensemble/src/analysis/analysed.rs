@@ -34,12 +34,7 @@ impl Analysed {
     }
 }
 
-pub fn computed(
-    plan: &Plan,
-    reader: &RowsReader,
-    gathered: Gathered,
-    threads: Option<NonZeroUsize>,
-) -> Result<Analysed> {
+pub fn computed(plan: &Plan, reader: &RowsReader, gathered: Gathered, threads: Threads) -> Result<Analysed> {
     let ended = &gathered.tally.statuses;
     let mut survey = gathered.survey;
     let shown: Vec<String> = survey.outcomes.iter().map(|one| one.quantity.name().to_owned()).collect();

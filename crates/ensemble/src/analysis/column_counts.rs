@@ -6,7 +6,6 @@ use std::sync::Mutex;
 
 use crate::statistics::sketch::Sketch;
 
-/// The values of one observable.
 #[derive(Clone, Debug, Default)]
 pub struct ColumnCounts {
     /// `ok` runs without a value.
@@ -16,7 +15,6 @@ pub struct ColumnCounts {
     pub groups: Vec<GroupCounts>,
 }
 
-/// The values of a group of samples, or their sketch.
 #[derive(Clone, Debug, Default)]
 pub struct GroupCounts {
     pub moments: Moments,
@@ -122,7 +120,6 @@ impl Collector {
         GroupCounts { moments, ..GroupCounts::default() }
     }
 
-    /// Attaches the sketches.
     pub fn finish(self, mut collected: Collected) -> Collected {
         for (column, sketches) in collected.columns.iter_mut().zip(self.sketches) {
             let sketches = unpoisoned(sketches.into_inner());

@@ -178,7 +178,7 @@ impl Comparison {
 
 const MOST_LEVEL: f64 = 0.1;
 
-pub fn compare(first: ResultRows<'_>, second: ResultRows<'_>, threads: Option<NonZeroUsize>) -> Result<Comparison> {
+pub fn compare(first: ResultRows<'_>, second: ResultRows<'_>, threads: Threads) -> Result<Comparison> {
     let of = |ResultRows { plan, reader, .. }: ResultRows<'_>| {
         let ended = of_files(&StatusCounter::new(plan), reader, threads)?;
         statistics::compute(plan, reader, &ended, (None, &[]), threads)

@@ -26,7 +26,7 @@ impl Ending {
     }
 }
 
-pub fn ending(ensemble: &Ensemble<'_>, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Ending> {
+pub fn ending(ensemble: &Ensemble<'_>, reader: &RowsReader, threads: Threads) -> Result<Ending> {
     let plan = ensemble.plan();
     let fold =
         ((TallyColumns::new(ensemble), RequirementCounter::new(plan)), ObservedValues::of_stop(plan, plan.samples));

@@ -76,8 +76,8 @@ fn first_batch(plan: &Plan) -> Vec<Observed> {
 }
 
 impl Gathered {
-    /// Reads the rows and bands of `ensemble`, on `threads` threads (`None`: one per core).
-    pub fn of_files(ensemble: &Ensemble<'_>, reader: &RowsReader, threads: Option<NonZeroUsize>) -> Result<Gathered> {
+    /// Reads the rows and bands of `ensemble`, on `threads` threads.
+    pub fn of_files(ensemble: &Ensemble<'_>, reader: &RowsReader, threads: Threads) -> Result<Gathered> {
         let plan = ensemble.plan();
         let bands = bands_file::read(reader.store(), reader.bands(), threads)?;
         // plus the nominal row

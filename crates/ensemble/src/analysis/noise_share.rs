@@ -30,7 +30,7 @@ pub fn noise_shares(
     plan: &Plan,
     names: &[String],
     scenes: u64,
-    (isa, threads): (Isa, Option<NonZeroUsize>),
+    (isa, threads): (Isa, Threads),
 ) -> Result<Vec<NoiseShare>, RunError<Infallible>> {
     let dispersed = plan.samples.saturating_sub(1);
     let count = scenes.min(dispersed);

@@ -26,7 +26,7 @@ const CHANCE: f64 = 5.5;
 
 /// Sensitivities of the required or named observables of `plan`, else of the main ones, from its first rows. After a
 /// big `loss` the `ok` rows are no sample of all, and have no intervals.
-pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Threads) -> Vec<InputSensitivity> {
     let observed = FirstRows::new(plan).observed;
     let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
     let found = of_table(plan, &names, table, &table.observables, threads);
@@ -34,7 +34,7 @@ pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Option<NonZer
 }
 
 /// The sensitivity of being computed ([`COMPUTED`]), from the first rows; none if all are, or none is.
-pub fn of_failures(plan: &Plan, table: &RowTable, threads: Option<NonZeroUsize>) -> Vec<InputSensitivity> {
+pub fn of_failures(plan: &Plan, table: &RowTable, threads: Threads) -> Vec<InputSensitivity> {
     let is_computed = table.is_ok.iter().map(|is_ok| f64::from(u8::from(*is_ok))).collect();
     let varies = [true, false].iter().all(|flag| table.is_ok.contains(flag));
     if varies { of_table(plan, &[COMPUTED], table, &[is_computed], threads) } else { Vec::new() }
@@ -45,7 +45,7 @@ fn of_table(
     names: &[&str],
     table: &RowTable,
     observables: &[Vec<f64>],
-    threads: Option<NonZeroUsize>,
+    threads: Threads,
 ) -> Vec<InputSensitivity> {
     if let Design::Saltelli(_) = plan.design {
         return of_blocks(plan, names, &table.samples, observables);
@@ -118,7 +118,7 @@ impl Forms {
 }
 
 impl Prepared {
-    pub fn new(values: Vec<Vec<f64>>, threads: Option<NonZeroUsize>) -> Self {
+    pub fn new(values: Vec<Vec<f64>>, threads: Threads) -> Self {
         let forms = in_parallel(values.iter().collect(), threads, |input| Forms::of(input));
         let (mut scaled, mut ranks, mut orders, mut tested) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for form in forms {
@@ -196,7 +196,7 @@ impl Prepared {
         instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
     }
 
-    fn of_rows(&self, rows: &[usize], threads: Option<NonZeroUsize>) -> Self {
+    fn of_rows(&self, rows: &[usize], threads: Threads) -> Self {
         Prepared::new(self.values.iter().map(|input| at(rows, input)).collect(), threads)
     }
 

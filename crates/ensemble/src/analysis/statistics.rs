@@ -74,7 +74,6 @@ impl Statistics {
         self.statuses.iter().sum()
     }
 
-    /// Number of `ok` samples among them.
     pub fn ok(&self) -> u64 {
         let Loss { runs, missing, .. } = self.loss();
         runs - missing
@@ -110,13 +109,13 @@ impl Statistics {
 }
 
 /// The statistics of `plan` with the statuses `ended`, from `counted`, the first of the [`batches`], and the files of
-/// its rows, on `threads` threads (`None`: one per core). Those in `shown` get sketches.
+/// its rows, on `threads` threads. Those in `shown` get sketches.
 pub fn compute(
     plan: &Plan,
     reader: &RowsReader,
     ended: &Statuses,
     (mut counted, shown): (Option<Collected>, &[String]),
-    threads: Option<NonZeroUsize>,
+    threads: Threads,
 ) -> Result<Statistics> {
     let population = Population::of(plan);
     let is_exact = is_exact(plan);

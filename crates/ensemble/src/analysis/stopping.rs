@@ -91,7 +91,7 @@ impl Accumulator for ObservedValues {
 }
 
 /// Looks at the rows and bands of the samples below one of [`Plan::looks`]. `None` without `[stop]`.
-pub fn look(plan: &Plan, rows: &RowsReader, samples: u64, threads: Option<NonZeroUsize>) -> Result<Option<Stopping>> {
+pub fn look(plan: &Plan, rows: &RowsReader, samples: u64, threads: Threads) -> Result<Option<Stopping>> {
     match &plan.analysis.stop {
         None => Ok(None),
         Some(Stop { when: When::Precise { .. }, .. }) => {

@@ -268,7 +268,6 @@ impl Survey {
         self.audits = chosen(&samples, SCATTER).into_iter().map(|index| self.audits[index]).collect();
     }
 
-    /// Completes the survey after the last part.
     #[must_use]
     pub fn finished(mut self, statuses: Statuses) -> Self {
         self.thin_audits();

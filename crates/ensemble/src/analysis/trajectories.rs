@@ -106,12 +106,7 @@ pub type TakeFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + '
 /// Passes the time series of `samples`, as files of `simulate --sample K --out`, to `take`.
 ///
 /// # Errors The first that `take` or a run returns; no run starts after it.
-pub fn save(
-    plan: &Plan,
-    samples: &[SampleId],
-    machine: (Isa, Option<NonZeroUsize>),
-    take: &TakeFile<'_>,
-) -> Result<(), Failure> {
+pub fn save(plan: &Plan, samples: &[SampleId], machine: (Isa, Threads), take: &TakeFile<'_>) -> Result<(), Failure> {
     run_each(plan, samples, machine, &|runs, sample| {
         // unphysical samples have no file
         let Ok(run) = runs.run(sample) else { return Ok(()) };

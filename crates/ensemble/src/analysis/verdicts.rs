@@ -128,7 +128,6 @@ impl Accumulator for RequirementCounter {
     }
 }
 
-/// Verdicts from the counts, the statuses `ended` and the `bands`.
 pub fn assess(plan: &Plan, ended: &Statuses, counted: &[RequirementRuns], bands: Option<&Bands>) -> Verdicts {
     let requirements = &plan.analysis.requirements;
     if requirements.is_empty() {

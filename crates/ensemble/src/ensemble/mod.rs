@@ -32,8 +32,8 @@ pub mod single;
 pub mod supervision;
 mod surface;
 pub mod surroundings;
+mod threads;
 pub mod undefined;
-mod unpoisoned;
 pub mod worker;
 
 pub use audit::{Audit, Auditor, NoAudit};

@@ -92,7 +92,6 @@ impl Parts {
         parts
     }
 
-    /// The part `id`; `None` after the last.
     pub fn part(self, id: PartId) -> Option<Part> {
         let (mut first, mut index) = (0_u64, id.0);
         for (size, many) in self.sizes() {

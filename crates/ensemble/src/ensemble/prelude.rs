@@ -1,6 +1,6 @@
 //! The names of a plan, a scene, an observation and a run that most files share.
 
-pub(crate) use super::unpoisoned::unpoisoned;
+pub(crate) use super::threads::{Threads, unpoisoned};
 pub(crate) use crate::campaign::{Plan, Requirement, SceneDraws};
 pub(crate) use crate::math::Isa;
 pub(crate) use crate::math::vector::{dot, norm};

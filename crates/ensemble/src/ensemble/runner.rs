@@ -22,8 +22,8 @@ pub enum RunError<E> {
     Sink(E),
 }
 
-/// Number of `wanted` threads (`None`: one per core) with work for so many parts.
-pub fn threads(wanted: Option<NonZeroUsize>, parts: usize) -> usize {
+/// Number of `wanted` threads with work for so many parts.
+pub fn threads(wanted: Threads, parts: usize) -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     wanted.map_or_else(cores, NonZeroUsize::get).min(parts.max(1))
 }
@@ -44,7 +44,7 @@ pub fn start_threads() -> Result<(), ThreadPoolBuildError> {
 pub fn run<E: Send>(
     ensemble: &Ensemble<'_>,
     parts: impl IntoIterator<Item = Part>,
-    wanted: Option<NonZeroUsize>,
+    wanted: Threads,
     sink: &(impl Fn(&Rows) -> Result<(), E> + Sync),
     supervision: Supervision<'_>,
 ) -> Result<(), RunError<E>> {

@@ -221,14 +221,14 @@ impl<'p> SingleRuns<'p> {
     }
 }
 
-/// The results of `job` on `samples`, in order, on `threads` threads (`None`: one per core).
+/// The results of `job` on `samples`, in order, on `threads` threads.
 ///
 /// # Errors
 /// A failure to start threads, or the first error of `job`, after which no job starts.
 pub fn run_each<T: Send, E: Send>(
     plan: &Plan,
     samples: &[SampleId],
-    (isa, threads): (Isa, Option<NonZeroUsize>),
+    (isa, threads): (Isa, Threads),
     job: &(dyn Fn(&mut SingleRuns<'_>, SampleId) -> Result<T, E> + Sync),
 ) -> Result<Vec<T>, RunError<E>> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build()?;

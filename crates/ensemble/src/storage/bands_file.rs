@@ -186,7 +186,7 @@ impl StoredBands {
 ///
 /// # Errors
 /// The first file that is unreadable, damaged, of another campaign, or out of order.
-pub fn read(store: &dyn Store, files: &[String], threads: Option<NonZeroUsize>) -> Result<Option<Bands>> {
+pub fn read(store: &dyn Store, files: &[String], threads: Threads) -> Result<Option<Bands>> {
     let mut merged: Option<(u64, Bands)> = None;
     in_order(
         files.len(),

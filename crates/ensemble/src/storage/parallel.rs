@@ -7,11 +7,7 @@ use std::sync::{Condvar, MutexGuard};
 use std::thread::Builder;
 
 /// Applies `each` to the items on `threads` threads, in their order.
-pub fn in_parallel<T: Send, U: Send>(
-    items: Vec<T>,
-    threads: Option<NonZeroUsize>,
-    each: impl Fn(T) -> U + Sync,
-) -> Vec<U> {
+pub fn in_parallel<T: Send, U: Send>(items: Vec<T>, threads: Threads, each: impl Fn(T) -> U + Sync) -> Vec<U> {
     let waiting: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
     let read = |index: usize| {
         let item = unpoisoned(waiting[index].lock()).take();
@@ -39,14 +35,14 @@ pub fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) {
 /// Items per thread that may wait for an earlier one.
 const AHEAD: usize = 2;
 
-/// Reads the items 0 to `items` - 1 on `threads` threads (`None`: one per core): `read` makes a result on any thread,
+/// Reads the items 0 to `items` - 1 on `threads` threads: `read` makes a result on any thread,
 /// `merge` receives results in order. Few are held at a time.
 ///
 /// # Errors
 /// The first item, in order, for which `read` or `merge` fails.
 pub fn in_order<T: Send, E: Send>(
     items: usize,
-    threads: Option<NonZeroUsize>,
+    threads: Threads,
     read: impl Fn(usize) -> Result<T, E> + Sync,
     merge: impl FnMut(T) -> Result<(), E> + Send,
 ) -> Result<(), E> {

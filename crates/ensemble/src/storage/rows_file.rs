@@ -32,7 +32,6 @@ pub struct RowsFile {
     audited: Vec<usize>,
 }
 
-/// The column of the numerical error of the observable `name`.
 pub fn audit_error_name(name: &str) -> String {
     format!("audit_error_{name}")
 }

@@ -52,7 +52,6 @@ impl RowsReader {
         &*self.store
     }
 
-    /// The names of the files of bands.
     pub fn bands(&self) -> &[String] {
         &self.bands
     }
@@ -75,14 +74,14 @@ impl RowsReader {
         })
     }
 
-    /// Reads every part on `threads` threads (`None`: one per core): `read` on any thread, `merge` in order. Few parts
+    /// Reads every part on `threads` threads: `read` on any thread, `merge` in order. Few parts
     /// are held at a time.
     ///
     /// # Errors
     /// The first part, in order, that cannot be opened or for which `read` or `merge` fails.
     pub fn visit<T: Send, E: From<RowsError> + Send>(
         &self,
-        threads: Option<NonZeroUsize>,
+        threads: Threads,
         read: impl Fn(&mut PartReader) -> Result<T, E> + Sync,
         merge: impl FnMut(T) -> Result<(), E> + Send,
     ) -> Result<(), E> {

@@ -84,7 +84,6 @@ impl S3 {
         Key::from(format!("{}/{name}", self.address.prefix))
     }
 
-    /// The content of the object `name`, if any.
     fn object(&self, name: &str) -> io::Result<Option<Bytes>> {
         let key = self.key(name);
         match self.runtime.block_on(async { self.store.get(&key).await?.bytes().await }) {

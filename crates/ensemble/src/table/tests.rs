@@ -18,7 +18,6 @@ pub(crate) fn texts() -> [Option<String>; 10] {
     })
 }
 
-/// A table with every kind of value.
 pub(crate) fn every_kind() -> Table<'static> {
     let counted = vec![0.0, 1.0, f64::NAN, 9_007_199_254_740_992.0, 4.0, f64::INFINITY, 6.0, 7.0, 8.0, 9.0];
     let mut table = Table::default();

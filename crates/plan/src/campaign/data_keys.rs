@@ -161,7 +161,7 @@ pub(super) fn columns(table: &mut Section<'_, '_>) -> Option<Vec<DataColumn>> {
 }
 
 /// The components that a name addresses, each with its name as written.
-fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, (Parameter, usize))>> {
+fn components(table: &mut Section<'_, '_>, name: &str) -> Option<Vec<(String, Component)>> {
     if let Some((parameter, None)) = Parameter::find(&table.document.scene, name) {
         refuse_without_effect(table, name, parameter);
         return Some((0..parameter.width()).map(|k| (parameter.component_name(k), (parameter, k))).collect());

@@ -39,7 +39,6 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// The name of its column.
     pub fn column(&self) -> String {
         match self {
             Variable::Observable(name) => name.clone(),
@@ -87,7 +86,7 @@ impl DerivedObservable {
     }
 
     /// The components of parameters in the expression.
-    pub fn parameters(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
+    pub fn parameters(&self, scene: &SceneInput) -> Vec<Component> {
         let expression = Expression::parse(&self.expression).ok();
         let names = expression.iter().flat_map(Expression::variables);
         names.filter_map(|name| named(scene, name)).collect()
@@ -106,7 +105,7 @@ impl DerivedObservable {
         scene: &SceneInput,
         known: &KnownColumns,
         dispersed: &[Column],
-    ) -> Option<(Parameter, usize)> {
+    ) -> Option<Component> {
         let (_, variables) = self.parsed(scene, known)?;
         let is_column = |parameter: &Parameter, component: &usize| {
             dispersed.iter().any(|column| (column.parameter, column.component) == (*parameter, *component))

@@ -194,7 +194,6 @@ impl Section<'_, '_> {
         }
     }
 
-    /// The whole numbers of a row.
     fn counts(&mut self, row: &Row) -> Option<Values<u64>> {
         let value = self.take(row.key)?.get_ref();
         let [least, most] = match row.kind {

@@ -31,7 +31,6 @@ impl KnownColumns {
         self.observables.iter().find(|quantity| quantity.name() == name)
     }
 
-    /// The quantity with bands called `name`.
     pub fn band(&self, name: &str) -> Option<&Quantity> {
         self.bands.iter().find(|quantity| quantity.name() == name)
     }

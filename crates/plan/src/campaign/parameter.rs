@@ -100,7 +100,7 @@ pub(super) fn unknown_parameter(scene: &SceneInput, name: &str) -> (String, Stri
 }
 
 /// The component with this dotted name or name of a column.
-pub(super) fn named(scene: &SceneInput, name: &str) -> Option<(Parameter, usize)> {
+pub(super) fn named(scene: &SceneInput, name: &str) -> Option<Component> {
     let flat = || {
         Parameter::all(scene).find_map(|parameter| {
             (0..parameter.width()).map(|k| (parameter, k)).find(|(parameter, k)| parameter.column_name(*k) == name)

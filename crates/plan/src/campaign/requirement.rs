@@ -189,7 +189,6 @@ impl Requirement {
         }
     }
 
-    /// The quantity over time and its interval.
     pub fn band(&self) -> Option<&BandSubject> {
         match &self.subject {
             Subject::Observable(_) => None,

@@ -83,7 +83,6 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|unit| unit.0).chain(si).chain(MORE)
 }
 
-/// The unit in `text`.
 pub(super) fn written(text: &str) -> Option<&'static str> {
     let (head, _) = factors(text);
     named(split(head).1).map(|unit| unit.name)

@@ -2,6 +2,9 @@
 
 use crate::scene::{Parameter, SceneInput};
 
+/// One number of a parameter.
+pub type Component = (Parameter, usize);
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     pub parameter: Parameter,
@@ -24,7 +27,7 @@ impl Columns {
         &self.0
     }
 
-    pub fn find(&self, (parameter, component): (Parameter, usize)) -> Option<usize> {
+    pub fn find(&self, (parameter, component): Component) -> Option<usize> {
         self.0.iter().position(|column| (column.parameter, column.component) == (parameter, component))
     }
 

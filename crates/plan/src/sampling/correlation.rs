@@ -3,6 +3,7 @@
 //! A table correlates all components of its parameters (a square matrix), or each component of one with each of another
 //! (a block, or one number). Tables with a common component form one matrix; other pairs are independent.
 
+use super::columns::Component;
 use super::copula::{Copula, Matrix, nearest_correlation, smallest_negative_eigenvalue};
 use super::distribution::Distribution;
 use super::error::{DispersionError, Result, Table, error_of};
@@ -66,7 +67,7 @@ struct Pairs<'l> {
 /// with a distribution of one number.
 pub(super) fn copulas<'d>(
     list: &[Correlation],
-    drawn: impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
+    drawn: impl Fn(Component) -> Option<Drawn<'d>>,
 ) -> (Vec<Copula>, Vec<Replaced>, Vec<DispersionError>) {
     let (mut groups, mut errors): (Vec<Vec<Pairs<'_>>>, Vec<_>) = (Vec::new(), Vec::new());
     for correlation in list {
@@ -151,7 +152,7 @@ impl Pairs<'_> {
 }
 
 impl Correlation {
-    pub fn components(&self) -> Vec<(Parameter, usize)> {
+    pub fn components(&self) -> Vec<Component> {
         self.parameters.iter().flat_map(components_of).collect()
     }
 
@@ -159,7 +160,7 @@ impl Correlation {
         Err(error_of(Table::Correlate(self.table), self.measure.key(), value, allowed, remedy))
     }
 
-    fn pairs<'d>(&self, drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>) -> Result<Pairs<'_>> {
+    fn pairs<'d>(&self, drawn: &impl Fn(Component) -> Option<Drawn<'d>>) -> Result<Pairs<'_>> {
         let components = self.components();
         let drawn = self.drawn(&components, drawn)?;
         let names: Vec<String> = components.iter().map(|(parameter, k)| parameter.component_name(*k)).collect();
@@ -223,8 +224,8 @@ impl Correlation {
 
     fn drawn<'d>(
         &self,
-        components: &[(Parameter, usize)],
-        drawn: &impl Fn((Parameter, usize)) -> Option<Drawn<'d>>,
+        components: &[Component],
+        drawn: &impl Fn(Component) -> Option<Drawn<'d>>,
     ) -> Result<Vec<Drawn<'d>>> {
         let mut found: Vec<Drawn<'d>> = Vec::with_capacity(components.len());
         for (parameter, component) in components {
@@ -299,7 +300,7 @@ impl Correlation {
 }
 
 /// All components of a parameter, or one.
-pub(super) fn components_of((parameter, component): &(Parameter, Option<usize>)) -> Vec<(Parameter, usize)> {
+pub(super) fn components_of((parameter, component): &(Parameter, Option<usize>)) -> Vec<Component> {
     match component {
         Some(component) => vec![(*parameter, *component)],
         None => (0..parameter.width()).map(|component| (*parameter, component)).collect(),

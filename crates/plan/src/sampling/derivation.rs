@@ -1,6 +1,6 @@
 //! [`Derivation`]: a `[[derive]]` table; [`Derived`]: a column computed from others.
 
-use super::columns::Columns;
+use super::columns::{Columns, Component};
 use super::correlation::components_of;
 use super::error::{DispersionError, GIVE_KEY, HAS_KEY, Table, error_of};
 use super::expression::Expression;
@@ -21,7 +21,7 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    pub fn inputs(&self, scene: &SceneInput) -> Vec<(Parameter, usize)> {
+    pub fn inputs(&self, scene: &SceneInput) -> Vec<Component> {
         let Ok(expression) = Expression::parse(&self.expression) else { return Vec::new() };
         let found = expression.variables().iter().filter_map(|name| Parameter::find(scene, name));
         found.map(|(parameter, component)| (parameter, component.unwrap_or(0))).collect()
@@ -58,9 +58,9 @@ const NOMINAL_SLACK: f64 = 1e-9;
 /// A component that waits for its inputs, each with its nominal value.
 struct Open<'l> {
     table: usize,
-    target: (Parameter, usize),
+    target: Component,
     expression: Expression,
-    inputs: Vec<((Parameter, usize), f64)>,
+    inputs: Vec<(Component, f64)>,
     text: &'l str,
 }
 
@@ -68,7 +68,7 @@ struct Open<'l> {
 pub(super) fn derived(
     list: &[Derivation],
     columns: &mut Columns,
-    is_drawn: impl Fn(&Columns, (Parameter, usize)) -> bool,
+    is_drawn: impl Fn(&Columns, Component) -> bool,
     nominal: &SceneInput,
 ) -> (Vec<Derived>, Vec<DispersionError>) {
     let (mut found, mut errors, mut open) = (Vec::new(), Vec::new(), Vec::<Open<'_>>::new());
@@ -152,7 +152,7 @@ pub(super) fn derived(
 }
 
 /// The parameter of a name in an expression and its nominal value; or allowed names and the remedy.
-fn variable(name: &str, nominal: &SceneInput) -> Result<((Parameter, usize), f64), (String, String)> {
+fn variable(name: &str, nominal: &SceneInput) -> Result<(Component, f64), (String, String)> {
     let Some((parameter, component)) = Parameter::find(nominal, name) else {
         let allowed = "a numeric key of scene or initial state, one component of it".to_owned();
         return Err((allowed, "write names as in this file, wheels.w1.radius_m or initial.position_m.x".to_owned()));

@@ -1,6 +1,6 @@
 //! [`Dispersions`]: a campaign's dispersions, checked against the nominal scene.
 
-use super::columns::{Column, Columns};
+use super::columns::{Column, Columns, Component};
 use super::copula::Copula;
 use super::correlation::{Correlation, Replaced, components_of, copulas};
 use super::derivation::{Derivation, Derived, derived};
@@ -25,7 +25,7 @@ pub struct Dispersion {
 }
 
 impl Dispersion {
-    pub fn components(&self) -> Vec<(Parameter, usize)> {
+    pub fn components(&self) -> Vec<Component> {
         match self.distribution.written.columns() {
             [] => components_of(&(self.parameter, self.component)),
             columns => columns.iter().filter_map(|column| column.target).collect(),
@@ -169,7 +169,7 @@ impl Dispersions {
         self.design.points(Dimensions { seed, samples, names, factors: &factors })
     }
 
-    fn distribution_at(&self, component: (Parameter, usize)) -> Option<&Assigned> {
+    fn distribution_at(&self, component: Component) -> Option<&Assigned> {
         assigned_to(&self.assigned, &self.columns, component)
     }
 
@@ -209,7 +209,7 @@ impl Dispersions {
             rows: kind.keys(),
             written,
         };
-        let maps: Vec<(Vec<(Parameter, usize)>, Transform)> = match kind.distributions(&target)? {
+        let maps: Vec<(Vec<Component>, Transform)> = match kind.distributions(&target)? {
             Some(list) => components.iter().zip(list).map(|(c, one)| (vec![*c], Transform::Scalar(one))).collect(),
             None => kind.joint(&target)?.map(|joint| (components, Transform::Joint(joint))).into_iter().collect(),
         };
@@ -231,7 +231,7 @@ impl Dispersions {
     }
 
     /// Quaternions are normalised, and recorded, as a whole.
-    fn add_column(&mut self, (parameter, component): (Parameter, usize), nominal: &SceneInput) -> usize {
+    fn add_column(&mut self, (parameter, component): Component, nominal: &SceneInput) -> usize {
         if parameter.shape() == Shape::Quaternion {
             (0..parameter.width()).for_each(|component| {
                 self.columns.add(parameter, component, nominal);
@@ -240,14 +240,9 @@ impl Dispersions {
         self.columns.add(parameter, component, nominal)
     }
 
-    fn check_components(
-        &self,
-        dispersion: &Dispersion,
-        components: &[(Parameter, usize)],
-        nominal: &SceneInput,
-    ) -> Result<()> {
+    fn check_components(&self, dispersion: &Dispersion, components: &[Component], nominal: &SceneInput) -> Result<()> {
         let key = if dispersion.distribution.written.columns().is_empty() { "parameter" } else { "parameters" };
-        let refused = |(parameter, component): (Parameter, usize), allowed: &str, remedy: &str| {
+        let refused = |(parameter, component): Component, allowed: &str, remedy: &str| {
             Err(error(dispersion.table, key, format!("{:?}", parameter.component_name(component)), allowed, remedy))
         };
         if let Some(missing) = components.iter().find(|(parameter, _)| !parameter.exists(nominal)) {
@@ -268,7 +263,7 @@ impl Dispersions {
     }
 }
 
-fn assigned_to<'a>(assigned: &'a [Assigned], columns: &Columns, component: (Parameter, usize)) -> Option<&'a Assigned> {
+fn assigned_to<'a>(assigned: &'a [Assigned], columns: &Columns, component: Component) -> Option<&'a Assigned> {
     let column = columns.find(component)?;
     assigned.iter().find(|assigned| assigned.columns.contains(&column))
 }

@@ -1,7 +1,8 @@
 //! Declared keys of campaign tables: [`Row`], one key; [`Rule`], a relation of several keys; [`Written`], the values of
 //! a file. Reading, messages, canonical text and documents follow from them.
 
-use crate::scene::{Name, Parameter};
+use super::columns::Component;
+use crate::scene::Name;
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::ops::{Bound, RangeBounds};
@@ -77,7 +78,6 @@ pub struct ListLimit {
     pub test: fn(&[f64]) -> bool,
 }
 
-/// The type of a key's value.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A finite number in the unit of the table's subject.
@@ -140,7 +140,6 @@ pub enum Kind {
     Columns,
 }
 
-/// A key is required, or has a default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
     Required {
@@ -156,7 +155,6 @@ pub enum Presence {
     OrNominal,
 }
 
-/// One key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     pub key: &'static str,
@@ -254,7 +252,6 @@ pub const FILE_OF_PARAMETERS: Row = Row::new(
     parameters), and `sha256`, the checksum of the file",
 );
 
-/// A relation of several keys of a table.
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
     /// Exactly one of several ways to give a value, each with its keys; an example for the first key, and the remedy
@@ -344,7 +341,6 @@ impl<T: Clone> Values<T> {
     }
 }
 
-/// A column of a data file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
     /// As written.
@@ -353,7 +349,7 @@ pub struct DataColumn {
     /// Its name in the file; without `target`, also that of its number.
     pub column: String,
     /// Its number of the scene, if the table names several.
-    pub target: Option<(Parameter, usize)>,
+    pub target: Option<Component>,
     /// In the order of the file.
     pub values: Arc<[f64]>,
 }
@@ -501,7 +497,6 @@ impl Written {
         self.numbers(key)?.try_into().ok()
     }
 
-    /// The columns of a file for parameters.
     pub fn columns(&self) -> &[DataColumn] {
         let columns = self.0.iter().find_map(|(_, value)| match value {
             Value::Columns(columns) => Some(columns.as_slice()),

@@ -23,7 +23,7 @@ pub mod rank;
 pub mod sampler;
 pub mod stream;
 
-pub use columns::Column;
+pub use columns::{Column, Component};
 pub use correlation::{Correlation, Measure, Replaced};
 pub use derivation::Derivation;
 pub use design::Design;

@@ -19,7 +19,6 @@ impl Uniform {
     }
 }
 
-/// Statistics of the first observable of `plan`, from groups of values with numbers of lost runs.
 fn described_of(plan: &Plan, groups: &[Vec<f64>], lost: &[u64]) -> ColumnStatistics {
     let mut counts = ColumnCounts::default();
     for values in groups {

@@ -70,7 +70,6 @@ macro_rules! designs {
                 Some((facts.keys, facts.rules))
             }
 
-            /// The design called `name` with the keys `written`.
             pub fn of(name: &str, written: Written) -> Option<Self> {
                 let all: &[fn(Written) -> Self] = &[$(Self::$Name),*];
                 Self::NAMES.iter().position(|known| *known == name).map(|place| all[place](written))
@@ -123,7 +122,6 @@ impl Design {
     /// The design of a file without `[design]`.
     pub const DEFAULT: Design = Design::Random(Written::NONE);
 
-    /// The name in campaign files.
     pub fn name(&self) -> &'static str {
         self.facts().name
     }
