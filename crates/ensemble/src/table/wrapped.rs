@@ -78,22 +78,6 @@ pub fn fitted(text: &str, width: usize, measure: impl Fn(&str) -> usize) -> Stri
 mod tests {
     use super::*;
 
-    /// Law: no line with spaces exceeds the width; words keep their order; fitting text is unchanged.
-    #[test]
-    fn long_lines_are_broken_at_spaces() {
-        let text = "  PASS   p99 of energy\n  one two three four five six seven\nshort\n";
-        let broken = wrapped(text, 16);
-        assert_eq!(broken, "  PASS   p99 of\n    energy\n  one two three\n    four five\n    six seven\nshort\n");
-        assert_eq!(wrapped("  PASS   p99 of energy", 20), "  PASS   p99 of\n         energy");
-        for width in 8..60 {
-            let broken = wrapped(text, width);
-            assert!(broken.lines().all(|line| line.len() <= width.max(10)), "{width}: {broken}");
-            let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-            assert_eq!(words(&broken), words(text));
-        }
-        assert_eq!(wrapped(text, 100), text);
-    }
-
     /// Law: all words of a message stay in order; only marked lines, commands and single words exceed the width.
     #[test]
     fn messages_are_broken_and_marks_stay() {

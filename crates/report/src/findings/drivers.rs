@@ -109,7 +109,7 @@ pub fn sentence(plan: &Plan, outcome: &str, ranking: &Ranking<'_>) -> String {
 fn correlations(plan: &Plan, ranking: &Ranking<'_>) -> String {
     let mut pairs: Vec<[&str; 2]> = Vec::new();
     let mut said = String::new();
-    let has_shares = told(ranking).is_some();
+    let has_shares = told(ranking).len() > 1;
     for driver in ranking.drivers().take(NAMED) {
         let one = driver.input.input.as_str();
         let with = driver.input.correlated_with.as_ref();
@@ -228,8 +228,8 @@ fn is_open(ranked: &Ranked<'_>) -> bool {
             .is_none_or(|share| share.value <= 0.0 || share.lower <= 0.0 && share.upper - share.lower > MOST_WIDTH)
 }
 
-/// The shares of the named drivers of a spread, if the runs show all of them.
-fn told(ranking: &Ranking<'_>) -> Option<Vec<String>> {
+/// The shares of the first of the named drivers of a spread, up to one that the runs do not show.
+fn told(ranking: &Ranking<'_>) -> Vec<String> {
     let share = |driver: &Ranked<'_>| {
         // a negligible estimate contradicts the test that found the input
         let is_told = |share: &Estimate| !share.lower.is_nan() && share.value >= LEAST_SHARE;
@@ -237,8 +237,8 @@ fn told(ranking: &Ranking<'_>) -> Option<Vec<String>> {
         let within = |end: f64| end.clamp(0.0, 1.0);
         Some(number::share([within(share.value); 2], [share.lower, share.upper].map(within)))
     };
-    let shares = named(ranking).into_iter().map(share).collect();
-    if ranking.question == Question::Spread { shares } else { None }
+    let drivers = named(ranking).into_iter().filter(|_| ranking.question == Question::Spread);
+    drivers.map_while(share).collect()
 }
 
 fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
@@ -272,23 +272,21 @@ fn of_spread(plan: &Plan, ranking: &Ranking<'_>) -> String {
     }
     let shares = told(ranking);
     let of = |(place, driver): (usize, &&Ranked<'_>)| {
-        let share = match (&shares, place) {
-            (Some(shares), 0) => format!(" explains {} of the variance", shares[0]),
-            (Some(shares), _) => format!(" {}", shares[place]),
+        let share = match (shares.get(place), place) {
+            (Some(share), 0) => format!(" explains {share} of the variance"),
+            (Some(share), _) => format!(" {share}"),
             (None, _) => String::new(),
         };
         format!("{}{share}{}", names::of_input_column(plan, &driver.input.input), direction(driver))
     };
     let said = drivers.iter().enumerate().map(of).collect::<Vec<_>>().join(", ");
-    if shares.is_some() { said + &rest } else { said }
+    if shares.is_empty() { said } else { said + &rest }
 }
 
-/// The number of runs, if it is too small to estimate the shares of the named drivers.
+/// The number of runs, if it is too small to estimate the share of the first driver.
 fn too_few(ranking: &Ranking<'_>) -> Option<u64> {
-    let drivers = named(ranking);
-    let input = drivers.first()?.input;
-    let is_open = input.total.is_none() && drivers.into_iter().any(is_open);
-    (ranking.question == Question::Spread && is_open).then_some(input.rows)
+    let first = named(ranking).into_iter().next().filter(|_| ranking.question == Question::Spread)?;
+    (first.input.total.is_none() && is_open(first)).then_some(first.input.rows)
 }
 
 /// The source of the remaining variance, if the drivers explain less than half.
@@ -499,8 +497,8 @@ mod tests {
         InputSensitivity { input: name.to_owned(), rows: 77, ..Default::default() }
     }
 
-    /// Law: shares appear with their intervals, of all named drivers or of none, and only if that is informative: not for
-    /// too few runs, a wide interval, or chosen samples. "No input explains more than" needs the upper ends of all
+    /// Law: shares appear with their intervals, none behind a driver without one, and only if that is informative: not
+    /// for too few runs, a wide interval, or chosen samples. "No input explains more than" needs the upper ends of all
     /// inputs. Drivers are always named.
     #[test]
     fn shares_are_said_with_intervals_or_not_at_all() {
@@ -523,6 +521,8 @@ mod tests {
                 let all = "first one explains 50% [40, 63] of the variance, second one 50% [40, 63]";
                 assert_eq!(both.contains(all), is_driver && is_told, "{both}");
                 assert_eq!(both.contains('%'), is_told || is_most, "{both}");
+                let other = said(&inputs, [(known, is_driver), (share, is_driver)]);
+                assert_eq!(other.contains(all.split(',').next().unwrap_or_default()), is_driver, "{other}");
                 let alone = said(&[input("first_one")], [(share, is_driver)]);
                 let is_most = most.is_some_and(|most| alone.contains(&format!("more than {most}% of")));
                 assert!(alone.contains('%') == (is_told || is_most) && is_most == (most.is_some() && !is_driver));

@@ -11,26 +11,30 @@ const LICENCES: &str = include_str!("../../../../../assets/report/vendor/licence
 pub(in crate::report) static ECHARTS: &[u8] = include_bytes!("../../../../../assets/report/vendor/echarts.js.gz");
 static THREE: &[u8] = include_bytes!("../../../../../assets/report/vendor/three.js.gz");
 
+macro_rules! modules {
+    ($($name:literal),*) => { [$(($name, include_str!(concat!("../../../../../assets/report/", $name)))),*] };
+}
+
 /// The modules of the page in import order, to be joined into one script without imports and exports.
-const MODULES: [(&str, &str); 18] = [
-    ("numbers.js", include_str!("../../../../../assets/report/numbers.js")),
-    ("theme.js", include_str!("../../../../../assets/report/theme.js")),
-    ("payload.js", include_str!("../../../../../assets/report/payload.js")),
-    ("hover.js", include_str!("../../../../../assets/report/hover.js")),
-    ("select.js", include_str!("../../../../../assets/report/select.js")),
-    ("axes.js", include_str!("../../../../../assets/report/axes.js")),
-    ("chart.js", include_str!("../../../../../assets/report/chart.js")),
-    ("save.js", include_str!("../../../../../assets/report/save.js")),
-    ("figure.js", include_str!("../../../../../assets/report/figure.js")),
-    ("pairs.js", include_str!("../../../../../assets/report/pairs.js")),
-    ("tables.js", include_str!("../../../../../assets/report/tables.js")),
-    ("motion.js", include_str!("../../../../../assets/report/motion.js")),
-    ("bodies.js", include_str!("../../../../../assets/report/bodies.js")),
-    ("approach.js", include_str!("../../../../../assets/report/approach.js")),
-    ("sky.js", include_str!("../../../../../assets/report/sky.js")),
-    ("live.js", include_str!("../../../../../assets/report/live.js")),
-    ("replay.js", include_str!("../../../../../assets/report/replay.js")),
-    ("main.js", include_str!("../../../../../assets/report/main.js")),
+const MODULES: [(&str, &str); 18] = modules![
+    "numbers.js",
+    "theme.js",
+    "payload.js",
+    "hover.js",
+    "select.js",
+    "axes.js",
+    "chart.js",
+    "save.js",
+    "figure.js",
+    "pairs.js",
+    "tables.js",
+    "motion.js",
+    "bodies.js",
+    "approach.js",
+    "sky.js",
+    "live.js",
+    "replay.js",
+    "main.js"
 ];
 
 /// Restricts scripts to the contents of the page.

@@ -32,8 +32,8 @@ use self::runs::{KnownRow, ShownRun};
 use crate::analysis::analysed::Analysed;
 use crate::analysis::outcomes::unique;
 use crate::analysis::statistics::ColumnStatistics;
-use crate::analysis::survey::{self, Survey};
-use crate::campaign::Plan;
+use crate::analysis::survey::{self, Survey, SurveyedOutcome};
+use crate::campaign::{Plan, ShownUnit};
 use crate::ensemble::run_cost::replays;
 use crate::ensemble::{Ensemble, SingleRun};
 use crate::findings::numerics::BEYOND_TOLERANCE;
@@ -276,22 +276,21 @@ fn pairs(plan: &Plan, survey: &Survey, payload: &mut Payload) -> Value {
     if rows.len() < 2 {
         return Value::Null;
     }
-    let mut of = |column: &[f64]| payload.singles(&rows.iter().map(|row| column[*row]).collect::<Vec<f64>>());
     let display = &plan.analysis.display;
-    let inputs = plan.dispersions.columns().iter().zip(&thinned.inputs).enumerate().map(|(place, (column, values))| {
-        let shown = names::unit_of_input(plan, place);
-        let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
-        json!({ "name": names::of_input(plan, place), "column": column.parameter.column_name(column.component),
-            "unit": shown.unit, "input": true, "values": values })
+    let inputs = plan.dispersions.columns().iter().enumerate().map(|(place, column)| {
+        let column = column.parameter.column_name(column.component);
+        (names::of_input(plan, place), column, names::unit_of_input(plan, place), true)
     });
-    let inputs: Vec<Value> = inputs.collect();
-    let outcomes = survey.outcomes.iter().zip(&thinned.outcomes).map(|(outcome, values)| {
-        let shown = display.of(outcome.quantity.name(), outcome.quantity.unit());
-        let values = of(&values.iter().map(|value| shown.value(*value)).collect::<Vec<f64>>());
-        let name = names::of_quantity(&outcome.quantity);
-        json!({ "name": name, "column": outcome.quantity.name(), "unit": shown.unit, "input": false, "values": values })
+    let outcomes = survey.outcomes.iter().map(|SurveyedOutcome { quantity, .. }| {
+        let shown = display.of(quantity.name(), quantity.unit());
+        (names::of_quantity(quantity), quantity.name().to_owned(), shown, false)
     });
-    let columns: Vec<Value> = inputs.into_iter().chain(outcomes).collect();
+    let column = |((name, column, shown, is_input), values): ((String, String, ShownUnit, bool), &Vec<f64>)| {
+        let values = payload.singles(&rows.iter().map(|row| shown.value(values[*row])).collect::<Vec<f64>>());
+        json!({ "name": name, "column": column, "unit": shown.unit, "input": is_input, "values": values })
+    };
+    let columns = inputs.zip(&thinned.inputs).chain(outcomes.zip(&thinned.outcomes));
+    let columns: Vec<Value> = columns.map(column).collect();
     let samples: Vec<f64> = rows.iter().map(|row| thinned.samples[*row] as f64).collect();
     let fates = fates::fates(plan, survey);
     let shown: Vec<f64> = rows.iter().map(|row| fates[*row].place()).collect();
