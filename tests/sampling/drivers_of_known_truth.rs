@@ -41,7 +41,7 @@ fn plan(has_limit: bool) -> (Plan, String) {
 fn explained(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> (Vec<InputSensitivity>, String) {
     let (plan, name) = plan(has_limit);
     let names: Vec<String> = (0..inputs.len()).map(|input| format!("x{input}")).collect();
-    (Prepared::new(inputs.to_vec(), None).explained(&plan, &names, &name, y), name)
+    (Prepared::new((&plan, &names), inputs.to_vec(), None).explained(&name, y), name)
 }
 
 fn drivers(inputs: &[Vec<f64>], y: &[f64], has_limit: bool) -> [Option<Vec<String>>; 2] {

@@ -103,7 +103,7 @@ fn count(structure: &Structure, design: &str, runs: u64, campaigns: u64, seed: u
             y.push((structure.of)(&mut x, &u));
             values.iter_mut().zip(x).for_each(|(column, value)| column.push(value));
         }
-        let found = Prepared::new(values.clone(), None).explained(&plan, &inputs, OUTCOME, &y);
+        let found = Prepared::new((&plan, &inputs), values.clone(), None).explained(OUTCOME, &y);
         let rankings = rankings(&found, OUTCOME, 0.05);
         let mut is_wrong = false;
         for ranking in &rankings {

@@ -54,16 +54,16 @@ fn of_table(
     if let Some(note) = plan.bound_inputs(table.samples.len() as u64) {
         return untold(names, &inputs, table.samples.len() as u64, &note);
     }
-    let all = Prepared::new(table.inputs.clone(), threads);
+    let all = Prepared::new((plan, &inputs), table.inputs.clone(), threads);
     // ranks depend on the set of rows
     let has_failed = names != [COMPUTED] && table.is_ok.contains(&false);
     let ok: Vec<usize> = (0..table.is_ok.len()).filter(|row| table.is_ok[*row]).collect();
     let computed = has_failed.then(|| all.of_rows(&ok, threads));
     let of_observable = |(name, y): (&&str, &Vec<f64>)| match &computed {
-        None => all.explained(plan, &inputs, name, y),
+        None => all.explained(name, y),
         Some(computed) => {
             let missed = Event::missed(plan, name, y, &table.is_ok);
-            computed.explained_beside(plan, &inputs, name, &at(&ok, y), &all, missed)
+            computed.explained_beside(name, &at(&ok, y), &all, missed)
         }
     };
     let work: Vec<_> = names.iter().zip(observables).collect();
@@ -85,7 +85,9 @@ fn untold(names: &[&str], inputs: &[String], rows: u64, note: &str) -> Vec<Input
     names.iter().flat_map(|name| inputs.iter().map(move |input| of(name, input))).collect()
 }
 
-pub struct Prepared {
+pub struct Prepared<'p> {
+    plan: &'p Plan,
+    names: &'p [String],
     rows: usize,
     /// Inputs that vary and do not depend linearly on those before, as values and as ranks.
     kept: [Vec<bool>; 2],
@@ -117,8 +119,9 @@ impl Forms {
     }
 }
 
-impl Prepared {
-    pub fn new(values: Vec<Vec<f64>>, threads: Threads) -> Self {
+impl<'p> Prepared<'p> {
+    /// Of inputs with these `names`.
+    pub fn new((plan, names): (&'p Plan, &'p [String]), values: Vec<Vec<f64>>, threads: Threads) -> Self {
         let forms = in_parallel(values.iter().collect(), threads, |input| Forms::of(input));
         let (mut scaled, mut ranks, mut orders, mut tested) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for form in forms {
@@ -137,6 +140,8 @@ impl Prepared {
         let mut of_both = in_parallel(vec![&scaled, &ranks], threads, of).into_iter();
         let [(values_kept, of_values), (ranks_kept, of_ranks)] = [(); 2].map(|()| of_both.next().expect("both"));
         Prepared {
+            plan,
+            names,
             rows: values.first().map_or(0, Vec::len),
             regressors: [of_values, of_ranks],
             correlations: matrix(&ranks),
@@ -151,29 +156,29 @@ impl Prepared {
     }
 
     /// True if two inputs have a notable correlation, by `[[correlate]]` or beyond chance.
-    fn is_notable(&self, plan: &Plan, names: &[String], [one, other]: [usize; 2]) -> bool {
+    fn is_notable(&self, [one, other]: [usize; 2]) -> bool {
         let is_written = || {
-            plan.correlated.iter().any(|table| {
+            self.plan.correlated.iter().any(|table| {
                 let columns: Vec<String> = table.components().iter().map(|(of, at)| of.column_name(*at)).collect();
-                [one, other].iter().all(|input| columns.contains(&names[*input]))
+                [one, other].iter().all(|input| columns.contains(&self.names[*input]))
             })
         };
         let r = self.correlations[one][other].abs();
         one != other && r > NOTABLE_CORRELATION && (r > CHANCE / libm::sqrt(self.rows as f64) || is_written())
     }
 
-    fn correlated_with(&self, plan: &Plan, names: &[String], index: usize) -> Option<(String, f64)> {
-        let others = (0..names.len()).filter(|other| self.is_notable(plan, names, [index, *other]));
+    fn correlated_with(&self, index: usize) -> Option<(String, f64)> {
+        let others = (0..self.names.len()).filter(|other| self.is_notable([index, *other]));
         let r = |other: &usize| self.correlations[index][*other];
         let other = others.max_by(|a, b| r(a).abs().total_cmp(&r(b).abs()))?;
-        Some((names[other].clone(), r(&other)))
+        Some((self.names[other].clone(), r(&other)))
     }
 
     /// The first-order index: unknown if some input does not vary in these rows. Unless the outcome is bounded, unseen
     /// tails of another input may reduce it to nothing.
-    fn first_order(&self, plan: &Plan, index: usize, y: &[f64], is_bounded: bool) -> Option<Estimate> {
+    fn first_order(&self, index: usize, y: &[f64], is_bounded: bool) -> Option<Estimate> {
         let (order, x) = (&self.orders[index], &self.values[index]);
-        let found = first_order_index(order, x, y, samples(plan), plan.analysis.confidence)?;
+        let found = first_order_index(order, x, y, samples(self.plan), self.plan.analysis.confidence)?;
         let all_vary = self.tested.iter().all(Option::is_some);
         let is_hidden = |(other, has_tails): (usize, &bool)| other != index && *has_tails;
         let has_hidden = !is_bounded && self.with_tails.iter().enumerate().any(is_hidden);
@@ -182,76 +187,61 @@ impl Prepared {
     }
 
     /// Tests each correlated input given the others; names those that the rows do not separate.
-    fn beside_others(
-        &self,
-        plan: &Plan,
-        names: &[String],
-        y: &[f64],
-        p_values: &mut [Option<f64>],
-        questions: usize,
-    ) -> Vec<Option<String>> {
-        let related = |one: usize, other: usize| self.is_notable(plan, names, [one, other]);
-        let tests = questions * names.len();
-        let instead = beside_others(&self.tested, y, related, p_values, tests, 1.0 - plan.analysis.confidence);
-        instead.into_iter().map(|other| other.map(|other| names[other].clone())).collect()
+    fn beside_others(&self, y: &[f64], p_values: &mut [Option<f64>], questions: usize) -> Vec<Option<String>> {
+        let related = |one: usize, other: usize| self.is_notable([one, other]);
+        let tests = questions * self.names.len();
+        let instead = beside_others(&self.tested, y, related, p_values, tests, 1.0 - self.plan.analysis.confidence);
+        instead.into_iter().map(|other| other.map(|other| self.names[other].clone())).collect()
     }
 
     fn of_rows(&self, rows: &[usize], threads: Threads) -> Self {
-        Prepared::new(self.values.iter().map(|input| at(rows, input)).collect(), threads)
+        Prepared::new((self.plan, self.names), self.values.iter().map(|input| at(rows, input)).collect(), threads)
     }
 
     /// Sensitivities of the spread and events of an observable with values `y`, NaN for none.
-    pub fn explained(&self, plan: &Plan, names: &[String], observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
-        let missed = Event::missed(plan, observable, y, &vec![true; y.len()]);
-        self.explained_beside(plan, names, observable, y, self, missed)
+    pub fn explained(&self, observable: &str, y: &[f64]) -> Vec<InputSensitivity> {
+        let missed = Event::missed(self.plan, observable, y, &vec![true; y.len()]);
+        self.explained_beside(observable, y, self, missed)
     }
 
     /// As [`Prepared::explained`], with missed requirements in the rows of `all`.
     fn explained_beside(
         &self,
-        plan: &Plan,
-        names: &[String],
         observable: &str,
         y: &[f64],
-        all: &Prepared,
+        all: &Self,
         missed: Vec<(Event, Vec<bool>)>,
     ) -> Vec<InputSensitivity> {
-        let has_tests = !matches!(Population::of(plan), Population::Chosen(_) | Population::Nominal);
+        let has_tests = !matches!(Population::of(self.plan), Population::Chosen(_) | Population::Nominal);
         let (rows, events) = match missed {
             _ if !has_tests => (self, Vec::new()),
-            none if none.is_empty() => (self, Event::of_values(plan, observable, y)),
+            none if none.is_empty() => (self, Event::of_values(self.plan, observable, y)),
             missed => (all, missed),
         };
         // events, and the spread
         let questions = events.len() + usize::from(events.iter().all(|(event, _)| !event.has_few_values));
         let tests = has_tests.then_some(questions);
         let mut found = if y.iter().all(|value| value.is_finite()) {
-            self.sensitivities(plan, names, observable, y, tests)
+            self.sensitivities(observable, y, tests)
         } else {
             let finite: Vec<usize> = (0..y.len()).filter(|row| y[*row].is_finite()).collect();
             let of_finite = self.of_rows(&finite, NonZeroUsize::new(1));
-            of_finite.sensitivities(plan, names, observable, &at(&finite, y), tests)
+            of_finite.sensitivities(observable, &at(&finite, y), tests)
         };
         for (event, marked) in events {
-            let effects = rows.on_event(plan, names, (event, &marked), questions);
+            let effects = rows.on_event((event, &marked), questions);
             found.iter_mut().zip(effects).for_each(|(one, effect)| one.on_events.extend(effect));
         }
         // chosen samples have correlations, but no population
         if has_tests { found } else { found.into_iter().map(|one| one.without_intervals(false)).collect() }
     }
 
-    fn on_event(
-        &self,
-        plan: &Plan,
-        names: &[String],
-        (event, marked): (Event, &[bool]),
-        questions: usize,
-    ) -> Vec<Option<OnEvent>> {
+    fn on_event(&self, (event, marked): (Event, &[bool]), questions: usize) -> Vec<Option<OnEvent>> {
         let indicator: Vec<f64> = marked.iter().map(|is_marked| f64::from(*is_marked)).collect();
-        let share = |input: usize| self.first_order(plan, input, &indicator, true);
-        let mut effects = on_event(&self.tested, (event, marked), share, questions, plan.analysis.confidence);
+        let share = |input: usize| self.first_order(input, &indicator, true);
+        let mut effects = on_event(&self.tested, (event, marked), share, questions, self.plan.analysis.confidence);
         let mut p_values: Vec<Option<f64>> = effects.iter().map(|one| one.as_ref().map(|one| one.p_value)).collect();
-        let instead = self.beside_others(plan, names, &indicator, &mut p_values, questions);
+        let instead = self.beside_others(&indicator, &mut p_values, questions);
         for (effect, (p_value, instead)) in effects.iter_mut().zip(p_values.into_iter().zip(instead)) {
             if let Some((effect, p_value)) = effect.as_mut().zip(p_value) {
                 (effect.p_value, effect.instead) = (p_value, instead);
@@ -261,18 +251,11 @@ impl Prepared {
     }
 
     /// Sensitivities of an observable with values `y`, one of `questions`; `None`: without tests.
-    fn sensitivities(
-        &self,
-        plan: &Plan,
-        names: &[String],
-        observable: &str,
-        y: &[f64],
-        questions: Option<usize>,
-    ) -> Vec<InputSensitivity> {
-        let confidence = plan.analysis.confidence;
-        let population = Population::of(plan);
+    fn sensitivities(&self, observable: &str, y: &[f64], questions: Option<usize>) -> Vec<InputSensitivity> {
+        let (names, confidence) = (self.names, self.plan.analysis.confidence);
+        let population = Population::of(self.plan);
         let mut p_values = questions.map_or_else(|| vec![None; names.len()], |count| on_spread(&self.tested, y, count));
-        let instead = self.beside_others(plan, names, y, &mut p_values, questions.unwrap_or(1));
+        let instead = self.beside_others(y, &mut p_values, questions.unwrap_or(1));
         let (scaled, ranked) = (standardised(y), standardised(&mid_ranks(y)));
         let varies = scaled.iter().any(|value| *value != 0.0);
         let regressor = |which: usize| self.regressors[which].as_ref().filter(|_| varies);
@@ -288,7 +271,7 @@ impl Prepared {
             let correlated = |x: &[f64], y: &[f64]| both_vary.then(|| correlation(x, y, 0, confidence));
             let partial = rank.as_ref().zip(place(1, index)).map(|(of, at)| of.partial(at, confidence));
             let coefficient = linear.as_ref().zip(place(0, index)).map(|(of, at)| of.coefficient(at, confidence));
-            let correlated_with = self.correlated_with(plan, names, index);
+            let correlated_with = self.correlated_with(index);
             let mut found = InputSensitivity {
                 observable: observable.to_owned(),
                 input: name.clone(),
@@ -301,7 +284,7 @@ impl Prepared {
                     Estimate { lower, upper, ..of }
                 }),
                 r_squared,
-                first_order: self.first_order(plan, index, y, false),
+                first_order: self.first_order(index, y, false),
                 parabola: both_vary.then(|| {
                     let of = |y: &[f64]| share_of_parabola(&self.standardised[index], y);
                     let ranks = if self.with_tails.contains(&true) { 0.0 } else { WEIGHT_OF_RANKS };

@@ -240,7 +240,7 @@ fn occupied(store: &dyn Store, found: &Found, there: &Identity, (plan, identity)
     FolderError::Occupied { folder, what, differences }
 }
 
-fn summary(store: &dyn Store) -> Result<Option<String>, StoreError> {
+fn summary(store: &dyn Store) -> Result<Option<String>> {
     let text = store.read(SUMMARY)?.ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let is_summary = |text: &String| {
         serde_json::from_str::<serde_json::Value>(text).is_ok_and(|value| value.get("statuses").is_some())

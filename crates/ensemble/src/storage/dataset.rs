@@ -200,7 +200,7 @@ impl Dataset {
     }
 
     /// Puts a file derived from plan and rows.
-    pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
+    pub fn put(&self, name: &str, bytes: &[u8]) -> Result<()> {
         self.store.put(name, bytes).map_err(self.store.at(name))?;
         self.list(FileRecord::of(name, bytes));
         Ok(())
@@ -210,7 +210,7 @@ impl Dataset {
     ///
     /// # Errors
     /// A failed file operation, after which the part is absent.
-    pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<(), StoreError> {
+    pub fn commit(&self, part: Part, files: &[PartFile]) -> Result<()> {
         let is_final = !self.grows || self.head.parts(u64::MAX).part(part.id) == Some(part);
         for PartFile { record, bytes } in files.iter().rev() {
             let name = &*record.name;
@@ -231,7 +231,7 @@ impl Dataset {
     }
 
     /// Removes parts, which are then computed again.
-    pub fn drop_parts(&self, parts: impl IntoIterator<Item = PartId>) -> Result<(), StoreError> {
+    pub fn drop_parts(&self, parts: impl IntoIterator<Item = PartId>) -> Result<()> {
         for part in parts {
             self.remove(&rows_of(part))?;
             self.files().parts.remove(&part.0);
@@ -240,7 +240,7 @@ impl Dataset {
     }
 
     /// Puts `copies` of data files, then the plan that names them, unless present.
-    pub fn keep(&self, copies: &[(String, Vec<u8>)]) -> Result<(), StoreError> {
+    pub fn keep(&self, copies: &[(String, Vec<u8>)]) -> Result<()> {
         let copies = copies.iter().map(|(name, bytes)| (format!("{DATA}/{name}"), &**bytes));
         for (name, bytes) in copies.chain([(PLAN.to_owned(), self.plan.as_bytes())]) {
             match self.store.read(&name)? {
@@ -251,13 +251,13 @@ impl Dataset {
         Ok(())
     }
 
-    pub fn remove(&self, name: &str) -> Result<(), StoreError> {
+    pub fn remove(&self, name: &str) -> Result<()> {
         self.files().derived.remove(name);
         self.store.remove(name).map_err(self.store.at(name))
     }
 
     /// Removes the files of a dataset in `folder`, and the folder if then empty.
-    pub fn clear(&self, folder: &str) -> Result<(), StoreError> {
+    pub fn clear(&self, folder: &str) -> Result<()> {
         let entries = self.store.entries(folder)?;
         for entry in &entries {
             let name = format!("{folder}/{}", entry.name);
@@ -269,7 +269,7 @@ impl Dataset {
     }
 
     /// Puts the manifest and the mark.
-    pub fn finish(&self) -> Result<(), StoreError> {
+    pub fn finish(&self) -> Result<()> {
         let (manifest, for_now) = {
             let all = self.files();
             let parts = all.parts.values();
@@ -297,17 +297,17 @@ pub fn rows(store: &Arc<dyn Store>, parts: &[PartRecord]) -> RowsReader {
 }
 
 /// Removes mark, manifest and summary before anything listed changes.
-pub fn unfinish(store: &dyn Store) -> Result<(), StoreError> {
+pub fn unfinish(store: &dyn Store) -> Result<()> {
     [SUCCESS, MANIFEST, SUMMARY].into_iter().try_for_each(|name| store.remove(name).map_err(store.at(name)))
 }
 
-fn put_end(store: &dyn Store, manifest: &Manifest) -> Result<(), StoreError> {
+fn put_end(store: &dyn Store, manifest: &Manifest) -> Result<()> {
     store.put(MANIFEST, &manifest.bytes()).map_err(store.at(MANIFEST))?;
     store.put(SUCCESS, b"").map_err(store.at(SUCCESS))
 }
 
 /// Replaces and lists one file of a finished dataset, unless its bytes are unchanged.
-pub fn replace_file(store: &dyn Store, manifest: &Manifest, (name, bytes): (&str, &[u8])) -> Result<(), StoreError> {
+pub fn replace_file(store: &dyn Store, manifest: &Manifest, (name, bytes): (&str, &[u8])) -> Result<()> {
     let mut files: BTreeMap<&str, FileRecord> = manifest.files.iter().map(|file| (&*file.name, file.clone())).collect();
     let put = || store.put(name, bytes).map_err(store.at(name));
     let file = FileRecord::of(name, bytes);

@@ -84,7 +84,7 @@ impl Found {
     ///
     /// # Errors
     /// A file that cannot be read now.
-    pub fn derived_damage(&self, store: &dyn Store) -> Result<Vec<String>, StoreError> {
+    pub fn derived_damage(&self, store: &dyn Store) -> Result<Vec<String>> {
         let mut found = Vec::new();
         for file in self.manifest.iter().flat_map(Manifest::derived) {
             if ![HEAD, PLAN].contains(&file.name.as_str()) {
@@ -98,7 +98,7 @@ impl Found {
     ///
     /// # Errors
     /// A file that cannot be read now.
-    pub fn problems(&self, store: &dyn Store, examined: &Examined) -> Result<Vec<String>, StoreError> {
+    pub fn problems(&self, store: &dyn Store, examined: &Examined) -> Result<Vec<String>> {
         let damaged = examined.damaged.iter().map(|(_, what)| what);
         let known = self.damage.iter().chain(damaged).cloned();
         Ok(known.chain(self.derived_damage(store)?).collect())
@@ -115,7 +115,7 @@ impl Found {
         (plan, head): (&Plan, &Head),
         is_mine: &(dyn Fn(PartId) -> bool + Sync),
         threads: usize,
-    ) -> Result<Examined, StoreError> {
+    ) -> Result<Examined> {
         let listed: BTreeMap<PartId, PartRecord> =
             self.manifest.iter().flat_map(Manifest::parts).map(|part| (part.part.id, part)).collect();
         // the parts listed by a finished result
@@ -156,7 +156,7 @@ impl Examined {
 }
 
 /// The content of a file, or its damage.
-fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, String>, StoreError> {
+fn checked(store: &dyn Store, file: &FileRecord) -> Result<Result<Vec<u8>, String>> {
     Ok(match store.read(&file.name)? {
         Err(error) => Err(reason(&error)),
         Ok(bytes) if bytes.len() as u64 != file.bytes => {
@@ -180,7 +180,7 @@ fn part_there(
     (plan, head): (&Plan, &Head),
     id: PartId,
     listed: Option<&PartRecord>,
-) -> Result<Result<PartRecord, String>, StoreError> {
+) -> Result<Result<PartRecord, String>> {
     let name = rows_of(id);
     let wrong = |what: String| Ok(Err(format!("{name}: {what}")));
     let changed = "its content has changed";
@@ -301,7 +301,7 @@ impl Found {
     }
 
     /// The identity recorded by the first sealed file of rows.
-    fn identity_of_rows(&self, store: &dyn Store) -> Result<Option<Identity>, StoreError> {
+    fn identity_of_rows(&self, store: &dyn Store) -> Result<Option<Identity>> {
         for name in self.files.iter().filter(|name| part_of(name).is_some()) {
             if let Ok(bytes) = store.read(name)?
                 && sealed(&bytes).is_some()

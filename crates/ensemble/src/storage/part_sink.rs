@@ -137,7 +137,7 @@ pub fn write_parts<R>(
     let sink = PartSink { files, counts, buffers: &buffers, encoded, seconds: Mutex::new([0.0; 2]) };
     std::thread::scope(|scope| {
         let (buffers, waiting) = (&buffers, waiting);
-        let write = move || -> Result<(), StoreError> {
+        let write = move || -> Result<()> {
             waiting.iter().try_for_each(|(part, files)| {
                 dataset.commit(part, &files)?;
                 buffers.give(files);

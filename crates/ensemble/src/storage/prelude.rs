@@ -1,6 +1,6 @@
 //! The names of stores, parts and tables that most files of results share.
 
-pub(super) use super::store::{Store, StoreError};
+pub(super) use super::store::{Result, Store, StoreError};
 pub(super) use crate::ensemble::prelude::*;
 pub(super) use crate::ensemble::{Ensemble, Part, PartId};
 pub(super) use crate::table::{Column, Content, Table, Values};

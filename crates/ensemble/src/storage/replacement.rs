@@ -31,14 +31,14 @@ fn digits(head: &[u8]) -> String {
 }
 
 /// The digits of the dataset in `store`, if its head is readable.
-fn digits_of(store: &dyn Store) -> Result<Option<String>, StoreError> {
+fn digits_of(store: &dyn Store) -> Result<Option<String>> {
     Ok(store.read(HEAD)?.ok().map(|head| digits(&head)))
 }
 
 type Begun = (String, Arc<dyn Store>);
 
 /// The replacements begun beside `root`, with their digits.
-fn begun(folders: &OpenFolder<'_>, root: &Path) -> Result<Vec<Begun>, StoreError> {
+fn begun(folders: &OpenFolder<'_>, root: &Path) -> Result<Vec<Begun>> {
     let start = format!(".{}.", root.file_name().unwrap_or_default().to_string_lossy());
     let parent = folders(above(root));
     let mut found = Vec::new();
@@ -114,11 +114,11 @@ fn dataset(store: &dyn Store) -> Result<Option<Found>, FolderError> {
     }
 }
 
-fn rename(from: &dyn Store, to: &Path) -> Result<(), StoreError> {
+fn rename(from: &dyn Store, to: &Path) -> Result<()> {
     from.rename(to).map_err(from.at(""))
 }
 
-fn sync_above(root: &Path) -> Result<(), StoreError> {
+fn sync_above(root: &Path) -> Result<()> {
     sync_folder(above(root)).map_err(at(above(root)))
 }
 

@@ -84,7 +84,7 @@ impl dyn Store + '_ {
     ///
     /// # Errors
     /// A file that cannot be read now.
-    pub fn read(&self, name: &str) -> Result<Result<Vec<u8>, io::Error>, StoreError> {
+    pub fn read(&self, name: &str) -> Result<Result<Vec<u8>, io::Error>> {
         let got = match self.get(name) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 if self.is_absent(name, &error)? {
@@ -106,7 +106,7 @@ impl dyn Store + '_ {
     ///
     /// # Errors
     /// A failed listing.
-    fn is_absent(&self, name: &str, error: &io::Error) -> Result<bool, StoreError> {
+    fn is_absent(&self, name: &str, error: &io::Error) -> Result<bool> {
         if error.kind() != ErrorKind::NotFound || name.is_empty() {
             return Ok(false);
         }
@@ -122,7 +122,7 @@ impl dyn Store + '_ {
     ///
     /// # Errors
     /// A failed listing.
-    pub fn entries(&self, folder: &str) -> Result<Vec<Entry>, StoreError> {
+    pub fn entries(&self, folder: &str) -> Result<Vec<Entry>> {
         match self.list(folder) {
             Ok(entries) => Ok(entries),
             Err(error) if self.is_absent(folder, &error)? => Ok(Vec::new()),
@@ -148,6 +148,8 @@ pub struct StoreError {
     pub path: PathBuf,
     pub source: io::Error,
 }
+
+pub type Result<T, E = StoreError> = std::result::Result<T, E>;
 
 /// A failure of which only the text matters.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;

@@ -1,23 +1,19 @@
 //! [`Plan`]: a resolved and checked campaign. A row is a pure function of the plan and a sample's id.
 
 use super::analysis::Analysis;
-use super::bands;
-use super::chosen;
 use super::columns::request;
-use super::description;
 use super::document::Overrides;
 use super::event::Event;
 use super::extreme::Extreme;
-use super::forces;
 use super::loop_tables::LoopTables;
 use super::numbers::{FRACTION, LARGEST_SEED};
 use super::prelude::*;
 use super::problem::CampaignError;
 use super::retention::Retention;
 use super::settings::Compression;
-use super::size;
 use super::sources::Sources;
 use super::spec::Spec;
+use super::{bands, chosen, description, forces, size};
 use crate::loops::LoopSpec;
 use crate::observables::window::MAX_WINDOWS;
 use crate::ode::Tolerance;
