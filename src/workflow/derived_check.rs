@@ -29,30 +29,23 @@ pub(super) struct DerivedCheck {
 
 struct Comparison<'a> {
     listed: BTreeMap<&'a str, &'a FileRecord>,
-    made: Mutex<BTreeSet<String>>,
-    problems: Mutex<Vec<String>>,
+    /// Names of the files made again, and problems.
+    found: Mutex<(BTreeSet<String>, Vec<String>)>,
 }
 
 impl Comparison<'_> {
-    fn add(&self, name: &str, what: &str) {
-        self.problems.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{name}: {what}"));
-    }
-
     /// Compares the file `name` with its record; without bytes there must be none.
     fn compare(&self, name: &str, bytes: Option<&[u8]>) {
-        let listed = self.listed.get(name);
-        if listed.is_none() && bytes.is_none() {
-            return;
-        }
-        self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
-        match (listed, bytes) {
-            (Some(listed), Some(bytes)) if **listed == FileRecord::of(name, bytes) => {}
-            (_, None) => self.add(name, NO_SUCH_FILE),
-            (Some(_), _) => {
-                self.add(name, "is not what this program makes of plan and rows, though its checksum is right");
-            }
-            (None, _) => self.add(name, NOT_LISTED),
-        }
+        let what = match (self.listed.get(name), bytes) {
+            (None, None) => return,
+            (Some(listed), Some(bytes)) if **listed == FileRecord::of(name, bytes) => None,
+            (Some(_), Some(_)) => Some("is not what this program makes of plan and rows, though its checksum is right"),
+            (Some(_), None) => Some(NO_SUCH_FILE),
+            (None, Some(_)) => Some(NOT_LISTED),
+        };
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        found.0.insert(name.to_owned());
+        found.1.extend(what.map(|what| format!("{name}: {what}")));
     }
 }
 
@@ -73,7 +66,7 @@ pub(super) fn derived_problems(
 ) -> Result<DerivedCheck, WorkflowError> {
     let plan = ensemble.plan();
     let listed = manifest.derived().map(|file| (file.name.as_str(), file)).collect();
-    let files = Comparison { listed, made: Mutex::default(), problems: Mutex::default() };
+    let files = Comparison { listed, found: Mutex::default() };
     let reader = rows(store, records);
     let gathered = Gathered::of_files(ensemble, &reader, session.threads)?;
     let retained = gathered.retained.clone();
@@ -91,11 +84,9 @@ pub(super) fn derived_problems(
         retained.iter().map(|sample| format!("{TRAJECTORIES}/{}", file_name(*sample))).collect();
     let copies: BTreeSet<String> =
         read.data.iter().map(|(path, sha256)| format!("{DATA}/{}", data::copy_name(path, sha256))).collect();
-    for name in series.iter().chain(&copies).filter(|name| !files.listed.contains_key(name.as_str())) {
-        files.add(name, NOT_LISTED);
-    }
-    let made = files.made.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let mut problems = files.problems.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let (made, mut problems) = files.found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let missing = series.iter().chain(&copies).filter(|name| !files.listed.contains_key(name.as_str()));
+    problems.extend(missing.map(|name| format!("{name}: {NOT_LISTED}")));
     let is_known = |name: &str| made.contains(name) || series.contains(name) || copies.contains(name);
     problems.extend((files.listed.keys().filter(|name| !is_known(name))).map(|name| format!("{name}: {NO_SUCH_FILE}")));
     if problems.iter().any(|what| what.starts_with(SUMMARY))

@@ -1,5 +1,6 @@
 //! [`written`]: all results below a folder, with changes since the previous run of the same campaign.
 
+use std::cmp::Reverse;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
@@ -89,9 +90,8 @@ fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowE
             Err(reason) => index.unreadable.push(Unreadable { folder: name, reason }),
         }
     }
-    found.sort_by(|a, b| {
-        let key = |one: &Found| (one.entry.campaign.clone(), std::cmp::Reverse(one.seconds), one.entry.folder.clone());
-        key(a).cmp(&key(b))
+    found.sort_by_cached_key(|Found { entry, seconds, .. }| {
+        (entry.campaign.clone(), Reverse(*seconds), entry.folder.clone())
     });
     let changes: Vec<Option<String>> = (0..found.len())
         .map(|place| match found.get(place + 1) {

@@ -78,11 +78,14 @@ fn optima_are_those_of_linprog() {
     assert!(cut > 100, "{cut} sets beyond their limits");
 }
 
-pub fn report(center: [f64; 3], most: f64, by_wheels: [[f64; 3]; 3]) -> ThrustAllocation {
+/// P1, P2, P3.
+pub fn report_thrusters() -> Vec<Thruster> {
     let positions = [[0.0; 3], [0.0, -0.8, 3.0], [0.0, 0.8, 3.0]];
-    let thrusters: Vec<Thruster> = std::iter::zip(positions, REPORT_DIRECTIONS)
-        .map(|(position, direction)| Thruster { position, direction })
-        .collect();
+    std::iter::zip(positions, REPORT_DIRECTIONS).map(|(position, direction)| Thruster { position, direction }).collect()
+}
+
+pub fn report(center: [f64; 3], most: f64, by_wheels: [[f64; 3]; 3]) -> ThrustAllocation {
+    let thrusters = report_thrusters();
     assert_eq!(report_offset(&thrusters), Some(0.8));
     ThrustAllocation::new(&thrusters, center, &[most; 3], by_wheels)
 }

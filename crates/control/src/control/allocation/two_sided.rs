@@ -65,11 +65,10 @@ fn without_force(vectors: &mut [Wrench]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{ALL, NONE, eight, report};
+    use super::super::tests::{ALL, NONE, eight, report, report_thrusters};
     use super::*;
     use crate::loops::vector::turned;
     use crate::scene::Thruster;
-    use crate::scene::thruster::REPORT_DIRECTIONS;
 
     /// Law: two-sided torques are about s1 for P1, P2, P3, with the force held or free; about all axes for eight
     /// thrusters; and exist for P2 and P3 alone, or for two opposite thrusters, only if the force is free. Every torque
@@ -90,10 +89,7 @@ mod tests {
                 assert!(close(eight([0.0; 3], by_wheels).two_sided_torques(held), [1.0; 3]));
             }
         }
-        let positions = [[0.0; 3], [0.0, -0.8, 3.0], [0.0, 0.8, 3.0]];
-        let three: Vec<Thruster> = std::iter::zip(positions, REPORT_DIRECTIONS)
-            .map(|(position, direction)| Thruster { position, direction })
-            .collect();
+        let three = report_thrusters();
         let without_first = ThrustAllocation::new(&three, [0.0, 0.0, 1.5], &[0.0, 1.0, 1.0], NONE);
         assert!(close(without_first.two_sided_torques(true), [0.0; 3]), "they only brake");
         assert!(close(without_first.two_sided_torques(false), [1.0, 0.0, 0.0]));
@@ -107,10 +103,8 @@ mod tests {
         // P1, P2, P3 in another frame
         let turn = [0.3, -0.7, 0.4];
         let in_other = |v: [f64; 3]| turned(v, turn);
-        let thrusters: Vec<Thruster> = three
-            .iter()
-            .map(|one| Thruster { position: in_other(one.position), direction: in_other(one.direction) })
-            .collect();
+        let moved = |one: &Thruster| Thruster { position: in_other(one.position), direction: in_other(one.direction) };
+        let thrusters: Vec<Thruster> = three.iter().map(moved).collect();
         let oblique = ThrustAllocation::new(&thrusters, in_other([0.0, 0.0, 1.5]), &[1.0; 3], NONE);
         let axis = in_other([1.0, 0.0, 0.0]);
         for held in [true, false] {

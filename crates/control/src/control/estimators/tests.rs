@@ -65,8 +65,7 @@ fn attitude_and_bias_are_consistent() {
         let bias = draws.vector(START[1]);
         let mut gyro = sensor("rate_gyro", &[GYRO[0], GYRO[1], ("bias_rad_s", &bias)], 1.0, run);
         let mut tracker = sensor("star_tracker", &[("noise_rad", &TRACKER_NOISE)], 2.0, run);
-        let mut filter = (maker("mekf").expect("a kind").make)(&context);
-        let (mut error, mut estimate) = (0.0, context.start());
+        let (mut error, (mut filter, mut estimate)) = (0.0, started("mekf", &context));
         for tick in 0..2 * TIMES as u64 {
             let truth = &truth(tick as f64, q, omega);
             let mut measurements: Vec<_> =
@@ -116,6 +115,11 @@ fn update(tick: u64, period: f64, measurements: &[Measurement]) -> Update<'_> {
     }
 }
 
+/// The estimator `name` and its estimate at the start.
+fn started(name: &str, context: &EstimatorContext<'_>) -> (Box<dyn Estimator>, Estimate) {
+    ((maker(name).expect("a kind").make)(context), context.start())
+}
+
 /// A measurement without latency by the sensor at the index `sensor`.
 fn at_once(sensor: usize, values: Values) -> Measurement {
     Measurement { sensor, values, age: 0.0 }
@@ -145,9 +149,8 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
         sensors::SampledSensor::new(sensor(kind, values, 0.1 * *every as f64, 0), *every, *latency, 0.1)
     });
     let mut sampled: Vec<_> = sampled.collect();
-    let (mekf, parameters) = (maker("mekf").expect("a kind"), &table("mekf", &[]));
-    let context = EstimatorContext { nominal, parameters, sensors: &sensors, tick: 0.1 };
-    let (mut estimator, mut estimate) = ((mekf.make)(&context), context.start());
+    let context = EstimatorContext { nominal, parameters: &table("mekf", &[]), sensors: &sensors, tick: 0.1 };
+    let (mut estimator, mut estimate) = started("mekf", &context);
     let mut tumbling = nominal.clone();
     (tumbling.initial.q_ed, tumbling.initial.omega_de_d) = ([0.8, 0.6, 0.0, 0.0], [0.03, -0.02, 0.04]);
     let mut debris = DebrisMotion::of(&tumbling).expect("debris");
@@ -210,7 +213,7 @@ fn each_sensor_that_is_used_changes_the_estimate() {
     let half = std::f64::consts::FRAC_PI_2;
     let quarters = [[0.1, 0.0, 0.0], [half, 0.1, 0.0], [0.1, half, 0.0], [-half, 0.0, 0.1], [0.0, -half, 0.1]];
     let mut pairs = 0;
-    for EstimatorMaker { kind: estimator, make } in KINDS.iter().filter(|maker| !maker.kind.knows_the_truth) {
+    for estimator in KINDS.iter().map(|maker| &maker.kind).filter(|kind| !kind.knows_the_truth) {
         let parameters = &table(estimator.name, &[]);
         for kind in sensors::KINDS.iter().map(|maker| &maker.kind) {
             let numbers = table(kind.name, &[]);
@@ -237,7 +240,7 @@ fn each_sensor_that_is_used_changes_the_estimate() {
             });
             let delivered = [at_once(0, delivered.unwrap_or_else(|| panic!("{} measures nothing", kind.name)))];
             let after = |measurements: &[Measurement]| {
-                let (mut made, mut estimate) = (make(&context), context.start());
+                let (mut made, mut estimate) = started(estimator.name, &context);
                 made.update(&update(1, 0.1, measurements), &mut estimate);
                 estimate
             };
@@ -257,7 +260,6 @@ fn an_image_is_as_uncertain_as_the_attitude() {
     // standard deviations, rad: of the start, of the tracker (poor about its boresight), of camera and debris
     let (start, noise, of_camera, of_debris) = (0.1, [1e-3, 2e-3, 5e-2], 1e-4, 1.0);
     let nominal = &scene(&SceneInput::report().with_debris(DEBRIS));
-    let mekf = maker("mekf").expect("a kind");
     let own: [(&str, &[f64]); 2] =
         [("initial_attitude_sigma_rad", &[start]), ("debris_attitude_sigma_rad", &[of_debris])];
     let (parameters, tracker) = (&table("mekf", &own), &table("star_tracker", &[("noise_rad", &noise)]));
@@ -265,7 +267,7 @@ fn an_image_is_as_uncertain_as_the_attitude() {
     let list = [known("star_tracker", [0.1, 0.0], tracker), known("relative_camera", [0.1, 0.0], camera)];
     for turn in [[0.0; 3], [1.2, 0.0, 0.0], [0.4, -0.9, 1.7]] {
         let context = EstimatorContext { nominal, parameters, sensors: &list, tick: 0.1 };
-        let (mut estimator, mut estimate) = ((mekf.make)(&context), context.start());
+        let (mut estimator, mut estimate) = started("mekf", &context);
         let q_es = nominal.initial.q_es;
         let q_sd = quaternion_of(turn);
         let mut at = truth(0.0, q_es, [0.0; 3]);

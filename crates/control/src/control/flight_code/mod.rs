@@ -13,10 +13,7 @@ mod input;
 #[cfg(feature = "wasm")]
 mod runtime;
 
-pub use crate::loops::flight_code::{
-    DeclaredTelemetry, FlightCode, INTERFACES, MOST_BYTES, MOST_MEMORY, MOST_STACK, NAME, Refusal, START_FUEL,
-    STEP_FUEL, WantedSensor,
-};
+pub use crate::loops::flight_code::{FlightCode, INTERFACES, MOST_BYTES, NAME, Refusal};
 
 /// The module with these bytes, whose SHA-256 is `sha256`; compiled once per process and leaked.
 ///

@@ -93,15 +93,13 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput, own: Opti
     if let (Some(thrusters), Some(modulation)) = (&thrusters, modulation) {
         check_valves(&mut section, scene, (thrusters, modulation), period);
     }
+    let of_estimators = estimators::KINDS.each_ref().map(|maker| (maker.kind.name, maker.kind.parameters));
+    let of_modulations = [0, 1, 2].map(|place| (modulation::NAMES[place], modulation::parameters(place)));
     let mut lists = vec![&parameters::LOOP[..]];
-    lists.extend(kinds(estimator, &estimators::KINDS).map(|maker| maker.kind.parameters));
+    lists.extend(meant(estimator, of_estimators));
     if may_fire {
         lists.push(&parameters::THRUSTERS);
-        lists.extend(
-            (0..modulation::NAMES.len())
-                .filter(|place| modulation.is_none_or(|one| one == *place))
-                .map(modulation::parameters),
-        );
+        lists.extend(meant(modulation, of_modulations));
     }
     if has_debris {
         lists.push(&launch_numbers::DEBRIS);
@@ -109,16 +107,9 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput, own: Opti
     scene.control.law = DeclaredTable::of(Name::NONE, kept(&lists));
     read_keys(&mut section, Table::Control, 0, scene);
     let model = read_model(&mut section, craft.as_ref());
-    ignore_others(
-        &mut section,
-        "estimator",
-        estimator,
-        estimators::KINDS.each_ref().map(|maker| (maker.kind.name, maker.kind.parameters)),
-    );
+    ignore_others(&mut section, "estimator", estimator, of_estimators);
     if may_fire {
-        let names = modulation::NAMES;
-        let of_others = [0, 1, 2].map(|place| (names[place], modulation::parameters(place)));
-        ignore_others(&mut section, "modulation", modulation, of_others);
+        ignore_others(&mut section, "modulation", modulation, of_modulations);
     }
     section.finish();
 
@@ -186,9 +177,9 @@ pub(super) fn read(root: &mut Section<'_, '_>, scene: &mut SceneInput, own: Opti
     (has_actuators && !spec.phases.is_empty()).then(|| closed_loop(spec))
 }
 
-/// The kind at `place`, or all kinds if it is unknown.
-fn kinds<T>(place: Option<usize>, list: &[T]) -> impl Iterator<Item = &T> {
-    list.iter().enumerate().filter(move |(kind, _)| place.is_none_or(|one| one == *kind)).map(|(_, kind)| kind)
+/// The second of the pair at `place`, or of all pairs if it is unknown.
+fn meant<T, const N: usize>(place: Option<usize>, list: [(&str, T); N]) -> impl Iterator<Item = T> {
+    list.into_iter().enumerate().filter(move |(kind, _)| place.is_none_or(|one| one == *kind)).map(|(_, (_, one))| one)
 }
 
 /// The indices, ascending, of the actuators that `key` names, whose names are set in `written`; `None` if they are
