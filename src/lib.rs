@@ -141,12 +141,14 @@ pub use ensemble::Supervision;
 #[doc(inline)]
 pub use ensemble::run as run_ensemble;
 /// ```
-/// use spindrift::{Actuated, Actuation, BodyState, ControlLaw, LawContext, OwnLaw, WheelState};
+/// use spindrift::{Actuated, Actuation, BodyState, ControlLaw, LawContext, LawParameter, Limit, OwnLaw, WheelState};
+/// static PUSH: [LawParameter; 1] =
+///     [LawParameter::number("push_m_s2", "m/s^2", "Acceleration", Limit::Positive).or(&[0.01])];
 /// let make = |context: &LawContext<'_>| {
-///     let mass = context.nominal.mass.total; // what flight software knows
-///     move |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY).with_thrust(&[0.01 * mass])
+///     let thrust = context.number("push_m_s2") * context.nominal.mass.total; // what flight software knows
+///     move |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY).with_thrust(&[thrust])
 /// };
-/// let law = ControlLaw::new("push", Actuated { thrusters: true, ..Actuated::NONE }, &[], make);
+/// let law = ControlLaw::new("push", Actuated { thrusters: true, ..Actuated::NONE }, &PUSH, make);
 /// let law = OwnLaw::Loop(law); // for `Session::under`
 /// # let _ = law;
 /// ```
@@ -178,16 +180,11 @@ pub use propagation::Method as PropagationMethod;
 /// ```
 #[doc(inline)]
 pub use propagation::PropagationSettings;
-/// ```
-/// assert_eq!(spindrift::Grid::uniform(10.0, 3).times(), [0.0, 5.0, 10.0]);
-/// ```
-#[doc(inline)]
-pub use run::Grid;
 /// A set of fields of the state.
 #[doc(inline)]
 pub use run::StateFields;
 #[doc(inline)]
-pub use run::{Quantity, StateField, StateTable, Status};
+pub use run::{Grid, Quantity, StateField, StateTable, Status};
 /// ```
 /// use spindrift::{Noise, SampleId};
 /// let mut noise = Noise::new(1, "gyro.x", SampleId(3));
@@ -198,13 +195,6 @@ pub use run::{Quantity, StateField, StateTable, Status};
 pub use sampling::Noise;
 #[doc(inline)]
 pub use sampling::SampleId;
-/// ```
-/// use spindrift::{LawParameter, Limit};
-/// static GAIN: LawParameter = LawParameter::number("gain_n_m", "N m", "Gain", Limit::Positive).or(&[2.0]);
-/// assert_eq!(GAIN.default, Some(&[2.0][..]));
-/// ```
-#[doc(inline)]
-pub use scene::LawParameter;
 /// ```
 /// use spindrift::{Scene, SceneError, SceneInput};
 /// let scene = SceneInput::report().with("initial.angular_velocity_rad_s", &[0.0, 0.1, 0.5]);
@@ -217,7 +207,9 @@ pub use scene::SceneInput;
 #[doc(inline)]
 pub use scene::schema::Limit;
 #[doc(inline)]
-pub use scene::{Actuated, Scene, SceneError};
+pub use scene::{Actuated, LawParameter, Scene, SceneError};
+/// A campaign file and the place of its result.
+///
 /// ```
 /// use spindrift::{
 ///     Campaign, CampaignOutcome, Outputs, Quiet, Results, SampleId, Session, Verification, WorkflowError, verify,
@@ -228,17 +220,18 @@ pub use scene::{Actuated, Scene, SceneError};
 /// let session = Session::new(&watch)?;
 /// let campaign = Campaign::from_file("campaigns/no_debris.toml", session).samples(50).store(&folder);
 /// let without_page = Outputs { without_page: true, ..Outputs::default() };
+/// // `results()` in place of `prepare()` runs and opens it
 /// let Some(prepared) = campaign.outputs(without_page).prepare()? else { panic!("all samples are meant") };
 /// assert!(matches!(prepared.run()?, CampaignOutcome::Finished(_)));
 ///
 /// let results = Results::open(&folder, session)?;
 /// assert_eq!(results.column("energy_error_max")?.len(), 50);
-/// let largest = results.statistics()?;
+/// let (largest, verdicts) = (results.statistics()?, results.verdicts()?);
 /// let worst: spindrift::SingleRun = results.replay(SampleId(7))?;
 /// drop(results);
 /// let all = Verification { fraction: 1.0, repair: false };
 /// assert_eq!(verify(&session, &folder, all)?.unwrap().checked.problems, 0);
-/// # let _ = (largest, worst);
+/// # let _ = (largest, verdicts, worst);
 /// # std::fs::remove_dir_all(&folder).unwrap();
 /// # Ok::<(), WorkflowError>(())
 /// ```

@@ -8,10 +8,10 @@ use crate::findings::checked::findings;
 use crate::report::screen::{question, sections};
 use crate::workflow::check::probed;
 use crate::workflow::isa;
-use crate::workflow::source::plan;
+use crate::workflow::source::plan_and_files;
 
 pub fn run(options: &CheckOptions) -> Result<CommandOutcome, Failure> {
-    let plan = plan(&options.file, options.changed.overrides())?;
+    let (plan, _) = plan_and_files(&options.file, options.changed.overrides())?;
     let ensemble = Ensemble::new(&plan, isa()?);
     let found = probed(&ensemble)?;
     let said = sections(&findings(&found, options.verbose), screen::width());

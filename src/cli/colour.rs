@@ -103,21 +103,15 @@ fn of_line(line: &str, kind: Kind) -> String {
 }
 
 fn words(text: &str) -> String {
-    let mut painted = String::with_capacity(text.len());
-    let mut rest = text;
-    while !rest.is_empty() {
-        let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
-        let begin = rest.find(is_word).unwrap_or(rest.len());
-        let end = rest[begin..].find(|letter| !is_word(letter)).map_or(rest.len(), |length| begin + length);
-        let word = &rest[begin..end];
-        painted += &rest[..begin];
-        painted += &match VERDICTS.iter().find(|(verdict, _)| *verdict == word) {
-            Some((_, colour)) => format!("{colour}{BOLD}{word}{RESET}"),
-            None => word.to_owned(),
-        };
-        rest = &rest[end..];
-    }
-    painted
+    let is_between = |letter: char| !letter.is_alphanumeric() && letter != '_';
+    let painted = |piece: &str| {
+        let (word, after) = piece.split_at(piece.trim_end_matches(is_between).len());
+        match VERDICTS.iter().find(|(verdict, _)| *verdict == word) {
+            Some((_, colour)) => format!("{colour}{BOLD}{word}{RESET}{after}"),
+            None => piece.to_owned(),
+        }
+    };
+    text.split_inclusive(is_between).map(painted).collect()
 }
 
 #[cfg(test)]

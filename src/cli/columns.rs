@@ -12,12 +12,12 @@ use crate::observables::Group;
 use crate::table::Table;
 use crate::table::text::Align;
 use crate::workflow::columns::{AUDIT, CONTROL, ListedColumn, SAMPLE, by_group, found, of_all_campaigns, of_campaign};
-use crate::workflow::source::plan;
+use crate::workflow::source::plan_and_files;
 
 pub fn run(options: &ColumnsOptions) -> Result<CommandOutcome, Failure> {
     let all = match &options.campaign {
         None => of_all_campaigns(),
-        Some(file) => of_campaign(&plan(file, Overrides::default())?)?,
+        Some(file) => of_campaign(&plan_and_files(file, Overrides::default())?.0)?,
     };
     let shown = match &options.word {
         None if options.verbose => text(&all),

@@ -128,9 +128,10 @@ fn shard_is_done(name: &str, shard: Shard, root: &Path, made: Made) -> String {
 
 /// The campaign file for replay commands, quoted: this command's file, or the result's plan if options changed numbers.
 fn replayed(options: &CampaignOptions, root: &Path) -> String {
-    let is_changed = !options.changed.settings.is_empty()
-        || options.drawn.samples.is_some()
-        || options.drawn.seed.is_some()
-        || options.only_failed_of.is_some();
-    if is_changed { quoted_path(&root.join(PLAN)) } else { quoted_path(&options.file) }
+    let is_changed = options.drawn.overrides(&options.changed) != Overrides::default();
+    if is_changed || options.only_failed_of.is_some() {
+        quoted_path(&root.join(PLAN))
+    } else {
+        quoted_path(&options.file)
+    }
 }

@@ -6,8 +6,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::cli::signals::{self, Signals};
-use crate::cli::{completed_text, screen, signals::asked};
+use crate::cli::signals::{self, asked};
+use crate::cli::{completed_text, screen};
 use crate::workflow::Watch;
 
 const REFRESH_HZ: u8 = 8;
@@ -56,8 +56,7 @@ impl Watch for Terminal {
     }
 
     fn stop(&self) -> &AtomicBool {
-        let Signals { stop, .. } = asked();
-        stop
+        &asked().stop
     }
 
     fn abandon(&self) -> &AtomicBool {

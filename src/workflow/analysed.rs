@@ -10,7 +10,6 @@ use crate::report::junit;
 use crate::storage::atomic;
 use crate::workflow::error::WorkflowError;
 
-/// The ending of the campaign of `analysed`.
 pub fn end_of_analysed(analysed: &Analysed, found: &Findings) -> SummaryEnd {
     let end = SummaryEnd::of(&analysed.ending(), Some(&analysed.statistics));
     SummaryEnd { warnings: found.warnings(), ..end }

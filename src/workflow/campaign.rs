@@ -21,20 +21,6 @@ use crate::workflow::workload::Workload;
 /// Default folder of results, in the current folder.
 pub const RESULTS: &str = "results";
 
-/// ```no_run
-/// use spindrift::workflow::{Campaign, Quiet, Session};
-///
-/// let watch = Quiet::default();
-/// let results = Campaign::from_file("campaigns/spin_sweep.toml", Session::new(&watch)?)
-///     .samples(2000)
-///     .seed(7)
-///     .store("results/sweep")
-///     .results()?;
-/// for one in &results.verdicts()?.list {
-///     println!("{} {}", one.word(), one.requirement.name());
-/// }
-/// # Ok::<(), spindrift::workflow::WorkflowError>(())
-/// ```
 #[derive(Clone)]
 pub struct Campaign<'a> {
     session: Session<'a>,

@@ -15,8 +15,6 @@ use crate::workflow::error::WorkflowError;
 use crate::workflow::source::refuse_missing_law;
 use crate::workflow::workload::Workload;
 
-/// Runs first samples of `ensemble` for an estimate.
-///
 /// # Errors
 /// An unphysical nominal scene, or a missing control law.
 pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>, WorkflowError> {

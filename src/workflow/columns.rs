@@ -24,7 +24,6 @@ pub struct ListedColumn {
     pub only: &'static str,
 }
 
-/// The columns by group, in order.
 pub fn by_group(all: &[ListedColumn]) -> impl Iterator<Item = &[ListedColumn]> {
     all.chunk_by(|one, next| one.group == next.group)
 }

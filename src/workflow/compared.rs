@@ -22,7 +22,6 @@ pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result
     Ok(Compared::new(names, [first.plan(), second.plan()], comparison, ends))
 }
 
-/// The formats of the file of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub enum ComparisonFormat {
     Json,
@@ -45,7 +44,6 @@ impl ComparisonFormat {
         }
     }
 
-    /// Writes `compared` to `path`.
     pub fn write(self, compared: &Compared<'_>, path: &Path) -> Result<(), WorkflowError> {
         let bytes = match self {
             ComparisonFormat::Json => comparison_json::text(compared).into_bytes(),

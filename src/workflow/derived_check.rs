@@ -101,7 +101,6 @@ pub(super) fn derived_problems(
 
 const THIS: &str = env!("CARGO_PKG_VERSION");
 
-/// The version in the summary, if another one.
 fn other_version(store: &dyn Store) -> Result<Option<String>, WorkflowError> {
     let bytes = store.read(SUMMARY)?.unwrap_or_default();
     let summary: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();

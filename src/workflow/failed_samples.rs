@@ -67,7 +67,6 @@ pub struct FailedRun {
     pub what: String,
 }
 
-/// The first failed run in the stored rows.
 pub fn first_failed(reader: &RowsReader) -> Result<Option<FailedRun>, RowsError> {
     let mut first = None;
     let read = |part: &mut PartReader| -> Result<Option<FailedRun>, RowsError> {

@@ -20,15 +20,10 @@ pub fn free_disk(_path: &Path) -> Option<u64> {
 /// Memory available without swapping, bytes, of the machine or its control group, on Linux only.
 pub fn free_memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let machine = available(&text)?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let machine = line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)?;
     let number =
         |file: &str| std::fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?.trim().parse::<u64>().ok();
     let group = number("memory.max").map(|most| most.saturating_sub(number("memory.current").unwrap_or(0)));
     Some(group.map_or(machine, |group| group.min(machine)))
-}
-
-/// The available memory in /proc/meminfo, bytes.
-fn available(text: &str) -> Option<u64> {
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }

@@ -37,7 +37,6 @@ pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> R
     Ok(())
 }
 
-/// True if two paths lead to the same file.
 fn is_same(one: &Path, other: &Path) -> bool {
     let (Ok(a), Ok(b)) = (one.metadata(), other.metadata()) else { return false };
     #[cfg(unix)]

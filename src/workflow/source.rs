@@ -19,14 +19,6 @@ use crate::storage::store::Store;
 use crate::workflow::error::WorkflowError;
 use crate::workflow::session::Session;
 
-/// The plan of the campaign file `file`, as [`plan_and_files`].
-///
-/// # Errors
-/// A missing or wrong file.
-pub fn plan(file: &Path, overrides: Overrides) -> Result<Plan, WorkflowError> {
-    plan_and_files(file, overrides).map(|(plan, _)| plan)
-}
-
 /// The plan of the campaign file `file`, possibly without folder and extension, and the files read.
 ///
 /// # Errors

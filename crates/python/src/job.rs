@@ -40,7 +40,7 @@ struct Shared {
 }
 
 /// Locks `mutex`, also after a panic, which leaves none of these values half changed.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -5,7 +5,7 @@
 //! flown alone (the nominal one of bands and pages, a replay) is asked about alone.
 
 use std::cell::RefCell;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use generator::{Generator, Gn, is_generator};
 use pyo3::prelude::*;
@@ -18,6 +18,8 @@ use spindrift::loops::callback::{NAME, is_law_of};
 use spindrift::loops::estimate::Estimate;
 use spindrift::sampling::SampleId;
 use spindrift::workflow::{Quiet, Session, WorkflowError};
+
+use crate::job::locked;
 
 /// Parts that are flown side by side on a thread, one run of each at a time: the function answers for up to as many.
 const SIDE_BY_SIDE: usize = 64;
@@ -102,12 +104,12 @@ impl Law {
 
     /// True if the function has raised an exception, after which runs have no law.
     pub fn has_raised(&self) -> bool {
-        self.raised.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+        locked(&self.raised).is_some()
     }
 
     /// The exception raised by the function; taken once.
     pub fn raised(&self) -> Option<PyErr> {
-        self.raised.lock().unwrap_or_else(PoisonError::into_inner).take()
+        locked(&self.raised).take()
     }
 
     /// The law for a session.
@@ -152,7 +154,7 @@ impl Law {
             Ok(_) => nothing,
             Err(error) => {
                 // Python's lock is free again: who has it may ask for this one
-                self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                locked(&self.raised).get_or_insert(error);
                 nothing
             }
         }

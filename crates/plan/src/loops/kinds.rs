@@ -95,10 +95,10 @@ impl MeasuredQuantity {
     pub const fn new(
         name: &'static str,
         components: Components,
-        [unit, suffix]: [&'static str; 2],
+        unit: [&'static str; 2],
         meaning: &'static str,
     ) -> Self {
-        MeasuredQuantity { name, components, unit: [unit, suffix], is_over_period: false, meaning }
+        MeasuredQuantity { name, components, unit, is_over_period: false, meaning }
     }
 }
 

@@ -98,7 +98,6 @@ pub struct FlightSoftware {
     commanded: CommandedImpulse,
     /// Time of the last measurement of the debris.
     debris_seen: f64,
-    has_camera: bool,
     started: bool,
     last_update: f64,
 }
@@ -176,7 +175,6 @@ impl FlightSoftware {
             latest: Commanded::default(),
             commanded: CommandedImpulse::default(),
             debris_seen: 0.0,
-            has_camera: spec.has_camera(),
             started: false,
             last_update: 0.0,
             believed,
@@ -217,7 +215,7 @@ impl FlightSoftware {
             match self.spec.sensors[*sensor].kind.observes {
                 Observes::Field(_) => self.field.take(time, part(values, 0)),
                 Observes::DebrisAttitude(_) => self.debris_seen = time,
-                Observes::Motion(_) if !self.has_camera && PointMotion::of(values, 6).is_some() => {
+                Observes::Motion(_) if !self.spec.has_camera() && PointMotion::of(values, 6).is_some() => {
                     self.debris_seen = time;
                 }
                 _ => {}

@@ -8,10 +8,9 @@ use crate::loops::vector::{norm, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -K (k (e + z) + c omega_st) + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of the
-/// attitude q and the rate omega_st, both relative to the target, z = Ki int e dt, K = J less the axial inertias of
-/// free wheels, H the momentum with the wheels. From rest it turns about a fixed axis, with theta'' = -c theta' - k
-/// sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis, *J. Guidance* 12(3), 1989).
+/// u = -K (k (e + z) + c omega_st) + omega x H + K (omega_te' - omega x omega_te), z = Ki int e dt. From rest it turns
+/// about a fixed axis, with theta'' = -c theta' - k sin(theta/2) (B. Wie, H. Weiss & A. Arapostathis, *J. Guidance*
+/// 12(3), 1989).
 ///
 /// A rate limit cuts k (e + z) to the length c max_rate, at which the body coasts (cascade saturation; Wie, *Space
 /// Vehicle Dynamics and Control*, 2008, section 7.3). Under a torque limit K (...) keeps its direction, and a `Slew`

@@ -1,7 +1,8 @@
 //! Attitude laws: from the estimated attitude to a wanted torque on the body.
 //!
-//! All know the nominal spacecraft only ([`KnownBody`]). The equation of motion is K omega' = H x omega + u, with K =
-//! J* if motors drive free wheels, H the angular momentum with the wheels, and u the torque on the body, F_s.
+//! All know the nominal spacecraft only ([`KnownBody`]). The equation of motion is K omega' = H x omega + u, with K the
+//! inertia J less the axial inertias of free wheels, H the angular momentum with the wheels, and u the torque on the
+//! body, F_s. Relative to the target, omega_st is the rate, q the attitude, and e = q_v sign(q_0).
 
 mod eigenaxis;
 mod integral;

@@ -6,11 +6,10 @@ use crate::loops::vector::{cross, difference, mrp_of, product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -k s - P omega_st - P Ki z + (omega_te + Ki z) x H + K (omega_te' - omega x omega_te), with s the attitude
-/// relative to the target, z = k int s dt + K omega_st, K = J less the axial inertias of free wheels, and H with the
-/// wheels (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section 8.4, as in Basilisk's
-/// `mrpFeedback`: without an integral, the third term vanishes for a target at rest). With `gyroscopic`, omega x H
-/// replaces (omega_te + Ki z) x H and balances the body's gyroscopic torque.
+/// u = -k s - P omega_st - P Ki z + (omega_te + Ki z) x H + K (omega_te' - omega x omega_te), with s the parameters of
+/// q and z = k int s dt + K omega_st (H. Schaub & J. L. Junkins, *Analytical Mechanics of Space Systems*, 2018, section
+/// 8.4, as in Basilisk's `mrpFeedback`: without an integral, the third term vanishes for a target at rest). With
+/// `gyroscopic`, omega x H replaces (omega_te + Ki z) x H and balances the body's gyroscopic torque.
 #[derive(Clone, Copy)]
 struct MrpFeedback {
     /// K, P and Ki, and the limit of the integral.

@@ -7,10 +7,9 @@ use crate::loops::vector::{product, scaled, sum};
 use crate::scene::LawParameter;
 use crate::scene::schema::Limit;
 
-/// u = -2 w^2 K (e + z_i) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with e = q_v sign(q_0) of
-/// the attitude q and the rate omega_st, both relative to the target, z_i = Ki int e dt, bandwidth w and damping z of
-/// small errors, K = J less the axial inertias of free wheels, and H the momentum with the wheels (B. Wie, *Space
-/// Vehicle Dynamics and Control*, 2008, section 7.3; the last term tracks a turning target).
+/// u = -2 w^2 K (e + z_i) - 2 z w K omega_st + omega x H + K (omega_te' - omega x omega_te), with z_i = Ki int e dt,
+/// bandwidth w and damping z of small errors (B. Wie, *Space Vehicle Dynamics and Control*, 2008, section 7.3; the last
+/// term tracks a turning target).
 #[derive(Clone, Copy)]
 struct QuaternionFeedback {
     /// w, rad/s.

@@ -106,9 +106,8 @@ pub(super) fn read_phase(
         section.rename("guidance", own_name.as_str());
     }
     let has_debris = scene.debris.is_some();
-    let is_python = |own: &&LawKind| own.name == callback::NAME;
-    let python = own.filter(is_python).unwrap_or(&callback::MISSING);
-    let brought = [python].into_iter().chain(own.filter(|own| !is_python(own))).chain(module.kind());
+    let python = own.filter(|own| **own == callback::MISSING).unwrap_or(&callback::MISSING);
+    let brought = [python].into_iter().chain(own.filter(|own| *own != python)).chain(module.kind());
     let kinds: Vec<&LawKind> = laws::KINDS.iter().chain(brought).collect();
     let law = law(section, &kinds, module);
     let mut written = section.right_rows(&ROWS[4..]);
