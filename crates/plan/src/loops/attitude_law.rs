@@ -72,6 +72,8 @@ impl DerefMut for AttitudeLaw {
     }
 }
 
+type Make = dyn Fn(&LawSettings<'_>) -> AttitudeLaw + Send + Sync;
+
 /// An attitude law that phases of `[[guidance]]` can name: built in, a WebAssembly module, or the calling program's
 /// ([`super::OwnLaw`]).
 ///
@@ -110,7 +112,7 @@ pub struct LawKind {
     pub parameters: &'static [LawParameter],
     /// True if it reads measurements ([`LawInput::readings`]).
     pub reads_sensors: bool,
-    make: Option<Arc<dyn Fn(&LawSettings<'_>) -> AttitudeLaw + Send + Sync>>,
+    make: Option<Arc<Make>>,
 }
 
 impl LawKind {
