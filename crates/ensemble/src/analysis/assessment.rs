@@ -18,8 +18,7 @@ pub struct Assessment {
     pub gate: Gate,
     /// Two-sided interval of the estimate at the confidence of the statistics; NaN if there is none.
     pub interval: [f64; 2],
-    /// The quantile, with missing values as violations, or the mean of the values; `None` for fractions, and if the
-    /// quantile is a missing value.
+    /// The quantile, with missing values as violations, or the mean; `None` for fractions and a missing quantile.
     pub value: Option<f64>,
     /// Dispersed, physical runs.
     pub runs: u64,

@@ -59,8 +59,7 @@ fn part(k: usize, bars: usize) -> f64 {
     k as f64 / bars as f64
 }
 
-/// Edges of equally wide bars. Values on a lattice, such as counts and times of control periods, get bars of whole
-/// steps, each with equally many places.
+/// Edges of equally wide bars; on a lattice, as of counts and control periods, of whole steps.
 pub fn linear_bins(values: &[f64], limits: &[f64]) -> Vec<f64> {
     let mut edges = equal_bins(values, limits);
     // bars of magnitudes begin at zero

@@ -148,8 +148,7 @@ impl Comparison {
         second - first
     }
 
-    /// True if a statistic, or the fraction of `ok` runs, shifts by more than `tolerance`, or is NaN in only one
-    /// result.
+    /// True if an observable, or the fraction of `ok` runs, shifts by more than `tolerance`.
     pub fn is_beyond(&self, tolerance: f64) -> bool {
         self.shift_of_ok().abs() > tolerance || self.columns.iter().any(|column| column.is_beyond(tolerance))
     }
@@ -196,15 +195,15 @@ pub fn compare(first: ResultRows<'_>, second: ResultRows<'_>, threads: Threads) 
     pairs.retain(|[row, other]| ended[0][*row] == Status::Done && ended[1][*other] == Status::Done);
     let confidence = first.plan.analysis.confidence;
     let (all, others) = (Observed::all(first.plan), Observed::all(second.plan));
-    let other = |name: &str| others.iter().find(|observed| observed.quantity.name() == name);
+    let other = |name: &str| others.iter().find(|observed| observed.name() == name);
     let shared: Vec<(&Observed, &Observed)> =
-        all.iter().filter_map(|observed| Some((observed, other(observed.quantity.name())?))).collect();
+        all.iter().filter_map(|observed| Some((observed, other(observed.name())?))).collect();
     let mut columns = Vec::with_capacity(shared.len());
     for batch in shared.chunks(AT_A_TIME) {
         let of_first = values(first, batch.iter().map(|(observed, _)| *observed))?;
         let of_second = values(second, batch.iter().map(|(_, observed)| *observed))?;
         for (((observed, _), a), b) in batch.iter().zip(&of_first).zip(&of_second) {
-            let name = observed.quantity.name();
+            let name = observed.name();
             if let Some((of_a, of_b)) = statistics[0].column(name).zip(statistics[1].column(name)) {
                 let of_ok = [0, 1].map(|which| {
                     let (ended, values) = (&ended[which], [a, b][which]);
@@ -222,8 +221,8 @@ pub fn compare(first: ResultRows<'_>, second: ResultRows<'_>, threads: Threads) 
     columns.iter_mut().for_each(|column| column.is_required = required.contains(&column.quantity.name()));
     adjust(&mut columns, &mut failures);
     let without = |list: &[Observed], other: &[Observed]| -> Vec<String> {
-        let names = list.iter().map(|one| one.quantity.name());
-        names.filter(|name| other.iter().all(|one| one.quantity.name() != *name)).map(str::to_owned).collect()
+        let names = list.iter().map(Observed::name);
+        names.filter(|name| other.iter().all(|one| one.name() != *name)).map(str::to_owned).collect()
     };
     let alone = [without(&all, &others), without(&others, &all)];
     Ok(Comparison { statistics, pairs: pairs.len() as u64, failures, columns, alone })

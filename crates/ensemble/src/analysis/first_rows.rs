@@ -33,7 +33,7 @@ pub struct RowTable {
 
 impl RowTable {
     pub(super) fn column(&self, plan: &Plan, name: &str) -> Option<&[f64]> {
-        let place = FirstRows::new(plan).observed.iter().position(|one| one.quantity.name() == name)?;
+        let place = FirstRows::new(plan).observed.iter().position(|one| one.name() == name)?;
         Some(&self.observables[place])
     }
 }
@@ -62,7 +62,7 @@ impl FirstRows {
 /// Observables with estimated sensitivities; none without inputs.
 pub fn explained(plan: &Plan) -> Vec<String> {
     let observed = if inputs(plan).is_empty() { Vec::new() } else { FirstRows::new(plan).observed };
-    observed.into_iter().map(|one| one.quantity.name().to_owned()).collect()
+    observed.into_iter().map(|one| one.name().to_owned()).collect()
 }
 
 pub(super) fn inputs(plan: &Plan) -> Vec<String> {

@@ -88,10 +88,8 @@ impl Gathered {
     }
 }
 
-/// Folds rows in memory, part by part in any order, to save reading them again at the end.
-///
-/// Only for a campaign that one process runs from start to end; otherwise earlier parts are on disk, and all are read
-/// from there.
+/// Folds rows in memory, part by part in any order, instead of reading them again at the end: only in a campaign that
+/// one process runs from start to end.
 #[derive(Debug)]
 pub struct RunningFold {
     names: RowNames,

@@ -106,11 +106,15 @@ impl Observed {
         of_rows.chain(derived).collect()
     }
 
+    pub fn name(&self) -> &str {
+        self.quantity.name()
+    }
+
     /// The observables called `names`, in the order of [`Observed::all`].
     pub fn named<'a>(plan: &Plan, names: impl Iterator<Item = &'a str>) -> Vec<Observed> {
         let names: Vec<&str> = names.collect();
         let mut all = Self::all(plan);
-        all.retain(|observed| names.contains(&observed.quantity.name()));
+        all.retain(|observed| names.contains(&observed.name()));
         all
     }
 
@@ -121,7 +125,7 @@ impl Observed {
 
     /// Values in a part; NaN for none.
     pub fn column<'p>(&self, part: &'p impl PartColumns) -> Result<Cow<'p, [f64]>> {
-        let Some(expression) = &self.derived else { return part.numbers(self.quantity.name()) };
+        let Some(expression) = &self.derived else { return part.numbers(self.name()) };
         let columns = self.columns(part)?;
         let value = |row: usize| known(expression, |place| columns[place][row]);
         Ok((0..part.rows()).map(value).collect())
@@ -153,7 +157,7 @@ impl Observed {
 
     /// The value in a row, given its columns by name; `None` if a column is missing.
     pub fn value(&self, of: impl Fn(&str) -> Option<f64>) -> Option<f64> {
-        let Some(expression) = &self.derived else { return of(self.quantity.name()) };
+        let Some(expression) = &self.derived else { return of(self.name()) };
         let values: Vec<f64> = self.sources.iter().map(|source| of(&source.column)).collect::<Option<_>>()?;
         Some(known(expression, |place| values[place]))
     }
@@ -165,7 +169,7 @@ impl Observed {
             Some(expression) => expression.range(|_| [f64::NEG_INFINITY, f64::INFINITY]),
             None => [not_negative, f64::INFINITY],
         };
-        let own = plan.analysis.requirements_on(self.quantity.name());
+        let own = plan.analysis.requirements_on(self.name());
         let declared = own.filter_map(|one| one.bounded);
         declared.fold(of_text, |[low, high], [least, most]| [low.max(least), high.min(most)])
     }

@@ -28,7 +28,7 @@ const CHANCE: f64 = 5.5;
 /// big `loss` the `ok` rows are no sample of all, and have no intervals.
 pub fn compute(plan: &Plan, table: &RowTable, loss: Loss, threads: Threads) -> Vec<InputSensitivity> {
     let observed = FirstRows::new(plan).observed;
-    let names: Vec<&str> = observed.iter().map(|one| one.quantity.name()).collect();
+    let names: Vec<&str> = observed.iter().map(Observed::name).collect();
     let found = of_table(plan, &names, table, &table.observables, threads);
     if loss.is_big() { found.into_iter().map(|one| one.without_intervals(true)).collect() } else { found }
 }

@@ -2,8 +2,7 @@
 //!
 //! Counts and extremes are exact, moments are merged in the order of the parts, sketches hold counts: results do not
 //! depend on threads. Quantiles are exact up to [`MOST_EXACT`](crate::analysis::column_counts::MOST_EXACT) rows, beyond
-//! they come from sketches with an error bound. Columns are read in batches, so that memory does not grow with the
-//! rows.
+//! they come from sketches with an error bound. Columns are read in [`batches`].
 //!
 //! The nominal sample 0 counts only if it is alone. Runs that are not `ok` are left out of estimates, except for the
 //! quantiles of requirements, which they violate. Intervals hold for all their possible values; for a mean, within the
@@ -128,7 +127,7 @@ pub fn compute(
         let common = CommonRanks::new(plan, left, with_value + loss.missing);
         let lost = &collected.lost[..];
         let describe = |(observed, counts): (&Observed, ColumnCounts)| {
-            let is_shown = shown.iter().any(|name| name == observed.quantity.name());
+            let is_shown = shown.iter().any(|name| name == observed.name());
             described(plan, (left, loss, lost), (observed, is_shown), counts, &common)
         };
         columns.extend(in_parallel(observed.iter().zip(collected.columns).collect(), threads, describe));
@@ -207,7 +206,7 @@ fn described(
         let ranks = is_known.then(|| common.of(runs, p, confidence));
         AskedQuantile::new(p, confidence, ranks).with_missing(count, runs - count, limit)
     };
-    let requirements = plan.analysis.requirements_on(observed.quantity.name());
+    let requirements = plan.analysis.requirements_on(observed.name());
     let required = requirements.filter_map(|one| match one.statement {
         Statement::Quantile(p) => Some((one, with_missing(p, one.limit))),
         _ => None,

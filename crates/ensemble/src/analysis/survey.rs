@@ -150,25 +150,25 @@ impl Surveyor {
         let plan = ensemble.plan();
         let (names, asked) = wanted(ensemble);
         let mut observed = Observed::named(plan, names.iter().map(String::as_str));
-        observed.sort_by_key(|one| names.iter().position(|name| name == one.quantity.name()));
+        observed.sort_by_key(|one| names.iter().position(|name| name == one.name()));
         observed.truncate(MOST_OUTCOMES.max(asked));
         let outcomes = outcomes(plan);
         let inputs: Vec<String> = plan.dispersions.columns().iter().map(Column::name).collect();
         let outcome = |column: &Observed| SurveyedOutcome {
             quantity: column.quantity.clone(),
-            is_outcome: outcomes.iter().any(|name| name == column.quantity.name()),
-            is_error: !column.is_count && is_error(column.quantity.name()),
+            is_outcome: outcomes.iter().any(|name| name == column.name()),
+            is_error: !column.is_count && is_error(column.name()),
             sketch: Sketch::default(),
-            worst: WorstRuns::new(KEPT, is_worst_when_low(plan, column.quantity.name())),
+            worst: WorstRuns::new(KEPT, is_worst_when_low(plan, column.name())),
             nominal: f64::NAN,
             confidence: plan.analysis.confidence,
             growth: Vec::new(),
             lost: 0,
         };
         let estimate = STATE_ERROR_ESTIMATE.name();
-        let place = |name: &str| observed.iter().position(|one| one.quantity.name() == name);
+        let place = |name: &str| observed.iter().position(|one| one.name() == name);
         let judged = |one: &Requirement| Some((one.clone(), place(one.of_runs()?)?));
-        let has_estimate = observed.iter().any(|column| column.quantity.name() == estimate);
+        let has_estimate = observed.iter().any(|column| column.name() == estimate);
         Surveyor {
             nothing: Survey {
                 statuses: Statuses::none(Population::of(plan)),

@@ -66,7 +66,7 @@ impl RequirementCounter {
     pub fn new(plan: &Plan) -> Self {
         let requirements = plan.analysis.requirements.clone();
         let observed = Observed::named(plan, requirements.iter().filter_map(Requirement::observable));
-        let index = |name: &str| observed.iter().position(|observed| observed.quantity.name() == name);
+        let index = |name: &str| observed.iter().position(|observed| observed.name() == name);
         let of = requirements.iter().map(|requirement| requirement.observable().and_then(index)).collect();
         RequirementCounter { of, requirements, observed, population: Population::of(plan) }
     }

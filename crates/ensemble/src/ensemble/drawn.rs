@@ -72,27 +72,23 @@ pub fn magnitudes(plan: &Plan) -> Vec<Magnitude> {
     list
 }
 
+const CENTER: &str = "Centre of mass of the spacecraft, from p in F_s.";
+
+macro_rules! moment {
+    ($which:literal) => {
+        concat!($which, " principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.")
+    };
+}
+
 /// Column as in rows, unit, meaning.
 pub const MASS_COLUMNS: [[&str; 3]; 7] = [
     ["mass_kg", "kg", "Mass of the spacecraft, wheels included."],
-    ["center_of_mass_x_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
-    ["center_of_mass_y_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
-    ["center_of_mass_z_m", "m", "Centre of mass of the spacecraft, from p in F_s."],
-    [
-        "principal_moment_smallest_kg_m2",
-        "kg m^2",
-        "Smallest principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
-    ],
-    [
-        "principal_moment_middle_kg_m2",
-        "kg m^2",
-        "Middle principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
-    ],
-    [
-        "principal_moment_largest_kg_m2",
-        "kg m^2",
-        "Largest principal moment of inertia of the spacecraft, wheels locked, about its centre of mass.",
-    ],
+    ["center_of_mass_x_m", "m", CENTER],
+    ["center_of_mass_y_m", "m", CENTER],
+    ["center_of_mass_z_m", "m", CENTER],
+    ["principal_moment_smallest_kg_m2", "kg m^2", moment!("Smallest")],
+    ["principal_moment_middle_kg_m2", "kg m^2", moment!("Middle")],
+    ["principal_moment_largest_kg_m2", "kg m^2", moment!("Largest")],
 ];
 
 pub fn mass_properties(scene: &Scene) -> [f64; 7] {

@@ -72,14 +72,10 @@ impl Layout {
         &self.columns
     }
 
-    /// Writes a file with one row group of `values`, column by column, all of the same length. `own` is its own
-    /// metadata.
+    /// Writes a file with one [group](GroupWriter::group) of `values`; `own` is its own metadata.
     ///
     /// # Errors
     /// A failure of writing.
-    ///
-    /// # Panics
-    /// If values and column differ in type.
     pub fn write<'a, W: Write + Send>(
         &self,
         out: W,

@@ -16,7 +16,7 @@ pub struct DerivedObservable {
     pub expression: String,
 }
 
-const NAME: TextLimit = TextLimit {
+pub(super) const NAME: TextLimit = TextLimit {
     allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
     remedy: "write it like pointing_error_deg",
     test: |name| is_name(name, 60),

@@ -3,7 +3,7 @@
 use super::known_columns::unit_of;
 use super::numbers::FINITE;
 use super::prelude::*;
-use super::watched_quantity::variables;
+use super::watched_quantity::{QUANTITY, variables};
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::sampling::keys::{is_name, words};
 
@@ -61,8 +61,7 @@ const WHICH: [&str; 3] = words(&Which::ALL);
 pub const ROWS: [Row; 6] = [
     Row::new("name", Kind::Text(NAME), "Its name, with which the names of its columns \
         begin").required_as(NAME.allowed, "\"settled\""),
-    Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
-        .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
+    QUANTITY,
     Row::new("value", Kind::Amount, "The value that it crosses").required_as(FINITE.allowed, "0.1"),
     Row::new("direction", Kind::Word(&DIRECTIONS), "Direction of the crossing"),
     Row::new("which", Kind::Word(&WHICH), "Which crossing gives its time; `stays`: the last one, if the quantity then \

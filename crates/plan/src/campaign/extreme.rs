@@ -3,10 +3,9 @@
 
 use super::event::Event;
 use super::prelude::*;
-use super::watched_quantity::variables;
+use super::watched_quantity::{QUANTITY, variables};
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{ColumnKind, LawColumn};
-use crate::sampling::keys::is_name;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
@@ -23,19 +22,14 @@ pub struct Extreme {
 }
 
 const MOST_EXTREMES: usize = 16;
-const NAME: TextLimit = TextLimit {
-    allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
-    remedy: "write it like pointing_error_max_rad",
-    test: |name| is_name(name, 60),
-};
+const NAME: TextLimit = TextLimit { remedy: "write it like pointing_error_max_rad", ..super::derived_observable::NAME };
 const WHICH: [&str; 2] = ["max", "min"];
 
 #[rustfmt::skip]
 pub const ROWS: [Row; 5] = [
     Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed,
         "\"angular_rate_after_max_rad_s\""),
-    Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
-        .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\""),
+    QUANTITY,
     Row::new("which", Kind::Word(&WHICH), "Whether to take the largest value or the smallest"),
     Row::new("after", Kind::Text(ANY_TEXT), "The name of the `[[event]]` after which it is taken; default: from the \
         start of the run"),

@@ -5,6 +5,10 @@ use crate::observables::Groups;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::sampling::expression::Expression;
 
+pub(super) const QUANTITY: Row =
+    Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")
+        .required_as("a quantity over time, or an expression of some", "\"angular_rate_rad_s\"");
+
 /// The expression `text` and its variables among `series`; `None` only for what reading a plan refuses.
 pub fn parsed(text: &str, series: &[BandSeries]) -> Option<(Expression, Vec<BandSeries>)> {
     let expression = Expression::parse(text).ok()?;
