@@ -1,4 +1,4 @@
-//! The law that the Python package brings: the function given to `plan.run(control=...)`, which serves many runs at once.
+//! The law of the Python package: the function given to `plan.run(control=...)`, which serves many runs at once.
 
 use super::attitude_law::LawKind;
 use super::spec::LoopSpec;

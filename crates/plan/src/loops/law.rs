@@ -14,8 +14,8 @@ use crate::scene::{Actuated, ControlInput, LawParameter, Scene};
 
 /// A control law of the calling program, for `Session::under`.
 ///
-/// It is part of the plan by its name and parameters, hence of the identity of the rows: change the name when you change
-/// the law. The law of a run is made at its start and must depend on nothing but its settings and its input in that run.
+/// Its name and parameters are part of the plan, hence of the identity of the rows: change the name when you change the
+/// law. The law of a run is made at its start and must depend on nothing but its settings and its input in that run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OwnLaw {
     /// In place of a loop; `[control]` sets its parameters.
