@@ -5,7 +5,7 @@ use super::parameter::named;
 use super::prelude::*;
 use crate::sampling::Column;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::is_name;
+use crate::sampling::keys::COLUMN_NAME;
 
 /// An expression of columns and dispersed parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,11 +16,7 @@ pub struct DerivedObservable {
     pub expression: String,
 }
 
-pub(super) const NAME: TextLimit = TextLimit {
-    allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
-    remedy: "write it like pointing_error_deg",
-    test: |name| is_name(name, 60),
-};
+const NAME: TextLimit = TextLimit { remedy: "write it like pointing_error_deg", ..COLUMN_NAME };
 
 #[rustfmt::skip]
 pub const ROWS: [Row; 3] = [

@@ -6,6 +6,7 @@ use super::prelude::*;
 use super::watched_quantity::{QUANTITY, variables};
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::{ColumnKind, LawColumn};
+use crate::sampling::keys::COLUMN_NAME;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
@@ -22,12 +23,11 @@ pub struct Extreme {
 }
 
 const MOST_EXTREMES: usize = 16;
-const NAME: TextLimit = TextLimit { remedy: "write it like pointing_error_max_rad", ..super::derived_observable::NAME };
 const WHICH: [&str; 2] = ["max", "min"];
 
 #[rustfmt::skip]
 pub const ROWS: [Row; 5] = [
-    Row::new("name", Kind::Text(NAME), "The name of its column").required_as(NAME.allowed,
+    Row::new("name", Kind::Text(COLUMN_NAME), "The name of its column").required_as(COLUMN_NAME.allowed,
         "\"angular_rate_after_max_rad_s\""),
     QUANTITY,
     Row::new("which", Kind::Word(&WHICH), "Whether to take the largest value or the smallest"),

@@ -63,6 +63,12 @@ pub struct TextLimit {
 
 pub const ANY_TEXT: TextLimit = TextLimit { allowed: "text", remedy: "write it in quotes", test: |_| true };
 
+pub const COLUMN_NAME: TextLimit = TextLimit {
+    allowed: "1 to 60 lower-case letters, digits and underscores, the first a letter",
+    remedy: "write it like pointing_error_max_rad",
+    test: |name| is_name(name, 60),
+};
+
 /// True if `text` is at most `most` lower-case letters, digits and underscores, the first a letter.
 pub fn is_name(text: &str, most: usize) -> bool {
     let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
