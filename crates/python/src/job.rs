@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use spindrift::workflow::{CampaignOutcome, Outputs, Session, Watch, WorkflowErro
 
 use crate::campaign_source::{CampaignSource, prepared};
 use crate::law::{Law, refuse_unnamed};
-use crate::{SpindriftError, raised};
+use crate::{SpindriftError, locked, raised};
 
 /// A campaign to run, with its options.
 pub struct Run {
@@ -37,11 +37,6 @@ struct Shared {
     notes: Mutex<Vec<String>>,
     has_ended: Mutex<bool>,
     ended: Condvar,
-}
-
-/// Locks `mutex`, also after a panic, which leaves none of these values half changed.
-pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Watch for Shared {

@@ -19,7 +19,7 @@ use spindrift::loops::estimate::Estimate;
 use spindrift::sampling::SampleId;
 use spindrift::workflow::{Quiet, Session, WorkflowError};
 
-use crate::job::locked;
+use crate::locked;
 
 /// Parts that are flown side by side on a thread, one run of each at a time: the function answers for up to as many.
 const SIDE_BY_SIDE: usize = 64;

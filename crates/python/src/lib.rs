@@ -1,5 +1,5 @@
-//! The extension of the Python package `spindrift`: what its modules in `spindrift/` stand on. Arguments arrive checked
-//! and typed; what is said to a user, and how, is decided there.
+//! The extension of the Python package `spindrift`, on which its modules in `spindrift/` stand. Arguments arrive checked
+//! and typed: those modules decide on messages to a user.
 
 mod campaign_source;
 mod job;
@@ -12,6 +12,7 @@ mod toml_values;
 
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use pyo3::create_exception;
 use pyo3::exceptions::PyException;
@@ -29,6 +30,11 @@ create_exception!(
     PyException,
     "What is wrong with a campaign file, a result, or what was asked for: all of it, as the command line prints it."
 );
+
+/// Locks `mutex`, also after a panic, which leaves none of these values half changed.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// An error of the library as Python's.
 fn raised(error: impl Into<WorkflowError>) -> PyErr {
