@@ -1,5 +1,5 @@
-//! The extension of the Python package `spindrift`, on which its modules in `spindrift/` stand. Arguments arrive checked
-//! and typed: those modules decide on messages to a user.
+//! The extension of the Python package `spindrift`, on which its modules in `spindrift/` stand. Arguments arrive
+//! checked and typed: those modules decide on messages to a user.
 
 mod campaign_source;
 mod job;
