@@ -2,8 +2,12 @@
 
 use crate::support::{prelude::*, scenes::misaligned};
 use spindrift::{
+    dynamics::effects::Effect,
     sampling::{Dispersion, DispersionError, Dispersions, Written, WrittenDistribution, dispersions::Draws},
-    scene::{PartInput, PartShape, PrincipalInertia, PrincipalMoments, parameter::Shape as ParameterShape},
+    scene::{
+        Name, PartInput, PartShape, PrincipalInertia, PrincipalMoments, parameter::Shape as ParameterShape,
+        table::Table,
+    },
 };
 
 const HORIZON: f64 = 1.0;
@@ -201,4 +205,25 @@ fn every_key_moves_the_motion_and_both_kernels_agree_where_to() {
     unmoved.retain(|name| !name.starts_with("environment."));
     assert_eq!(unmoved, ["actuation.0.switch_off_delay_s"]);
     assert!(count > 100, "{count}");
+}
+
+/// Numbers of effects that other keys of `[environment]` switch on.
+const OF_EFFECTS: [&str; 6] = [
+    "environment.density_scale",
+    "environment.base_density_kg_m3",
+    "environment.base_height_m",
+    "environment.scale_height_m",
+    "environment.solar_pressure_n_m2",
+    "environment.area_scale",
+];
+
+/// Law: a numeric key of `[environment]` makes an effect of the list act, or is a number of one.
+#[test]
+fn every_key_of_the_environment_has_an_effect() {
+    let keys: Vec<String> = Table::Environment.keys().map(|key| key.name(Name::NONE)).collect();
+    assert!(OF_EFFECTS.iter().all(|name| keys.iter().any(|key| key == name)));
+    for key in keys {
+        let acts = Effect::ALL.into_iter().any(|effect| effect.key() == key);
+        assert!(acts != OF_EFFECTS.contains(&key.as_str()), "{key} is in the schema, but has no effect");
+    }
 }
