@@ -5,6 +5,7 @@ from __future__ import annotations
 import _thread
 import logging
 import re
+import signal
 import threading
 import time
 import tomllib
@@ -122,6 +123,8 @@ def test_more_samples_than_memory_are_refused_and_others_stop() -> None:
     plan = sd.load(START)
     with pytest.raises(sd.SpindriftError, match=r"1000000000000 samples of start: .* of memory: the machine has .* left"):
         plan.sample(10**12)
+    # a shell that starts tests in the background has SIGINT ignored
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.05, _thread.interrupt_main).start()
     begun = time.monotonic()
     with pytest.raises(KeyboardInterrupt):

@@ -1,6 +1,9 @@
 //! Series of steps and their evaluation, each lane at its own time.
-
-use core::convert::identity;
+#![expect(
+    clippy::needless_range_loop,
+    clippy::manual_memcpy,
+    reason = "components are numbered alike in several arrays; a copy by slices leaves the registers"
+)]
 
 use fearless_simd::Simd;
 
@@ -23,46 +26,45 @@ impl<R: Real, const J: usize> Segment<R, J> {
     }
 }
 
-/// All components of `jet` at the `U` times `x`, in groups whose sums stay in registers.
+/// All components of `jet` at the `U` times `x`, in groups whose sums stay in registers while a loaded coefficient
+/// serves all times.
 #[inline(always)]
 pub fn values<R: Real, const J: usize, const U: usize>(jet: &[[R; J]], x: [R; U]) -> [[R; J]; U] {
     let mut all = [jet[0]; U];
     // rate alone, quaternion two by two, angle alone
-    group::<_, _, J, 3, U>(jet, 0, identity, x, &mut all);
+    group::<R, J, 3, U>(jet, 0, x, &mut all);
     if J > 3 {
-        group::<_, _, J, 2, U>(jet, 3, identity, x, &mut all);
-        group::<_, _, J, 2, U>(jet, 5, identity, x, &mut all);
+        group::<R, J, 2, U>(jet, 3, x, &mut all);
+        group::<R, J, 2, U>(jet, 5, x, &mut all);
     }
     if J > 7 {
-        group::<_, _, J, 3, U>(jet, 7, identity, x, &mut all);
+        group::<R, J, 3, U>(jet, 7, x, &mut all);
     }
     // integrals of effects, if they have series
     for first in 10..J {
-        group::<_, _, J, 1, U>(jet, first, identity, x, &mut all);
+        group::<R, J, 1, U>(jet, first, x, &mut all);
     }
     all
 }
 
-/// Horner's scheme for `G` components from `first` on, with coefficients in the type of `x` by `spread`.
+/// Horner's scheme for `G` components from `first` on.
 #[inline(always)]
-fn group<R: Real, X: Real, const J: usize, const G: usize, const U: usize>(
+fn group<R: Real, const J: usize, const G: usize, const U: usize>(
     jet: &[[R; J]],
     first: usize,
-    spread: impl Fn(R) -> X,
-    x: [X; U],
-    all: &mut [[X; J]; U],
+    x: [R; U],
+    all: &mut [[R; J]; U],
 ) {
     let Some((last, lower)) = jet.split_last() else { return };
     let mut sums = [[x[0]; G]; U];
-    for i in 0..G {
-        let coefficient = spread(last[first + i]);
-        for u in 0..U {
-            sums[u][i] = coefficient;
+    for u in 0..U {
+        for i in 0..G {
+            sums[u][i] = last[first + i];
         }
     }
     for coefficients in lower.iter().rev() {
         for i in 0..G {
-            let coefficient = spread(coefficients[first + i]);
+            let coefficient = coefficients[first + i];
             for u in 0..U {
                 sums[u][i] = sums[u][i].mul_add(x[u], coefficient);
             }
@@ -93,24 +95,43 @@ pub fn values_in_lane<S: Simd, R: Real, const J: usize, const U: usize>(
     x: [Lanes<S>; U],
 ) -> [[Lanes<S>; J]; U] {
     let mut all = [[x[0]; J]; U];
-    macro_rules! group {
-        ($count:literal, $first:literal) => {
-            group::<_, _, J, $count, U>(
-                jet,
-                $first,
-                #[inline(always)]
-                |coefficient: R| Lanes::broadcast(x[0].simd(), coefficient.lane(lane)),
-                x,
-                &mut all,
-            )
-        };
-    }
-    group!(3, 0);
+    group_in_lane::<S, R, J, 3, U>(jet, lane, 0, x, &mut all);
     if J > 3 {
-        group!(4, 3);
+        group_in_lane::<S, R, J, 4, U>(jet, lane, 3, x, &mut all);
     }
     if J > 7 {
-        group!(3, 7);
+        group_in_lane::<S, R, J, 3, U>(jet, lane, 7, x, &mut all);
     }
     all
+}
+
+#[inline(always)]
+fn group_in_lane<S: Simd, R: Real, const J: usize, const G: usize, const U: usize>(
+    jet: &[[R; J]],
+    lane: usize,
+    first: usize,
+    x: [Lanes<S>; U],
+    all: &mut [[Lanes<S>; J]; U],
+) {
+    let Some((last, lower)) = jet.split_last() else { return };
+    let mut sums = [[x[0]; G]; U];
+    for i in 0..G {
+        let coefficient = Lanes::broadcast(x[0].simd(), last[first + i].lane(lane));
+        for u in 0..U {
+            sums[u][i] = coefficient;
+        }
+    }
+    for coefficients in lower.iter().rev() {
+        for i in 0..G {
+            let coefficient = Lanes::broadcast(x[0].simd(), coefficients[first + i].lane(lane));
+            for u in 0..U {
+                sums[u][i] = sums[u][i].mul_add(x[u], coefficient);
+            }
+        }
+    }
+    for u in 0..U {
+        for i in 0..G {
+            all[u][first + i] = sums[u][i];
+        }
+    }
 }
