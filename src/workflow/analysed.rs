@@ -8,7 +8,7 @@ use crate::findings::end::SummaryEnd;
 use crate::findings::{Findings, findings};
 use crate::report::junit;
 use crate::storage::atomic;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 
 pub fn end_of_analysed(analysed: &Analysed, found: &Findings) -> SummaryEnd {
     let end = SummaryEnd::of(&analysed.ending(), Some(&analysed.statistics));
@@ -16,7 +16,7 @@ pub fn end_of_analysed(analysed: &Analysed, found: &Findings) -> SummaryEnd {
 }
 
 /// Writes the verdicts to `file`, if any, as JUnit XML.
-pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<(), WorkflowError> {
+pub fn write_junit(plan: &Plan, analysed: &Analysed, file: Option<&Path>) -> Result<()> {
     let Some(file) = file else { return Ok(()) };
     let text = junit::text(plan, analysed, &findings(plan, analysed, &[]));
     atomic::write_bytes(file, text.as_bytes()).map_err(|error| WorkflowError::at(file, error))

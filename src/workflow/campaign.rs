@@ -8,7 +8,7 @@ use crate::control::tables::Overrides;
 use crate::ensemble::Ensemble;
 use crate::storage::claim::{Claim, Shard};
 use crate::storage::store::Store;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::failed_samples::plan_of_failed;
 use crate::workflow::finishing::{Job, Outputs, already, keep};
 use crate::workflow::outcome::CampaignOutcome;
@@ -141,7 +141,7 @@ impl<'a> Campaign<'a> {
     ///
     /// # Errors
     /// A wrong file, or an unusable result with failed samples.
-    pub fn prepare(self) -> Result<Option<PreparedCampaign<'a>>, WorkflowError> {
+    pub fn prepare(self) -> Result<Option<PreparedCampaign<'a>>> {
         let found = match (&self.only_failed_of, &self.text) {
             (None, Some(text)) => Some(Plan::from_text_of(&self.file, text, self.overrides.clone())?),
             (None, None) => Some(plan_and_files(&self.file, self.overrides.clone())?),
@@ -166,7 +166,7 @@ impl<'a> Campaign<'a> {
     ///
     /// # Errors
     /// A campaign that cannot run or does not finish: of a shard, after a stop, without failed samples.
-    pub fn results(self) -> Result<Results<'a>, WorkflowError> {
+    pub fn results(self) -> Result<Results<'a>> {
         let session = self.session;
         let unfinished = |what: &str| WorkflowError::Input(format!("{what}: there is no finished result"));
         let Some(prepared) = self.prepare()? else { return Err(unfinished("no run failed")) };
@@ -214,7 +214,7 @@ impl PreparedCampaign<'_> {
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
-    pub fn refuse_work(&self, yes: bool) -> Result<(), WorkflowError> {
+    pub fn refuse_work(&self, yes: bool) -> Result<()> {
         let Campaign { session, shard, overwrite, .. } = &self.campaign;
         let (plan, root, ensemble) = (&self.plan, &*self.root, self.ensemble());
         let there = Some(&*self.store).filter(|_| !overwrite);
@@ -232,7 +232,7 @@ impl PreparedCampaign<'_> {
     ///
     /// # Errors
     /// A result that must not be replaced, or a failed file operation.
-    pub fn run(&self) -> Result<CampaignOutcome, WorkflowError> {
+    pub fn run(&self) -> Result<CampaignOutcome> {
         refuse_missing_law(&self.plan)?;
         let Campaign { session, shard, overwrite, fail_fast, outputs, .. } = &self.campaign;
         let (ensemble, root) = (self.ensemble(), &*self.root);
@@ -253,7 +253,7 @@ impl PreparedCampaign<'_> {
 ///
 /// # Errors
 /// If the plan has `[stop]`.
-pub fn refuse_shards_with_stop(plan: &Plan, what: &str) -> Result<(), WorkflowError> {
+pub fn refuse_shards_with_stop(plan: &Plan, what: &str) -> Result<()> {
     match plan.analysis.stop {
         None => Ok(()),
         Some(_) => Err(WorkflowError::Input(format!(

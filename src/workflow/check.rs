@@ -11,13 +11,13 @@ use crate::findings::checked::Probed;
 use crate::run::Status;
 use crate::scene::Scene;
 use crate::storage::rows_file;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::source::refuse_missing_law;
 use crate::workflow::workload::Workload;
 
 /// # Errors
 /// An unphysical nominal scene, or a missing control law.
-pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>, WorkflowError> {
+pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>> {
     let (plan, isa) = (ensemble.plan(), ensemble.isa());
     refuse_missing_law(plan)?;
     let scene = Scene::resolve(&plan.nominal)

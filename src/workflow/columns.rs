@@ -7,7 +7,7 @@ use crate::observables::{Group, table};
 use crate::run::Quantity;
 use crate::storage::rows_file;
 use crate::table::{Column, Table};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::Result;
 use crate::workflow::session::isa;
 
 /// Title of the columns before the observables.
@@ -63,7 +63,7 @@ pub fn of_all_campaigns() -> Vec<ListedColumn> {
 ///
 /// # Errors
 /// An unavailable instruction set in the environment.
-pub fn of_campaign(plan: &Plan) -> Result<Vec<ListedColumn>, WorkflowError> {
+pub fn of_campaign(plan: &Plan) -> Result<Vec<ListedColumn>> {
     let ensemble = Ensemble::new(plan, isa()?);
     let observed = ensemble.request().columns();
     let group = |name: &str| observed.iter().find(|one| one.quantity.name() == name).map(|one| one.group.name());

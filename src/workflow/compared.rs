@@ -10,11 +10,11 @@ use crate::report::comparison_json;
 use crate::storage::atomic;
 use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::results::Results;
 
 /// Compares the rows of two results, sample by sample if both drew the same ones; `names` are their names.
-pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result<Compared<'r>, WorkflowError> {
+pub fn compared<'r>(results: [&'r Results<'_>; 2], names: [String; 2]) -> Result<Compared<'r>> {
     let [first, second] = results;
     let rows = results.map(|one| ResultRows { plan: one.plan(), reader: one.rows() });
     let comparison = compare(rows[0], rows[1], first.threads())?;
@@ -33,7 +33,7 @@ impl ComparisonFormat {
     ///
     /// # Errors
     /// An unknown extension.
-    pub fn of(path: &Path) -> Result<Self, WorkflowError> {
+    pub fn of(path: &Path) -> Result<Self> {
         match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
             Some("json") => Ok(ComparisonFormat::Json),
             Some("parquet") => Ok(ComparisonFormat::Parquet),
@@ -44,7 +44,7 @@ impl ComparisonFormat {
         }
     }
 
-    pub fn write(self, compared: &Compared<'_>, path: &Path) -> Result<(), WorkflowError> {
+    pub fn write(self, compared: &Compared<'_>, path: &Path) -> Result<()> {
         let bytes = match self {
             ComparisonFormat::Json => comparison_json::text(compared).into_bytes(),
             ComparisonFormat::Parquet => {

@@ -19,7 +19,7 @@ use crate::storage::rows_reader::RowsReader;
 use crate::storage::store::StoreError;
 use crate::table::Table;
 use crate::workflow::analysed::{Analysed, computed};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::page::made_page;
 use crate::workflow::session::Session;
 
@@ -49,7 +49,7 @@ pub(super) struct Derived {
 ///
 /// # Errors
 /// A file that cannot be read, encoded or taken.
-pub(super) fn derive(job: &Derivation<'_>, gathered: Gathered, files: &TakeFile<'_>) -> Result<Derived, WorkflowError> {
+pub(super) fn derive(job: &Derivation<'_>, gathered: Gathered, files: &TakeFile<'_>) -> Result<Derived> {
     let (plan, threads) = (job.ensemble.plan(), job.session.threads);
     let analysed = computed(plan, job.reader, gathered, threads)?;
     let encoded = |table: Table<'_>| Some(columnar::encoded(&table, provenance(plan), Packing::Zstd));
@@ -68,11 +68,7 @@ pub(super) fn derive(job: &Derivation<'_>, gathered: Gathered, files: &TakeFile<
 }
 
 /// Passes the file `name`, or the failure of its encoding, to `files`.
-fn take<E: Display>(
-    files: &TakeFile<'_>,
-    name: &str,
-    encoded: Option<Result<Vec<u8>, E>>,
-) -> Result<(), WorkflowError> {
+fn take<E: Display>(files: &TakeFile<'_>, name: &str, encoded: Option<Result<Vec<u8>, E>>) -> Result<()> {
     let bytes = encoded.transpose().map_err(|error| WorkflowError::files(format!("{name}: {error}")))?;
     files(name, bytes.as_deref()).map_err(WorkflowError::files)
 }

@@ -13,7 +13,7 @@ use crate::storage::dataset::{FileRecord, Manifest, PartRecord, rows};
 use crate::storage::names::{DATA, HEAD, PLAN, REPORT, SUMMARY, TRAJECTORIES};
 use crate::storage::store::Store;
 use crate::workflow::derived::{Derivation, derive};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::Result;
 use crate::workflow::page::noise_scenes;
 use crate::workflow::session::Session;
 
@@ -63,7 +63,7 @@ pub(super) fn derived_problems(
     (ensemble, read): (&Ensemble<'_>, &FilesRead),
     records: &[PartRecord],
     chosen: &dyn Fn(&[SampleId]) -> Vec<SampleId>,
-) -> Result<DerivedCheck, WorkflowError> {
+) -> Result<DerivedCheck> {
     let plan = ensemble.plan();
     let listed = manifest.derived().map(|file| (file.name.as_str(), file)).collect();
     let files = Comparison { listed, found: Mutex::default() };
@@ -101,7 +101,7 @@ pub(super) fn derived_problems(
 
 const THIS: &str = env!("CARGO_PKG_VERSION");
 
-fn other_version(store: &dyn Store) -> Result<Option<String>, WorkflowError> {
+fn other_version(store: &dyn Store) -> Result<Option<String>> {
     let bytes = store.read(SUMMARY)?.unwrap_or_default();
     let summary: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
     let version = summary.get("version").and_then(serde_json::Value::as_str);

@@ -11,19 +11,14 @@ use crate::storage::claim::Finished;
 use crate::storage::dataset::rows;
 use crate::storage::names::{MANIFEST, SUMMARY};
 use crate::storage::rows_reader::RowsReader;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::session::Session;
 
 /// The ending of the campaign `plan` by its rows; its `summary` must agree, since programs read that.
 ///
 /// # Errors
 /// Unreadable rows, or a contradicting summary.
-pub(super) fn end_of(
-    summary: &[u8],
-    plan: &Plan,
-    rows: &RowsReader,
-    session: &Session<'_>,
-) -> Result<SummaryEnd, WorkflowError> {
+pub(super) fn end_of(summary: &[u8], plan: &Plan, rows: &RowsReader, session: &Session<'_>) -> Result<SummaryEnd> {
     let ensemble = Ensemble::new(plan, session.isa);
     let end = SummaryEnd::of(&ending(&ensemble, rows, session.threads)?, None);
     if let Some(said) = summary::read(summary)
@@ -45,11 +40,7 @@ pub(super) fn end_of(
 ///
 /// # Errors
 /// As [`end_of`].
-pub(super) fn end_of_finished(
-    session: &Session<'_>,
-    plan: &Plan,
-    finished: &Finished,
-) -> Result<SummaryEnd, WorkflowError> {
+pub(super) fn end_of_finished(session: &Session<'_>, plan: &Plan, finished: &Finished) -> Result<SummaryEnd> {
     let samples = finished.parts.iter().map(|part| part.part.count as u64).sum();
     let plan = plan.clone().at_look(samples);
     end_of(finished.summary.as_bytes(), &plan, &rows(&finished.store, &finished.parts), session)

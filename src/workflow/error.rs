@@ -10,6 +10,9 @@ use crate::storage::folder_error::FolderError;
 use crate::storage::rows_reader::RowsError;
 use crate::storage::store::{Failure, StoreError};
 
+/// The result of a workflow.
+pub type Result<T, E = WorkflowError> = std::result::Result<T, E>;
+
 /// A campaign that could not run, or a result that could not be used, with place, reason and remedy.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum WorkflowError {

@@ -14,7 +14,7 @@ use crate::sampling::SampleId;
 use crate::storage::claim::open;
 use crate::storage::dataset::rows;
 use crate::storage::rows_reader::{PartReader, RowsError, RowsReader};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::session::Session;
 use crate::workflow::source::{plan_and_files, sound};
 
@@ -34,7 +34,7 @@ pub fn plan_of_failed(
     file: &Path,
     of: &Path,
     overrides: Overrides,
-) -> Result<Option<(Plan, FilesRead)>, WorkflowError> {
+) -> Result<Option<(Plan, FilesRead)>> {
     let store = session.store(of)?;
     let (found, _lock) = open(&*store, true)?;
     let (drawn, parts) = sound(session, (&*store, &found), None)?;

@@ -19,7 +19,7 @@ use crate::storage::replacement::replace;
 use crate::workflow::analysed::{Analysed, end_of_analysed, write_junit};
 use crate::workflow::derived::{Derivation, Derived, derive};
 use crate::workflow::ending::end_of_finished;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::page;
 use crate::workflow::results::Results;
 use crate::workflow::session::Session;
@@ -99,11 +99,7 @@ pub(super) struct Job<'a> {
 ///
 /// # Errors
 /// Missing parts, unreadable rows, or a failed file operation.
-pub(super) fn complete(
-    job: &Job<'_>,
-    made: Option<Made>,
-    gathered: Option<Gathered>,
-) -> Result<Completed, WorkflowError> {
+pub(super) fn complete(job: &Job<'_>, made: Option<Made>, gathered: Option<Gathered>) -> Result<Completed> {
     let (plan, dataset, threads) = (job.ensemble.plan(), &job.ready.dataset, job.session.threads);
     refuse_missing(&dataset.missing(dataset.head().parts(plan.rows())), job.root)?;
     let (records, reader) = (dataset.parts(), dataset.rows());
@@ -144,7 +140,7 @@ pub(super) fn stop_is_continued(root: &Path) -> String {
 }
 
 /// Refuses to finish the result in `root` without these parts.
-fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
+fn refuse_missing(missing: &[Part], root: &Path) -> Result<()> {
     let Some(first) = missing.first() else { return Ok(()) };
     Err(WorkflowError::Files(format!(
         "{}: {} missing, the first of them {}; this makes what is missing and finishes: spindrift campaign {} --out {}",
@@ -160,7 +156,7 @@ fn refuse_missing(missing: &[Part], root: &Path) -> Result<(), WorkflowError> {
 ///
 /// # Errors
 /// A changed file, or a failed file operation.
-pub(super) fn keep(ready: &Ready, files: &FilesRead) -> Result<(), WorkflowError> {
+pub(super) fn keep(ready: &Ready, files: &FilesRead) -> Result<()> {
     let copies = data_copies(files).collect::<Result<Vec<_>, _>>()?;
     ready.dataset.keep(&copies).map_err(WorkflowError::files)
 }
@@ -177,7 +173,7 @@ pub(super) fn already(
     plan: &Plan,
     finished: claim::Finished,
     junit: Option<&Path>,
-) -> Result<SummaryEnd, WorkflowError> {
+) -> Result<SummaryEnd> {
     say_notes(session, root, &finished.notes);
     let end = end_of_finished(session, plan, &finished)?;
     drop(finished);
@@ -203,8 +199,8 @@ pub fn finish(
     session: &Session<'_>,
     root: &Path,
     outputs: &Outputs,
-    check: &dyn Fn(&FilesRead) -> Result<(), WorkflowError>,
-) -> Result<Finished, WorkflowError> {
+    check: &dyn Fn(&FilesRead) -> Result<()>,
+) -> Result<Finished> {
     let store = session.store(root)?;
     // an absent folder is not created
     let (found, lock) = open(&*store, false)?;

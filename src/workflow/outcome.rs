@@ -7,7 +7,7 @@ use crate::findings::findings;
 use crate::report::summary;
 use crate::storage::claim::Shard;
 use crate::storage::names::REPORT;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::Result;
 use crate::workflow::failed_samples::FailedRun;
 use crate::workflow::finishing::{Completed, Made};
 use crate::workflow::results::Results;
@@ -41,7 +41,7 @@ pub fn place(root: &Path) -> PathBuf {
 }
 
 /// The end of a finished result, with the text of its summary.
-pub fn again(results: &Results<'_>) -> Result<(Completed, String), WorkflowError> {
+pub fn again(results: &Results<'_>) -> Result<(Completed, String)> {
     let (plan, analysed) = (results.plan(), results.analysed()?);
     let findings = findings(plan, &analysed, &[]);
     let summary = summary::json(plan, &analysed, &findings);

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use crate::report::figure_files::check_format;
 use crate::storage::table_file::TableFormat;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 
 /// Refuses a table or plot with an unknown extension before any work.
 ///
 /// # Errors
 /// The first such file.
-pub fn check_formats(table: Option<&Path>, plot: Option<&Path>) -> Result<(), WorkflowError> {
+pub fn check_formats(table: Option<&Path>, plot: Option<&Path>) -> Result<()> {
     if let Some(path) = table {
         TableFormat::of(path).map_err(WorkflowError::Input)?;
     }
@@ -22,7 +22,7 @@ pub fn check_formats(table: Option<&Path>, plot: Option<&Path>) -> Result<(), Wo
 ///
 /// # Errors
 /// The first such output.
-pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<(), WorkflowError> {
+pub fn refuse_inputs(inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<()> {
     for (option, output) in outputs {
         let Some(output) = output else { continue };
         if let Some(input) = inputs.iter().find(|input| is_same(input, output)) {
@@ -54,7 +54,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
 ///
 /// # Errors
 /// The first such output.
-pub fn refuse_within(root: &Path, outputs: &[(&str, Option<&Path>)]) -> Result<(), WorkflowError> {
+pub fn refuse_within(root: &Path, outputs: &[(&str, Option<&Path>)]) -> Result<()> {
     let folder = resolved(root);
     for (option, output) in outputs {
         if let Some(output) = output.filter(|output| resolved(output).starts_with(&folder)) {

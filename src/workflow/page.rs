@@ -21,7 +21,7 @@ use crate::storage::dataset::{PartRecord, replace_file, rows};
 use crate::storage::names::REPORT;
 use crate::storage::rows_reader::{RowsError, RowsReader};
 use crate::workflow::analysed::{Analysed, computed, end_of_analysed};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::session::Session;
 use crate::workflow::source::{refuse_missing_law, sound};
 
@@ -42,12 +42,7 @@ pub struct Remade {
 ///
 /// # Errors
 /// No finished result, requested noise without a loop, or a failed file operation.
-pub fn remade(
-    session: &Session<'_>,
-    root: &Path,
-    figures: Option<&Path>,
-    noise: Option<u64>,
-) -> Result<Remade, WorkflowError> {
+pub fn remade(session: &Session<'_>, root: &Path, figures: Option<&Path>, noise: Option<u64>) -> Result<Remade> {
     let (store, threads) = (session.store(root)?, session.threads);
     let (there, _lock) = open(&*store, false)?;
     let unfinished = || {
@@ -97,7 +92,7 @@ pub(super) fn made_page(
     analysed: &Analysed,
     (reader, records): (&RowsReader, &[PartRecord]),
     scenes: Option<u64>,
-) -> Result<(Page, Findings), WorkflowError> {
+) -> Result<(Page, Findings)> {
     let plan = ensemble.plan();
     let machine = (session.isa, session.threads);
     let noise = scenes.map(|scenes| noise_shares(plan, &outcomes(plan), scenes, machine));
@@ -169,12 +164,7 @@ pub(super) fn noise_scenes(html: &[u8]) -> Option<u64> {
 }
 
 /// Writes the figures of `page` of the campaign `plan` into `folder`, if any.
-pub fn save_figures(
-    session: &Session<'_>,
-    plan: &Plan,
-    page: &Page,
-    folder: Option<&Path>,
-) -> Result<(), WorkflowError> {
+pub fn save_figures(session: &Session<'_>, plan: &Plan, page: &Page, folder: Option<&Path>) -> Result<()> {
     let Some(folder) = folder else { return Ok(()) };
     let of = format!("{}: {}.", plan.name, counted(plan.rows(), "run"));
     let sheet = FigureSheet { title: of, figures: page.figures.clone() };

@@ -15,7 +15,7 @@ use crate::propagation::Method;
 use crate::report::precision_figure::precision_figure;
 use crate::storage::precision_table::precision_table;
 use crate::storage::{atomic, table_file};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::isa;
 use crate::workflow::workload::Workload;
 
@@ -59,8 +59,8 @@ pub fn measured(
     plan: &Plan,
     wanted: &Wanted,
     folder: &Path,
-    tell: &mut dyn FnMut(Told<'_>) -> Result<(), WorkflowError>,
-) -> Result<[PathBuf; 2], WorkflowError> {
+    tell: &mut dyn FnMut(Told<'_>) -> Result<()>,
+) -> Result<[PathBuf; 2]> {
     let isa = isa()?;
     start_threads().map_err(|error| WorkflowError::Files(format!("cannot start the threads: {error}")))?;
     let model = ForceModel::of(&nominal(plan));

@@ -16,7 +16,7 @@ use crate::storage::names::SUMMARY;
 use crate::storage::rows_reader::RowsReader;
 use crate::workflow::analysed::{Analysed, computed, write_junit};
 use crate::workflow::ending::end_of;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::session::Session;
 use crate::workflow::simulated::not_physical;
 use crate::workflow::source::sound;
@@ -36,7 +36,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// A missing, unfinished or damaged result.
-    pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self, WorkflowError> {
+    pub fn open(root: impl Into<PathBuf>, session: Session<'a>) -> Result<Self> {
         let root = root.into();
         let store = session.store(&root)?;
         let (found, lock) = open(&*store, true)?;
@@ -69,7 +69,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// A missing column, or an unreadable file.
-    pub fn column(&self, name: &str) -> Result<Vec<f64>, WorkflowError> {
+    pub fn column(&self, name: &str) -> Result<Vec<f64>> {
         let mut numbers = Vec::new();
         let gather = |part: Vec<f64>| {
             numbers.extend(part);
@@ -83,7 +83,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// An unreadable file.
-    pub fn analysed(&self) -> Result<Analysed, WorkflowError> {
+    pub fn analysed(&self) -> Result<Analysed> {
         let (ensemble, threads) = (Ensemble::new(&self.plan, self.session.isa), self.session.threads);
         let gathered = Gathered::of_files(&ensemble, &self.reader, threads)?;
         computed(&self.plan, &self.reader, gathered, threads).map_err(WorkflowError::files)
@@ -93,7 +93,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// An unreadable file.
-    pub fn statistics(&self) -> Result<Statistics, WorkflowError> {
+    pub fn statistics(&self) -> Result<Statistics> {
         self.analysed().map(|found| found.statistics)
     }
 
@@ -101,12 +101,12 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// An unreadable file.
-    pub fn verdicts(&self) -> Result<Verdicts, WorkflowError> {
+    pub fn verdicts(&self) -> Result<Verdicts> {
         self.analysed().map(|found| found.verdicts)
     }
 
     /// The content of the file `name`, such as `summary.json`, if present.
-    pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>, WorkflowError> {
+    pub fn file(&self, name: &str) -> Result<Option<Vec<u8>>> {
         Ok(self.reader.store().read(name)?.ok())
     }
 
@@ -114,7 +114,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// An unphysical scene, which had no run.
-    pub fn replay(&self, sample: SampleId) -> Result<SingleRun, WorkflowError> {
+    pub fn replay(&self, sample: SampleId) -> Result<SingleRun> {
         SingleRun::new(&self.plan, sample, self.plan.grid.clone(), self.session.isa)
             .map_err(|errors| not_physical(sample.0, &errors))
     }
@@ -127,7 +127,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// An unreadable or unwritable file.
-    pub fn write_junit(&self, file: &Path) -> Result<(), WorkflowError> {
+    pub fn write_junit(&self, file: &Path) -> Result<()> {
         write_junit(&self.plan, &self.analysed()?, Some(file))
     }
 
@@ -135,7 +135,7 @@ impl<'a> Results<'a> {
     ///
     /// # Errors
     /// Unreadable rows or summary, or a contradiction.
-    pub fn end(&self) -> Result<SummaryEnd, WorkflowError> {
+    pub fn end(&self) -> Result<SummaryEnd> {
         end_of(&self.file(SUMMARY)?.unwrap_or_default(), &self.plan, &self.reader, &self.session)
     }
 }

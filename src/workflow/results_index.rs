@@ -16,7 +16,7 @@ use crate::report::{index_page, summary};
 use crate::scene::epoch::date_of;
 use crate::storage::atomic;
 use crate::storage::names::{HEAD, PLAN, REPORT, SUMMARY};
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::session::Session;
 
 /// Greatest depth below the first folder.
@@ -47,7 +47,7 @@ const PAGE: &str = "index.html";
 ///
 /// # Errors
 /// No results, a folder that is a result itself, or a failed file operation.
-pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, PathBuf), WorkflowError> {
+pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, PathBuf)> {
     let index = indexed(session, root)?;
     let shown = root.display();
     if index.entries.is_empty() && index.unreadable.is_empty() {
@@ -70,7 +70,7 @@ pub fn written(session: &Session<'_>, root: &Path) -> Result<(ResultsIndex, Path
 ///
 /// # Errors
 /// An unreadable folder.
-fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex, WorkflowError> {
+fn indexed(session: &Session<'_>, root: &Path) -> Result<ResultsIndex> {
     std::fs::read_dir(root).map_err(|error| {
         let why = match error.kind() {
             ErrorKind::NotFound => "there is no such folder".to_owned(),

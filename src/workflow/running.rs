@@ -12,12 +12,12 @@ use crate::findings::loss::stop_text;
 use crate::findings::number::counted;
 use crate::storage::part_sink::{CountRows, PartSink, write_parts};
 use crate::storage::store::Failure;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::failed_samples::{FailedRun, fail_fast, first_failed};
 use crate::workflow::finishing::{Job, Made, complete, say_notes};
 use crate::workflow::outcome::CampaignOutcome;
 
-pub(super) fn run_missing(job: &Job<'_>) -> Result<CampaignOutcome, WorkflowError> {
+pub(super) fn run_missing(job: &Job<'_>) -> Result<CampaignOutcome> {
     let (plan, ready) = (job.ensemble.plan(), job.ready);
     let parts = ready.dataset.head().parts(plan.rows());
     let mut made = Made::default();
@@ -53,12 +53,7 @@ impl Job<'_> {
     }
 
     /// Runs the missing ones of `parts`; returns an outcome if that ends the campaign: a stop, or a shard.
-    fn run_to(
-        &self,
-        parts: Parts,
-        counts: Option<&RunningFold>,
-        made: &mut Made,
-    ) -> Result<Option<CampaignOutcome>, WorkflowError> {
+    fn run_to(&self, parts: Parts, counts: Option<&RunningFold>, made: &mut Made) -> Result<Option<CampaignOutcome>> {
         let dataset = &self.ready.dataset;
         // a shorter last part is made again with its further rows
         let there = dataset.parts().into_iter().map(|record| record.part);
@@ -94,7 +89,7 @@ impl Job<'_> {
         missing: &[Part],
         counts: Option<&RunningFold>,
         made: &mut Made,
-    ) -> Result<Option<FailedRun>, WorkflowError> {
+    ) -> Result<Option<FailedRun>> {
         let (watch, first) = (self.session.watch, Mutex::new(None));
         let samples = missing.iter().map(|part| part.count as u64).sum();
         let begun = Instant::now();

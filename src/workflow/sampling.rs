@@ -9,7 +9,7 @@ use crate::report::figure_files::{FigureSheet, instead};
 use crate::report::inputs::DrawnInputs;
 use crate::sampling::SampleId;
 use crate::storage::drawn_table;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::workload::{Workload, plotted_samples};
 
 /// Draws the samples of `plan` and writes them to `table` and `plot`; returns percentiles and notes. `is_allowed`: much
@@ -17,11 +17,7 @@ use crate::workflow::workload::{Workload, plotted_samples};
 ///
 /// # Errors
 /// Too much work, nothing dispersed to plot, or a failed file operation.
-pub fn drawn(
-    plan: &Plan,
-    [table, plot]: [Option<&Path>; 2],
-    is_allowed: bool,
-) -> Result<(Percentiles, Vec<String>), WorkflowError> {
+pub fn drawn(plan: &Plan, [table, plot]: [Option<&Path>; 2], is_allowed: bool) -> Result<(Percentiles, Vec<String>)> {
     let work = Workload::of_samples(plan, table.is_some(), plot.is_some());
     work.check(table.unwrap_or(Path::new("")), is_allowed, false)?;
     let (mut percentiles, mut notes) = (Percentiles::new(plan), Vec::new());

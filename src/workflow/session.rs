@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
 
-use super::error::WorkflowError;
+use super::error::{Result, WorkflowError};
 use crate::control::tables::Overrides;
 use crate::ensemble::Supervision;
 use crate::ensemble::runner::threads;
@@ -96,7 +96,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// An unavailable instruction set in the environment.
-    pub fn new(watch: &'a dyn Watch) -> Result<Self, WorkflowError> {
+    pub fn new(watch: &'a dyn Watch) -> Result<Self> {
         let isa = isa()?;
         Ok(Session { folders: &folder, isa, threads: None, law: None, crew: &Alone, watch })
     }
@@ -105,7 +105,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// An invalid address, or an unreachable store.
-    pub fn store(&self, root: &Path) -> Result<Arc<dyn Store>, WorkflowError> {
+    pub fn store(&self, root: &Path) -> Result<Arc<dyn Store>> {
         let Some(address) = Address::of(root, connect().is_some()).map_err(WorkflowError::Input)? else {
             let root = meant(root).map_err(at(root))?;
             return Ok((self.folders)(&root));
@@ -147,7 +147,7 @@ impl<'a> Session<'a> {
 ///
 /// # Errors
 /// An unknown or unavailable one in the environment.
-pub fn isa() -> Result<Isa, WorkflowError> {
+pub fn isa() -> Result<Isa> {
     Isa::chosen().map_err(|value| {
         let names: Vec<&str> = Isa::available().iter().map(|isa| isa.name()).collect();
         WorkflowError::Input(format!("{VARIABLE}={value}: must be one of {}, or unset", names.join(", ")))

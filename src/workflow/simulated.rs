@@ -15,7 +15,7 @@ use crate::sampling::SampleId;
 use crate::scene::SceneError;
 use crate::storage::timeseries::time_series;
 use crate::table::Table;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::source::refuse_missing_law;
 
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Simulated {
 ///
 /// # Errors
 /// An unknown sample, an unphysical scene, or an invalid time.
-pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> Result<Simulated, WorkflowError> {
+pub fn simulated(plan: &Plan, sample: u64, times: Option<&[f64]>, isa: Isa) -> Result<Simulated> {
     refuse_missing_law(plan)?;
     if sample >= plan.samples {
         let (last, name) = (plan.samples - 1, &plan.name);
@@ -57,13 +57,7 @@ const SMOOTH: usize = 1200;
 ///
 /// # Errors
 /// An unphysical scene, or a failed file operation.
-pub fn plotted(
-    plan: &Plan,
-    sample: u64,
-    grid: Option<Grid>,
-    path: &Path,
-    isa: Isa,
-) -> Result<Vec<String>, WorkflowError> {
+pub fn plotted(plan: &Plan, sample: u64, grid: Option<Grid>, path: &Path, isa: Isa) -> Result<Vec<String>> {
     let intervals = plan.grid.points().saturating_sub(1).max(1);
     let refined = || Grid::uniform(plan.grid.duration(), intervals * SMOOTH.div_ceil(intervals) + 1);
     let run = SingleRuns::new(plan, grid.unwrap_or_else(refined), isa, &GROUPS, false)
@@ -83,7 +77,7 @@ pub fn plotted(
     Ok([said].into_iter().chain(other).collect())
 }
 
-fn ascending(times: &[f64]) -> Result<Vec<f64>, WorkflowError> {
+fn ascending(times: &[f64]) -> Result<Vec<f64>> {
     if let Some(wrong) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0)) {
         return Err(WorkflowError::Input(format!("--times: {wrong:?} must be a finite number >= 0, in seconds")));
     }

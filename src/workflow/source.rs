@@ -16,14 +16,14 @@ use crate::storage::found::Found;
 use crate::storage::identity::{Identity, sha256};
 use crate::storage::names::{DATA, PLAN};
 use crate::storage::store::Store;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::session::Session;
 
 /// The plan of the campaign file `file`, possibly without folder and extension, and the files read.
 ///
 /// # Errors
 /// A missing or wrong file.
-pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesRead), WorkflowError> {
+pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesRead)> {
     let path = find(file).map_err(|tried| {
         if file.is_dir() {
             let plan = file.join(PLAN);
@@ -49,7 +49,7 @@ pub fn plan_and_files(file: &Path, overrides: Overrides) -> Result<(Plan, FilesR
 ///
 /// # Errors
 /// A missing or wrong plan.
-pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Result<(Plan, FilesRead), WorkflowError> {
+pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Result<(Plan, FilesRead)> {
     let path = store.path(PLAN);
     let remedy = "the campaign's command with its file writes it again";
     if found.plan.is_empty() {
@@ -66,7 +66,7 @@ pub fn plan_in(session: &Session<'_>, store: &dyn Store, found: &Found) -> Resul
 }
 
 /// The folder of the data copies of the result in `store`: its own, or a temporary one for an object store.
-fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf, WorkflowError> {
+fn folder_of_data(store: &dyn Store, found: &Found) -> Result<PathBuf> {
     if store.replaces() {
         return Ok(store.root().to_owned());
     }
@@ -97,7 +97,7 @@ pub fn claimed(
     store: &Arc<dyn Store>,
     ensemble: &Ensemble<'_>,
     (overwrite, shard): (bool, Option<Shard>),
-) -> Result<Claim, WorkflowError> {
+) -> Result<Claim> {
     let options = ClaimOptions { folders: session.folders, overwrite, shard, threads: session.readers() };
     claim(store, ensemble, options).map_err(WorkflowError::files)
 }
@@ -113,7 +113,7 @@ pub fn sound(
     session: &Session<'_>,
     (store, found): (&dyn Store, &Found),
     remade: Option<&str>,
-) -> Result<(Plan, Vec<PartRecord>), WorkflowError> {
+) -> Result<(Plan, Vec<PartRecord>)> {
     let plan = at_rows_of(plan_in(session, store, found)?.0, found);
     let head = Head::of(&Ensemble::new(&plan, session.isa), found.largest_part);
     refuse_other_rows(store, found, &head.identity)?;
@@ -141,7 +141,7 @@ pub fn sound(
 ///
 /// # Errors
 /// The law is not here.
-pub fn refuse_missing_law(plan: &Plan) -> Result<(), WorkflowError> {
+pub fn refuse_missing_law(plan: &Plan) -> Result<()> {
     let missing = plan.loop_spec().and_then(|spec| spec.laws().find(|law| law.is_missing()));
     missing.map_or(Ok(()), |law| {
         Err(WorkflowError::Input(format!(
@@ -156,7 +156,7 @@ pub fn refuse_missing_law(plan: &Plan) -> Result<(), WorkflowError> {
 ///
 /// # Errors
 /// If the rows have another identity.
-pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) -> Result<(), WorkflowError> {
+pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) -> Result<()> {
     let there = found.identity.as_ref().filter(|there| *there != expected);
     let Some(there) = there else { return Ok(()) };
     let why = if (there.format, there.arithmetic) == (expected.format, expected.arithmetic) {
@@ -179,7 +179,7 @@ pub fn refuse_other_rows(store: &dyn Store, found: &Found, expected: &Identity) 
 ///
 /// # Errors
 /// A file that has changed since, or is unreadable.
-pub(super) fn data_copies(files: &FilesRead) -> impl Iterator<Item = Result<(String, Vec<u8>), WorkflowError>> {
+pub(super) fn data_copies(files: &FilesRead) -> impl Iterator<Item = Result<(String, Vec<u8>)>> {
     files.data.iter().map(|(path, expected)| {
         let bytes = data::bytes(path).map_err(|error| WorkflowError::at(path, error))?;
         if sha256(&bytes) != *expected {

@@ -15,7 +15,7 @@ use crate::storage::names::rows_of;
 use crate::storage::part_sink::PartFiles;
 use crate::storage::store::Store;
 use crate::workflow::derived_check::derived_problems;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::finishing::{Completed, Job, Made, Outputs, complete, keep, stop_is_continued};
 use crate::workflow::session::Session;
 use crate::workflow::source::{IN_A_STORE, at_rows_of, claimed, plan_in, refuse_missing_law, refuse_other_rows};
@@ -41,7 +41,7 @@ pub struct Verification {
 ///
 /// # Errors
 /// A damaged, unrepaired result, or a failed file operation.
-pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Result<Option<Verified>, WorkflowError> {
+pub fn verify(session: &Session<'_>, root: &Path, wanted: Verification) -> Result<Option<Verified>> {
     let shared = session.store(root)?;
     let store = &*shared;
     if wanted.repair && !store.replaces() {
@@ -137,7 +137,7 @@ fn differing(
     ensemble: &Ensemble<'_>,
     records: &[PartRecord],
     chosen: &[Part],
-) -> Result<Vec<Part>, WorkflowError> {
+) -> Result<Vec<Part>> {
     let files = PartFiles::new(ensemble).map_err(WorkflowError::files)?;
     let differing = Mutex::new(Vec::new());
     let compare = |rows: &Rows| {
@@ -163,7 +163,7 @@ fn repair(
     (store, root): (&Arc<dyn Store>, &Path),
     ensemble: &Ensemble<'_>,
     (found, head, differing): (&Found, &Head, &[Part]),
-) -> Result<Result<Completed, u64>, WorkflowError> {
+) -> Result<Result<Completed, u64>> {
     let plan = ensemble.plan();
     if plan.analysis.stop.is_some() && !found.is_finished {
         return Err(WorkflowError::Files(stop_is_continued(root)));

@@ -18,7 +18,7 @@ use crate::storage::claim::Shard;
 use crate::storage::found::contents;
 use crate::storage::rows_file;
 use crate::storage::store::Store;
-use crate::workflow::error::WorkflowError;
+use crate::workflow::error::{Result, WorkflowError};
 use crate::workflow::machine::{free_disk, free_memory};
 
 /// Limit of CPU time without `--yes`, s.
@@ -188,7 +188,7 @@ impl Workload {
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
-    pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<(), WorkflowError> {
+    pub fn check(&self, root: &Path, yes: bool, is_shard: bool) -> Result<()> {
         self.refusal([free_disk(root), free_memory()], root, yes, is_shard)
             .map_or(Ok(()), |why| Err(WorkflowError::Input(why)))
     }
@@ -197,7 +197,7 @@ impl Workload {
     ///
     /// # Errors
     /// The refusal, with the numbers and the remedy.
-    pub fn check_limit(&self, root: &Path, yes: bool) -> Result<(), WorkflowError> {
+    pub fn check_limit(&self, root: &Path, yes: bool) -> Result<()> {
         match self.check(root, false, false) {
             Err(WorkflowError::Input(why)) if !yes => {
                 Err(WorkflowError::Input(format!("at most {why}; with --yes it starts, and may end earlier ([stop])")))

@@ -2,7 +2,7 @@
 //! depend neither on threads nor on the source of the rows.
 
 use crate::analysis::part_columns::PartColumns;
-use crate::ensemble::prelude::Threads;
+use crate::ensemble::threads::Threads;
 use crate::storage::rows_reader::{Result, RowsError, RowsReader};
 
 pub trait Accumulator: Sync {

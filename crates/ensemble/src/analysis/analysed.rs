@@ -1,6 +1,5 @@
 //! [`Analysed`]: statistics, sensitivities and verdicts, a function of plan and files.
 
-use super::prelude::*;
 use crate::analysis::ending::Ending;
 use crate::analysis::fold::Gathered;
 use crate::analysis::input_sensitivity::InputSensitivity;
@@ -11,6 +10,10 @@ use crate::analysis::survey::Survey;
 use crate::analysis::tally::Tally;
 use crate::analysis::verdicts::Verdicts;
 use crate::analysis::{sensitivity, statistics, verdicts};
+use crate::campaign::Plan;
+use crate::ensemble::Bands;
+use crate::ensemble::threads::Threads;
+use crate::storage::rows_reader::{Result, RowsReader};
 
 #[derive(Clone, Debug)]
 pub struct Analysed {

@@ -1,9 +1,8 @@
 //! [`Assessment`]: the verdict on one requirement.
 
-use super::prelude::*;
-use crate::campaign::ShownUnit;
-use crate::statistics::binomial::upper_bound;
-use crate::statistics::gate::Gate;
+use crate::campaign::{Requirement, ShownUnit, Statement};
+use crate::statistics::binomial::{Decision, upper_bound};
+use crate::statistics::gate::{Gate, GateLimit};
 use crate::statistics::looks::adjusted;
 
 #[derive(Clone, Debug, PartialEq)]

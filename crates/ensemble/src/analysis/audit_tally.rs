@@ -1,9 +1,11 @@
 //! [`AuditTally`]: statistics of the audits of a campaign.
 
-use super::prelude::*;
 use crate::ensemble::Audit;
+use crate::ensemble::audit::AuditValue;
 use crate::propagation::taylor::reference_solution;
+use crate::sampling::SampleId;
 use crate::statistics::binomial::at_most;
+use crate::statistics::correlation::Estimate;
 use crate::statistics::spread::Spread;
 
 /// Errors above this are near their upper bound: an estimate above half of this covers them.

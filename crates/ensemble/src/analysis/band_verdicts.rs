@@ -3,12 +3,14 @@
 //! The limit applies at every band time in an interval for a share of the runs, not necessarily the same ones. The
 //! number within it is known up to the bucket of the limit: both bounds must decide.
 
-use super::prelude::*;
+use super::population::Population;
 use crate::analysis::assessment::{Assessment, WorstPoint};
 use crate::analysis::order_statistics::among_values;
 use crate::analysis::row_verdicts::Judged;
-use crate::campaign::ShownUnit;
 use crate::campaign::requirement::BandSubject;
+use crate::campaign::{ShownUnit, Statement};
+use crate::ensemble::Bands;
+use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{Gate, points_gate};
 
 pub(super) fn over_time(

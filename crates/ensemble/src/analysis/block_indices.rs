@@ -1,7 +1,7 @@
 //! First-order and total Sobol indices from whole blocks of a `saltelli` design.
 
-use super::prelude::*;
 use crate::analysis::input_sensitivity::InputSensitivity;
+use crate::campaign::Plan;
 use crate::statistics::sensitivity::{Block, saltelli_indices};
 
 /// Fewest `saltelli` blocks with 95% intervals that cover at least 93%

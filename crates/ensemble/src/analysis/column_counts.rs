@@ -1,10 +1,19 @@
 //! [`Collector`]: counts the values of observables, part by part, on any thread. Parts are merged in order and sketches
 //! hold counts: results do not depend on threads.
 
-use super::prelude::*;
-use std::sync::Mutex;
-
+use super::accumulator::Accumulator;
+use super::observed::Observed;
+use super::part_columns::PartColumns;
+use super::population::Population;
+use crate::campaign::Plan;
+use crate::ensemble::threads::unpoisoned;
+use crate::run::Status;
+use crate::sampling::SampleId;
+use crate::statistics::moments::Moments;
 use crate::statistics::sketch::Sketch;
+use crate::storage::rows_reader::Result;
+use std::borrow::Cow;
+use std::sync::Mutex;
 
 #[derive(Clone, Debug, Default)]
 pub struct ColumnCounts {

@@ -11,16 +11,22 @@
 //! adjusted for the number of observables (Holm): if nothing differs, any observable is called shifted, moved, or
 //! changed in its share without a value with probability [`Comparison::level`] each.
 
-use super::prelude::*;
+use super::accumulator::of_files;
+use super::observed::Observed;
 use crate::analysis::pairing::{MOST_ROWS, ResultRows, first_dispersed, pairs};
 use crate::analysis::statistic::{STATISTICS, Statistic};
 use crate::analysis::statistics::{self, ColumnStatistics, Statistics};
 use crate::analysis::statuses::StatusCounter;
+use crate::campaign::Requirement;
+use crate::ensemble::threads::Threads;
+use crate::run::{Quantity, Status};
 use crate::statistics::contingency::{Occurrence, fisher};
+use crate::statistics::moments::Moments;
 use crate::statistics::quantile::percent;
 use crate::statistics::two_sample::{
     Difference, holm, kolmogorov_smirnov, marginals, mcnemar, paired, signed_ranks, spread_of_pairs, welch,
 };
+use crate::storage::rows_reader::Result;
 
 /// Columns read at a time.
 const AT_A_TIME: usize = 16;

@@ -1,8 +1,8 @@
 //! Comparisons of campaigns of known truth.
 
-use super::prelude::*;
 use crate::analysis::comparison::of_both;
 use crate::analysis::known_truth::{comparison, rows};
+use crate::statistics::moments::Moments;
 use crate::statistics::two_sample::paired;
 
 /// H0: nothing differs but noise or the seed. Any of three observables is called shifted, moved, or changed in its

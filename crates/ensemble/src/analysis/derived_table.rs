@@ -2,11 +2,13 @@
 //!
 //! They follow from the rows: a changed expression needs no new run.
 
-use super::prelude::*;
+use super::observed::Observed;
+use crate::campaign::Plan;
+use crate::run::Status;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
 use crate::storage::rows_file::fixed_columns;
-use crate::storage::rows_reader::PartReader;
+use crate::storage::rows_reader::{PartReader, Result, RowsError, RowsReader};
 use crate::storage::store::Failure;
 use crate::table::{Column, Content, Values};
 

@@ -1,11 +1,11 @@
 //! The ranking of the inputs of an outcome, for its spread and for its events; screen, cards and charts all use
 //! [`rankings`].
 
-use super::prelude::*;
 use crate::analysis::effects::{Dependence, OnEvent};
 use crate::analysis::event::{Event, Occurs};
 use crate::analysis::input_sensitivity::InputSensitivity;
 use crate::analysis::outcomes::unique;
+use crate::statistics::correlation::Estimate;
 
 /// Minimum share of the variance, or squared rank correlation, of a driver: removing it reduces the standard deviation
 /// by 5%.

@@ -1,11 +1,15 @@
 //! [`ending`]: the exit code and verdicts of a campaign from a few columns of its rows.
 
-use super::prelude::*;
+use super::accumulator::of_files;
 use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::stopping::{ObservedValues, Stopping, stopping};
 use crate::analysis::tally::{Tally, TallyColumns};
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
+use crate::campaign::Requirement;
+use crate::ensemble::Ensemble;
+use crate::ensemble::threads::Threads;
 use crate::storage::bands_file;
+use crate::storage::rows_reader::{Result, RowsReader};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ending {

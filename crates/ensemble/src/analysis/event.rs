@@ -1,7 +1,7 @@
 //! [`Event`]: a property of some runs to be explained: a missed requirement, a rare value, the tail.
 
-use super::prelude::*;
 use crate::analysis::outcomes::is_worst_when_low;
+use crate::campaign::{Plan, Requirement, Statement};
 use crate::statistics::contingency::Occurrence;
 use crate::statistics::correlation::ascending_order;
 

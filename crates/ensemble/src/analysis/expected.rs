@@ -1,7 +1,7 @@
 //! [`Expected`]: the expected distribution of a dispersed column, from evenly spread draws that differ from the
 //! campaign's; components of vectors have no closed form in general.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::sampling::design::replicates::Sequence;
 use crate::sampling::design::sobol::Sobol;
 use crate::sampling::{Joint, Transform};

@@ -1,11 +1,16 @@
 //! [`FirstRows`]: the first rows of a campaign, for input sensitivities.
 
-use super::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
-
+use super::accumulator::Accumulator;
+use super::observed::Observed;
+use super::part_columns::PartColumns;
 use crate::analysis::outcomes::{named, outcomes, unique};
+use crate::campaign::Plan;
 use crate::observables::headlines::headlines;
+use crate::run::Status;
 use crate::sampling::Design;
+use crate::storage::rows_reader::Result;
+use std::borrow::Cow;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Maximum rows if the file names observables.
 pub const MOST_ROWS: usize = 65_536;

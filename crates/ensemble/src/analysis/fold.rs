@@ -1,9 +1,9 @@
 //! [`Gathered`]: the results of one fold over the parts, from rows in memory ([`RunningFold`]) or from files
 //! ([`Gathered::of_files`]), with the same bits.
 
-use super::prelude::*;
-use std::sync::Mutex;
-
+use super::accumulator::{Accumulator, of_files};
+use super::observed::Observed;
+use super::population::Population;
 use crate::analysis::column_counts::{Collected, Collector, REFERENCE_ROWS, batches, is_exact, references};
 use crate::analysis::first_rows::{FirstRows, RowTable};
 use crate::analysis::missions::{MissionCounter, Missions};
@@ -13,9 +13,15 @@ use crate::analysis::survey::{Survey, Surveyor};
 use crate::analysis::tally::{Tally, TallyColumns};
 use crate::analysis::trajectories::Retained;
 use crate::analysis::verdicts::{RequirementCounter, RequirementCounts};
-use crate::ensemble::{Part, PartId, Parts, Rows, Supervision};
+use crate::campaign::Plan;
+use crate::ensemble::threads::{Threads, unpoisoned};
+use crate::ensemble::{Bands, Ensemble, Part, PartId, Parts, Rows, Supervision};
+use crate::sampling::SampleId;
 use crate::storage::bands_file;
 use crate::storage::part_sink::CountRows;
+use crate::storage::rows_reader::{Result, RowsReader};
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 type Everything = (
     ((TallyColumns, Collector), (RequirementCounter, ObservedValues)),

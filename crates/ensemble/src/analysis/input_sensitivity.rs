@@ -1,8 +1,8 @@
 //! [`InputSensitivity`]: the effect of one input on one outcome.
 
-use super::prelude::*;
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::event::Occurs;
+use crate::statistics::correlation::Estimate;
 
 /// Pseudo-outcome: 1 for an `ok` run, else 0.
 pub const COMPUTED: &str = "computed";

@@ -1,9 +1,14 @@
 //! [`Missions`]: shares of the missions of a control loop by their end: launched, failed for a reason, or neither.
 
-use super::prelude::*;
+use super::accumulator::Accumulator;
+use super::part_columns::PartColumns;
+use super::population::Population;
 use crate::analysis::order_statistics::share_interval;
+use crate::campaign::Plan;
 use crate::loops::failure::Failure;
+use crate::run::Status;
 use crate::scene::Name;
+use crate::storage::rows_reader::Result;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissionShare {

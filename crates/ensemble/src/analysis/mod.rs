@@ -33,7 +33,6 @@ pub mod outcomes;
 pub mod pairing;
 pub mod part_columns;
 pub mod population;
-mod prelude;
 mod row_verdicts;
 pub mod sensitivity;
 pub mod sensitivity_table;

@@ -1,13 +1,18 @@
 //! The share of control-loop noise in the variance of the outcomes, from scenes flown twice with different noise. Noise
 //! is no input: it is in no first-order index and in every total one.
 
-use super::prelude::*;
-use std::convert::Infallible;
-
+use super::observed::Observed;
+use crate::campaign::Plan;
 use crate::ensemble::runner::RunError;
 use crate::ensemble::single::{SingleRuns, run_each};
+use crate::ensemble::threads::Threads;
+use crate::math::Isa;
+use crate::run::Status;
+use crate::sampling::SampleId;
 use crate::statistics::jackknife::Estimate;
 use crate::statistics::share_within::{others, share_within};
+use crate::storage::rows_reader::Result;
+use std::convert::Infallible;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseShare {

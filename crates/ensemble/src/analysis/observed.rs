@@ -1,14 +1,14 @@
 //! [`Observed`]: an observable as a column of the rows, or an expression over columns. An `ok` run has no value if its
 //! subject never happened, or if the value is not a number ([`Observed::undefined`]).
 
-use crate::ensemble::prelude::*;
-use std::borrow::Cow;
-
 use crate::analysis::part_columns::PartColumns;
+use crate::campaign::Plan;
 use crate::campaign::known_columns::KnownColumns;
 use crate::observables::ColumnKind;
+use crate::run::Quantity;
 use crate::sampling::expression::Expression;
 use crate::storage::rows_reader::Result;
+use std::borrow::Cow;
 
 #[derive(Clone, Debug, PartialEq)]
 struct Source {

@@ -1,7 +1,9 @@
 //! Quantiles of a column and their intervals by order statistics, from the values of few rows or sketches of many.
 
-use super::prelude::*;
+use super::population::Population;
+use crate::campaign::Plan;
 use crate::statistics::binomial::interval;
+use crate::statistics::gate::GateLimit;
 use crate::statistics::quantile::{
     OrderStatistics, Ranks as IntervalRanks, interval_ranks, percent, runs_for_bound, runs_for_interval,
 };

@@ -1,6 +1,7 @@
 //! The outcomes of a campaign: observables that its file requires or names, else those of the motion.
 
-use super::prelude::*;
+use crate::campaign::{Plan, Requirement};
+use crate::statistics::gate::GateLimit;
 
 /// Default outcomes in order of importance: energy exchange, motion of the axis, final state.
 pub const OF_MOTION: [&str; 8] = [

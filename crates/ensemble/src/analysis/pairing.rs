@@ -1,10 +1,11 @@
 //! [`ResultRows`]: the rows of a result; [`pairs`]: rows of two results with the same draws.
 
-use super::prelude::*;
 use crate::analysis::column_counts::MOST_EXACT;
+use crate::campaign::Plan;
 use crate::campaign::common_draws::draw_alike;
+use crate::run::Status;
 use crate::sampling::Column;
-use crate::storage::rows_reader::PartReader;
+use crate::storage::rows_reader::{PartReader, Result, RowsReader};
 
 /// Rows compared one by one: the nominal sample and the first [`MOST_EXACT`].
 pub const MOST_ROWS: usize = MOST_EXACT as usize + 1;

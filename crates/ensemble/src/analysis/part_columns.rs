@@ -1,14 +1,15 @@
 //! [`PartColumns`]: the columns of a part by name, identical from its file and from memory.
 
-use crate::ensemble::prelude::*;
-use std::borrow::Cow;
-use std::collections::HashMap;
-
 use crate::campaign::columns::parameter_quantity;
 use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Audit, Ensemble, Rows};
+use crate::run::Status;
+use crate::sampling::SampleId;
+use crate::scene::Parameter;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
 use crate::storage::rows_reader::{PartReader, Result, RowsError};
+use std::borrow::Cow;
+use std::collections::HashMap;
 
 pub trait PartColumns {
     fn rows(&self) -> usize;

@@ -1,7 +1,8 @@
 //! [`Population`]: how the samples of a design represent the population of runs, and which intervals apply.
 
-use crate::ensemble::prelude::*;
-use crate::sampling::Design;
+use crate::campaign::Plan;
+use crate::run::{Grid, Status};
+use crate::sampling::{Design, SampleId};
 
 /// Stands for a design if `campaign.only` lists the samples.
 pub const LISTED: &str = "campaign.only";

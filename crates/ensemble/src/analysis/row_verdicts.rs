@@ -1,14 +1,16 @@
 //! Counts and verdict of one requirement on a number of each run.
 
-use super::prelude::*;
+use super::population::Population;
 use crate::analysis::assessment::Assessment;
 use crate::analysis::statistics::is_yes_or_no;
-use crate::campaign::ShownUnit;
+use crate::campaign::{Requirement, ShownUnit, Statement};
+use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{
-    Gate, bounded_mean_gate, constant_gate, failing_at, fraction_gate, mean_gate, replicate_fraction_gate,
+    Gate, GateLimit, bounded_mean_gate, constant_gate, failing_at, fraction_gate, mean_gate, replicate_fraction_gate,
     replicate_mean_gate,
 };
 use crate::statistics::mean::MOST_SHARE;
+use crate::statistics::moments::Moments;
 
 #[derive(Clone, Debug, Default)]
 pub struct GroupRuns {

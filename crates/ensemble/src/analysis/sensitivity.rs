@@ -2,20 +2,24 @@
 //! indices from the `ok` runs in sample order, first-order and total Sobol indices from the blocks of a `saltelli`
 //! design.
 
-use super::prelude::*;
+use super::observed::Observed;
+use super::population::Population;
 use crate::analysis::block_indices::of_blocks;
 use crate::analysis::effects::{OnEvent, TestedInput, beside_others, on_event, on_spread};
 use crate::analysis::event::Event;
 use crate::analysis::first_rows::{FirstRows, RowTable, inputs};
 use crate::analysis::input_sensitivity::{COMPUTED, InputSensitivity};
 use crate::analysis::population::{LISTED, Loss};
+use crate::campaign::Plan;
+use crate::ensemble::threads::Threads;
 use crate::sampling::Design;
 use crate::statistics::correlation::{
-    ascending_order, correlation, matrix, mid_ranks, mid_ranks_in_order, standardised,
+    Estimate, ascending_order, correlation, matrix, mid_ranks, mid_ranks_in_order, standardised,
 };
 use crate::statistics::regression::{Regressors, independent_inputs};
 use crate::statistics::sensitivity::{Samples, first_order_index, has_tails, share_of_parabola};
 use crate::storage::parallel::in_parallel;
+use std::num::NonZeroUsize;
 
 /// Minimum rank correlation of two inputs to be noted, if beyond chance.
 const NOTABLE_CORRELATION: f64 = 0.05;

@@ -1,8 +1,8 @@
 //! `sensitivity.parquet`: one row per pair of observable and input.
 
-use super::prelude::*;
 use crate::analysis::effects::{Dependence, Direction, OnEvent};
 use crate::analysis::input_sensitivity::InputSensitivity;
+use crate::statistics::correlation::Estimate;
 use crate::table::Table;
 
 type Measure = (&'static str, &'static str, fn(&InputSensitivity) -> Option<Estimate>);

@@ -1,6 +1,6 @@
 //! The plan of tests in `analysis`: a free body with dispersed rates about two axes.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use spindrift_control::control::tables::Overrides;
 
 const TEXT: &str = r#"

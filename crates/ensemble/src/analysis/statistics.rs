@@ -8,18 +8,26 @@
 //! quantiles of requirements, which they violate. Intervals hold for all their possible values; for a mean, within the
 //! range of the observable. After a big [`Loss`] there are no intervals.
 
-use super::prelude::*;
+use super::accumulator::of_files;
+use super::observed::Observed;
+use super::population::Population;
 use crate::analysis::column_counts::{
     CLOSE, Collected, Collector, ColumnCounts, REFERENCE_ROWS, batches, is_exact, references,
 };
 use crate::analysis::order_statistics::{AskedQuantile, CommonRanks, Order, QuantileStatistic, of_quantile};
 use crate::analysis::population::Loss;
 use crate::analysis::statuses::Statuses;
+use crate::campaign::{Plan, Requirement, Statement};
+use crate::ensemble::threads::Threads;
+use crate::run::{Quantity, Status};
+use crate::statistics::gate::GateLimit;
 use crate::statistics::mean::{MOST_SHARE, deviation_bounds, mean_bounds};
+use crate::statistics::moments::Moments;
 use crate::statistics::quantile::OrderStatistics;
 use crate::statistics::replicates::{self, Step};
 use crate::statistics::sketch::{RELATIVE_ERROR, Sketch};
 use crate::storage::parallel::in_parallel;
+use crate::storage::rows_reader::{Result, RowsReader};
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnStatistics {

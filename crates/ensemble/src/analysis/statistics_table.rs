@@ -1,9 +1,9 @@
 //! `statistics.parquet`: one row per observable.
 
-use super::prelude::*;
 use crate::analysis::order_statistics::QuantileStatistic;
 use crate::analysis::statistic::{STATISTICS, Statistic, Uncertainty};
 use crate::analysis::statistics::{ColumnStatistics, Statistics};
+use crate::run::Status;
 use crate::statistics::quantile::percent;
 use crate::table::Table;
 

@@ -1,8 +1,15 @@
 //! [`Statuses`]: counts of the statuses of a campaign, for summary, page, statistics and verdicts.
 
-use super::prelude::*;
+use super::accumulator::Accumulator;
+use super::part_columns::PartColumns;
+use super::population::Population;
 use crate::analysis::population::Loss;
+use crate::campaign::Plan;
 use crate::ensemble::FailureReasons;
+use crate::run::Status;
+use crate::sampling::SampleId;
+use crate::storage::rows_reader::Result;
+use std::collections::BTreeMap;
 
 /// Maximum number of failed samples listed per status.
 const KEPT: usize = 10;

@@ -1,11 +1,17 @@
 //! [`stopping`]: the looks of a campaign with `[stop]`.
 
-use super::prelude::*;
+use super::accumulator::{Accumulator, of_files};
+use super::observed::Observed;
+use super::part_columns::PartColumns;
 use crate::analysis::statuses::StatusCounter;
 use crate::analysis::verdicts::{RequirementCounter, Verdicts, assess};
+use crate::campaign::Plan;
 use crate::campaign::stop::{Stop, When};
+use crate::ensemble::threads::Threads;
+use crate::run::Status;
 use crate::statistics::looks::{Goal, Look, decision};
 use crate::storage::bands_file;
+use crate::storage::rows_reader::{Result, RowsReader};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopping {

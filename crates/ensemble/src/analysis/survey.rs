@@ -4,18 +4,27 @@
 //! The thinned rows are chosen by a hash of the sample number, reproducibly and independent of the order of a design
 //! and of the parts.
 
-use super::prelude::*;
+use super::accumulator::Accumulator;
+use super::observed::Observed;
+use super::part_columns::PartColumns;
+use super::population::Population;
 use crate::analysis::first_rows::{RowTable, explained};
 use crate::analysis::order_statistics::AskedQuantile;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes, unique};
 use crate::analysis::statistics::Statistics;
 use crate::analysis::statuses::Statuses;
 use crate::analysis::worst_runs::{WorstRuns, shortfall};
+use crate::campaign::{Plan, Requirement};
+use crate::ensemble::Ensemble;
+use crate::ensemble::audit::AuditValue;
+use crate::observables::Group;
 use crate::observables::headlines::{STATE_ERROR_ESTIMATE, headlines};
-use crate::sampling::Column;
+use crate::run::{Quantity, Status};
 use crate::sampling::design::hash::{GOLDEN, mix};
+use crate::sampling::{Column, SampleId};
 use crate::statistics::quantile::interval_ranks;
 use crate::statistics::sketch::{Ranks, Sketch, middle};
+use crate::storage::rows_reader::Result;
 
 /// Maximum rows of the thinned table.
 pub const THINNED: u64 = 16_384;

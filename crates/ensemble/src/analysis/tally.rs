@@ -1,20 +1,25 @@
 //! [`Tally`]: statuses, worst runs and audits. It keeps counts, extremes and sample numbers, no floating-point sums:
 //! the order of the parts does not matter. The nominal sample 0 is among the worst runs and audits only if it is alone.
 
-use super::prelude::*;
-use std::sync::Mutex;
-
+use super::accumulator::Accumulator;
+use super::part_columns::PartColumns;
 use crate::analysis::audit_tally::AuditTally;
 use crate::analysis::outcomes::{is_worst_when_low, outcomes};
 use crate::analysis::statuses::{StatusCounter, StatusPart, Statuses};
 use crate::analysis::worst_runs::WorstRuns;
-use crate::ensemble::Audit;
-use crate::ensemble::audit::Selection;
+use crate::ensemble::audit::{AuditValue, Selection};
 use crate::ensemble::plausibility::ends_of_air;
+use crate::ensemble::threads::unpoisoned;
+use crate::ensemble::{Audit, Ensemble};
 use crate::observables::ColumnId;
 use crate::observables::accuracy::{BALANCES, STATE_ERRORS};
 use crate::observables::headlines::headlines;
+use crate::run::Status;
+use crate::sampling::SampleId;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
+use crate::storage::rows_reader::Result;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 const LISTED: usize = 3;
 

@@ -3,19 +3,24 @@
 //! A row is a function of plan and sample: runs are chosen from the finished rows and flown again, bit for bit as by
 //! `simulate --sample 12 --out`.
 
-use super::prelude::*;
-use std::collections::BTreeSet;
-
+use super::accumulator::Accumulator;
+use super::observed::Observed;
+use super::part_columns::PartColumns;
 use crate::analysis::worst_runs::WorstRuns;
-use crate::campaign::Retention;
+use crate::campaign::{Plan, Retention};
 use crate::ensemble::single::run_each;
-use crate::sampling::Stream;
+use crate::ensemble::threads::Threads;
+use crate::math::Isa;
+use crate::run::Status;
 use crate::sampling::design::latin::Permutation;
+use crate::sampling::{SampleId, Stream};
 use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
 use crate::storage::names::TRAJECTORIES;
+use crate::storage::rows_reader::Result;
 use crate::storage::store::{Failure, StoreError};
 use crate::storage::timeseries::time_series;
+use std::collections::BTreeSet;
 
 const STREAM: &str = "retain";
 

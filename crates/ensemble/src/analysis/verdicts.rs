@@ -7,14 +7,23 @@
 //! Each look of `[stop]` has its share of the errors (Bonferroni), each requirement its share of the errors of failures
 //! ([`failing_together`]). Verdicts on single counts are in `row_verdicts`, over time in `band_verdicts`.
 
-use super::prelude::*;
+use super::accumulator::Accumulator;
+use super::observed::Observed;
+use super::part_columns::PartColumns;
+use super::population::Population;
 use crate::analysis::assessment::Assessment;
 use crate::analysis::band_verdicts::over_time;
 use crate::analysis::row_verdicts::{Judged, RequirementRuns, assessment};
 use crate::analysis::statistics::Statistics;
 use crate::analysis::statuses::Statuses;
+use crate::campaign::{Plan, Requirement, Statement};
+use crate::ensemble::Bands;
+use crate::run::Status;
+use crate::statistics::binomial::Decision;
 use crate::statistics::gate::failing_together;
 use crate::statistics::looks::adjusted;
+use crate::statistics::moments::Moments;
+use crate::storage::rows_reader::Result;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdicts {

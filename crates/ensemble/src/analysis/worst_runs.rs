@@ -1,6 +1,8 @@
 //! [`WorstRuns`]: the runs with the worst values of a quantity; [`shortfall`]: how far a run is from its requirements.
 
-use super::prelude::*;
+use crate::campaign::{Plan, Requirement};
+use crate::sampling::SampleId;
+use crate::statistics::gate::GateLimit;
 
 /// The number of requirements that a run with these values misses, plus a part below one that grows with its excess
 /// over the limits, relative to them: of the missed ones together, else of the nearest. NaN without a requirement.

@@ -10,22 +10,25 @@
 //!
 //! The stream `audit` selects samples, independently of threads, parts and other draws.
 
-use super::prelude::*;
-use thiserror::Error;
-
+use crate::campaign::Plan;
 use crate::dynamics::debris;
 use crate::dynamics::effects::ForceModel;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::flights::{nominal_attitude, replayed};
 use crate::ensemble::settings::propagator;
+use crate::math::Isa;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
+use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::settings::observes_debris_rotation;
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
-use crate::propagation::{Method, RotationError, debris_rotation_errors, rotation_errors};
-use crate::run::{LocalErrors, StepStatistics};
-use crate::sampling::Stream;
-use crate::scene::Arc;
+use crate::propagation::{
+    CompletedRun, Engine, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
+};
+use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics};
+use crate::sampling::{SampleId, Stream};
+use crate::scene::{Arc, Scene};
+use thiserror::Error;
 
 /// Runs of more units of time ([`Gyrostat::time_unit`]) are audited in plain doubles: double-double takes five steps of
 /// 40 us per unit, so an audit takes at most a second.

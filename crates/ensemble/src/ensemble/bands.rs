@@ -7,14 +7,17 @@
 //! Extremes and numbers of values cover all runs, quantiles of a large campaign its first ones
 //! ([`crate::campaign::Plan::last_counted`]).
 
-use super::prelude::*;
-use std::sync::Arc;
-
+use crate::campaign::Plan;
 use crate::ensemble::deviation_window::{DeviationWindow, FULL};
+use crate::math::Isa;
+use crate::observables::Observer;
 use crate::observables::band_reader::{BandColumns, BandReader};
 use crate::observables::band_series::Form;
+use crate::run::{Quantity, StateTable};
+use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, ZERO, ends, ranks};
 use crate::statistics::gate::GateLimit;
+use std::sync::Arc;
 
 /// Runs between two counts: a column's counts are seldom fetched into the cache.
 const PENDING: usize = 2048;

@@ -1,15 +1,16 @@
 //! [`Batch`]: scenes run together into rows.
 
-use super::prelude::*;
-use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use crate::ensemble::audit::Auditor;
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs};
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Report;
-use crate::scene::Arc;
+use crate::propagation::CompletedRun;
+use crate::run::{Grid, Status};
+use crate::sampling::SampleId;
+use crate::scene::{Arc, Scene};
+use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Scenes run together on one grid, independent of earlier batches.
 pub(super) struct Batch<'p> {

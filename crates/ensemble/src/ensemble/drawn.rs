@@ -1,13 +1,15 @@
 //! [`DrawnScenes`]: drawn samples without runs.
 
-use super::prelude::*;
+use crate::campaign::{Plan, SceneDraws};
 use crate::math::symmetric::principal_axes;
-use crate::math::vector::{conjugate, hamilton};
+use crate::math::vector::{conjugate, hamilton, norm};
+use crate::observables::Group;
+use crate::sampling::SampleId;
 use crate::sampling::design::Size;
 use crate::sampling::design::hash::mix;
-use crate::scene::SceneInput;
 use crate::scene::parameter::{Parameter, Shape};
 use crate::scene::unit_quaternion::unit_quaternion;
+use crate::scene::{Scene, SceneInput};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnScenes {

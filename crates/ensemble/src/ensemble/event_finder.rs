@@ -6,10 +6,9 @@
 //! A run with a [`RunEnd`] is flown again up to there: its row is that of a campaign of this duration, with the same
 //! points and its end.
 
-use super::prelude::*;
 use crate::campaign::event::{Event, Which};
-use crate::campaign::event_columns;
 use crate::campaign::watched_quantity::parsed;
+use crate::campaign::{Plan, event_columns};
 use crate::ensemble::crossing::{Located, ROUNDING, Wanted, of_curve, of_steps};
 use crate::ensemble::extreme_finder::ExtremeFinder;
 use crate::ensemble::flights::{LawDraw, Means, ObservedRuns, Runs};
@@ -17,6 +16,10 @@ use crate::ensemble::lookup::{ERRORS, Lookup, Search, ticks};
 use crate::ensemble::settings::Engines;
 use crate::ensemble::sightings::{Place, Seen};
 use crate::observables::band_series::event_series;
+use crate::observables::{Observer, Request};
+use crate::propagation::CompletedRun;
+use crate::run::{Grid, Status};
+use crate::scene::Scene;
 
 /// Most ticks looked up between two points.
 const MOST_TICKS: f64 = 64.0;

@@ -4,14 +4,17 @@
 //! with more points (`peak`); quantities of a control loop are looked up at every tick. An extreme is a value of the
 //! quantity itself, null if that is NaN at a point of the interval.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::campaign::extreme::Extreme;
 use crate::campaign::watched_quantity::parsed;
 use crate::ensemble::flights::{Runs, end_of};
 use crate::ensemble::lookup::{ERRORS, Lookup, Search, ticks};
 use crate::ensemble::peak::{Peak, of_curve};
 use crate::ensemble::settings::Engines;
+use crate::observables::Observer;
 use crate::observables::band_series::event_series;
+use crate::propagation::CompletedRun;
+use crate::run::Grid;
 
 const TICKS: usize = 4096;
 /// A parabola exceeds its value at a point by an eighth of its second difference; points are searched if four times

@@ -1,7 +1,9 @@
 //! [`FailureReasons`]: reasons of failed runs, counted.
 
-use super::prelude::*;
+use crate::run::Status;
+use crate::sampling::SampleId;
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 /// Runs that failed with one status, and texts that differ only in numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]

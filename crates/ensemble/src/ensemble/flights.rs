@@ -1,9 +1,6 @@
 //! [`Flights`], [`ObservedRuns`]: propagate the runs of a plan, under its control law if any.
 
-use super::prelude::*;
-use std::slice::from_ref;
-
-use crate::campaign::event_columns;
+use crate::campaign::{Plan, event_columns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::effects::beside_arcs;
 use crate::dynamics::orbit_path::OrbitPath;
@@ -11,10 +8,15 @@ use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::loops::loop_record::SharedRecord;
 use crate::loops::{LawContext, LawRuns};
+use crate::math::Isa;
+use crate::math::vector::dot;
 use crate::observables::nominal_attitude::NominalAttitude;
-use crate::observables::{FlownRun, LawSeries};
-use crate::run::Telemetry;
-use crate::scene::{Arc, ControlInput, SceneInput};
+use crate::observables::{FlownRun, Group, LawSeries, Observer, Request};
+use crate::propagation::{CompletedRun, Engine, PropagationSettings};
+use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
+use crate::sampling::SampleId;
+use crate::scene::{Arc, ControlInput, Scene, SceneInput};
+use std::slice::from_ref;
 
 /// The draws of a run's law, besides its scene.
 #[derive(Clone, Debug)]

@@ -2,13 +2,15 @@
 //! samples with one parameter changed. Properties of the equations (a thruster never fired changes nothing) need no
 //! list.
 
-use super::prelude::*;
-use std::time::Instant;
-
+use crate::campaign::Plan;
 use crate::ensemble::drawn::DrawnScenes;
 use crate::ensemble::probe::{limited, part_of_run};
 use crate::ensemble::single::SingleRun;
-use crate::sampling::{Design, Dispersions, Draws};
+use crate::math::Isa;
+use crate::run::Status;
+use crate::sampling::{Design, Dispersions, Draws, SampleId};
+use crate::scene::{Parameter, Scene};
+use std::time::Instant;
 
 const DRAWN: u64 = 1000;
 /// Longest search, s.

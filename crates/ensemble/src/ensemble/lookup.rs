@@ -2,15 +2,17 @@
 //! points there: observation does not change the integration of any engine, effect and loop. Each run has its own
 //! times, so a few are flown at once, in lanes.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::ensemble::crossing::nodes;
 use crate::ensemble::flights::{LawDraw, Means, Runs, nominal_attitude};
 use crate::ensemble::settings::Engines;
-use crate::observables::Groups;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::{BandSeries, event_series};
 use crate::observables::window::NO_WINDOWS;
+use crate::observables::{Group, Groups, Observer, Request};
+use crate::run::{Grid, StateFields, StateTable};
 use crate::sampling::expression::Expression;
+use crate::scene::Scene;
 
 /// One in each lane.
 const TOGETHER: usize = 8;

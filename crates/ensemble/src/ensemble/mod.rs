@@ -20,7 +20,6 @@ mod peak;
 pub mod percentiles;
 pub mod plausibility;
 pub mod precision;
-pub(crate) mod prelude;
 pub mod probe;
 pub mod replays;
 pub mod rows;
@@ -32,7 +31,7 @@ pub mod single;
 pub mod supervision;
 mod surface;
 pub mod surroundings;
-mod threads;
+pub(crate) mod threads;
 pub mod undefined;
 pub mod worker;
 

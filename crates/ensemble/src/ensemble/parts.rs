@@ -4,7 +4,7 @@
 //! threads, machine, shards or the number of samples. Sizes grow, so that all threads share a small campaign and a
 //! large one has few files.
 
-use super::prelude::*;
+use crate::sampling::SampleId;
 
 /// First size: below, creating a file costs more than the runs.
 const SMALLEST: u64 = 256;

@@ -1,7 +1,8 @@
 //! [`Percentiles`]: quantiles of drawn columns, from sketches beyond [`CHUNK`] samples.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::ensemble::drawn::{CHUNK, DrawnScenes, magnitudes};
+use crate::sampling::SampleId;
 use crate::statistics::quantile::quantile;
 use crate::statistics::sketch::Sketch;
 

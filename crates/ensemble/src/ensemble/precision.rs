@@ -4,19 +4,21 @@
 //! Errors are relative to the [`ReferenceSolution`] in double-double. Time is the CPU time of one thread that
 //! propagates a campaign's batches with states at all observation points, without observation and files.
 
-use super::prelude::*;
-use rayon::prelude::*;
-
+use crate::campaign::{Plan, SceneDraws};
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::run_cost::thread_seconds;
 use crate::ensemble::single::states;
 use crate::ensemble::worker::BATCH;
+use crate::math::Isa;
 use crate::math::lanes::WIDTH;
-use crate::observables::error_id;
-use crate::observables::{ErrorStatistic, Series};
+use crate::observables::{ErrorStatistic, Group, Observer, Request, Series, error_id};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
-use crate::propagation::{Method, rotation_errors};
+use crate::propagation::{CompletedRun, Engine, Method, PropagationSettings, rotation_errors};
+use crate::run::{StateField, StateFields, Status};
+use crate::sampling::SampleId;
+use crate::scene::Scene;
+use rayon::prelude::*;
 
 /// Shortest repetition, s: thousands of ticks of the clock.
 const SHORTEST: f64 = 5e-3;

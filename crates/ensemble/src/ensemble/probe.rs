@@ -1,8 +1,6 @@
 //! [`RunProbe`], [`AuditProbe`]: times of a run and an audit, from the first samples.
 
-use super::prelude::*;
-use std::time::Instant;
-
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Auditor, NoAudit};
 use crate::ensemble::failure_reasons::FailureReasons;
 use crate::ensemble::parts::{Part, PartId};
@@ -11,6 +9,9 @@ use crate::ensemble::single::SingleRun;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 use crate::ode::PACE_STEPS;
+use crate::run::{Grid, Status};
+use crate::sampling::SampleId;
+use std::time::Instant;
 
 /// Duration of a probe, s.
 const DURATION_S: f64 = 0.5;

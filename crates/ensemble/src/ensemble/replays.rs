@@ -1,9 +1,13 @@
 //! [`replayed`]: runs with states and series for the page.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::ensemble::SingleRun;
 use crate::ensemble::single::SingleRuns;
-use crate::run::{points_before, points_to};
+use crate::math::Isa;
+use crate::math::vector::norm;
+use crate::observables::Group;
+use crate::run::{Grid, StateField, points_before, points_to};
+use crate::sampling::SampleId;
 
 /// Fewest intervals, also for a coarser grid of the campaign.
 const FEWEST: usize = 240;

@@ -1,9 +1,10 @@
 //! [`Rows`]: the rows of one part by columns, in memory that a worker reuses.
 
-use super::prelude::*;
 use crate::ensemble::audit::Audit;
 use crate::ensemble::bands::PartBands;
 use crate::ensemble::parts::Part;
+use crate::run::Status;
+use crate::sampling::SampleId;
 
 const CACHE_LINE: usize = 8;
 

@@ -1,13 +1,15 @@
 //! [`parts`]: a plan's parts, sized by the cost of its runs: the counted work of the nominal run times the time of a
 //! unit on a slow core, since a clock would give different parts elsewhere.
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
 use crate::ensemble::settings::{Engines, propagator};
 use crate::loops::callback::is_law_of;
+use crate::math::Isa;
 use crate::ode::{Control, PACE_STEPS};
 use crate::propagation::Method;
+use crate::run::{Grid, Outcome};
 
 /// Most work that a stopped thread loses, s.
 const LOST_S: f64 = 10.0;

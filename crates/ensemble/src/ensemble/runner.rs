@@ -3,16 +3,16 @@
 //! A free thread takes the next part and works in its own memory; no row depends on the thread. Rayon's parallel
 //! iterators halve ranges, which would scatter completed parts over the campaign.
 
-use super::prelude::*;
-use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use thiserror::Error;
-
+use super::threads::{Threads, unpoisoned};
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use thiserror::Error;
 
 #[derive(Debug, Error)]
 pub enum RunError<E> {

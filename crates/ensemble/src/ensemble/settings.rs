@@ -1,8 +1,12 @@
 //! Engine settings of a plan ([`propagator`]) and its nominal scene ([`nominal()`]).
 
-use super::prelude::*;
+use crate::campaign::Plan;
 use crate::ensemble::surface::leaves_orbit;
+use crate::math::Isa;
 use crate::ode::Control;
+use crate::propagation::{Engine, PropagationSettings};
+use crate::run::{Grid, StateField, StateFields};
+use crate::scene::Scene;
 
 pub type EngineMaker = fn(&PropagationSettings, Isa) -> Box<dyn Engine>;
 

@@ -1,19 +1,21 @@
 //! [`SingleRun`]: a sample with all its states; [`run_each`]: several. They are drawn and propagated as in campaigns.
 
-use super::prelude::*;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use rayon::ThreadPoolBuilder;
-
+use super::threads::{Threads, unpoisoned};
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EndFinder, EventFinder};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe};
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
-use crate::observables::Series;
-use crate::run::{Telemetry, points_to};
-use crate::scene::{Arc, SceneError};
+use crate::math::Isa;
+use crate::observables::{Group, Observer, Request, Series};
+use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry, points_to};
+use crate::sampling::SampleId;
+use crate::scene::{Arc, Scene, SceneError};
+use rayon::ThreadPoolBuilder;
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const GROUPS: [Group; 6] = [
     Group::EnergyConservation,

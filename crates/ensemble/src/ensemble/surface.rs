@@ -6,11 +6,13 @@
 //! bound is below the surface, the sample is flown again with points between; other runs cost a few operations a point,
 //! or nothing in a fixed orbit.
 
-use super::prelude::*;
-use std::f64::consts::PI;
-
+use crate::campaign::Plan;
 use crate::ensemble::crossing::{Located, Wanted, nodes, of_curve};
-use crate::scene::Orbit;
+use crate::math::vector::{dot, norm};
+use crate::propagation::CompletedRun;
+use crate::run::{Outcome, StateField, Status};
+use crate::scene::{Orbit, Scene};
+use std::f64::consts::PI;
 
 /// Sixteenfold refinements: five hours become a third of a second.
 const LEVELS: usize = 4;

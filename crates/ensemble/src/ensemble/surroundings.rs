@@ -1,13 +1,13 @@
 //! [`Surroundings`]: nadir, Sun, Earth's shadow, magnetic field and ground track for page and figures.
 
-use super::prelude::*;
-use core::f64::consts::TAU;
-
 use crate::dynamics::earth_rotation::{TURNS_PER_SECOND, turns_at};
 use crate::dynamics::environment::light::Light;
 use crate::dynamics::magnetic_field::MagneticField;
 use crate::ensemble::SingleRun;
-use crate::math::vector::{cross, scaled};
+use crate::math::vector::{cross, dot, norm, scaled};
+use crate::run::StateField;
+use crate::scene::Scene;
+use core::f64::consts::TAU;
 
 /// At any time (s) and place (F_e, m).
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,15 @@
 //! [`notes`]: quantities of events and extremes that are NaN in the first samples.
 
-use super::prelude::*;
 use crate::campaign::watched_quantity::parsed;
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Means, Runs};
 use crate::ensemble::lookup::Lookup;
 use crate::ensemble::probe::limited;
 use crate::ensemble::settings::Engines;
+use crate::math::Isa;
 use crate::observables::band_series::event_series;
+use crate::sampling::SampleId;
 
 const TRIED: u64 = 8;
 

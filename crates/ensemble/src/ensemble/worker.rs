@@ -1,9 +1,6 @@
 //! [`Ensemble`]: a plan ready to run; [`Worker`]: the memory of one thread.
 
-use super::prelude::*;
-use std::sync::atomic::Ordering;
-use std::sync::{Arc, OnceLock};
-
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::Selection;
 use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::batch::Batch;
@@ -14,8 +11,14 @@ use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::run_cost::thread_seconds;
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
+use crate::math::Isa;
+use crate::observables::Request;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
+use crate::propagation::PropagationSettings;
+use crate::sampling::SampleId;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, OnceLock};
 
 /// Scenes propagated together: each of eight lanes is loaded 16 times, and all fit the second-level cache.
 pub const BATCH: usize = 128;

@@ -3,12 +3,13 @@
 //! A file is written under a unique temporary name in its own folder (a rename cannot cross file systems), flushed, and
 //! renamed. The name identifies leftovers of a crash.
 
-use super::prelude::*;
-use std::fs;
-use std::io::{BufWriter, Write};
-
+use super::store::Result;
 use crate::storage::disk::above;
 use crate::storage::names::unfinished;
+use std::fs::File;
+use std::io::{BufWriter, ErrorKind, Write};
+use std::path::Path;
+use std::{fs, io};
 
 /// Refuses a `path` that a rename must not replace: a device or a pipe.
 fn check_replaceable(path: &Path) -> io::Result<()> {

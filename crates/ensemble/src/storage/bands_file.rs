@@ -2,16 +2,22 @@
 //!
 //! The metadata describe the bands, so that a file explains its own buckets.
 
-use super::prelude::*;
-use serde::{Deserialize, Serialize};
-
-use crate::ensemble::{BandLayout, Bands, PartBands, RunsOfColumn};
+use super::store::Store;
+use crate::ensemble::threads::Threads;
+use crate::ensemble::{BandLayout, Bands, Part, PartBands, PartId, RunsOfColumn};
 use crate::observables::band_series::Form;
+use crate::run::Quantity;
+use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
 use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::identity::{PART_KEY, part_metadata};
 use crate::storage::parallel::in_order;
 use crate::storage::rows_reader::{PartReader, Result, RowsError};
+use crate::table::{Column, Content, Values};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
 
 const LAYOUT_KEY: &str = "spindrift.bands";
 const RUNS_KEY: &str = "spindrift.bands.runs";

@@ -1,10 +1,12 @@
 //! `bands.parquet`: quantiles of quantities over time, a row per series and point.
 
-use super::prelude::*;
+use super::store::Result;
+use crate::campaign::Plan;
 use crate::ensemble::Bands;
 use crate::statistics::deviation::RELATIVE_ERROR;
 use crate::storage::columnar::{EncodingError, Packing, encoded};
 use crate::storage::identity::provenance;
+use crate::table::Table;
 
 /// Column name and fraction of the runs.
 pub const QUANTILES: [(&str, f64); 7] =

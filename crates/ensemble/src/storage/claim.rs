@@ -1,7 +1,9 @@
 //! [`claim`]: whether a campaign may write to the place of a result.
 
-use super::prelude::*;
+use super::store::{Result, Store};
+use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
+use crate::ensemble::{Ensemble, PartId};
 use crate::storage::atomic::explained;
 use crate::storage::dataset::{Dataset, Head, PartRecord, unfinish};
 use crate::storage::folder_error::{self, FolderError, all_differences, other_questions, reasons};
@@ -12,6 +14,10 @@ use crate::storage::names::{HEAD, PLAN, SUMMARY};
 use crate::storage::replacement::{self, remove_replaced, replace};
 use crate::storage::rows_file::identity;
 use crate::storage::store::{OpenFolder, at};
+use std::io;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One of several processes of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,9 @@
 //! their memory without a copy. The Arrow writer is a third slower. Floats have no dictionary (a file would be a
 //! quarter larger and take five times as long); BYTE_STREAM_SPLIT lets their exponents compress.
 
-use super::prelude::*;
-use std::borrow::Borrow;
-use std::io::Write;
-
+use crate::run::Quantity;
+use crate::storage::arrow_metadata;
+use crate::table::{Column, Content, Table, Values};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
@@ -15,8 +14,10 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
-
-use crate::storage::arrow_metadata;
+use std::borrow::Borrow;
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::sync::Arc;
 
 pub use parquet::errors::ParquetError as EncodingError;
 

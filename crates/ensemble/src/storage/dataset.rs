@@ -13,18 +13,17 @@
 //! if its sealed file of rows has this identity, its number, its first sample and its count. Before anything that the
 //! manifest lists changes, `_SUCCESS` and the manifest are removed.
 
-use super::prelude::*;
-use std::collections::BTreeSet;
-use std::sync::MutexGuard;
-
-use serde::{Deserialize, Serialize};
-
-use crate::ensemble::Parts;
+use super::store::{Result, Store};
 use crate::ensemble::run_cost::parts;
+use crate::ensemble::threads::unpoisoned;
+use crate::ensemble::{Ensemble, Part, PartId, Parts};
 use crate::storage::identity::{Identity, SEAL_KEY, UNSEALED, seal, sealed, sha256};
 use crate::storage::names::{DATA, MANIFEST, PLAN, SUCCESS, SUMMARY, bands_of, is_of_part, is_ours, rows_of};
 use crate::storage::rows_file::identity;
 use crate::storage::rows_reader::RowsReader;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex, MutexGuard};
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileRecord {

@@ -6,12 +6,14 @@
 //! Files that a command writes elsewhere are in [`super::atomic`], data files of a campaign in
 //! [`crate::campaign::input_file`].
 
-use super::prelude::*;
-use std::fs::{self, TryLockError};
-use std::io::{Read, Write};
-
+use super::store::{Result, Store};
 use crate::storage::names::unfinished;
 use crate::storage::store::{Entry, Unfit, content};
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::io::{ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[derive(Clone, Debug)]
 pub struct Disk(PathBuf);

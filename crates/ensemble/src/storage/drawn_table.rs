@@ -1,15 +1,18 @@
 //! Sampled parameters as a table, Parquet or CSV, written while drawn.
 
-use super::prelude::*;
+use super::store::Result;
+use crate::campaign::Plan;
 use crate::ensemble::DrawnScenes;
 use crate::ensemble::drawn::MASS_COLUMNS;
+use crate::run::{Quantity, Status};
 use crate::storage::atomic;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::provenance;
 use crate::storage::rows_file::{fixed_columns, parameter_columns};
 use crate::storage::store::Failure;
 use crate::storage::table_file::TableFormat;
-use crate::table::csv;
+use crate::table::{Column, Content, Values, csv};
+use std::path::Path;
 
 /// Status of a physical sample; others have the status of their row.
 pub const PHYSICAL: &str = "drawn";

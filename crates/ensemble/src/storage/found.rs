@@ -1,9 +1,8 @@
 //! [`contents`]: the contents of the place of a dataset; [`Found::examine`]: its whole parts.
 
-use super::prelude::*;
-use std::collections::BTreeSet;
-
-use crate::ensemble::Parts;
+use super::store::{Result, Store};
+use crate::campaign::Plan;
+use crate::ensemble::{Part, PartId, Parts};
 use crate::storage::dataset::{FileRecord, Head, Manifest, PartRecord};
 use crate::storage::folder_error::FolderError;
 use crate::storage::identity::{Identity, RowsMetadata, sealed, sha256};
@@ -12,6 +11,10 @@ use crate::storage::names::{
     part_of, rows_of,
 };
 use crate::storage::parallel::in_parallel;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::io::ErrorKind;
+use std::num::NonZeroUsize;
 
 /// Manifest of earlier formats.
 const OLD_MANIFEST: &str = "manifest.jsonl";

@@ -1,11 +1,14 @@
 //! [`Identity`] of rows, recorded by every file of rows; [`seal`], by which a file proves its own bytes.
 
-use super::prelude::*;
+use crate::campaign::Plan;
+use crate::ensemble::Part;
+use crate::sampling::SampleId;
+use crate::table::Column;
 use bytes::Bytes;
 use parquet::file::metadata::ParquetMetaDataReader;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Version of the files of a dataset: counts are Int64 since 2, parts have other sizes and bands coarser buckets since
 /// 3; since 4 every file of rows has the whole [`Identity`]; since 5 bands of large campaigns count the first runs

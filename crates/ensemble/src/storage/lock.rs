@@ -1,11 +1,10 @@
 //! [`lock`]: keeps other processes away from a result, for people; results are right without it.
 
-use super::prelude::*;
-use std::fs::TryLockError;
+use super::store::{Result, Store};
+use crate::storage::folder_error::FolderError;
+use std::fs::{File, TryLockError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-
-use crate::storage::folder_error::FolderError;
 
 /// Longest wait for a lock: a killed process keeps its lock until its files are closed, and a child shares it for a
 /// moment.

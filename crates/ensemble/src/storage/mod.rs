@@ -30,7 +30,6 @@ pub mod names;
 pub mod parallel;
 pub mod part_sink;
 pub mod precision_table;
-mod prelude;
 pub mod replacement;
 pub mod rows_file;
 pub mod rows_reader;

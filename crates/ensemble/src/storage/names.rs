@@ -1,7 +1,8 @@
 //! The names of the files of a dataset. Files with other names are foreign and never changed.
 
-use super::prelude::*;
+use crate::ensemble::PartId;
 use std::hash::{BuildHasher, RandomState};
+use std::path::{Path, PathBuf};
 
 /// Identity of the dataset.
 pub const HEAD: &str = "dataset.json";

@@ -1,9 +1,11 @@
 //! [`in_parallel`]: independent items on several threads; [`in_order`]: merged in their order. Threads that cannot
 //! start are done without.
 
-use super::prelude::*;
+use super::store::Result;
+use crate::ensemble::threads::{Threads, unpoisoned};
 use std::convert::Infallible;
-use std::sync::{Condvar, MutexGuard};
+use std::num::NonZeroUsize;
+use std::sync::{Condvar, Mutex, MutexGuard};
 use std::thread::Builder;
 
 /// Applies `each` to the items on `threads` threads, in their order.

@@ -2,19 +2,18 @@
 //!
 //! Threads encode their own parts; another one writes files, so that no run waits for the disk.
 
-use super::prelude::*;
-use std::sync::OnceLock;
-use std::sync::mpsc::{SyncSender, sync_channel};
-
-use parquet::errors::ParquetError;
-
-use crate::ensemble::Rows;
+use super::store::Result;
+use crate::ensemble::threads::unpoisoned;
+use crate::ensemble::{Ensemble, Part, Rows};
 use crate::storage::bands_file::BandsFile;
 use crate::storage::dataset::{Dataset, FileRecord, PartFile};
 use crate::storage::identity::seal;
 use crate::storage::names::{bands_of, rows_of};
 use crate::storage::rows_file::RowsFile;
 use crate::storage::store::Failure;
+use parquet::errors::ParquetError;
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Mutex, OnceLock};
 
 /// Encoded parts, some 10 MB each, that may wait for the disk.
 const WAITING: usize = 1;

@@ -1,7 +1,7 @@
 //! Measured run times and errors as a table.
 
-use super::prelude::*;
 use crate::ensemble::precision::{Deviation, Measurement, Setting};
+use crate::table::Table;
 
 /// A row per setting, on the instruction set `isa`.
 pub fn precision_table<'m>(measured: &'m [Measurement], isa: &str) -> Table<'m> {

@@ -6,10 +6,7 @@
 //!
 //! Only files that a dataset lists or names are ever removed.
 
-use super::prelude::*;
-use std::ffi::OsString;
-use std::fs;
-
+use super::store::{Result, Store};
 use crate::storage::dataset::{Head, unfinish};
 use crate::storage::disk::{above, sync_folder};
 use crate::storage::folder_error::FolderError;
@@ -18,6 +15,11 @@ use crate::storage::identity::sha256;
 use crate::storage::lock::lock;
 use crate::storage::names::{FOLDERS, HEAD, is_digits};
 use crate::storage::store::{OpenFolder, at};
+use std::ffi::OsString;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::{fs, io};
 
 fn beside(root: &Path, digits: &str, what: &str) -> PathBuf {
     let mut name = OsString::from(".");

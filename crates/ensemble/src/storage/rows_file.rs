@@ -1,18 +1,18 @@
 //! [`RowsFile`]: the files of rows: dispersed parameters, observables, audits.
 
-use super::prelude::*;
-use std::io::Write;
-
-use parquet::errors::ParquetError;
-
-use crate::campaign::Compression;
+use super::store::Result;
 use crate::campaign::columns::parameter_quantity;
-use crate::ensemble::Rows;
+use crate::campaign::{Compression, Plan};
 use crate::ensemble::audit::AuditValue;
+use crate::ensemble::{Ensemble, Rows};
 use crate::observables::ColumnKind;
 use crate::observables::headlines::headlines;
+use crate::run::Quantity;
 use crate::storage::columnar::{Layout, Packing};
 use crate::storage::identity::{self, BANDS_KEY, Identity, SEAL_KEY, UNSEALED, part_metadata, row_provenance};
+use crate::table::{Column, Content, Values};
+use parquet::errors::ParquetError;
+use std::io::Write;
 
 pub const SAMPLE_ID: &str = "sample_id";
 pub const STATUS: &str = "status";

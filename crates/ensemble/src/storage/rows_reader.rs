@@ -3,19 +3,25 @@
 //! Parquet's typed column reader decodes a column to a list of numbers without Arrow's arrays. Memory does not depend
 //! on the number of rows. Panics of the Parquet reader on damaged files become errors.
 
-use super::prelude::*;
-use std::borrow::Cow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
+use super::store::Store;
+use crate::ensemble::threads::Threads;
+use crate::run::{Quantity, Status};
+use crate::sampling::SampleId;
+use crate::storage::parallel::in_order;
+use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
+use crate::table::{Column, Content, Values};
 use bytes::Bytes;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Arc;
 use thiserror::Error;
-
-use crate::storage::parallel::in_order;
-use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
 
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{path}: {what}")]

@@ -1,11 +1,13 @@
 //! Tables in a single file: [`save`], in the [`TableFormat`] of its extension.
 
-use super::prelude::*;
+use super::store::Result;
+use crate::campaign::Plan;
 use crate::storage::atomic;
 use crate::storage::columnar::{Packing, encoded};
 use crate::storage::identity::provenance;
 use crate::storage::store::Failure;
-use crate::table::csv;
+use crate::table::{Table, csv};
+use std::path::Path;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableFormat {

@@ -3,10 +3,12 @@
 //! The state table has the centre of mass c, the series the point p (origin of F_s): r_p = r_c - C_es c, v_p = v_c -
 //! C_es (omega x c).
 
-use super::prelude::*;
 use crate::ensemble::SingleRun;
 use crate::math::vector::{cross, dcm_from_quaternion, difference, product};
 use crate::observables::Series;
+use crate::run::{Quantity, StateField};
+use crate::sampling::SampleId;
+use crate::table::{Column, Content, Table, Values};
 
 /// A series without a column here: the total is the sum of its bodies.
 const LEFT_OUT: Series = Series::EnergyTotal;

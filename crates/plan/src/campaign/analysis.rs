@@ -3,14 +3,17 @@
 
 use super::derived_observable::DerivedObservable;
 use super::display::Display;
-use super::numbers::CONFIDENCE;
-use super::prelude::*;
+use super::document::Document;
+use super::known_columns::KnownColumns;
+use super::numbers::{CONFIDENCE, MAX_SAMPLES};
 use super::requirement::{DEFAULT_CONFIDENCE, Requirement};
+use super::section::Section;
 use super::size::MOST_TABLES;
 use super::stop::{Stop, When};
+use crate::observables::Request;
 use crate::observables::window::{MAX_WINDOWS, Window};
-use crate::sampling::Column;
-use crate::sampling::keys::ListLimit;
+use crate::sampling::keys::{Kind, ListLimit, Presence, Row};
+use crate::sampling::{Column, Design};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {

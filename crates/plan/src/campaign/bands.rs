@@ -1,6 +1,6 @@
 //! The `[bands]` table: number of points and runs of quantiles over time.
 
-use super::prelude::*;
+use super::document::Document;
 
 /// Default points on a grid of more than [`ALL`].
 const POINTS: u64 = 33;

@@ -6,11 +6,13 @@
 //! of samples only if the design's points depend on it. Equal row hashes mean equal rows.
 
 use super::draws::{design_lines, dispersion_lines};
+use super::lines::Lines;
 use super::plan::Plan;
-use super::prelude::*;
 use super::{bands, scene, settings};
 use crate::loops::LoopSpec;
-use crate::sampling::keys::Values;
+use crate::observables::request::NutationAxis;
+use crate::sampling::keys::{Row, Value, Values, Written};
+use crate::scene::SceneInput;
 use crate::scene::table::Table;
 use sha2::{Digest, Sha256};
 

@@ -1,6 +1,6 @@
 //! The samples of `campaign.only`, ascending and different, each with the row that it has in the whole campaign.
 
-use super::prelude::*;
+use super::document::Document;
 
 pub const MOST_CHOSEN: usize = 100_000;
 

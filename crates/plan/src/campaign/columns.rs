@@ -3,11 +3,14 @@
 use super::event::Event;
 use super::event_columns;
 use super::extreme::Extreme;
-use super::prelude::*;
 use crate::dynamics::effects::ForceModel;
-use crate::observables::LawColumns;
+use crate::loops::ControlLaw;
+use crate::observables::request::NutationAxis;
 use crate::observables::window::NO_WINDOWS;
-use crate::scene::Actuated;
+use crate::observables::{Group, LawColumns, Request};
+use crate::propagation::Method;
+use crate::run::Quantity;
+use crate::scene::{Actuated, Parameter, SceneInput};
 
 /// The observables of a plan. `acting`: the nominal scene with the commands that act in a run, besides those of `law`.
 pub fn request(

@@ -1,10 +1,14 @@
 //! The keys of data files: `file`, `sha256`, `column`, `parameters`, `columns`.
 
 use super::data::{COPIES, DataFile, MOST_FILES, MOST_NUMBERS, Unused, copy_name};
+use super::meaning::meant;
 use super::parameter::{named, refuse_unknown, without_effect};
-use super::prelude::*;
-use crate::sampling::DataColumn;
+use super::section::Section;
+use crate::sampling::keys::{ANY_TEXT, Kind, Row};
+use crate::sampling::{Component, DataColumn};
+use crate::scene::{Parameter, SceneInput};
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 const SHA256: Row = Row::new("sha256", Kind::Text(ANY_TEXT), "SHA-256 of the file");
 

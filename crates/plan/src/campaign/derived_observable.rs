@@ -1,11 +1,14 @@
 //! [`DerivedObservable`]: an `[[observable]]` table. Statistics evaluate it from stored rows, which do not contain it.
 
 use super::columns::parameter_quantity;
+use super::known_columns::KnownColumns;
 use super::parameter::named;
-use super::prelude::*;
-use crate::sampling::Column;
+use super::section::Section;
+use crate::run::Quantity;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::COLUMN_NAME;
+use crate::sampling::keys::{ANY_TEXT, COLUMN_NAME, Kind, Row, TextLimit};
+use crate::sampling::{Column, Component};
+use crate::scene::{Parameter, SceneInput};
 
 /// An expression of columns and dispersed parameters.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! `campaign.description`: the question that a campaign answers.
 
-use super::prelude::*;
 use super::sources::Sources;
+use crate::sampling::keys::TextLimit;
+use toml::de::DeTable;
 
 const LONGEST: usize = 1000;
 

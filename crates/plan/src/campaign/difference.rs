@@ -2,8 +2,11 @@
 
 use super::display::ShownUnit;
 use super::plan::Plan;
-use super::prelude::*;
+use super::units;
 use crate::sampling::DistributionKind;
+use crate::sampling::keys::Kind;
+use crate::scene::Parameter;
+use toml::de::{DeTable, DeValue};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyDifference {

@@ -1,7 +1,10 @@
 //! [`Display`]: units on the screen, in reports and figures, from `[display]` and from limits and dispersions as
 //! written. Files of numbers stay in the units of their columns.
 
-use super::prelude::*;
+use super::section::Section;
+use super::units;
+use crate::sampling::keys::{Kind, Row, Value};
+use crate::scene::Parameter;
 use std::collections::BTreeMap;
 
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,11 +1,15 @@
 //! `[design]`, `[[disperse]]`, `[[correlate]]` and `[[derive]]`, read (`None` after a problem) and as canonical text.
 //! Designs and distributions declare their keys ([`crate::sampling::design`], [`crate::sampling::distribution`]).
 
+use super::lines::Lines;
+use super::numbers::MAX_SAMPLES;
 use super::parameter::{PARAMETER, name_of};
-use super::prelude::*;
+use super::section::Section;
+use super::units;
 use crate::sampling::design::replicates::REPLICATES;
-use crate::sampling::keys::ALL_BUT_ONE;
-use crate::sampling::{Correlation, Derivation, Dispersion, DistributionKind, Measure};
+use crate::sampling::keys::{ALL_BUT_ONE, ANY_TEXT, Kind, Row, Rule};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, DistributionKind, Measure};
+use crate::scene::Parameter;
 
 pub const CORRELATE: [Row; 5] = [
     Row::new("parameters", Kind::Parameters, "The dispersed parameters that depend on each other")

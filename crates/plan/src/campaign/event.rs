@@ -2,10 +2,13 @@
 
 use super::known_columns::unit_of;
 use super::numbers::FINITE;
-use super::prelude::*;
+use super::section::Section;
+use super::units;
 use super::watched_quantity::{QUANTITY, variables};
+use crate::observables::Request;
 use crate::observables::band_series::{BandSeries, event_series};
-use crate::sampling::keys::{is_name, words};
+use crate::run::Quantity;
+use crate::sampling::keys::{Kind, Row, TextLimit, is_name, words};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {

@@ -2,8 +2,9 @@
 
 use super::event::{ENDED_BY, Event};
 use super::failure_tables::failed_device;
-use super::prelude::*;
 use crate::observables::{ColumnKind, LawColumn};
+use crate::run::Quantity;
+use crate::scene::SceneInput;
 
 /// Columns of each failure, and of each event.
 pub const EACH: usize = 2;

@@ -2,11 +2,13 @@
 //! points.
 
 use super::event::Event;
-use super::prelude::*;
+use super::meaning::meant;
+use super::section::Section;
 use super::watched_quantity::{QUANTITY, variables};
 use crate::observables::band_series::{BandSeries, event_series};
-use crate::observables::{ColumnKind, LawColumn};
-use crate::sampling::keys::COLUMN_NAME;
+use crate::observables::{ColumnKind, LawColumn, Request};
+use crate::run::Quantity;
+use crate::sampling::keys::{ANY_TEXT, COLUMN_NAME, Kind, Presence, Row};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {

@@ -1,9 +1,10 @@
 //! `[[failure]]`: devices that fail during a run.
 
-use super::prelude::*;
 use super::scene_table::{Field, SceneTable};
+use super::section::Section;
+use crate::sampling::keys::{Kind, Row};
 use crate::scene::table::Table;
-use crate::scene::{Device, FailureInput, SensorOutput, WheelMode};
+use crate::scene::{Device, FailureInput, Name, SceneInput, SensorOutput, WheelMode};
 
 const MOST_FAILURES: usize = 16;
 /// The keys of devices, of which a failure has one.

@@ -1,7 +1,8 @@
 //! Campaign files by their names on the command line.
 
 use super::input_file::is_unreadable;
-use super::prelude::*;
+use super::meaning::meant;
+use std::path::{Path, PathBuf};
 
 /// The folder of shipped campaigns.
 pub const FOLDER: &str = "campaigns";

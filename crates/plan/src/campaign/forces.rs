@@ -1,7 +1,9 @@
 //! Whether the method integrates all forces of the scene.
 
-use super::prelude::*;
+use super::document::Document;
 use crate::dynamics::effects::{Effect, ForceModel};
+use crate::propagation::Method;
+use crate::scene::{Scene, SceneInput};
 
 /// The methods that integrate the effects of `model`, to follow "must be"; `None` if `method` does.
 pub fn allowed_methods(method: Method, model: ForceModel) -> Option<String> {

@@ -1,14 +1,19 @@
 //! Tables of declared keys ([`crate::sampling::keys`]): read from a campaign file and written as canonical text.
 
-use super::known_columns::unit_of;
+use super::known_columns::{KnownColumns, unit_of};
+use super::lines::Lines;
 use super::numbers::{FINITE, number, numbers_in_words, remedy_for_text, values, whole};
 use super::parameter::{parameter, parameters};
-use super::prelude::*;
-use super::{data_keys, display};
+use super::section::Section;
+use super::{data_keys, display, units};
 use crate::math::vector::norm;
+use crate::run::Quantity;
 use crate::sampling::expression::Expression;
-use crate::sampling::keys::{ALL_BUT_ONE, Condition, Values};
+use crate::sampling::keys::{ALL_BUT_ONE, Condition, Kind, Presence, Row, Rule, Value, Values, Written};
 use crate::sampling::{DistributionKind, WrittenDistribution};
+use crate::scene::schema::Limit;
+use crate::scene::{Name, Parameter};
+use toml::de::DeValue;
 
 impl Section<'_, '_> {
     /// The values of `rows` if all are valid and obey `rules`; problems are noted.

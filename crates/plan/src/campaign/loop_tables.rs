@@ -1,9 +1,10 @@
 //! [`LoopTables`]: the reader of control loops, which a program chooses with its [`super::Overrides`].
 
-use super::prelude::*;
-use serde_json::Value;
-
+use super::section::Section;
+use crate::loops::ControlLaw;
 use crate::loops::attitude_law::LawKind;
+use crate::scene::SceneInput;
+use serde_json::Value;
 
 /// Reads `[control]`, `[[sensors]]` and `[[guidance]]`.
 pub trait LoopTables {

@@ -46,7 +46,6 @@ pub mod numbers;
 pub mod parameter;
 pub mod plan;
 mod plan_rows;
-mod prelude;
 pub mod problem;
 pub mod requirement;
 pub mod retention;

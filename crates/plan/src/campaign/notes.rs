@@ -1,11 +1,12 @@
 //! [`Plan::notes`]: valid settings that are probably not meant.
 
 use super::plan::{Plan, ROUNDING_OF_PLATES};
-use super::prelude::*;
 use super::requirement::{Requirement, Subject};
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::observables::accuracy::Accuracy;
+use crate::sampling::Design;
 use crate::sampling::design::{MAX_SAMPLES, Size};
+use crate::scene::Scene;
 
 impl Plan {
     /// Notes for the user before a run, one sentence each.

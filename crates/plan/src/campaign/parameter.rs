@@ -1,7 +1,10 @@
 //! Names of parameters in campaign files.
 
-use super::prelude::*;
-use crate::scene::{EnvironmentInput, LawParameter};
+use super::meaning::meant;
+use super::section::Section;
+use crate::sampling::Component;
+use crate::sampling::keys::{Kind, Row, Value};
+use crate::scene::{EnvironmentInput, LawParameter, Parameter, SceneInput};
 
 /// The key for the subject of a table.
 pub const PARAMETER: Row = Row::new("parameter", Kind::Parameter, "A number of the scene or of the control loop")

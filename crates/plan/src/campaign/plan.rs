@@ -2,24 +2,30 @@
 
 use super::analysis::Analysis;
 use super::columns::request;
-use super::document::Overrides;
+use super::document::{Document, Overrides};
 use super::event::Event;
 use super::extreme::Extreme;
+use super::known_columns::KnownColumns;
 use super::loop_tables::LoopTables;
-use super::numbers::{FRACTION, LARGEST_SEED};
-use super::prelude::*;
+use super::numbers::{FRACTION, LARGEST_SEED, MAX_SAMPLES};
 use super::problem::CampaignError;
 use super::retention::Retention;
 use super::settings::Compression;
 use super::sources::Sources;
 use super::spec::Spec;
 use super::{bands, chosen, description, forces, size};
-use crate::loops::LoopSpec;
+use crate::loops::{ControlLaw, LoopSpec};
+use crate::observables::request::NutationAxis;
 use crate::observables::window::MAX_WINDOWS;
+use crate::observables::{Group, Request};
 use crate::ode::Tolerance;
+use crate::propagation::Method;
 use crate::run::Grid;
-use crate::sampling::{Correlation, Derivation, Dispersion, Dispersions, Draws, Written};
+use crate::sampling::keys::Value;
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, Dispersions, Draws, Written};
 use crate::scene::schedule::applied;
+use crate::scene::{Scene, SceneInput};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]

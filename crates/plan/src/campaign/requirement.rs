@@ -1,10 +1,11 @@
 //! [`Requirement`]: a `[[require]]` table.
 
 use super::numbers::{CONFIDENCE, PROBABILITY};
-use super::prelude::*;
+use super::section::Section;
+use super::units;
 use crate::observables::window::Window;
 use crate::run::{points_before, points_to};
-use crate::sampling::keys::{Condition, ListLimit};
+use crate::sampling::keys::{Condition, Kind, ListLimit, Presence, Row, Rule};
 use crate::statistics::gate::GateLimit;
 
 /// The statistic that the limit bounds.

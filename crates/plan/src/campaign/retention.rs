@@ -1,7 +1,7 @@
 //! The `[retain]` table. No row depends on it.
 
-use super::prelude::*;
-use super::section::choice;
+use super::section::{Section, choice};
+use crate::sampling::keys::{ANY_TEXT, Kind, Row, Written};
 
 /// Runs that keep their full time series.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

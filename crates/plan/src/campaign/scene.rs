@@ -1,21 +1,24 @@
 //! The scene's tables: [`crate::scene::schema`] declares their numbers, this file their other keys and the rules
 //! between several keys.
 
-use super::failure_tables;
+use super::lines::Lines;
 use super::loop_tables::LoopTables;
 use super::parameter::lacking;
-use super::prelude::*;
 use super::scene_table::{Field, SceneTable, flag, list, word};
+use super::section::Section;
 use super::tables::read_keys;
+use super::{failure_tables, units};
 use crate::loops::OwnLaw;
 use crate::loops::attitude_law::LawKind;
+use crate::sampling::keys::{Kind, Row, TextLimit, Value};
 use crate::scene::body::MAX_PARTS;
+use crate::scene::schema::Limit;
 use crate::scene::schema::numbers::kept;
 use crate::scene::table::Table;
 use crate::scene::{
     ActuationInput, ControlInput, DebrisInput, EnvironmentInput, Epoch, FieldModel, MAX_PLATES, MAX_THRUSTERS,
-    MAX_TORQUE_RODS, MAX_WHEELS, OrbitInput, PartInput, PartShape, PlateInput, Shadow, ThrusterInput, TorqueRodInput,
-    WheelInput, WheelMode,
+    MAX_TORQUE_RODS, MAX_WHEELS, Name, OrbitInput, PartInput, PartShape, PlateInput, SceneInput, Shadow, ThrusterInput,
+    TorqueRodInput, WheelInput, WheelMode,
 };
 
 const MODES: [&str; WheelMode::ALL.len()] = ["free", "speed_held", "locked"];

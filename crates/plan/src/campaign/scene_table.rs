@@ -1,13 +1,14 @@
 //! [`SceneTable`]: a table of the scene: numbers that [`crate::scene::schema`] declares, and other keys as [`Field`]s,
 //! from which reading and canonical text follow.
 
-use super::prelude::*;
-use std::collections::HashSet;
-
+use super::lines::Lines;
+use super::section::Section;
 use super::tables::{read_keys, read_name};
 use crate::sampling::Written;
-use crate::scene::ArcErrors;
+use crate::sampling::keys::{Kind, Row, Value};
 use crate::scene::table::Table;
+use crate::scene::{ArcErrors, Name, SceneInput};
+use std::collections::HashSet;
 
 /// A key of the scene that is not a number.
 pub struct Field {

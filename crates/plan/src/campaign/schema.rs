@@ -3,20 +3,17 @@
 //! It follows from the declared keys, without required keys, rules between keys, names of other tables and units in
 //! texts, which `spindrift check` checks.
 
-use super::prelude::*;
-use std::ops::Bound;
-
-use serde_json::{Map, Value as Json, json};
-
 use super::loop_tables::LoopTables;
 use super::parameter::PARAMETER;
 use super::scene_table::SceneTable;
 use super::size::MOST_TABLES;
 use super::{data_keys, draws, failure_tables, scene, settings};
-use crate::sampling::DistributionKind;
-use crate::sampling::keys::{ANY, Range, above, at_least};
-use crate::scene::LawParameter;
-use crate::scene::schema::{Facts, Shape};
+use crate::sampling::keys::{ANY, Kind, Presence, Range, Row, above, at_least};
+use crate::sampling::{Design, DistributionKind};
+use crate::scene::schema::{Facts, Limit, Shape};
+use crate::scene::{LawParameter, Name, Parameter};
+use serde_json::{Map, Value as Json, json};
+use std::ops::Bound;
 
 /// The keys of a table, each with its schema.
 #[derive(Default)]

@@ -3,9 +3,11 @@
 
 use super::bands::{FEWEST_RUNS as FEWEST_BAND_RUNS, MOST_POINTS as MOST_BAND_POINTS};
 use super::chosen::MOST_CHOSEN;
-use super::numbers::{FRACTION, LARGEST_SEED, MAX_POINTS, POSITIVE, TOLERANCE};
-use super::prelude::*;
+use super::numbers::{FRACTION, LARGEST_SEED, MAX_POINTS, MAX_SAMPLES, POSITIVE, TOLERANCE};
 use super::{analysis, derived_observable, description, display, event, extreme, requirement, retention, stop};
+use crate::observables::Group;
+use crate::propagation::Method;
+use crate::sampling::keys::{Kind, Row, Rule, TextLimit};
 
 macro_rules! names {
     ($Type:ty) => {{

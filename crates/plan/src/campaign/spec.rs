@@ -3,15 +3,21 @@
 
 use super::analysis::Analysis;
 use super::columns::request;
+use super::document::Document;
 use super::event::Event;
 use super::extreme::Extreme;
 use super::loop_tables::LoopTables;
-use super::prelude::*;
 use super::retention::Retention;
-use super::settings;
+use super::section::Section;
 use super::size::MOST_TABLES;
-use super::{draws, scene};
-use crate::sampling::{Correlation, Derivation, Dispersion, Written};
+use super::{draws, scene, settings};
+use crate::observables::Group;
+use crate::observables::request::NutationAxis;
+use crate::propagation::Method;
+use crate::sampling::keys::{Row, Value};
+use crate::sampling::{Correlation, Derivation, Design, Dispersion, Written};
+use crate::scene::SceneInput;
+use toml::de::DeTable;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {

@@ -1,9 +1,10 @@
 //! [`Stop`]: the `[stop]` table, which ends a campaign with enough samples.
 
-use super::numbers::{CONFIDENCE, POSITIVE, PROBABILITY};
-use super::prelude::*;
+use super::numbers::{CONFIDENCE, MAX_SAMPLES, POSITIVE, PROBABILITY};
 use super::requirement::DEFAULT_CONFIDENCE;
-use crate::sampling::keys::Condition;
+use super::section::Section;
+use super::units;
+use crate::sampling::keys::{Condition, Kind, Presence, Row, Rule};
 use crate::statistics::looks::Goal;
 
 #[derive(Clone, Debug, PartialEq)]

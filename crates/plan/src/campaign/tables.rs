@@ -1,10 +1,10 @@
 //! Names and declared numbers of the tables of scene and control loop.
 
-use super::prelude::*;
-use std::collections::HashSet;
-
-use crate::scene::LawParameter;
+use super::section::Section;
+use super::units;
 use crate::scene::table::Table;
+use crate::scene::{LawParameter, Name, SceneInput};
+use std::collections::HashSet;
 
 pub fn read_keys(section: &mut Section<'_, '_>, table: Table, instance: usize, scene: &mut SceneInput) {
     // a written key may be another way to describe a body

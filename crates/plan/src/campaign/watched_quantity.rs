@@ -1,9 +1,11 @@
 //! Quantities of events and extremes: one over time, or an expression of several.
 
-use super::prelude::*;
-use crate::observables::Groups;
+use super::meaning::meant;
+use super::section::Section;
 use crate::observables::band_series::{BandSeries, event_series};
+use crate::observables::{Group, Groups, Request};
 use crate::sampling::expression::Expression;
+use crate::sampling::keys::{Kind, Row};
 
 pub(super) const QUANTITY: Row =
     Row::new("quantity", Kind::Expression, "An observed quantity over time, or an expression of several")

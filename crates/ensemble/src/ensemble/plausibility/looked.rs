@@ -1,10 +1,10 @@
 //! [`Looked`]: a plan with its nominal scene and some draws, for the rules.
 
+use crate::campaign::Plan;
 use crate::ensemble::drawn::DrawnScenes;
-use crate::ensemble::prelude::*;
 use crate::loops::LoopSpec;
-use crate::scene::SceneError;
 use crate::scene::parameter::Shape;
+use crate::scene::{Parameter, Scene, SceneError};
 use crate::statistics::quantile::quantile;
 
 const DRAWS: u64 = 1000;

@@ -1,20 +1,20 @@
 //! Sizes computed from several numbers of the nominal scene, draws or the file.
 
-use crate::ensemble::prelude::*;
-use std::f64::consts::{PI, TAU};
-
 use super::looked::{Looked, digits, most_of};
+use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::drawn::{magnitudes, mass_properties};
 use crate::loops::observes::Observes;
 use crate::loops::rod_law::RodLaw;
 use crate::loops::sensor_spec::SensorSpec;
 use crate::loops::target::Target;
-use crate::math::vector::{conjugate, hamilton};
+use crate::math::vector::{conjugate, dot, hamilton, norm};
+use crate::observables::Group;
 use crate::observables::request::{NutationAxis, nearest_principal_axis};
-use crate::sampling::Dispersion;
 use crate::sampling::keys::{Value, Written};
+use crate::sampling::{Dispersion, SampleId};
 use crate::scene::parameter::Shape;
-use crate::scene::{LocalFrame, Orbit, OrbitInput, WheelMode};
+use crate::scene::{LocalFrame, Orbit, OrbitInput, Parameter, WheelMode};
+use std::f64::consts::{PI, TAU};
 
 const YEAR: f64 = 365.25 * 86_400.0;
 const MANY_POINTS: f64 = 1e7;
