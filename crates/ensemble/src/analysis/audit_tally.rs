@@ -5,7 +5,6 @@ use crate::ensemble::audit::AuditValue;
 use crate::propagation::taylor::reference_solution;
 use crate::sampling::SampleId;
 use crate::statistics::binomial::at_most;
-use crate::statistics::correlation::Estimate;
 use crate::statistics::spread::Spread;
 
 /// Errors above this are near their upper bound: an estimate above half of this covers them.

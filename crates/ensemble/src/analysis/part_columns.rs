@@ -5,7 +5,6 @@ use crate::ensemble::audit::AuditValue;
 use crate::ensemble::{Audit, Ensemble, Rows};
 use crate::run::Status;
 use crate::sampling::SampleId;
-use crate::scene::Parameter;
 use crate::storage::rows_file::{audit_error_name, audited_observables};
 use crate::storage::rows_reader::{PartReader, Result, RowsError};
 use std::borrow::Cow;

@@ -1,7 +1,7 @@
 //! [`Population`]: how the samples of a design represent the population of runs, and which intervals apply.
 
 use crate::campaign::Plan;
-use crate::run::{Grid, Status};
+use crate::run::Status;
 use crate::sampling::{Design, SampleId};
 
 /// Stands for a design if `campaign.only` lists the samples.

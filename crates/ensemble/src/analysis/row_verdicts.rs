@@ -6,7 +6,7 @@ use crate::analysis::statistics::is_yes_or_no;
 use crate::campaign::{Requirement, ShownUnit, Statement};
 use crate::statistics::binomial::Decision;
 use crate::statistics::gate::{
-    Gate, GateLimit, bounded_mean_gate, constant_gate, failing_at, fraction_gate, mean_gate, replicate_fraction_gate,
+    Gate, bounded_mean_gate, constant_gate, failing_at, fraction_gate, mean_gate, replicate_fraction_gate,
     replicate_mean_gate,
 };
 use crate::statistics::mean::MOST_SHARE;
@@ -208,6 +208,7 @@ fn of_mean(
 mod tests {
     use super::*;
     use crate::campaign::requirement::Subject;
+    use crate::statistics::gate::GateLimit;
 
     fn asked(requirement: &Requirement) -> Judged<'_> {
         Judged { requirement, confidences: [0.95; 2], interval: 0.95, failed: 0 }

@@ -1,6 +1,6 @@
 //! [`WorstRuns`]: the runs with the worst values of a quantity; [`shortfall`]: how far a run is from its requirements.
 
-use crate::campaign::{Plan, Requirement};
+use crate::campaign::Requirement;
 use crate::sampling::SampleId;
 use crate::statistics::gate::GateLimit;
 
@@ -58,6 +58,7 @@ impl WorstRuns {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::Plan;
     use spindrift_control::control::tables::Overrides;
 
     /// Law: a run that misses more requirements is worse, whatever its values; of runs that miss as many, the one with

@@ -7,7 +7,6 @@
 //! Extremes and numbers of values cover all runs, quantiles of a large campaign its first ones
 //! ([`crate::campaign::Plan::last_counted`]).
 
-use crate::campaign::Plan;
 use crate::ensemble::deviation_window::{DeviationWindow, FULL};
 use crate::math::Isa;
 use crate::observables::Observer;

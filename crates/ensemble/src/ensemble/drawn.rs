@@ -3,7 +3,6 @@
 use crate::campaign::{Plan, SceneDraws};
 use crate::math::symmetric::principal_axes;
 use crate::math::vector::{conjugate, hamilton, norm};
-use crate::observables::Group;
 use crate::sampling::SampleId;
 use crate::sampling::design::Size;
 use crate::sampling::design::hash::mix;
@@ -180,6 +179,7 @@ impl DrawnScenes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observables::Group;
     use crate::observables::table;
 
     #[test]

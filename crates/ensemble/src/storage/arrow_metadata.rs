@@ -4,7 +4,6 @@
 //! Arrow, *Columnar Format*, "Serialization and Interprocess Communication", `Message.fbs`, `Schema.fbs`). The
 //! FlatBuffer is written by hand: the crate that encodes it takes a sixth of a cold build.
 
-use crate::run::Quantity;
 use crate::table::{Column, Content};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

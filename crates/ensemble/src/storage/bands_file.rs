@@ -4,10 +4,9 @@
 
 use super::store::Store;
 use crate::ensemble::threads::Threads;
-use crate::ensemble::{BandLayout, Bands, Part, PartBands, PartId, RunsOfColumn};
+use crate::ensemble::{BandLayout, Bands, Part, PartBands, RunsOfColumn};
 use crate::observables::band_series::Form;
 use crate::run::Quantity;
-use crate::sampling::SampleId;
 use crate::statistics::deviation::{Code, NOT_A_NUMBER};
 use crate::storage::columnar::{EncodingError, Layout, Packing};
 use crate::storage::identity::{PART_KEY, part_metadata};
@@ -16,7 +15,6 @@ use crate::storage::rows_reader::{PartReader, Result, RowsError};
 use crate::table::{Column, Content, Values};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 const LAYOUT_KEY: &str = "spindrift.bands";
@@ -222,9 +220,12 @@ pub fn read(store: &dyn Store, files: &[String], threads: Threads) -> Result<Opt
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ensemble::PartId;
+    use crate::sampling::SampleId;
     use crate::storage::disk::folder as store;
     use crate::storage::names::unfinished;
     use crate::storage::scratch::Scratch;
+    use std::path::Path;
 
     fn layout(nominal: f64) -> BandLayout {
         let angle = Quantity::new("angle_rad", "rad", "An angle; with letters beyond ASCII: \u{3b1}.");

@@ -14,7 +14,6 @@ use crate::storage::names::{HEAD, PLAN, SUMMARY};
 use crate::storage::replacement::{self, remove_replaced, replace};
 use crate::storage::rows_file::identity;
 use crate::storage::store::{OpenFolder, at};
-use std::io;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -4,7 +4,6 @@
 //! their memory without a copy. The Arrow writer is a third slower. Floats have no dictionary (a file would be a
 //! quarter larger and take five times as long); BYTE_STREAM_SPLIT lets their exponents compress.
 
-use crate::run::Quantity;
 use crate::storage::arrow_metadata;
 use crate::table::{Column, Content, Table, Values};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel};

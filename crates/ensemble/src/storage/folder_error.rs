@@ -1,10 +1,9 @@
 //! [`FolderError`]: why a place cannot take a result.
 
-use super::store::{Store, StoreError};
+use super::store::StoreError;
 use crate::campaign::Plan;
 use crate::campaign::difference::{KeyDifference, text_differences};
 use crate::storage::identity::Identity;
-use std::io;
 use thiserror::Error;
 
 /// Most keys in a refusal.

@@ -5,21 +5,18 @@
 
 use super::store::Store;
 use crate::ensemble::threads::Threads;
-use crate::run::{Quantity, Status};
+use crate::run::Status;
 use crate::sampling::SampleId;
 use crate::storage::parallel::in_order;
 use crate::storage::rows_file::{REASON, SAMPLE_ID, STATUS};
-use crate::table::{Column, Content, Values};
+use crate::table::Values;
 use bytes::Bytes;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
-use std::fs::File;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -273,9 +270,14 @@ fn spread<T: Clone, C: FromIterator<T>>(mut values: impl Iterator<Item = T>, lev
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Quantity;
     use crate::storage::columnar::{Layout, Packing};
     use crate::storage::disk::folder as store;
     use crate::storage::scratch::Scratch;
+    use crate::table::{Column, Content};
+    use std::collections::BTreeMap;
+    use std::fs::File;
+    use std::path::Path;
 
     fn reader_of(folder: &Path, files: Vec<String>) -> RowsReader {
         RowsReader::new(store(folder), files, Vec::new())

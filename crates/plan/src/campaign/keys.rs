@@ -12,7 +12,6 @@ use crate::sampling::expression::Expression;
 use crate::sampling::keys::{ALL_BUT_ONE, Condition, Kind, Presence, Row, Rule, Value, Values, Written};
 use crate::sampling::{DistributionKind, WrittenDistribution};
 use crate::scene::schema::Limit;
-use crate::scene::{Name, Parameter};
 use toml::de::DeValue;
 
 impl Section<'_, '_> {

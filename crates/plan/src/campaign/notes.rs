@@ -4,7 +4,6 @@ use super::plan::{Plan, ROUNDING_OF_PLATES};
 use super::requirement::{Requirement, Subject};
 use crate::dynamics::effects::{Effect, ForceModel, Form};
 use crate::observables::accuracy::Accuracy;
-use crate::sampling::Design;
 use crate::sampling::design::{MAX_SAMPLES, Size};
 use crate::scene::Scene;
 

@@ -5,7 +5,7 @@ use super::lines::Lines;
 use super::section::Section;
 use super::tables::{read_keys, read_name};
 use crate::sampling::Written;
-use crate::sampling::keys::{Kind, Row, Value};
+use crate::sampling::keys::{Row, Value};
 use crate::scene::table::Table;
 use crate::scene::{ArcErrors, Name, SceneInput};
 use std::collections::HashSet;

@@ -11,7 +11,7 @@ use super::{data_keys, draws, failure_tables, scene, settings};
 use crate::sampling::keys::{ANY, Kind, Presence, Range, Row, above, at_least};
 use crate::sampling::{Design, DistributionKind};
 use crate::scene::schema::{Facts, Limit, Shape};
-use crate::scene::{LawParameter, Name, Parameter};
+use crate::scene::{LawParameter, Name};
 use serde_json::{Map, Value as Json, json};
 use std::ops::Bound;
 
