@@ -103,6 +103,15 @@ fn a_damaged_head_adopts_no_other_plan() {
     }
 }
 
+/// Law: the seal of a file is that of its end, even where the name of the campaign reads as one.
+#[test]
+fn a_campaign_may_have_the_name_of_a_seal() {
+    let scratch = folder("false-seal");
+    scratch.file("small.toml", &sized(20).replace("\"small\"", "\"spindrift.seal.0123456789abcdef\""));
+    scratch.small("--no-report --out r", 0);
+    scratch.shows("verify r", 0, "sound");
+}
+
 /// Law: parts of different plans are never merged: `finish` names the odd one, and the campaign's command makes it
 /// again.
 #[test]
@@ -112,6 +121,17 @@ fn shards_of_two_plans_are_not_merged() {
         scratch.small(&format!("--seed {seed} --shard {shard} --out {result}"), 0);
     }
     scratch.small_shows("--seed 8 --shard 2/2 --out r", 4, "campaign.seed: 7 there, 8 here");
+    // without its plan: by hashes
+    let longer = "--set campaign.duration_s=2 --shard 2/2 --out";
+    scratch.small(&format!("{longer} longer"), 0);
+    fs::rename(scratch.path("r/plan.toml"), scratch.path("plan.toml")).unwrap();
+    let [there, here] = ["r", "longer"].map(|result| {
+        let head: serde_json::Value = serde_json::from_str(&scratch.text(&format!("{result}/dataset.json"))).unwrap();
+        head["row_hash"].as_str().unwrap().to_owned()
+    });
+    let words = format!("hash of the rows: {there} there, {here} here");
+    scratch.small_shows(&format!("{longer} r"), 4, &words);
+    fs::rename(scratch.path("plan.toml"), scratch.path("r/plan.toml")).unwrap();
     for folder in ["runs", "bands"] {
         let name = format!("{folder}/part-000001.parquet");
         fs::copy(scratch.path("other").join(&name), scratch.path("r").join(&name)).unwrap();

@@ -90,7 +90,8 @@ fn a_link_is_the_folder_that_it_leads_to() {
     scratch.shows(&format!("{command} --out round"), 4, "a link that leads to itself");
 }
 
-/// Law: the current folder takes a result and continues it, but is not replaced, which is refused before any run.
+/// Law: the current folder takes a result and continues it, but neither it nor one above it is replaced, which is
+/// refused before any run.
 #[test]
 fn the_current_folder_is_not_replaced() {
     let scratch = folder("replaced-current");
@@ -99,8 +100,9 @@ fn the_current_folder_is_not_replaced() {
     inside.shows("campaign ../small.toml --samples 300 --out .", 0, "already complete");
     inside.prints("campaign ../small.toml --samples 600 --out .", 0);
     let before = contents(&inside.0);
-    for out in [".", "../r", "runs/.."] {
-        let said = inside.prints(&format!("campaign ../small.toml --seed 9 --overwrite --out {out}"), 4);
+    let (below, campaign) = (ScratchFolder(scratch.path("r/runs")), scratch.path("small.toml"));
+    for (folder, out) in [(&inside, "."), (&inside, "../r"), (&inside, "runs/.."), (&below, "..")] {
+        let said = folder.prints(&format!("campaign {} --seed 9 --overwrite --out {out}", campaign.display()), 4);
         assert_says(&said, ["cannot be replaced", "the current folder"]);
         assert!(said.contains("another one as --out"), "no remedy: {said}");
         assert!(contents(&inside.0) == before);

@@ -113,9 +113,9 @@ fn a_campaign_ends_with_bands() {
     let metadata = file.metadata().file_metadata().key_value_metadata().unwrap();
     let error = metadata.iter().find(|pair| pair.key == "spindrift.bands.relative_error").unwrap();
     assert_eq!(error.value.as_deref(), Some("0.015625"));
-    let [min, low, median, high, max] = ["min", "p05", "p50", "p95", "max"].map(|name| floats(bands, name));
+    let ascending = ["min", "p01", "p05", "p25", "p50", "p75", "p95", "p99", "max"].map(|name| floats(bands, name));
     for row in 0..bands.num_rows() {
-        let numbers = [min[row], low[row], median[row], high[row], max[row]];
+        let numbers = ascending.each_ref().map(|values| values[row]);
         assert!(numbers.is_sorted(), "row {row}: {numbers:?}");
     }
     let ended = ended(&scratch.rows("r1"));
