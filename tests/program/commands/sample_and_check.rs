@@ -129,6 +129,9 @@ fn check_shows_magnitudes_and_implausible_numbers() {
         assert!(angles[0] == 0.0 && (0.5..1.3).contains(&(shown / chi)), "{angles:?}");
     }
     row("|wheels.w1.tilt_rad|");
+    // equal components of a nominal value are one number
+    let brief = scratch.prints_wide("check more.toml", 0);
+    assert_says(brief, ["  wheels.w1.tilt_rad  normal, std 5 rad, nominal 0\n"]);
     assert!(!said.contains("|wheels.w2") && !said.contains("|initial.debris"), "{said}");
     let notes = said.split("== Notes\n").nth(1).unwrap_or_else(|| panic!("{said}"));
     assert!(notes.lines().any(|note| note.starts_with("wheels.w1.tilt_rad, as dispersed")), "{notes}");

@@ -58,9 +58,23 @@ fn a_requirement_may_fail_alone() {
     let known = ["confidence_of_pass_and_bounds", "confidence_of_fail"].map(|key| 100.0 * one[key].as_f64().unwrap());
     assert!((known[0] - 95.0).abs() < 1e-9 && (known[1] - 97.5).abs() < 1e-9, "{known:?}");
     let junit = scratch.text("junit.xml");
+    assert!(!said.contains("not physical"), "all are: {said}");
     assert!(said.contains("UNDECIDED  ") && junit_counts(&junit)[1..] == [0, 1], "{said}{junit}");
     assert_says(&junit, ["<error type=\"undecided\""]);
     for said in [said, junit] {
         says(&said, "missed at #%, not at the #% that all requirements together ask for", &known);
     }
+}
+
+/// Law: of requirements with one verdict, that whose limit is fewest half-widths of its interval away is first.
+#[test]
+fn the_nearest_to_its_limit_is_first() {
+    let scratch = folder("nearest");
+    let asked = "[[observable]]\nname = \"off\"\nexpression = \"abs(initial.angular_velocity_rad_s.x)\"\n\
+                 [[require]]\nobservable = \"off\"\nfraction = 0.6\nat_most = 1.3\n\
+                 [[require]]\nobservable = \"off\"\nmean = true\nat_most = 0.75\n";
+    scratch.file("asked.toml", &(campaign_without_debris() + asked));
+    let said = scratch.prints_wide("campaign asked.toml --out r --no-report", 0);
+    let place = |words: &str| said.find(words).unwrap_or_else(|| panic!("{words}: {said}"));
+    assert!(place("mean of off <= 0.75") < place("off <= 1.3 in 60%"), "{said}");
 }

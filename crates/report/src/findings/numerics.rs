@@ -356,6 +356,7 @@ mod tests {
         assert_eq!((found.state_error.max, found.estimate.coverage), (Some(1000.0), Some(0.75)));
         let numerics = Numerics::new(&audits, 0, 89.1).expect("errors");
         near(numerics.share_of_spread, 950.05 / 89.1);
+        assert_eq!(Numerics::new(&audits, 0, 0.0).and_then(|of| of.share_of_spread), None, "of no spread");
         assert_eq!(cost([3.0, 1.0]), format!("{} s of CPU time, 25.0% of the total", short(1.0)));
     }
 }
