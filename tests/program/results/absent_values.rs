@@ -63,3 +63,20 @@ fn every_column_has_a_maximum_and_a_mean() {
     assert!(unphysical.len() > 5 && unphysical.iter().all(|line| line.ends_with(",,,,,,,")), "{text}");
     assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
 }
+
+/// Law: sensitivities of an observable that some runs have no value of are of those that have one.
+#[test]
+fn sensitivities_are_of_the_runs_with_a_value() {
+    let scratch = folder("absent-half");
+    let half = "[[observable]]\nname = \"half\"\nexpression = \"sqrt(initial.angular_velocity_rad_s.x)\"\n";
+    scratch.file("half.toml", &(campaign_without_debris() + half));
+    scratch.prints("campaign half.toml --out r --no-report", 0);
+    let drawn = column(&scratch.rows("r"), "initial_angular_velocity_x_rad_s").split_off(1);
+    let count = drawn.iter().filter(|x| **x >= 0.0).count();
+    let table = scratch.table("r/sensitivity.parquet");
+    let (names, rows) = (texts(&table, "observable"), column(std::slice::from_ref(&table), "rows"));
+    let of_half: Vec<usize> = (0..table.num_rows()).filter(|row| names.value(*row) == "half").collect();
+    assert!(of_half.len() == 3 && (200..400).contains(&count), "{of_half:?}, {count}");
+    of_half.iter().for_each(|row| assert_eq!(rows[*row], count as f64));
+    assert!((floats(&table, "pearson")[of_half[0]] - 0.97).abs() < 0.015, "{:?}", floats(&table, "pearson"));
+}

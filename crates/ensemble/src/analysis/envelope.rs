@@ -109,6 +109,8 @@ mod tests {
         };
         assert!(envelope(&times[..101], &step(1e-3)).is_none() && envelope(&times[..101], &step(0.1)).is_some());
         assert_eq!(seen_turns(&wave(1.0)), 12);
+        let zigzag = |turns: usize| (0..601).map(|k| (k.min(turns + 1) % 2) as f64).collect::<Vec<_>>();
+        assert!(envelope(&times, &zigzag(110)).is_none() && envelope(&times, &zigzag(111)).is_some());
         let constant: Vec<f64> = aliased.iter().map(|sign| 1.75e9 + 1e-3 * sign).collect();
         assert!(envelope(&times[..101], &constant).is_none() && swing(&constant) == 0.0 && swing(&aliased) == 2.0);
     }
