@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 use spindrift::statistics::quantile::{Ranks, interval_ranks};
-use spindrift::statistics::replicates::mean_bounds;
+use spindrift::statistics::replicates::{Step, mean_bounds, quantile_interval};
 
 pub const MORE: &str = r#"
 [[observable]]
@@ -239,6 +239,19 @@ fn a_mean_of_replicates_has_its_interval_from_the_replicates() {
         checked += 1;
     }
     assert!(checked > 20, "{checked}");
+    // so has the median, of few runs too
+    scratch.file("few.toml", &(sized(65) + design + MORE));
+    scratch.prints("campaign few.toml --out few --no-report", 0);
+    let (rows, table) = (scratch.rows("few"), scratch.table("few/statistics.parquet"));
+    let names = texts(&table, "observable");
+    for row in (0..table.num_rows()).filter(|row| !["spin", "error_ratio", "half"].contains(&names.value(*row))) {
+        let x = values(&rows, names.value(row)).into_iter().enumerate();
+        let step = |(k, value)| Step { value, lower: value, replicate: k % REPLICATES, count: 1 };
+        let mut steps: Vec<Step> = x.map(step).collect();
+        steps.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let found = ["p50_lower", "p50_upper"].map(|column| number(&table, column, row));
+        assert_eq!(found, quantile_interval(&steps, &[8; REPLICATES], 0.5, 0.95), "{}", names.value(row));
+    }
 }
 
 #[test]
