@@ -13,6 +13,7 @@ fn errors_follow_the_settings() {
     let said = scratch.says("precision", "spin_sweep.toml", arguments, 0);
     let wall = start.elapsed().as_secs_f64();
     assert_says(&said, ["3 samples", "us/run"]);
+    assert!(!said.contains(" failed"), "{said}");
     let table = scratch.table("p/precision.parquet");
     let head = said.lines().position(|line| line.starts_with("method ")).unwrap();
     let heads: Vec<&str> = said.lines().nth(head).unwrap().split_whitespace().collect();

@@ -58,7 +58,6 @@ fn a_requirement_may_fail_alone() {
     let known = ["confidence_of_pass_and_bounds", "confidence_of_fail"].map(|key| 100.0 * one[key].as_f64().unwrap());
     assert!((known[0] - 95.0).abs() < 1e-9 && (known[1] - 97.5).abs() < 1e-9, "{known:?}");
     let junit = scratch.text("junit.xml");
-    assert!(!said.contains("not physical"), "all are: {said}");
     assert!(said.contains("UNDECIDED  ") && junit_counts(&junit)[1..] == [0, 1], "{said}{junit}");
     assert_says(&junit, ["<error type=\"undecided\""]);
     for said in [said, junit] {
