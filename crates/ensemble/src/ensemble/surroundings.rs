@@ -39,7 +39,7 @@ impl Surroundings {
 
     /// F_e, T; `None` without a field.
     pub fn field(&self, time: f64, position: [f64; 3]) -> Option<[f64; 3]> {
-        Some(self.field?.at(time, position))
+        Some(self.field?.at_point(time, position))
     }
 
     /// Longitude (-180 to 180) and geocentric latitude below, deg; `None` without a date.

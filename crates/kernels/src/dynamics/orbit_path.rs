@@ -7,10 +7,13 @@
 
 use std::sync::{Arc, OnceLock};
 
+use fearless_simd::Simd;
+
 use super::gravity::Gravity;
 use super::orbit::KeplerOrbit;
 use super::orbit_series::OrbitSeries;
 use super::orbit_state::OrbitState;
+use crate::math::isa::{Isa, Work};
 use crate::math::prelude::*;
 use crate::math::sums::two_sum;
 use crate::scene::Orbit;
@@ -76,10 +79,11 @@ impl OrbitPath {
 
     /// The state at `time` >= 0, s.
     pub fn state(&self, time: f64) -> OrbitState<f64> {
-        self.state_at([time, 0.0])
+        Isa::best().run(StateAt(self, [time, 0.0]))
     }
 
-    /// [`OrbitPath::state`] at a sum of two numbers.
+    /// [`OrbitPath::state`] at a sum of two numbers, by the instruction set of the caller.
+    #[inline(always)]
     pub fn state_at(&self, time: [f64; 2]) -> OrbitState<f64> {
         let Some(steps) = &self.steps else { return self.start.state_at(time) };
         if !time[0].is_finite() {
@@ -97,19 +101,12 @@ impl OrbitPath {
     }
 
     /// Block `index`, computed after those before.
+    #[inline(always)]
     fn block<'s>(&self, steps: &'s Steps, index: usize) -> &'s [Step] {
-        steps[index].get_or_init(|| {
-            let mut series = OrbitSeries::new(0.0, ORDER);
-            let before = index.checked_sub(1).and_then(|before| steps[before].get()?.last());
-            let mut next = before.map_or(([0.0; 2], self.start.start(), [[0.0; 3]; 2]), Step::end);
-            let mut step = || {
-                let (time, state, low) = next;
-                let step = Step::from(&mut series, self.start.gravity(), time, state, low);
-                next = step.end();
-                step
-            };
-            (0..FIRST_BLOCK << index).map(|_| step()).collect()
-        })
+        match steps[index].get() {
+            Some(block) => block,
+            None => steps[index].get_or_init(|| Isa::best().run(Block { path: self, steps, index })),
+        }
     }
 
     /// [`OrbitPath::state`] in all lanes.
@@ -120,11 +117,50 @@ impl OrbitPath {
             Some(_) => {
                 let mut states = OrbitState::unknown(time);
                 for lane in 0..R::LANES {
-                    states.set_lane(lane, &self.state(time.lane(lane)));
+                    states.set_lane(lane, &self.state_at([time.lane(lane), 0.0]));
                 }
                 states
             }
         }
+    }
+}
+
+/// [`OrbitPath::state_at`].
+struct StateAt<'a>(&'a OrbitPath, [f64; 2]);
+
+impl Work for StateAt<'_> {
+    type Output = OrbitState<f64>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> OrbitState<f64> {
+        self.0.state_at(self.1)
+    }
+}
+
+/// Computation of a block of steps.
+struct Block<'a> {
+    path: &'a OrbitPath,
+    steps: &'a Steps,
+    index: usize,
+}
+
+impl Work for Block<'_> {
+    type Output = Box<[Step]>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> Box<[Step]> {
+        let Block { path: OrbitPath { start, .. }, steps, index } = self;
+        let mut series = OrbitSeries::new(0.0, ORDER);
+        let before = index.checked_sub(1).and_then(|before| steps[before].get()?.last());
+        let mut next = before.map_or(([0.0; 2], start.start(), [[0.0; 3]; 2]), Step::end);
+        let mut block = Vec::with_capacity(FIRST_BLOCK << index);
+        for _ in 0..FIRST_BLOCK << index {
+            let (time, state, low) = next;
+            let step = Step::from(&mut series, start.gravity(), time, state, low);
+            next = step.end();
+            block.push(step);
+        }
+        block.into_boxed_slice()
     }
 }
 
@@ -134,6 +170,7 @@ fn no_steps(start: &KeplerOrbit<f64>) -> Option<Arc<Steps>> {
 
 impl Step {
     /// The step from `state` (position and velocity, F_e, m and m/s) at `time`, with rounding errors `low`.
+    #[inline(always)]
     fn from(
         series: &mut OrbitSeries<f64>,
         gravity: Gravity<f64>,
@@ -153,14 +190,17 @@ impl Step {
     }
 
     /// Its end: time, state and rounding errors.
+    #[inline(always)]
     fn end(&self) -> End {
         end_of_step(&self.coefficients, self.low, self.time, self.length)
     }
 
+    #[inline(always)]
     fn within(&self, [time, low]: [f64; 2]) -> f64 {
         (time - self.time[0]) + (low - self.time[1])
     }
 
+    #[inline(always)]
     fn state_at(&self, time: [f64; 2]) -> OrbitState<f64> {
         let [position, velocity] = state_within(&self.coefficients, self.low, self.within(time));
         OrbitState { position, velocity, distance: norm(position) }
@@ -171,6 +211,7 @@ impl Step {
 type End = ([f64; 2], [[f64; 3]; 2], [[f64; 3]; 2]);
 
 /// End of the step of `length` seconds from `time` with the rounding errors `low`.
+#[inline(always)]
 pub(super) fn end_of_step(coefficients: &[[f64; 3]], mut low: [[f64; 3]; 2], time: [f64; 2], length: f64) -> End {
     let changes = change(coefficients, low[1], length);
     let mut state = [coefficients[0], coefficients[1]];
@@ -184,6 +225,7 @@ pub(super) fn end_of_step(coefficients: &[[f64; 3]], mut low: [[f64; 3]; 2], tim
 }
 
 /// Position and velocity `within` seconds after the start of a step with the rounding errors `low`.
+#[inline(always)]
 pub(super) fn state_within(coefficients: &[[f64; 3]], low: [[f64; 3]; 2], within: f64) -> [[f64; 3]; 2] {
     let [position, velocity] = change(coefficients, low[1], within);
     [sum(coefficients[0], sum(position, low[0])), sum(coefficients[1], sum(velocity, low[1]))]
@@ -191,6 +233,7 @@ pub(super) fn state_within(coefficients: &[[f64; 3]], low: [[f64; 3]; 2], within
 
 /// Change of position and velocity until `within` seconds after the start of a step; `low` is the velocity's rounding
 /// error.
+#[inline(always)]
 fn change(coefficients: &[[f64; 3]], low: [f64; 3], within: f64) -> [[f64; 3]; 2] {
     let (mut position, mut velocity) = ([0.0_f64; 3], [0.0_f64; 3]);
     for (n, coefficients) in coefficients.iter().enumerate().skip(2).rev() {
@@ -217,12 +260,19 @@ pub struct PathsInLanes<R> {
     /// Paths about flattened bodies.
     oblate: [Option<OrbitPath>; WIDEST],
     has_oblate: bool,
+    /// True if a path is about a point mass.
+    has_others: bool,
 }
 
 impl<R: Real> PathsInLanes<R> {
     /// Arbitrary circles for empty lanes.
     pub fn blank(zero: R) -> Self {
-        PathsInLanes { start: KeplerOrbit::blank().in_lanes(zero), oblate: [const { None }; WIDEST], has_oblate: false }
+        PathsInLanes {
+            start: KeplerOrbit::blank().in_lanes(zero),
+            oblate: [const { None }; WIDEST],
+            has_oblate: false,
+            has_others: false,
+        }
     }
 
     /// Copies a path into a lane.
@@ -230,6 +280,7 @@ impl<R: Real> PathsInLanes<R> {
         self.start.set_lane(lane, &path.start);
         self.oblate[lane] = path.steps.is_some().then(|| path.clone());
         self.has_oblate = self.oblate.iter().any(Option::is_some);
+        self.has_others |= path.steps.is_none();
     }
 
     /// The gravity of the central bodies.
@@ -241,7 +292,11 @@ impl<R: Real> PathsInLanes<R> {
     /// [`OrbitPath::state_at`] in all lanes.
     #[inline(always)]
     pub fn state_at(&self, time: [R; 2]) -> OrbitState<R> {
-        let mut states = self.start.state_at(time);
+        let mut states = match self.has_others {
+            true => self.start.state_at(time),
+            // empty lanes
+            false => OrbitState::at_rest(self.start.start()[0]),
+        };
         if self.has_oblate {
             for lane in 0..R::LANES {
                 if let Some(path) = &self.oblate[lane] {

@@ -76,7 +76,7 @@ impl AttitudeSensor for Believed {
     /// unit vectors b across m and the estimated field B in F_s, whose length does not depend on the attitude. With B'
     /// = B x d for a small attitude error d, b . (B x d) = (b x B) . d.
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
-        let field_e = self.field.as_ref().map_or([0.0; 3], |(orbit, field)| field.at(time, orbit.state(time).position));
+        let field_e = self.field.as_ref().map_or([0.0; 3], |(orbit, field)| field.at_point(time, orbit.state(time).position));
         let field_s = transposed_product(dcm_from_quaternion(q_es), field_e);
         let [across, other, _] = transposed(&from_s3_to(part(values, 0)));
         let across = [across, other];
@@ -99,7 +99,7 @@ struct Magnetometer {
 
 impl Sensor for Magnetometer {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
-        let field_e = self.field?.at(truth.time, truth.body.r_co_e);
+        let field_e = self.field?.at_point(truth.time, truth.body.r_co_e);
         let field_s = transposed_product(dcm_from_quaternion(truth.body.q_es), field_e);
         let [x, y, z] = transposed_product(self.c_sm, field_s);
         let [along_x, along_y, along_z] = self.numbers.scale;

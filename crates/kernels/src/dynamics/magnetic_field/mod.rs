@@ -13,8 +13,11 @@
 pub(crate) mod coefficients;
 pub mod series;
 
+use fearless_simd::Simd;
+
 use self::coefficients::{DEGREE, MIDDLE, RADIUS, TABLES, Tables, index};
 use super::earth_rotation::{TURNS_PER_SECOND, turns_at};
+use crate::math::isa::{Isa, Work};
 use crate::math::prelude::*;
 use crate::math::sine::sin_cos_turns;
 use crate::scene::{Epoch, FieldModel, Scene};
@@ -51,6 +54,11 @@ impl MagneticField<f64> {
         MagneticField { tables: &TABLES, degree, higher, after, before, turns: turns_at(epoch) }
     }
 
+    /// [`MagneticField::at`] by the best instruction set of the processor.
+    pub fn at_point(&self, time: f64, position: [f64; 3]) -> [f64; 3] {
+        Isa::best().run(AtPoint { field: self, time, position })
+    }
+
     /// Broadcasts to all lanes of `zero`.
     pub fn in_lanes<R: Real>(&self, zero: R) -> MagneticField<R> {
         MagneticField {
@@ -61,6 +69,21 @@ impl MagneticField<f64> {
             before: zero.splat(self.before),
             turns: zero.splat(self.turns),
         }
+    }
+}
+
+struct AtPoint<'a> {
+    field: &'a MagneticField<f64>,
+    time: f64,
+    position: [f64; 3],
+}
+
+impl Work for AtPoint<'_> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> [f64; 3] {
+        self.field.at(self.time, self.position)
     }
 }
 
