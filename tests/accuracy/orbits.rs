@@ -327,7 +327,8 @@ fn each_key_of_the_environment_has_a_truth() {
         let effects = ChangingEffects::of(0.0, &scene, None);
         let OrbitState { position, velocity, .. } = KeplerOrbit::new(&orbit).state(0.0);
         let place = OrbitState { position, velocity, distance: norm(position) };
-        let motion = Motion { time: 0.0, attitude: scene.initial.q_es, rate: [0.0; 3], place };
+        let (attitude, field, sun) = (scene.initial.q_es, effects.field(0.0, &place), effects.sun(0.0));
+        let motion = Motion { time: 0.0, attitude, rate: [0.0; 3], place, field, sun };
         let drag = effects.drag.unwrap().torque(&motion);
         [drag, effects.solar_pressure.unwrap().torque(&motion)].map(norm)
     };

@@ -2,8 +2,9 @@
 
 use crate::support::{
     feedback::{Flight, PERIOD, fly, fly_recorded, fly_schedules, fly_under, law},
+    orbits::in_thin_air,
     prelude::*,
-    runs::{Bits, METHODS},
+    runs::{Bits, METHODS, propagate, relative_field},
     scenes::WHEELS,
 };
 use spindrift::{
@@ -99,6 +100,39 @@ fn bits_of_brief_arcs_are_a_run_s_own() {
             scene.schedule = record.clone();
         }
         assert!(bits(&fly_schedules(Isa::best(), &settings, &replayed)) == bits(&alone), "{}", method.name());
+    }
+}
+
+/// Law: in short arcs effects read series along the orbit, in long ones they are evaluated at the orbit, run by run;
+/// the motion is that of one long arc.
+#[test]
+fn short_arcs_read_series_along_the_orbit() {
+    const LONG: f64 = 900.0;
+    let mut scenes = in_thin_air(13, 59);
+    for (k, scene) in scenes.iter_mut().enumerate() {
+        scene.environment.magnetic_field = Some(FieldModel::Igrf);
+        scene.environment.magnetic_dipole_a_m2 = Some([0.3, -0.2, 0.1]);
+        scene.environment.gravity_gradient = true;
+        scene.orbit.as_mut().unwrap().j2 = k.is_multiple_of(2).then_some(1.08262668e-3);
+    }
+    let period = |k: usize| [1.0, 300.0, 7.0, 20.0][k % 4];
+    let nothing = |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY);
+    let single = |k: usize| ZeroOrderHold::new(period(k), nothing);
+    let (control, grid) = (adaptive(1e-12), Grid::uniform(LONG, 29));
+    let settings = PropagationSettings::new(DOP853, control, grid.clone(), everything(DOP853), &scenes[0])
+        .with_feedback(Actuated::ALL);
+    let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![single(k)], Isa::best(), &settings, &scenes[k..=k]));
+    let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
+    for isa in Isa::available() {
+        let mut laws: Vec<_> = (0..scenes.len()).map(single).collect();
+        let together = fly_under(&mut laws, isa, &settings, &scenes);
+        assert!(bits(&together) == bits(&alone), "{}", isa.name());
+    }
+    for (k, (own, free)) in alone.iter().zip(propagate(DOP853, control, &grid, &scenes)).enumerate() {
+        for field in [StateField::Attitude, StateField::Rate] {
+            let off = relative_field(&own.run.table, &free.table, field, 28);
+            assert!(off < 1e-9, "run {k}, {field:?}: {off:e}");
+        }
     }
 }
 

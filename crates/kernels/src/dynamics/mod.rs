@@ -18,3 +18,4 @@ pub mod orbit_path;
 pub(crate) mod orbit_series;
 pub mod orbit_state;
 pub mod relative_orbit;
+pub mod surroundings;

@@ -130,6 +130,11 @@ impl KeplerOrbit<f64> {
         (self.gravity.mu / lowest).sqrt() / lowest
     }
 
+    /// Angular speed at the periapsis, rad/s.
+    pub fn fastest(&self) -> f64 {
+        self.rate() * (1.0 + self.eccentricity).sqrt()
+    }
+
     /// Any circle, for empty lanes.
     pub fn blank() -> Self {
         KeplerOrbit::new(&Orbit {

@@ -103,21 +103,18 @@ impl OrbitPath {
     /// Block `index`, computed after those before.
     #[inline(always)]
     fn block<'s>(&self, steps: &'s Steps, index: usize) -> &'s [Step] {
-        match steps[index].get() {
-            Some(block) => block,
-            None => steps[index].get_or_init(|| Isa::best().run(Block { path: self, steps, index })),
-        }
+        steps[index].get_or_init(|| Isa::best().run(Block { path: self, steps, index }))
     }
 
-    /// [`OrbitPath::state`] in all lanes.
+    /// [`OrbitPath::state_at`] in all lanes.
     #[inline(always)]
-    pub fn states<R: Real>(&self, time: R) -> OrbitState<R> {
+    pub fn states_at<R: Real>(&self, time: [R; 2]) -> OrbitState<R> {
         match self.steps {
-            None => self.start.in_lanes(time.zero()).state(time),
+            None => self.start.in_lanes(time[0].zero()).state_at(time),
             Some(_) => {
-                let mut states = OrbitState::unknown(time);
+                let mut states = OrbitState::unknown(time[0]);
                 for lane in 0..R::LANES {
-                    states.set_lane(lane, &self.state_at([time.lane(lane), 0.0]));
+                    states.set_lane(lane, &self.state_at(time.map(|part| part.lane(lane))));
                 }
                 states
             }

@@ -85,7 +85,8 @@ pub fn growth(scene: &Scene, table: &StateTable, times: &[f64], filled: usize) -
         let place = orbit.as_ref().map_or(OrbitState::unknown(0.0), |orbit| orbit.state(time));
         let attitude = hamilton(table.at(StateField::Attitude, point), q_sb);
         let rate = transposed_product(axes, table.at::<3>(StateField::Rate, point));
-        let motion = Motion { time, attitude, rate, place };
+        let (field, sun) = (effects.field(time, &place), effects.sun(time));
+        let motion = Motion { time, attitude, rate, place, field, sun };
         let mut beside = rate;
         if orbit.is_some() {
             let turning = scaled(1.0 / dot(place.position, place.position), cross(place.position, place.velocity));

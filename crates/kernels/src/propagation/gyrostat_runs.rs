@@ -133,18 +133,28 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> Runs<R, N> for GyrostatRuns<'_, 
         if time >= self.arcs.duration() {
             return None;
         }
-        let index = self.run_in_lane[lane];
-        let run = &mut self.runs[index];
-        self.arcs.begin_arc(index, run, time, || {
-            let mut components = [0.0; WITH_THRUST];
-            components[..N].copy_from_slice(state);
-            components
-        });
-        let arc = run.arcs.len() - 1;
-        self.constants.set_arc(lane, run, arc, 1.0);
-        self.effects.set_arc(lane, run);
-        self.scale.set_lane(lane, 1.0 / run.time_unit());
-        Some(run.arcs[arc].arc.end())
+        self.scale.apart(
+            #[inline(always)]
+            || {
+                let index = self.run_in_lane[lane];
+                let run = &mut self.runs[index];
+                let mut components = [0.0; WITH_THRUST];
+                components[..N].copy_from_slice(state);
+                self.arcs.begin_arc(
+                    index,
+                    run,
+                    time,
+                    #[inline(always)]
+                    || components,
+                );
+                let arc = run.arcs.len() - 1;
+                self.constants.set_arc(lane, run, arc, 1.0);
+                self.effects.set_arc(lane, run);
+                self.effects.follow(lane, run);
+                self.scale.set_lane(lane, 1.0 / run.time_unit());
+                Some(run.arcs[arc].arc.end())
+            },
+        )
     }
 
     #[inline(always)]

@@ -1,12 +1,12 @@
 //! A magnetometer: the field of `[environment]` at the true position in F_s, with noise, bias, scale errors and
 //! misalignment, without the fields of rods and wheels. Filters compare it with the field on the nominal orbit.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::sensor::{AXES, NormalErrors, Sensor, SensorMaker, XYZ, axes};
 use crate::control::truth::Truth;
 use crate::dynamics::magnetic_field::MagneticField;
-use crate::dynamics::orbit_path::OrbitPath;
+use crate::dynamics::surroundings::Window;
 use crate::loops::declared::declared;
 use crate::loops::kinds::{MeasuredQuantity, Need, SensorKind};
 use crate::loops::measurement::{Values, part, values};
@@ -28,9 +28,8 @@ pub(super) const KIND: SensorMaker = SensorMaker {
             "Magnetic field measured by a magnetometer, in F_s",
         )],
         observes: Observes::Field(|table, nominal| {
-            let orbit = nominal.orbit.as_ref().map(OrbitPath::new);
-            let noise = MagnetometerNumbers::of(table).noise;
-            Arc::new(Believed { field: orbit.zip(MagneticField::of(nominal)), noise })
+            let field = MagneticField::of(nominal).and_then(|_| Window::of(nominal)).map(Mutex::new);
+            Arc::new(Believed { field, noise: MagnetometerNumbers::of(table).noise })
         }),
         needs: Some(Need {
             is_met: |scene| scene.environment.magnetic_field.is_some(),
@@ -45,6 +44,7 @@ pub(super) const KIND: SensorMaker = SensorMaker {
         let numbers = MagnetometerNumbers::of(context.parameters);
         Box::new(Magnetometer {
             field: MagneticField::of(context.drawn),
+            along: Window::of(context.drawn).filter(|_| context.drawn.offsets.is_none()),
             numbers,
             c_sm: dcm_from_quaternion(quaternion_of(numbers.misalignment)),
             noise: context.normal("noise", AXES),
@@ -67,7 +67,7 @@ declared! {
 #[derive(Debug)]
 struct Believed {
     /// `None` without a field: no information.
-    field: Option<(OrbitPath, MagneticField<f64>)>,
+    field: Option<Mutex<Window>>,
     noise: [f64; 3],
 }
 
@@ -76,7 +76,8 @@ impl AttitudeSensor for Believed {
     /// unit vectors b across m and the estimated field B in F_s, whose length does not depend on the attitude. With B'
     /// = B x d for a small attitude error d, b . (B x d) = (b x B) . d.
     fn innovation(&self, values: &Values, q_es: [f64; 4], time: f64) -> AttitudeInnovation {
-        let field_e = self.field.as_ref().map_or([0.0; 3], |(orbit, field)| field.at_point(time, orbit.state(time).position));
+        let at = |field: &Mutex<Window>| field.lock().unwrap_or_else(PoisonError::into_inner).field(time);
+        let field_e = self.field.as_ref().map_or([0.0; 3], at);
         let field_s = transposed_product(dcm_from_quaternion(q_es), field_e);
         let [across, other, _] = transposed(&from_s3_to(part(values, 0)));
         let across = [across, other];
@@ -91,6 +92,8 @@ impl AttitudeSensor for Believed {
 
 struct Magnetometer {
     field: Option<MagneticField<f64>>,
+    /// The field along an orbit that the spacecraft does not leave.
+    along: Option<Window>,
     numbers: MagnetometerNumbers,
     /// Its axes -> F_s.
     c_sm: [[f64; 3]; 3],
@@ -99,7 +102,11 @@ struct Magnetometer {
 
 impl Sensor for Magnetometer {
     fn measure(&mut self, count: u64, truth: &Truth) -> Option<Values> {
-        let field_e = self.field?.at_point(truth.time, truth.body.r_co_e);
+        let field = self.field?;
+        let field_e = match &mut self.along {
+            Some(along) => along.field(truth.time),
+            None => field.at_point(truth.time, truth.body.r_co_e),
+        };
         let field_s = transposed_product(dcm_from_quaternion(truth.body.q_es), field_e);
         let [x, y, z] = transposed_product(self.c_sm, field_s);
         let [along_x, along_y, along_z] = self.numbers.scale;

@@ -10,7 +10,8 @@ use crate::scene::Scene;
 
 #[derive(Clone, Copy, Debug)]
 pub struct MagneticTorque<R> {
-    field: MagneticField<R>,
+    /// The Earth's field.
+    pub field: MagneticField<R>,
     /// Residual dipole, B, A m^2.
     residual: [R; 3],
     /// Residual dipole plus torque rods in the present arc.
@@ -39,8 +40,7 @@ impl<R: Real> MagneticTorque<R> {
 
     #[inline(always)]
     pub fn torque(&self, motion: &Motion<R>) -> [R; 3] {
-        let field_e = self.field.at(motion.time, motion.place.position);
-        cross(self.dipole, transposed_product(dcm_from_quaternion(motion.attitude), field_e))
+        cross(self.dipole, transposed_product(dcm_from_quaternion(motion.attitude), motion.field))
     }
 }
 

@@ -9,6 +9,9 @@ pub(crate) mod plates;
 pub mod within_arcs;
 
 use super::actuation::sum;
+use super::environment::sun::Sun;
+use super::orbit_state::OrbitState;
+use crate::math::Real;
 use crate::math::enumeration::bit_set;
 use crate::math::vector::norm;
 use crate::scene::{Actuation, EnvironmentInput, Offsets, Scene, SceneInput};
@@ -61,6 +64,23 @@ changing_effects::effects! {
         Gravity: Translation, "orbit", |facts| facts.is_on_orbit;
         /// `[orbit]` with thrusters or debris: gravity away from the orbit differs from gravity on it.
         Tide: Force, "orbit", |facts| facts.may_leave;
+    }
+}
+
+impl<R: Real> ChangingEffects<R> {
+    /// Magnetic field at `place` and `time` (s), F_e, T; zero if no effect needs it.
+    #[inline(always)]
+    pub fn field(&self, time: R, place: &OrbitState<R>) -> [R; 3] {
+        match &self.magnetic_torque {
+            Some(torque) => torque.field.at(time, place.position),
+            None => [time.zero(); 3],
+        }
+    }
+
+    /// The Sun at `time`, s, if an effect needs it.
+    #[inline(always)]
+    pub fn sun(&self, time: R) -> Sun<R> {
+        self.solar_pressure.as_ref().map_or(Sun::none(time.zero()), |pressure| pressure.light.sun(time))
     }
 }
 

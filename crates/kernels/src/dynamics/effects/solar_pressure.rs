@@ -11,7 +11,6 @@ use super::plates::{PlateInLanes, PlatesInLanes, largest_lever};
 use super::within_arcs::Motion;
 use crate::dynamics::environment::light::Light;
 use crate::dynamics::environment::shadow::Zone;
-use crate::dynamics::environment::sun::Sun;
 use crate::math::prelude::*;
 use crate::scene::{Scene, Shadow};
 
@@ -22,7 +21,8 @@ const NEAREST: f64 = 0.983;
 pub struct SolarPressure<R> {
     /// 1 - c_s, 2 c_s and 2 c_d/3, each times the pressure at 1 au, N/m^2.
     plates: PlatesInLanes<R, 3>,
-    light: Light<R>,
+    /// Sun and shadow.
+    pub light: Light<R>,
     zone: Zone<R>,
 }
 
@@ -61,16 +61,16 @@ impl<R: Real> SolarPressure<R> {
     /// Share of the pressure at 1 au, and unit vector to the Sun, B.
     #[inline(always)]
     fn light_on(&self, motion: &Motion<R>) -> (R, [R; 3]) {
-        let sun = self.light.sun(motion.time);
-        let lit = self.zone.lit(self.light.shadow, motion.place.position, &sun, self.light.radius);
-        (lit / (sun.distance * sun.distance), seen(&sun, motion))
+        let sun = &motion.sun;
+        let lit = self.zone.lit(self.light.shadow, motion.place.position, sun, self.light.radius);
+        (lit / (sun.distance * sun.distance), seen(motion))
     }
 
     #[inline(always)]
     pub fn choose_branches(&mut self, lanes: R::Mask, motion: &Motion<R>) {
-        let sun = self.light.sun(motion.time);
-        self.zone.choose_branches(lanes, self.light.shadow, motion.place.position, &sun, self.light.radius);
-        self.plates.choose_branches(lanes, seen(&sun, motion));
+        let Light { radius, shadow, .. } = self.light;
+        self.zone.choose_branches(lanes, shadow, motion.place.position, &motion.sun, radius);
+        self.plates.choose_branches(lanes, seen(motion));
     }
 
     /// The lanes in penumbra.
@@ -84,10 +84,9 @@ impl<R: Real> SolarPressure<R> {
         let mut edges = [[motions[0].time; M]; 2];
         let mut directions = [[motions[0].time; 3]; M];
         for (m, motion) in motions.iter().enumerate() {
-            let sun = self.light.sun(motion.time);
-            let own = self.zone.switches(self.light.shadow, motion.place.position, &sun, self.light.radius);
+            let own = self.zone.switches(self.light.shadow, motion.place.position, &motion.sun, self.light.radius);
             (edges[0][m], edges[1][m]) = (own[0], own[1]);
-            directions[m] = seen(&sun, motion);
+            directions[m] = seen(motion);
         }
         visit(edges[0]);
         visit(edges[1]);
@@ -115,8 +114,8 @@ fn push<R: Real>(plate: &PlateInLanes<R, 3>, sun: [R; 3]) -> (R, [R; 3]) {
 }
 
 #[inline(always)]
-fn seen<R: Real>(sun: &Sun<R>, motion: &Motion<R>) -> [R; 3] {
-    transposed_product(dcm_from_quaternion(motion.attitude), sun.direction)
+fn seen<R: Real>(motion: &Motion<R>) -> [R; 3] {
+    transposed_product(dcm_from_quaternion(motion.attitude), motion.sun.direction)
 }
 
 pub fn of<R: Real>(zero: R, scene: &Scene, c_sb: Option<[[R; 3]; 3]>) -> Option<SolarPressure<R>> {

@@ -3,13 +3,16 @@
 
 use super::ChangingEffects;
 use super::ChangingSeries;
+use crate::dynamics::environment::sun::Sun;
 use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::offset_series::OffsetSeries;
-use crate::dynamics::orbit_path::PathsInLanes;
+use crate::dynamics::orbit_path::{OrbitPath, PathsInLanes};
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
+use crate::dynamics::surroundings::{Segment, Surroundings};
 use crate::math::prelude::*;
+use crate::scene::Arc;
 
 /// Actions on a body other than its actuators', one run per lane.
 #[derive(Clone, Copy, Debug)]
@@ -42,13 +45,52 @@ pub struct Motion<R> {
     pub rate: [R; 3],
     /// Position on the orbit if an effect acts, otherwise NaN.
     pub place: OrbitState<R>,
+    /// Magnetic field at that position, F_e, T, for torques.
+    pub field: [R; 3],
+    /// The Sun, if an effect needs it.
+    pub sun: Sun<R>,
 }
 
 impl<R: Real> Motion<R> {
-    /// The motion with the integrated components `state` at `time` (s) and `place`.
+    /// The motion with the integrated components `state` at `time` (s) and `place`, for `effects`: for their torques
+    /// or for their switches only.
     #[inline(always)]
-    pub fn of<const N: usize>(time: R, state: &[R; N], place: OrbitState<R>) -> Self {
-        Motion { time, attitude: four(state, ATTITUDE), rate: three(state, OMEGA), place }
+    pub fn of<const N: usize>(
+        time: R,
+        state: &[R; N],
+        place: OrbitState<R>,
+        effects: &ChangingEffects<R>,
+        for_torques: bool,
+    ) -> Self {
+        let field = if for_torques { effects.field(time, &place) } else { [time.zero(); 3] };
+        Motion {
+            time,
+            attitude: four(state, ATTITUDE),
+            rate: three(state, OMEGA),
+            place,
+            field,
+            sun: effects.sun(time),
+        }
+    }
+}
+
+impl<R: Real> Motion<R> {
+    /// Keeps the surroundings in the lanes `kept` and copies those of `other` in all others.
+    #[inline(always)]
+    fn choose(&mut self, kept: R::Mask, other: &Self) {
+        let choose = [
+            (&mut self.place.position, &other.place.position),
+            (&mut self.place.velocity, &other.place.velocity),
+            (&mut self.field, &other.field),
+            (&mut self.sun.direction, &other.sun.direction),
+        ];
+        for (own, other) in choose {
+            for i in 0..3 {
+                own[i] = R::select(kept, own[i], other[i]);
+            }
+        }
+        self.place.distance = R::select(kept, self.place.distance, other.place.distance);
+        self.sun.distance = R::select(kept, self.sun.distance, other.sun.distance);
     }
 }
 
@@ -154,6 +196,9 @@ pub trait WithinArcs<R: Real> {
     /// Copies the arc-dependent constants of `run` into lane `lane`.
     fn set_arc(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
+    /// Reads the surroundings of the last arc of `run` in lane `lane` from their series, if that arc is short.
+    fn follow(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
+
     /// Actions at the integrated components `state` (SI) and `time` (s).
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, _state: &[R; N]) -> Beside<R> {
@@ -223,6 +268,46 @@ pub struct Acting<R> {
     orbit: Option<PathsInLanes<R>>,
     effects: ChangingEffects<R>,
     leaving: Option<Leaving<R>>,
+    along: Option<Along<R>>,
+}
+
+/// Surroundings by series, for arcs within a segment of an orbit that the spacecraft does not leave.
+#[derive(Clone, Debug)]
+struct Along<R> {
+    segment: Segment<R>,
+    /// Surroundings of the run in each lane, and the number of the segment.
+    runs: [Option<(Surroundings, f64)>; WIDEST],
+    /// Lanes whose present arcs lie in their segments, or without a run.
+    is_covered: [bool; WIDEST],
+    is_everywhere: bool,
+}
+
+impl<R: Real> Along<R> {
+    fn blank(zero: R) -> Self {
+        Along {
+            segment: Segment::blank(zero),
+            runs: [const { None }; WIDEST],
+            is_covered: [true; WIDEST],
+            is_everywhere: true,
+        }
+    }
+
+    fn follow(&mut self, lane: usize, path: &OrbitPath, effects: &ChangingEffects<f64>, arc: &Arc) {
+        let (around, number) = self.runs[lane].get_or_insert_with(|| {
+            let field = effects.magnetic_torque.as_ref().map(|torque| torque.field);
+            let epoch = effects.solar_pressure.as_ref().map(|pressure| pressure.light.epoch);
+            (Surroundings::new(path, field, epoch), f64::NAN)
+        });
+        let covering = around.covering(arc.start, arc.end());
+        if let Some(next) = covering
+            && next != *number
+        {
+            *number = next;
+            self.segment.set_lane(lane, &around.segment(next));
+        }
+        self.is_covered[lane] = covering.is_some();
+        self.is_everywhere = self.is_covered.iter().all(|is_covered| *is_covered);
+    }
 }
 
 /// Masses (kg) and orbital rates (rad/s) of runs that may leave their orbits.
@@ -234,6 +319,34 @@ struct Leaving<R> {
 }
 
 impl<R: Real> Acting<R> {
+    /// Arguments of the effects, and the motion of the reference point if the spacecraft may leave its orbit.
+    #[inline(always)]
+    fn motion<const N: usize>(&self, time: R, state: &[R; N], for_torques: bool) -> (Motion<R>, Option<Carrier<R>>) {
+        let Some(along) = &self.along else {
+            let (place, carrier) = self.place(time, state);
+            return (Motion::of(time, state, place, &self.effects, for_torques), carrier);
+        };
+        let segment = &along.segment;
+        let has_field = for_torques && self.effects.magnetic_torque.is_some();
+        let mut motion = Motion {
+            time,
+            attitude: four(state, ATTITUDE),
+            rate: three(state, OMEGA),
+            place: segment.place(time),
+            field: if has_field { segment.field(time) } else { [time.zero(); 3] },
+            sun: segment.sun(time),
+        };
+        if !along.is_everywhere {
+            let direct = Motion::of(time, state, self.place(time, state).0, &self.effects, for_torques);
+            let mut covered = time.never();
+            for lane in 0..R::LANES {
+                covered.set(lane, along.is_covered[lane]);
+            }
+            motion.choose(covered, &direct);
+        }
+        (motion, None)
+    }
+
     /// Position, and the motion of the reference point if the spacecraft may leave its orbit.
     #[inline(always)]
     fn place<const N: usize>(&self, time: R, state: &[R; N]) -> (OrbitState<R>, Option<Carrier<R>>) {
@@ -267,12 +380,15 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     const ACT: bool = true;
 
     fn none(zero: R) -> Self {
-        Acting { zero, orbit: None, effects: ChangingEffects::none(), leaving: None }
+        Acting { zero, orbit: None, effects: ChangingEffects::none(), leaving: None, along: None }
     }
 
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>) {
         let zero = self.zero;
         self.effects.set_lane(zero, lane, &run.effects);
+        if let Some(along) = &mut self.along {
+            along.runs[lane] = None;
+        }
         if let Some(orbit) = run.orbit.as_ref().filter(|_| !run.effects.is_empty() || run.offset.is_some()) {
             self.orbit.get_or_insert_with(|| PathsInLanes::blank(zero)).set_lane(lane, orbit);
         }
@@ -290,16 +406,24 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         self.effects.set_arc(lane, &run.effects);
     }
 
+    fn follow(&mut self, lane: usize, run: &Gyrostat<f64>) {
+        if let (Some(path), None, Some(last), false) = (&run.orbit, run.offset, run.arcs.last(), run.effects.is_empty())
+        {
+            let zero = self.zero;
+            self.along.get_or_insert_with(|| Along::blank(zero)).follow(lane, path, &run.effects, &last.arc);
+        }
+    }
+
     #[inline(always)]
     fn act<const N: usize>(&self, time: R, state: &[R; N]) -> Beside<R> {
         time.apart(
             #[inline(always)]
             || {
-                let (place, carrier) = self.place(time, state);
                 if self.effects.is_empty() {
+                    let carrier = self.place(time, state).1;
                     return Beside { torque: [self.zero; 3], force: None, carrier };
                 }
-                let motion = Motion::of(time, state, place);
+                let (motion, carrier) = self.motion(time, state, true);
                 Beside { torque: self.effects.torque(&motion), force: self.effects.force(&motion), carrier }
             },
         )
@@ -319,7 +443,7 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     fn margin<const N: usize>(&self, time: R, state: &[R; N]) -> R {
         time.apart(
             #[inline(always)]
-            || self.effects.margin(&Motion::of(time, state, self.place(time, state).0)),
+            || self.effects.margin(&self.motion(time, state, false).0),
         )
     }
 
@@ -328,9 +452,9 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         self.zero.apart(
             #[inline(always)]
             || {
-                let mut motions = [Motion::of(times[0], states[0], OrbitState::unknown(self.zero)); 4];
-                for m in 0..4 {
-                    motions[m] = Motion::of(times[m], states[m], self.place(times[m], states[m]).0);
+                let mut motions = [self.motion(times[0], states[0], false).0; 4];
+                for m in 1..4 {
+                    motions[m] = self.motion(times[m], states[m], false).0;
                 }
                 self.effects.dip(&motions)
             },
@@ -342,8 +466,8 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         time.apart(
             #[inline(always)]
             || {
-                let place = self.place(time, state).0;
-                self.effects.choose_branches(lanes, &Motion::of(time, state, place));
+                let motion = self.motion(time, state, false).0;
+                self.effects.choose_branches(lanes, &motion);
             },
         );
     }

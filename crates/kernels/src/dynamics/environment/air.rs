@@ -8,7 +8,7 @@
 use super::{EARTH_RATE, each_lane};
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::lanes::WIDEST;
-use crate::math::vector::set_lanes;
+use crate::math::vector::{lane_of, set_lanes};
 use crate::math::{Mask, Real};
 use crate::scene::EnvironmentInput;
 
@@ -118,7 +118,11 @@ impl<R: Real> Air<R> {
     pub fn choose_branches(&mut self, lanes: R::Mask, distance: R) {
         let height = distance - self.surface;
         for lane in (0..R::LANES).filter(|lane| lanes.test(*lane)) {
-            set_lanes(&mut self.layer, lane, &self.tables[lane].layer_at(height.lane(lane)));
+            let (km, [base, thickness, ..]) = (height.lane(lane) * 1e-3, lane_of(&self.layer, lane));
+            // a layer extends to its top
+            if !(base <= km && km < base + thickness) {
+                set_lanes(&mut self.layer, lane, &self.tables[lane].layer_at(height.lane(lane)));
+            }
         }
     }
 

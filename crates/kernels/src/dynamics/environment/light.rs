@@ -1,12 +1,9 @@
 //! [`Light`]: the Sun, and the share of its disc that a spacecraft sees on its orbit.
 
 use super::shadow::lit;
-use super::sun::{Sun, sun};
+use super::sun::{Sun, sun_at};
 use crate::math::prelude::*;
 use crate::scene::{Scene, Shadow};
-
-/// Days per second.
-const DAY: f64 = 1.0 / 86_400.0;
 
 /// Date, Earth radius and shadow model, one run per lane.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +36,6 @@ impl<R: Real> Light<R> {
 
     #[inline(always)]
     pub(crate) fn sun(&self, time: R) -> Sun<R> {
-        sun(time.mul_add(time.splat(DAY), self.epoch))
+        sun_at(self.epoch, time)
     }
 }

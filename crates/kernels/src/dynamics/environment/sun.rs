@@ -11,7 +11,10 @@
 //!
 //! Apparent direction in the mean equator and equinox of date, good to 0.01 deg from 1950 to 2050.
 
+use fearless_simd::Simd;
+
 use crate::math::Real;
+use crate::math::isa::{Isa, Work};
 use crate::math::sine::sin_cos_turns;
 use crate::scene::Epoch;
 
@@ -25,6 +28,14 @@ pub struct Sun<R> {
     pub direction: [R; 3],
     /// Distance, au.
     pub distance: R,
+}
+
+impl<R: Real> Sun<R> {
+    /// No Sun.
+    #[inline(always)]
+    pub fn none(zero: R) -> Self {
+        Sun { direction: [zero; 3], distance: zero.splat(1.0) }
+    }
 }
 
 /// The Sun `days` days after J2000.0 (2000-01-01 12:00; UTC for terrestrial time costs 8e-4 deg).
@@ -44,9 +55,26 @@ pub fn sun<R: Real>(days: R) -> Sun<R> {
     }
 }
 
+/// The Sun `time` seconds after a date `epoch` days after J2000.0.
+#[inline(always)]
+pub fn sun_at<R: Real>(epoch: R, time: R) -> Sun<R> {
+    sun(time.mul_add(time.splat(1.0 / 86_400.0), epoch))
+}
+
 /// The Sun `time` seconds after `epoch`.
 pub fn sun_after(epoch: Epoch, time: f64) -> Sun<f64> {
-    sun(epoch.days_since_j2000() + time / 86_400.0)
+    Isa::best().run(SunAfter(epoch.days_since_j2000() + time / 86_400.0))
+}
+
+struct SunAfter(f64);
+
+impl Work for SunAfter {
+    type Output = Sun<f64>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> Sun<f64> {
+        sun(self.0)
+    }
 }
 
 /// An angle of `start` degrees growing by `rate` degrees per day, in turns without whole turns.

@@ -159,7 +159,7 @@ impl<S: Simd> Chunk<'_, S> {
         let run = self.run;
         let mut thrusters = self.read_from(WITH_THRUST, THRUST_WORK);
         if let Some(orbit) = &run.orbit {
-            let mut place = orbit.states(self.time());
+            let mut place = orbit.states_at([self.time(), self.zero()]);
             let gravity = orbit.gravity();
             let work = if run.offset.is_none() && gravity.oblateness.is_none() {
                 orbit.at_start().in_lanes(self.zero()).work(place.distance)
@@ -196,7 +196,7 @@ impl<S: Simd> Chunk<'_, S> {
             return;
         }
         let run = self.run;
-        let mut place = orbit.states(self.time());
+        let mut place = orbit.states_at([self.time(), self.zero()]);
         let mut gained = difference(place.velocity, constant(self.zero(), run.v_co_e));
         if let Some([_, velocity]) = &run.offset {
             let offset = self.offset();

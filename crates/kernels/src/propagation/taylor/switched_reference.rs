@@ -78,12 +78,18 @@ fn gyrostat(state: &State) -> [DoubleDouble; N] {
 impl<S: Simd> Motions<S> {
     /// Arguments of the effects, with the motion of the point on the orbit if the spacecraft may leave it.
     #[inline(always)]
-    fn motion(&self, time: DoubleDouble, state: &State) -> (Motion<DoubleDouble>, Beside<DoubleDouble>) {
+    fn motion(
+        &self,
+        time: DoubleDouble,
+        state: &State,
+        for_torques: bool,
+    ) -> (Motion<DoubleDouble>, Beside<DoubleDouble>) {
         let (mut place, mut point) = (carrier(state), None);
         if self.may_leave {
             (place, point) = beside_orbit(&self.gravity, &place, self.constants.inverse_mass, state);
         }
-        (Motion::of(time, state, place), Beside { torque: [time.zero(); 3], force: None, carrier: point })
+        let motion = Motion::of(time, state, place, &self.effects, for_torques);
+        (motion, Beside { torque: [time.zero(); 3], force: None, carrier: point })
     }
 
     /// Chooses the branches `ahead` seconds after `time`.
@@ -97,7 +103,7 @@ impl<S: Simd> Motions<S> {
                 for n in 0..ALL {
                     later[n] = ahead.mul_add(slope[n], state[n]);
                 }
-                let (motion, _) = self.motion(time + ahead, &later);
+                let (motion, _) = self.motion(time + ahead, &later, false);
                 self.effects.choose_branches(true, &motion);
             },
         );
@@ -110,7 +116,7 @@ impl<S: Simd> System<DoubleDouble, ALL> for Motions<S> {
         self.simd.vectorize(
             #[inline(always)]
             || {
-                let (motion, mut all) = self.motion(time, state);
+                let (motion, mut all) = self.motion(time, state, true);
                 all.torque = sum(self.constants.torque, self.effects.torque(&motion));
                 all.force = self.effects.force(&motion);
                 let mut rate = [DoubleDouble::exact(0.0); ALL];
@@ -153,7 +159,7 @@ impl<S: Simd> System<DoubleDouble, ALL> for Motions<S> {
     fn margin(&self, time: DoubleDouble, state: &State) -> DoubleDouble {
         self.simd.vectorize(
             #[inline(always)]
-            || self.effects.margin(&self.motion(time, state).0),
+            || self.effects.margin(&self.motion(time, state, false).0),
         )
     }
 
@@ -164,9 +170,9 @@ impl<S: Simd> System<DoubleDouble, ALL> for Motions<S> {
             || {
                 let (times, [after, before]) = beside(step, ends);
                 let states = [ends[0][0], &after, &before, ends[1][0]];
-                let mut motions = [self.motion(times[0], states[0]).0; 4];
+                let mut motions = [self.motion(times[0], states[0], false).0; 4];
                 for m in 1..4 {
-                    motions[m] = self.motion(times[m], states[m]).0;
+                    motions[m] = self.motion(times[m], states[m], false).0;
                 }
                 self.effects.dip(&motions)
             },
