@@ -31,6 +31,7 @@ impl<M: Embedded> LaneMethod for Adaptive<M> {
             attempted: zero,
             floor: zero,
             starting: zero.never(),
+            continued: zero.never(),
             retry: zero.never(),
             cut: zero.never(),
             resumed: zero,
@@ -47,8 +48,9 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
     /// Attempted step and shortest step at its time, s.
     attempted: R,
     floor: R,
-    /// True at the start of an arc; true after a rejection of the same step.
+    /// True at the start of an arc; true if the arc continues a run; true after a rejection of the same step.
     starting: R::Mask,
+    continued: R::Mask,
     retry: R::Mask,
     /// True if the step ends at a switch; the step that it replaces, s.
     cut: R::Mask,
@@ -61,20 +63,28 @@ impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
         let (state, starting) = (&lanes.now.state, self.starting);
         let slope = system.derivative(lanes.time, state);
         let longest = (lanes.arc_end - lanes.time) * lanes.time.splat(M::CONTROLLER.longest);
-        let length = M::first_step(system, lanes.time, state, &slope, longest, self.tolerance);
         let first = M::first(&mut self.stages);
         *first = chosen(starting, &slope, first);
         self.longest = R::select(starting, longest, self.longest);
-        self.length = R::select(starting, length, self.length);
-        lanes.count(starting, M::START_EVALUATIONS);
+        // the motion goes on: the last arc's controller knows its step, whatever the length of the arcs
+        let continued = if system.continues() { starting & self.continued } else { lanes.time.never() };
+        self.longest = R::select(continued, lanes.arc_end - lanes.time, self.longest);
+        let unknown = starting & !continued;
+        if unknown.any() {
+            let length = M::first_step(system, lanes.time, state, &slope, longest, self.tolerance);
+            self.length = R::select(unknown, length, self.length);
+            lanes.count(unknown, M::START_EVALUATIONS - 1.0);
+        }
+        lanes.count(starting, 1.0);
         self.starting = lanes.time.never();
     }
 }
 
 impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, R, N> {
     #[inline(always)]
-    fn start_arc(&mut self, lane: usize, _start: f64, _end: f64) {
+    fn start_arc(&mut self, lane: usize, start: f64, _end: f64) {
         self.starting.set(lane, true);
+        self.continued.set(lane, start > 0.0);
         self.retry.set(lane, false);
         self.cut.set(lane, false);
     }
@@ -147,10 +157,13 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
     }
 
     #[inline(always)]
-    fn advance(&mut self, _proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask {
+    fn advance(&mut self, proposal: &Proposal<R>, attempt: &Attempt<R>) -> R::Mask {
         let (accepted, rejected) = (attempt.accepted, !attempt.accepted);
         let factor = M::CONTROLLER.factor(attempt.error, accepted, self.retry);
-        self.length = (self.attempted * factor).larger(R::select(accepted, factor.zero(), self.floor));
+        // a step that an arc's end has shortened does not shorten the steps of the next arc
+        let shortened = proposal.lands & accepted & !factor.lt(factor.splat(M::CONTROLLER.growth));
+        let least = R::select(shortened, self.length, R::select(accepted, factor.zero(), self.floor));
+        self.length = (self.attempted * factor).larger(least);
         self.retry = rejected;
         let last = *M::ends(&self.stages)[1];
         let first = M::first(&mut self.stages);

@@ -14,6 +14,13 @@ pub trait System<R: Real, const N: usize> {
     /// homogeneous in `error`, since the choice of the first step also applies it to derivatives and states.
     fn error_ratio(&self, error: &[R; N], old: &[R; N], new: &[R; N], tolerance: Tolerance) -> R;
 
+    /// True if an arc continues the motion of the one before, as under a control loop: its first step is that which the
+    /// controller proposed last, at most the arc.
+    #[inline(always)]
+    fn continues(&self) -> bool {
+        false
+    }
+
     /// True if f has branches ([`super::switches`]), for which the following methods are.
     #[inline(always)]
     fn has_switches(&self) -> bool {

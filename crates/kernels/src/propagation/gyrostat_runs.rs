@@ -87,6 +87,11 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
     }
 
     #[inline(always)]
+    fn continues(&self) -> bool {
+        self.arcs.follow_laws()
+    }
+
+    #[inline(always)]
     fn has_switches(&self) -> bool {
         E::ACT && self.effects.has_switches()
     }

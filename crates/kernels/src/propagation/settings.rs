@@ -2,10 +2,10 @@
 
 use super::method::Method;
 use crate::dynamics::actuation::Laws;
-use crate::dynamics::effects::ForceModel;
+use crate::dynamics::effects::{Effect, ForceModel};
 use crate::dynamics::gyrostat::completion::components;
 use crate::dynamics::gyrostat::{WITH_ANGLES, WITH_THRUST};
-use crate::ode::Control;
+use crate::ode::{Control, Integrator};
 use crate::run::{Grid, StateField, StateFields};
 use crate::scene::{Actuated, Scene};
 
@@ -53,7 +53,10 @@ impl PropagationSettings {
     #[must_use]
     pub fn with_feedback(self, commands: Actuated) -> Self {
         let thrust = self.thrust || commands.external();
-        PropagationSettings { thrust, motors: self.motors || commands.motors, feedback: true, ..self }
+        // an arc is one short step, for which the field's Taylor series costs more than its evaluations
+        let is_slow = self.method == Method::Auto && self.forces.contains(Effect::MagneticTorque);
+        let method = if is_slow { Method::Gyrostat(Integrator::Dop853) } else { self.method };
+        PropagationSettings { method, thrust, motors: self.motors || commands.motors, feedback: true, ..self }
     }
 
     /// # Panics
