@@ -44,6 +44,8 @@ pub struct ControlLoop {
     next: f64,
     /// Sensor ticks in a control period.
     ticks_per_period: u64,
+    /// Ticks between the instants at which each sensor measures, and flight software commands.
+    schedules: Vec<u64>,
     tick_period: f64,
     /// End of the run.
     end: f64,
@@ -51,6 +53,12 @@ pub struct ControlLoop {
     growth: Growth,
     /// Reason of a divergence, if any.
     divergence: Option<String>,
+}
+
+/// The first tick after `tick` at which one of `schedules` is due. Latencies are whole control periods, so that
+/// measurements are delivered at such ticks, too.
+fn next_due(tick: u64, schedules: &[u64]) -> u64 {
+    schedules.iter().map(|every| (tick / every + 1) * every).min().unwrap_or(tick + 1)
 }
 
 fn sensors(spec: &LoopSpec, context: &LawContext<'_>, tick_period: f64) -> Vec<SampledSensor> {
@@ -74,7 +82,9 @@ impl ControlLoop {
         let ticks_per_period = spec.ticks_per_period();
         let tick_period = spec.period / ticks_per_period as f64;
         let sensors = sensors(spec, context, tick_period);
+        let schedules = sensors.iter().map(|sensor| sensor.every).chain([ticks_per_period]).collect();
         ControlLoop {
+            schedules,
             plant: Plant::new(spec, context.drawn.clone(), sensors, [context.duration, context.end]),
             flight_software: FlightSoftware::new(spec, context, tick_period),
             mission: Mission::new(spec, context),
@@ -101,7 +111,7 @@ impl ControlLoop {
         if self.tick.is_multiple_of(self.ticks_per_period) {
             self.control(truth, is_last);
         }
-        self.tick += 1;
+        self.tick = next_due(self.tick, &self.schedules);
         self.next = self.tick as f64 * self.tick_period;
     }
 
@@ -247,5 +257,24 @@ impl Growth {
         let impulse = scaled(pulse, scene.thruster_torque_s(actuation.thrust));
         let change = norm(product(self.inverse, sum(scaled(self.period, torque), impulse)));
         (change > self.most).then_some(change)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::next_due;
+
+    /// Law: a loop of 0.25 s with a gyro each 0.01 s and a magnetometer each 0.03125 s, on ticks of 0.00125 s, is due
+    /// at the 25 instants of the one and the 8 of the other, the start of the period in common, and at no other tick.
+    #[test]
+    fn instants_are_those_of_the_schedules() {
+        let schedules = [8, 25, 200];
+        let mut due = vec![0];
+        while due.last() < Some(&200) {
+            due.push(next_due(due[due.len() - 1], &schedules));
+        }
+        let expected: Vec<u64> = (0..=200).filter(|tick| tick % 8 == 0 || tick % 25 == 0).collect();
+        assert_eq!(due, expected);
+        assert_eq!(due.len() - 1, 25 + 8 - 1);
     }
 }

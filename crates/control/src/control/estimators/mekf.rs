@@ -7,6 +7,7 @@
 //! rotation is predicted at the last rate and corrected at the next sample; between tachometer readings, wheel rates
 //! follow the commanded motor torques.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::attitude_filter::{AttitudeFilter, AttitudeObservation, GyroStep};
@@ -114,6 +115,8 @@ struct GyroPropagation {
 struct Mekf {
     mass: MassProperties,
     tick: f64,
+    /// The last intervals between updates, the latest first, s: as many as the largest latency has ticks.
+    intervals: VecDeque<f64>,
     time: f64,
     sensors: Vec<SensorModel>,
     attitude: Attitude,
@@ -168,6 +171,7 @@ impl Mekf {
         Mekf {
             mass,
             tick: context.tick,
+            intervals: VecDeque::from(vec![context.tick; oldest]),
             time: 0.0,
             sensors,
             attitude,
@@ -178,7 +182,7 @@ impl Mekf {
         }
     }
 
-    /// Attitude and rate of the spacecraft `age` ticks ago.
+    /// Attitude and rate of the spacecraft `age` updates ago.
     fn attitude_at(&self, age: usize) -> ([f64; 4], [f64; 3]) {
         match &self.attitude {
             Attitude::WithGyro(filter, _) => (filter.at(age).q_es, filter.at(age).omega_se_s()),
@@ -199,8 +203,20 @@ impl Mekf {
         }
     }
 
+    /// Number of updates in the last `age` seconds; sensors measure at updates.
+    fn updates_in(&self, age: f64) -> usize {
+        let mut left = age - 0.5 * self.tick;
+        let after = |interval: &f64| {
+            left -= interval;
+            left + interval > 0.0
+        };
+        self.intervals.iter().copied().take_while(after).count()
+    }
+
     fn propagate(&mut self, update: &Update<'_>) {
         let interval = update.interval;
+        self.intervals.push_front(interval);
+        self.intervals.pop_back();
         let before = self.attitude_at(0);
         match &mut self.attitude {
             Attitude::WithGyro(filter, turned) => {
@@ -237,7 +253,7 @@ impl Mekf {
 
     /// Processes measurements that depend on the spacecraft's attitude.
     fn take(&mut self, measurement: &Measurement) {
-        let (age, values) = (ticks(measurement.age, self.tick), &measurement.values);
+        let (age, values) = (self.updates_in(measurement.age), &measurement.values);
         match &self.sensors[measurement.sensor] {
             SensorModel::Motion(sigmas) => {
                 let sigmas = *sigmas;
@@ -311,7 +327,7 @@ impl Estimator for Mekf {
             if let SensorModel::Attitude(sensor) = &self.sensors[measurement.sensor] {
                 let time = self.time - measurement.age;
                 let observation = AttitudeObservation { values: measurement.values, sensor: sensor.clone(), time };
-                let age = ticks(measurement.age, self.tick);
+                let age = self.updates_in(measurement.age);
                 match &mut self.attitude {
                     Attitude::WithGyro(filter, _) => filter.update(observation, age),
                     Attitude::WithoutGyro(filter) => filter.update(BodyObservation::Attitude(observation), age),

@@ -126,7 +126,8 @@ fn at_once(sensor: usize, values: Values) -> Measurement {
 }
 
 /// Estimate and truth after 60 s of a slew at constant rate under thrust beside tumbling debris, with noiseless but
-/// late sensors and a truth that starts off the nominal scene; `gyro_period` in ticks of 0.1 s, 0 for none.
+/// late sensors and a truth that starts off the nominal scene; `gyro_period` in ticks of 0.1 s, 0 for none. Updates are at
+/// the ticks at which a sensor measures or delivers.
 fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     let mut nominal = scene(&SceneInput::report().with_debris(DEBRIS));
     // p turns about c, so that c relative to it depends on the time of the measurement
@@ -160,7 +161,7 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     let (mut r, mut v) = ([3.0, -2.0, 1.0], [0.05, 0.0, -0.02]);
     let acceleration_s = [0.0, 0.0, 1e-3];
     let (r_gdo, v_gdo) = ([25.0, 4.0, -1.0], [0.0, 0.03, 0.0]);
-    let mut last = None;
+    let (mut last, mut updated) = (None, 0);
     for tick in 0..=600 {
         let mut at = truth(0.1 * tick as f64, q, omega);
         (at.body.r_co_e, at.body.v_co_e) = (r, v);
@@ -171,8 +172,11 @@ fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
         for (place, sensor) in sampled.iter_mut().enumerate() {
             measurements.extend(sensor.deliver(place, tick, &at));
         }
-        estimator.update(&Update { acceleration_s, ..update(tick, 0.1, &measurements) }, &mut estimate);
-        last = Some((estimate, at));
+        if !measurements.is_empty() || list.iter().any(|(_, [every, _], _)| tick % every == 0) {
+            let interval = 0.1 * (tick - updated) as f64;
+            estimator.update(&Update { acceleration_s, ..update(tick, interval, &measurements) }, &mut estimate);
+            (last, updated) = (Some((estimate, at)), tick);
+        }
         let q_after = hamilton(q, quaternion_of(scaled(0.1, omega)));
         // thrust along the rotation axis has a constant direction in F_e
         let acceleration = product(dcm_from_quaternion(q), acceleration_s);

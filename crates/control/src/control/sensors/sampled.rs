@@ -9,7 +9,8 @@ use crate::loops::measurement::{Measurement, Values};
 /// A sensor that measures every `every` ticks and delivers a fixed number of ticks later.
 pub struct SampledSensor {
     pub sensor: Box<dyn Sensor>,
-    every: u64,
+    /// Ticks between measurements.
+    pub every: u64,
     latency: u64,
     age: f64,
     /// Measurements with the ticks of their delivery.
@@ -22,7 +23,8 @@ impl SampledSensor {
         SampledSensor { sensor, every, latency, age: latency as f64 * tick, waiting: VecDeque::new() }
     }
 
-    /// The measurement that the sensor, at the index `sensor`, delivers at `tick`; call once per tick, in order.
+    /// The measurement that the sensor, at the index `sensor`, delivers at `tick`; call in order, at each
+    /// tick at which it measures or delivers.
     pub fn deliver(&mut self, sensor: usize, tick: u64, truth: &Truth) -> Option<Measurement> {
         if tick.is_multiple_of(self.every)
             && let Some(measurement) = self.sensor.measure(tick / self.every, truth)
