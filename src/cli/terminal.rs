@@ -1,21 +1,39 @@
-//! [`Terminal`]: notes, a progress bar on terminals, and signals.
+//! [`Terminal`]: notes, a progress bar on terminals and a line a minute elsewhere, and signals.
 
 use std::fmt::Write;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::cli::signals::{self, asked};
 use crate::cli::{completed_text, screen};
 use crate::workflow::Watch;
+use crate::workflow::workload::time;
 
 const REFRESH_HZ: u8 = 8;
+/// Time between two lines of progress in a file or a pipe.
+const LINE: Duration = Duration::from_secs(60);
 
 /// Standard error, and the signals of this process.
 #[derive(Debug, Default)]
 pub struct Terminal {
-    bar: Mutex<Option<ProgressBar>>,
+    bar: Mutex<Option<Bar>>,
+}
+
+#[derive(Debug)]
+struct Bar {
+    bar: ProgressBar,
+    /// Time of the next line without a terminal.
+    next: Duration,
+}
+
+/// Progress after `elapsed` of a campaign with `done` of `samples` samples.
+fn line(done: u64, samples: u64, elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs_f64();
+    let left = seconds * (samples - done) as f64 / done as f64;
+    format!("{done} of {samples} samples after {}, about {} left", time(seconds), time(left))
 }
 
 impl Terminal {
@@ -23,7 +41,7 @@ impl Terminal {
         asked().first()
     }
 
-    fn bar(&self) -> MutexGuard<'_, Option<ProgressBar>> {
+    fn bar(&self) -> MutexGuard<'_, Option<Bar>> {
         self.bar.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -44,15 +62,22 @@ impl Watch for Terminal {
             };
             bar.set_style(style.progress_chars("=> ").with_key("rate", rate));
         }
-        *self.bar() = Some(bar);
+        *self.bar() = Some(Bar { bar, next: LINE });
     }
 
     fn advance(&self, samples: u64) {
-        self.bar().iter().for_each(|bar| bar.inc(samples));
+        for Bar { bar, next } in self.bar().iter_mut() {
+            bar.inc(samples);
+            let (elapsed, samples) = (bar.elapsed(), bar.length().unwrap_or_default());
+            if bar.is_hidden() && elapsed >= *next && bar.position() < samples {
+                *next = elapsed + LINE;
+                screen::note(&line(bar.position(), samples, elapsed));
+            }
+        }
     }
 
     fn end(&self) {
-        self.bar().take().iter().for_each(ProgressBar::finish_and_clear);
+        self.bar().take().iter().for_each(|Bar { bar, .. }| bar.finish_and_clear());
     }
 
     fn stop(&self) -> &AtomicBool {
@@ -61,5 +86,17 @@ impl Watch for Terminal {
 
     fn abandon(&self) -> &AtomicBool {
         &asked().abandon
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Law: at an even pace, the time left is to the time taken as the samples left are to those done.
+    #[test]
+    fn the_time_left_follows_from_the_pace() {
+        let text = line(250, 1000, Duration::from_secs(600));
+        assert_eq!(text, "250 of 1000 samples after 10 minutes, about 30 minutes left");
     }
 }

@@ -244,7 +244,8 @@ fn count(number: f64, thing: &str) -> String {
     if number < 1e15 { format!("{} {thing}{end}", number as u64) } else { format!("{} {thing}s", short(number)) }
 }
 
-fn time(seconds: f64) -> String {
+/// In the largest unit of which there are two: "10 minutes".
+pub fn time(seconds: f64) -> String {
     let units = [(120.0, 1.0, "s"), (7200.0, 60.0, "minutes"), (172_800.0, 3600.0, "hours"), (8.64e7, 86400.0, "days")];
     let found = units.into_iter().find(|(below, ..)| seconds < *below);
     let (_, unit, name) = found.unwrap_or((0.0, 365.25 * 86400.0, "years"));
