@@ -1,7 +1,7 @@
 //! [`Campaign`]: a campaign file, its overrides and the place of its result; runs missing samples.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::campaign::{FilesRead, Plan};
 use crate::control::tables::Overrides;
@@ -159,7 +159,7 @@ impl<'a> Campaign<'a> {
                 root.display()
             )));
         }
-        Ok(Some(PreparedCampaign { campaign: self, plan, files, root, store }))
+        Ok(Some(PreparedCampaign { campaign: self, plan, files, root, store, counted: Arc::default() }))
     }
 
     /// Runs missing samples, and opens the finished result.
@@ -188,6 +188,8 @@ pub struct PreparedCampaign<'a> {
     files: FilesRead,
     root: PathBuf,
     store: Arc<dyn Store>,
+    /// Time of a run, s, once it is known.
+    counted: Arc<OnceLock<f64>>,
 }
 
 impl PreparedCampaign<'_> {
@@ -207,7 +209,7 @@ impl PreparedCampaign<'_> {
 
     /// The plan ready to run.
     pub fn ensemble(&self) -> Ensemble<'_> {
-        Ensemble::new(&self.plan, self.campaign.session.isa)
+        Ensemble::new(&self.plan, self.campaign.session.isa).counted_in(self.counted.clone())
     }
 
     /// Refuses impossible work, and without `yes` long work or most of the disk.

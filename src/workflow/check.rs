@@ -35,7 +35,7 @@ pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>> {
         runs,
         audits: (plan.audit_fraction > 0.0).then(|| AuditProbe::new(ensemble)),
         notes,
-        files: [parts(plan, isa).count(), rows_file::columns(ensemble).len() as u64],
+        files: [parts(ensemble).count(), rows_file::columns(ensemble).len() as u64],
         needs: [disk, memory],
         cores: std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get),
     })

@@ -81,7 +81,7 @@ impl Workload {
         asked: Option<NonZeroUsize>,
     ) -> Self {
         let plan = ensemble.plan();
-        let run_seconds = run_seconds(plan, ensemble.isa());
+        let run_seconds = ensemble.run_seconds();
         let whole = parts_of_runs(plan, run_seconds).with_samples(samples);
         let there = match store.map(contents) {
             Some(Ok(found)) => found.rows(whole).min(samples),

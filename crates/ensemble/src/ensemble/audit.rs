@@ -3,7 +3,8 @@
 //! The reference is the Taylor solution in double-double ([`crate::propagation::taylor::reference_solution`]), without
 //! the audited run's method and periodic folding. Long runs use the Taylor method at 1e-16 in plain doubles, as noted
 //! in the row ([`AuditValue::Tolerance`]). The audited run is repeated with the states of the comparison; the
-//! campaign's row stays unchanged.
+//! campaign's row stays unchanged. Under a control law the reference is the same loop at a tighter tolerance and in
+//! shorter arcs ([`crate::ensemble::loop_errors`]).
 //!
 //! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]); the limit
 //! counts the motion's units of time, not seconds.
@@ -14,10 +15,13 @@ use crate::campaign::Plan;
 use crate::dynamics::debris;
 use crate::dynamics::effects::ForceModel;
 use crate::dynamics::gyrostat::Gyrostat;
-use crate::ensemble::flights::{nominal_attitude, replayed};
+use crate::ensemble::event_finder::RunEnd;
+use crate::ensemble::flights::{Runs, nominal_attitude};
+use crate::ensemble::loop_errors::{LoopErrors, TRUTH, Wanted, outcomes};
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
+use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request};
 use crate::ode::{Control, Tolerance};
 use crate::propagation::settings::observes_debris_rotation;
@@ -27,7 +31,7 @@ use crate::propagation::{
 };
 use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics};
 use crate::sampling::{SampleId, Stream};
-use crate::scene::{Arc, Scene};
+use crate::scene::Scene;
 use thiserror::Error;
 
 /// Runs of more units of time ([`Gyrostat::time_unit`]) are audited in plain doubles: double-double takes five steps of
@@ -143,7 +147,9 @@ impl Selection {
     }
 }
 
-pub struct Auditor {
+pub struct Auditor<'p> {
+    plan: &'p Plan,
+    errors: LoopErrors,
     isa: Isa,
     grid: Grid,
     most_steps: u64,
@@ -159,10 +165,12 @@ pub struct Auditor {
     indices: Vec<(usize, Option<usize>)>,
     estimate: usize,
     debris_estimate: Option<usize>,
+    /// Of a plan with a law: the plan of its truth, and the nominal attitudes of both.
+    of_loop: Option<(Plan, [Option<NominalAttitude>; 2])>,
 }
 
-impl Auditor {
-    pub fn new(plan: &Plan, isa: Isa, grid: &Grid) -> Self {
+impl<'p> Auditor<'p> {
+    pub fn new(plan: &'p Plan, isa: Isa, grid: &Grid) -> Self {
         let campaign = plan.request();
         let groups = plan.groups.iter().copied();
         let request = Request { groups: groups.clone().chain([Group::Numerics]).collect(), ..campaign };
@@ -175,7 +183,15 @@ impl Auditor {
             .filter_map(|column| Some((request.position(column.id())?, reference_request.position(column.id()))))
             .collect();
         let nominal = nominal_attitude(plan, &request, grid, isa);
+        let of_loop = plan.law.as_ref().map(|_| {
+            let finer = TRUTH.plan(plan);
+            let truth = nominal_attitude(&finer, &request, grid, isa);
+            (finer, [nominal.clone(), truth])
+        });
         Auditor {
+            plan,
+            of_loop,
+            errors: LoopErrors::default(),
             isa,
             grid: grid.clone(),
             most_steps: plan.max_steps.max(reference_solution::MOST_STEPS),
@@ -192,6 +208,12 @@ impl Auditor {
         }
     }
 
+    /// With what the loop does to errors.
+    #[must_use]
+    pub fn under(self, errors: LoopErrors) -> Self {
+        Auditor { errors, ..self }
+    }
+
     #[must_use]
     pub fn with_most_steps(self, most_steps: u64) -> Self {
         Auditor { most_steps, ..self }
@@ -203,17 +225,45 @@ impl Auditor {
         self.compare(scene, scene)
     }
 
-    /// Audits a run that ended with `status`. The decisions of a law are part of the run: its `arcs` are flown.
-    ///
-    /// # Errors
-    /// As [`Auditor::audit`].
-    pub fn audit_flown(&mut self, scene: &Scene, arcs: Option<&[Arc]>, status: Status) -> Result<Audit, NoAudit> {
-        match arcs {
-            // the engine alone, which an audit flies, does not find these ends
-            _ if matches!(status, Status::Surface | Status::Diverged) => Err(NoAudit::Run(status)),
-            Some(arcs) => self.audit(&replayed(scene, arcs)),
-            None => self.audit(scene),
+    /// Audits runs that ended with `statuses`, at `end` if an event ended them. Under a law the loop is flown again, at a
+    /// tighter tolerance and in shorter arcs.
+    pub fn audit_flown(
+        &mut self,
+        runs: Runs<'_>,
+        end: Option<RunEnd>,
+        statuses: &[Status],
+    ) -> Vec<Result<Audit, NoAudit>> {
+        // an engine, which an audit flies, does not find these ends
+        let is_refused = |status: Status| matches!(status, Status::Surface | Status::Diverged);
+        let refused = |status: &Status| if is_refused(*status) { Err(NoAudit::Run(*status)) } else { Ok(()) };
+        let Some((finer, nominals)) = &self.of_loop else {
+            let each = runs.scenes.iter().zip(statuses);
+            return each.map(|(scene, status)| refused(status).and_then(|()| self.audit(scene))).collect();
+        };
+        let fly = |plan: &Plan, parts: u32, request: Request, nominal: &Option<NominalAttitude>| {
+            let (grid, nominal, errors) = (&self.grid, nominal.clone(), self.errors);
+            outcomes(plan, parts, self.isa, runs, &Wanted { request, grid, end, nominal, errors })
+        };
+        let own = fly(self.plan, 1, self.request, &nominals[0]);
+        let truths = fly(finer, TRUTH.parts, self.reference_request, &nominals[1]);
+        let tolerance = finer.tolerance.relative;
+        let mut found = Vec::with_capacity(statuses.len());
+        for ((own, truth), status) in own.into_iter().zip(truths).zip(statuses) {
+            let audited = refused(status).and_then(|()| match (own.status, truth.status) {
+                (Status::Done, Status::Done) => Ok(()),
+                (Status::Done, of_truth) => Err(NoAudit::Reference(of_truth)),
+                (of_run, _) => Err(NoAudit::Run(of_run)),
+            });
+            found.push(audited.map(|()| {
+                let rotation = own.error(&truth, self.grid.times());
+                let low = StateTable::new(truth.table.fields(), truth.table.wheels(), truth.table.points());
+                let reference = ReferenceSolution { high: truth.table, low };
+                let debris = || RotationError::largest(debris_rotation_errors(&reference, &self.grid, &own.table));
+                let debris = self.request.debris.then(debris);
+                self.found(rotation, debris, tolerance, [&own.row, &truth.row])
+            }));
         }
+        found
     }
 
     /// Audits `run` against the reference solution of `scene`, which differs only in tests of a wrong kernel.
@@ -244,8 +294,18 @@ impl Auditor {
             }
         });
         let (rotation, debris) = errors?;
+        Ok(self.found(rotation, debris, reference_tolerance, [&self.row, &self.reference_row]))
+    }
+
+    fn found(
+        &self,
+        rotation: RotationError,
+        debris: Option<RotationError>,
+        tolerance: f64,
+        [row, reference]: [&[f64]; 2],
+    ) -> Audit {
         let error = |(own, of_reference): &(usize, Option<usize>)| match of_reference {
-            Some(of_reference) => (self.row[*own] - self.reference_row[*of_reference]).abs(),
+            Some(of_reference) => (row[*own] - reference[*of_reference]).abs(),
             None => f64::NAN,
         };
         let value = |value: &AuditValue| match value {
@@ -253,12 +313,12 @@ impl Auditor {
             AuditValue::Omega => rotation.omega,
             AuditValue::Attitude => rotation.attitude,
             AuditValue::Debris => debris.map_or(f64::NAN, |error| error.state()),
-            AuditValue::Tolerance => reference_tolerance,
-            AuditValue::Estimate => self.row[self.estimate],
-            AuditValue::DebrisEstimate => self.debris_estimate.map_or(f64::NAN, |index| self.row[index]),
+            AuditValue::Tolerance => tolerance,
+            AuditValue::Estimate => row[self.estimate],
+            AuditValue::DebrisEstimate => self.debris_estimate.map_or(f64::NAN, |index| row[index]),
         };
         let values = AuditValue::ALL.iter().map(value).collect();
-        Ok(Audit { values, observables: self.indices.iter().map(error).collect() })
+        Audit { values, observables: self.indices.iter().map(error).collect() }
     }
 
     fn reference_solution(&self, scene: &Scene, fields: StateFields) -> Result<(ReferenceSolution, f64), NoAudit> {
@@ -297,7 +357,7 @@ impl Auditor {
     }
 }
 
-fn compared(request: &Request) -> StateFields {
+pub fn compared(request: &Request) -> StateFields {
     let spacecraft = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
     if request.debris { spacecraft.with(StateField::DebrisRate).with(StateField::DebrisAttitude) } else { spacecraft }
 }

@@ -3,12 +3,14 @@
 use crate::ensemble::audit::Auditor;
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs};
+use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Report;
+use crate::math::lanes::WIDTH;
 use crate::propagation::CompletedRun;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
-use crate::scene::{Arc, Scene};
+use crate::scene::Scene;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -25,19 +27,17 @@ pub(super) struct Batch<'p> {
     pub draws_of_laws: Vec<LawDraw>,
     is_done: Vec<bool>,
     ends: Vec<Option<RunEnd>>,
-    /// Arcs of audited scenes; empty without a law.
-    flown: Vec<Vec<Arc>>,
     runs: ObservedRuns<'p>,
     places_of_law: Range<usize>,
     report: Vec<f64>,
     events: Option<EventFinder<'p>>,
     first_of_events: usize,
-    auditor: Option<Auditor>,
+    auditor: Option<Auditor<'p>>,
 }
 
 impl<'p> Batch<'p> {
     /// Running scenes allocates nothing once warm, unless an event ends them.
-    pub fn new(means: Means<'p>, grid: Grid) -> Self {
+    pub fn new(means: Means<'p>, grid: Grid, errors: LoopErrors) -> Self {
         let Means { plan, request, engines } = means;
         Batch {
             of_campaign: grid.points(),
@@ -47,8 +47,7 @@ impl<'p> Batch<'p> {
             draws_of_laws: Vec::new(),
             is_done: Vec::new(),
             ends: Vec::new(),
-            flown: Vec::new(),
-            runs: means.runs(&grid),
+            runs: means.runs(&grid).judged(errors),
             places_of_law: request.places_of_law(),
             report: vec![f64::NAN; request.places_of_law().len()],
             events: EventFinder::new(plan, &grid, engines),
@@ -60,31 +59,42 @@ impl<'p> Batch<'p> {
     }
 
     pub fn audited(self) -> Self {
-        let auditor = Some(Auditor::new(self.means.plan, self.means.engines.isa, &self.grid));
+        let auditor = Some(Auditor::new(self.means.plan, self.means.engines.isa, &self.grid).under(self.runs.errors));
         Batch { auditor, ..self }
     }
 
     pub fn audit(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
         let Some(auditor) = &mut self.auditor else { return };
         let Means { plan, engines, .. } = self.means;
-        let scenes = self.scenes.iter().zip(&self.rows_of_scenes).zip(&self.is_selected).enumerate();
-        for (index, ((scene, row), _)) in scenes.filter(|(_, (_, selected))| **selected) {
-            let mut of_end = self.ends[index].map(|end| Auditor::new(plan, engines.isa, &end.grid(&self.grid).0));
-            let auditor = of_end.as_mut().unwrap_or(auditor);
-            let status = rows.statuses()[*row];
-            let audit = auditor.audit_flown(scene, self.flown.get(index).map(Vec::as_slice), status);
-            if let Err(why) = &audit {
-                rows.set_audit_reason(*row, why.to_string());
+        let selected = |index: &usize| self.is_selected.get(*index).is_some_and(|is_selected| *is_selected);
+        let selected: Vec<usize> = (0..self.rows_of_scenes.len()).filter(selected).collect();
+        let has_law = plan.law.is_some();
+        // loops that no event ends have one grid, and fly in lanes
+        let together = |a: &usize, b: &usize| has_law && [a, b].iter().all(|index| self.ends[**index].is_none());
+        for group in selected.chunk_by(together).flat_map(|group| group.chunks(WIDTH)) {
+            let end = self.ends[group[0]];
+            let of_end = |end: RunEnd| Auditor::new(plan, engines.isa, &end.grid(&self.grid).0).under(self.runs.errors);
+            let mut of_end = end.map(of_end);
+            let auditor = of_end.as_mut().unwrap_or(&mut *auditor);
+            let rows_of_group: Vec<usize> = group.iter().map(|index| self.rows_of_scenes[*index]).collect();
+            let scenes: Vec<Scene> = group.iter().map(|index| self.scenes[*index].clone()).collect();
+            let draws: Vec<LawDraw> =
+                if has_law { group.iter().map(|index| self.draws_of_laws[*index].clone()).collect() } else { Vec::new() };
+            let statuses: Vec<Status> = rows_of_group.iter().map(|row| rows.statuses()[*row]).collect();
+            let audits = auditor.audit_flown(Runs { scenes: &scenes, draws: &draws }, end, &statuses);
+            for (row, audit) in rows_of_group.into_iter().zip(audits) {
+                if let Err(why) = &audit {
+                    rows.set_audit_reason(row, why.to_string());
+                }
+                rows.set_audit(row, audit.ok());
+                report.add(u64::MAX);
             }
-            rows.set_audit(*row, audit.ok());
-            report.add(u64::MAX);
         }
     }
 
     /// Runs the scenes. After a panic, unfinished scenes run again one by one in new memory, so that it ends one run
     /// only.
     pub fn propagate(&mut self, rows: &mut Rows, report: &mut Report<'_>) {
-        self.flown.iter_mut().for_each(Vec::clear);
         self.is_done.clear();
         self.is_done.resize(self.rows_of_scenes.len(), false);
         self.ends.clear();
@@ -117,7 +127,7 @@ impl<'p> Batch<'p> {
     }
 
     fn renew(&mut self) {
-        self.runs = self.means.runs(&self.grid);
+        self.runs = self.means.runs(&self.grid).judged(self.runs.errors);
     }
 
     fn report_laws(&mut self, which: Range<usize>, rows: &mut Rows) {
@@ -139,11 +149,8 @@ impl<'p> Batch<'p> {
         let (Means { plan, engines, .. }, first_scene) = (self.means, which.start);
         let has_law = plan.law.is_some();
         let draws = if has_law { &self.draws_of_laws[which.clone()] } else { &[] };
-        if has_law && !self.is_selected.is_empty() {
-            self.flown.resize_with(self.flown.len().max(which.end), Vec::new);
-        }
         let runs = Runs { scenes: &self.scenes[which.clone()], draws };
-        let (rows_of_scenes, flown, is_done) = (&self.rows_of_scenes[which], &mut self.flown, &mut self.is_done);
+        let (rows_of_scenes, is_done) = (&self.rows_of_scenes[which], &mut self.is_done);
         let (is_selected, of_campaign) = (&self.is_selected, self.of_campaign);
         let events = &mut self.events;
         if let Some(events) = events {
@@ -153,16 +160,12 @@ impl<'p> Batch<'p> {
             if events.as_mut().is_some_and(|events| events.look(&run, observer, status)) {
                 return;
             }
-            let CompletedRun { index, table, outcome, arcs } = run;
+            let CompletedRun { index, table, outcome, .. } = run;
             let row = rows_of_scenes[index];
             let sample = rows.samples()[row];
             rows.set_result(row, status, observed);
             is_done[first_scene + index] = true;
             let is_audited = is_selected.get(first_scene + index).is_some_and(|selected| *selected);
-            if is_audited && let Some(flown) = flown.get_mut(first_scene + index) {
-                flown.clear();
-                flown.extend(arcs.iter());
-            }
             if !is_audited {
                 report.add(outcome.effort.evaluations);
             }
@@ -193,7 +196,7 @@ impl<'p> Batch<'p> {
         for scene in which {
             let Some(end) = self.ends[scene].filter(|_| !self.is_done[scene]) else { continue };
             let (grid, of_campaign) = end.grid(&self.grid);
-            let mut own = Batch::new(self.means, grid);
+            let mut own = Batch::new(self.means, grid, self.runs.errors);
             own.events = own.events.map(|events| events.ended_by(Some(end)));
             own.of_campaign = of_campaign;
             own.scenes.push(self.scenes[scene].clone());
@@ -202,9 +205,6 @@ impl<'p> Batch<'p> {
             own.draws_of_laws.extend(self.draws_of_laws.get(scene).cloned());
             own.propagate(rows, report);
             self.is_done[scene] = true;
-            if let (Some(flown), Some(of_end)) = (self.flown.get_mut(scene), own.flown.pop()) {
-                *flown = of_end;
-            }
         }
     }
 }

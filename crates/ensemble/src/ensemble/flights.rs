@@ -2,8 +2,8 @@
 
 use crate::campaign::{Plan, event_columns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
-use crate::dynamics::effects::beside_arcs;
 use crate::dynamics::orbit_path::OrbitPath;
+use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::loops::loop_record::SharedRecord;
@@ -15,7 +15,7 @@ use crate::observables::{FlownRun, Group, LawSeries, Observer, Request};
 use crate::propagation::{CompletedRun, Engine, PropagationSettings};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry};
 use crate::sampling::SampleId;
-use crate::scene::{Arc, ControlInput, Scene, SceneInput};
+use crate::scene::{ControlInput, Scene, SceneInput};
 use std::slice::from_ref;
 
 /// The draws of a run's law, besides its scene.
@@ -59,6 +59,7 @@ pub struct Flights<'p> {
     times: Vec<f64>,
     end: f64,
     records: bool,
+    parts: u32,
     engines: Engines,
     ends_at_surface: bool,
 }
@@ -76,6 +77,7 @@ impl<'p> Flights<'p> {
             laws: plan.law.as_ref().map(|law| (law.runs(), nominal(plan))),
             over_time: Vec::new(),
             records: false,
+            parts: 1,
             engines,
             ends_at_surface: plan.nominal.orbit.is_some(),
         }
@@ -83,6 +85,11 @@ impl<'p> Flights<'p> {
 
     pub fn recording(self) -> Self {
         Flights { records: true, ..self }
+    }
+
+    /// With each arc of the laws in `parts` parts.
+    pub fn divided(self, parts: u32) -> Self {
+        Flights { parts, ..self }
     }
 
     /// The record of the law of run `run` of the last flight.
@@ -110,7 +117,7 @@ impl<'p> Flights<'p> {
         }
         for (run, (drawn, LawDraw { sample, parameters })) in scenes.iter().zip(draws).enumerate() {
             let nominal_parameters = &self.plan.nominal.control;
-            let (sample, seed, records) = (*sample, self.plan.seed, self.records);
+            let (sample, seed, records, parts) = (*sample, self.plan.seed, self.records, self.parts);
             let (duration, end) = (self.plan.grid.duration(), self.end);
             laws.begin(
                 run,
@@ -125,6 +132,7 @@ impl<'p> Flights<'p> {
                     end,
                     record: self.over_time.get(run),
                     records,
+                    parts,
                 },
             );
         }
@@ -263,18 +271,6 @@ pub fn end_of(run: &CompletedRun<'_>) -> f64 {
     of_law.map_or(run.outcome.time, |end| end.min(run.outcome.time))
 }
 
-/// The scene with the flown arcs, constant effects included, as its schedule: its open loop is that run bit for bit.
-/// Effects that change within an arc still act.
-pub fn replayed(scene: &Scene, arcs: &[Arc]) -> Scene {
-    Scene {
-        schedule: arcs.to_vec(),
-        environment: beside_arcs(scene.environment),
-        commands_thrust: true,
-        commands_torque: true,
-        ..scene.clone()
-    }
-}
-
 #[derive(Clone, Copy, Debug)]
 pub struct Means<'p> {
     pub plan: &'p Plan,
@@ -301,6 +297,7 @@ impl<'p> Means<'p> {
             flights: Flights::new(self.plan, &settings, self.engines),
             observer: Observer::new(self.request, grid).with_nominal(nominal),
             row: vec![f64::NAN; self.request.columns().len()],
+            errors: LoopErrors::default(),
         }
     }
 }
@@ -311,6 +308,8 @@ pub struct ObservedRuns<'p> {
     pub flights: Flights<'p>,
     observer: Observer,
     row: Vec<f64>,
+    /// Runs under a law are judged by these errors, if known.
+    pub errors: LoopErrors,
 }
 
 pub struct ObservedRun<'a> {
@@ -322,9 +321,15 @@ pub struct ObservedRun<'a> {
 }
 
 impl ObservedRuns<'_> {
+    #[must_use]
+    pub fn judged(self, errors: LoopErrors) -> Self {
+        ObservedRuns { errors, ..self }
+    }
+
     pub fn fly(&mut self, runs: Runs<'_>, finish: &mut dyn FnMut(ObservedRun<'_>)) {
-        let ObservedRuns { means: Means { plan, engines, .. }, flights, observer, row } = self;
+        let ObservedRuns { means: Means { plan, engines, .. }, flights, observer, row, errors } = self;
         flights.fly(runs, &mut |run, of_law| {
+            observer.set_loop_error(runs.draws.get(run.index).and_then(|draw| errors.of(draw.sample)));
             let status = observe(plan, observer, engines.isa, &runs.scenes[run.index], (&run, of_law), row);
             finish(ObservedRun { run, of_law, status, observer, row });
         });

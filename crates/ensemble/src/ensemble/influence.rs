@@ -5,7 +5,7 @@
 use crate::campaign::Plan;
 use crate::ensemble::drawn::DrawnScenes;
 use crate::ensemble::probe::{limited, part_of_run};
-use crate::ensemble::single::SingleRun;
+use crate::ensemble::single::SingleRuns;
 use crate::math::Isa;
 use crate::run::Status;
 use crate::sampling::{Design, Dispersions, Draws, SampleId};
@@ -107,7 +107,7 @@ fn row_with(plan: &Plan, isa: Isa, applied: &[f64], is_applied: &dyn Fn(Paramete
         Draws { seed: 0, samples: Some(1), design: &Design::DEFAULT, disperse: &[], correlate: &[], derive: &[] };
     changed.dispersions = Dispersions::new(none, &changed.nominal).ok()?;
     Scene::resolve(&changed.nominal).ok()?;
-    let run = SingleRun::new(&changed, SampleId(0), plan.grid.clone(), isa).ok()?;
+    let run = SingleRuns::new(&changed, plan.grid.clone(), isa, &[], false).run(SampleId(0)).ok()?;
     (run.outcome.status != Status::StepLimit).then(|| run.row.iter().map(|value| value.to_bits()).collect())
 }
 

@@ -15,6 +15,7 @@ pub mod failure_reasons;
 pub mod flights;
 pub mod influence;
 mod lookup;
+pub mod loop_errors;
 pub mod parts;
 mod peak;
 pub mod percentiles;

@@ -1,11 +1,12 @@
 //! [`RunProbe`], [`AuditProbe`]: times of a run and an audit, from the first samples.
 
 use crate::campaign::{Plan, SceneDraws};
-use crate::ensemble::audit::{Auditor, NoAudit};
+use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::failure_reasons::FailureReasons;
+use crate::ensemble::flights::{LawDraw, Runs};
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
-use crate::ensemble::single::SingleRun;
+use crate::ensemble::single::SingleRuns;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
 use crate::ode::PACE_STEPS;
@@ -77,7 +78,8 @@ impl RunProbe {
             let long = rows.statuses().iter().position(|status| *status == Status::StepLimit);
             if let Some(row) = long.filter(|_| plan.max_steps < whole.max_steps) {
                 let sample = rows.samples()[row];
-                let run = SingleRun::new(&plan, sample, Grid::uniform(plan.grid.duration(), 2), isa);
+                let grid = Grid::uniform(plan.grid.duration(), 2);
+                let run = SingleRuns::new(&plan, grid, isa, &[], false).run(sample);
                 let reached = run.map_or(0.0, |run| run.outcome.time);
                 return RunProbe { seconds, rows, too_long: Some(LongRun { sample, reached }) };
             }
@@ -135,9 +137,12 @@ impl AuditProbe {
         let (mut count, mut sample) = (0_u32, 0);
         while sample < plan.samples && start.elapsed().as_secs_f64() < DURATION_S {
             if let Ok(scene) = draws.scene(SampleId(sample)) {
-                if let Err(NoAudit::Run(Status::StepLimit) | NoAudit::Reference(Status::StepLimit)) =
-                    auditor.audit(&scene)
-                {
+                let draw = LawDraw::of(plan, SampleId(sample), draws.drawn());
+                let audits = auditor.audit_flown(Runs::one(&scene, draw.as_slice()), None, &[Status::Done]);
+                let is_too_long = |audit: &Result<Audit, NoAudit>| {
+                    matches!(audit, Err(NoAudit::Run(Status::StepLimit) | NoAudit::Reference(Status::StepLimit)))
+                };
+                if audits.iter().any(is_too_long) {
                     return Err(SampleId(sample));
                 }
                 count += 1;

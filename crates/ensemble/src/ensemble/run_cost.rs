@@ -5,6 +5,7 @@ use crate::campaign::Plan;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
 use crate::ensemble::settings::{Engines, propagator};
+use crate::ensemble::worker::Ensemble;
 use crate::loops::callback::is_law_of;
 use crate::math::Isa;
 use crate::ode::{Control, PACE_STEPS};
@@ -30,6 +31,8 @@ const TICK_S: f64 = 1.5e-5;
 const POINT_S: f64 = 5e-7;
 /// Work of an audit over its run's: double-double at a tolerance of 1e-28.
 const AUDIT: f64 = 300.0;
+/// The same under a law: the loop, and again in thirds of its arcs.
+const AUDIT_OF_LOOP: f64 = 6.0;
 
 /// Samples of a part under a callback that serves many runs at once: more parts make larger calls.
 const SERVED: u64 = 64;
@@ -39,11 +42,12 @@ fn has_callback(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
 
-pub fn parts(plan: &Plan, isa: Isa) -> Parts {
+pub fn parts(ensemble: &Ensemble<'_>) -> Parts {
+    let plan = ensemble.plan();
     if has_callback(plan) {
         return Parts::up_to(plan.rows(), SERVED);
     }
-    parts_of_runs(plan, run_seconds(plan, isa))
+    parts_of_runs(plan, ensemble.run_seconds())
 }
 
 pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {
@@ -70,7 +74,8 @@ pub fn run_seconds(plan: &Plan, isa: Isa) -> f64 {
     let each = evaluation_seconds(plan.method);
     let ticks = plan.loop_spec().map_or(0.0, |spec| plan.grid.duration() / spec.period);
     let run = evaluations.min(most) * each + ticks * TICK_S + plan.grid.points() as f64 * POINT_S;
-    run * (1.0 + AUDIT * plan.audit_fraction)
+    let audit = if plan.law.is_some() { AUDIT_OF_LOOP } else { AUDIT };
+    run * (1.0 + audit * plan.audit_fraction)
 }
 
 /// Time of a page, s, besides a tenth of its campaign.

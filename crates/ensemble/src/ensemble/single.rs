@@ -3,8 +3,9 @@
 use super::threads::{Threads, unpoisoned};
 use crate::campaign::{Plan, SceneDraws};
 use crate::ensemble::audit::{Audit, Auditor, NoAudit};
-use crate::ensemble::event_finder::{self, EndFinder, EventFinder};
+use crate::ensemble::event_finder::{self, EndFinder, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe};
+use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
 use crate::math::Isa;
@@ -41,6 +42,9 @@ pub struct SingleRun {
     /// The row in a campaign on this grid, with the columns of [`SingleRun::request`].
     pub row: Vec<f64>,
     pub request: Request,
+    draw: Option<LawDraw>,
+    errors: LoopErrors,
+    end: Option<RunEnd>,
 }
 
 impl SingleRun {
@@ -49,16 +53,19 @@ impl SingleRun {
     /// # Errors
     /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
-        SingleRuns::new(plan, grid, isa, &GROUPS, false).run(sample)
+        let mut runs = SingleRuns::new(plan, grid, isa, &GROUPS, false);
+        runs.runs.errors = LoopErrors::measured(plan, isa, [sample == SampleId(0), sample != SampleId(0)]);
+        runs.run(sample)
     }
 
-    /// Compares the run with the reference solution, which flies the arcs of a control law.
+    /// Compares the run with the reference solution; under a control law, with the same loop at a tighter tolerance.
     ///
     /// # Errors
     /// A failure of the run or its reference solution, or the limit of work.
     pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
-        let arcs = plan.law.as_ref().map(|_| &self.arcs[..]);
-        Auditor::new(plan, isa, &self.grid).audit_flown(&self.scene, arcs, self.outcome.status)
+        let run = Runs::one(&self.scene, self.draw.as_slice());
+        let mut auditor = Auditor::new(plan, isa, &self.grid).under(self.errors);
+        auditor.audit_flown(run, self.end, &[self.outcome.status]).swap_remove(0)
     }
 }
 
@@ -76,6 +83,7 @@ pub struct SingleRuns<'p> {
     series_observer: Observer,
     events: Option<EventFinder<'p>>,
     ignored: Vec<f64>,
+    ended: Option<RunEnd>,
 }
 
 impl<'p> SingleRuns<'p> {
@@ -105,6 +113,7 @@ impl<'p> SingleRuns<'p> {
             request,
             shown,
             ends: None,
+            ended: None,
             is_replay,
             runs,
             series_observer: Observer::new(shown, &grid).with_nominal(nominal),
@@ -134,6 +143,7 @@ impl<'p> SingleRuns<'p> {
         };
         let grid = end.grid(&self.grid).0;
         let mut ended = Self::without_ends(plan, grid, self.isa, [self.request, self.shown], self.is_replay);
+        (ended.runs.errors, ended.ended) = (self.runs.errors, Some(end));
         ended.events = ended.events.map(|events| events.ended_by(Some(end)));
         Ok(ended.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0))
     }
@@ -160,7 +170,7 @@ impl<'p> SingleRuns<'p> {
     fn fly(&mut self, runs: Runs<'_>) -> Vec<SingleRun> {
         let (isa, series_observer) = (self.isa, &mut self.series_observer);
         let (plan, ignored, events, grid) = (self.plan, &mut self.ignored, &mut self.events, &self.grid);
-        let request = self.request;
+        let (request, errors, end) = (self.request, self.runs.errors, self.ended);
         let mut flown: Vec<Option<SingleRun>> = vec![None; runs.scenes.len()];
         if let Some(events) = events {
             events.restart(runs.scenes.len());
@@ -184,6 +194,9 @@ impl<'p> SingleRuns<'p> {
                 telemetry: Telemetry::default(),
                 row: row.to_vec(),
                 request,
+                draw: runs.draws.get(run.index).cloned(),
+                errors,
+                end,
             });
         });
         let every = "the propagator finishes every scene that it is given";

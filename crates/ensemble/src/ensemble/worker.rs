@@ -6,13 +6,14 @@ use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::batch::Batch;
 use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Means, Runs};
+use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::parts::Part;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::ensemble::run_cost::thread_seconds;
+use crate::ensemble::run_cost::{run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
-use crate::observables::Request;
+use crate::observables::{Group, Request};
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
 use crate::propagation::PropagationSettings;
@@ -29,13 +30,15 @@ pub struct Ensemble<'p> {
     propagator: PropagationSettings,
     /// Bands without runs, made on first use by the nominal run.
     bands: OnceLock<Option<PartBands>>,
+    errors: OnceLock<LoopErrors>,
+    seconds: Arc<OnceLock<f64>>,
 }
 
 impl<'p> Ensemble<'p> {
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
         let means = Means::new(plan, Engines::of(isa));
         let propagator = propagator(plan, plan.grid.clone(), means.request.fields());
-        Ensemble { means, propagator, bands: OnceLock::new() }
+        Ensemble { means, propagator, bands: OnceLock::new(), errors: OnceLock::new(), seconds: Arc::default() }
     }
 
     /// With the caller's engines for all runs; audits keep their reference. A run must depend on its scene alone.
@@ -94,11 +97,30 @@ impl<'p> Ensemble<'p> {
         Some(PartBands::new(layout, reader, plan.last_counted()))
     }
 
+    /// Keeps the time of a run where other ensembles of the plan find it.
+    #[must_use]
+    pub fn counted_in(self, seconds: Arc<OnceLock<f64>>) -> Self {
+        Ensemble { seconds, ..self }
+    }
+
+    /// The longest time of a run on one core, s ([`run_seconds`]).
+    pub fn run_seconds(&self) -> f64 {
+        *self.seconds.get_or_init(|| run_seconds(self.plan(), self.isa()))
+    }
+
+    fn errors(&self) -> LoopErrors {
+        let plan = self.plan();
+        let is_judged = self.request().groups.contains(Group::Numerics);
+        let rows = [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()];
+        let wanted = rows.map(|rows| is_judged && rows > 0);
+        *self.errors.get_or_init(|| LoopErrors::measured(plan, self.isa(), wanted))
+    }
+
     /// Running samples does not allocate once warm.
     pub fn worker(&self) -> Worker<'_> {
         let plan = self.plan();
         let is_audited = plan.audit_fraction > 0.0;
-        let batch = Batch::new(self.means, plan.grid.clone());
+        let batch = Batch::new(self.means, plan.grid.clone(), self.errors());
         Worker {
             campaign: self,
             draws: SceneDraws::new(plan),

@@ -66,7 +66,7 @@ pub struct Head {
 impl Head {
     /// For `ensemble`, with parts of `largest_part` samples, else sized by counted work.
     pub fn of(ensemble: &Ensemble<'_>, largest_part: Option<u64>) -> Self {
-        let largest_part = largest_part.unwrap_or_else(|| parts(ensemble.plan(), ensemble.isa()).largest());
+        let largest_part = largest_part.unwrap_or_else(|| parts(ensemble).largest());
         Head { identity: identity(ensemble), largest_part }
     }
 

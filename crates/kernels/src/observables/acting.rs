@@ -54,6 +54,11 @@ impl<'a> Acting<'a> {
         }
     }
 
+    /// True if a law decides.
+    pub fn is_flown(&self) -> bool {
+        matches!(self.arcs, Arcs::Flown(_))
+    }
+
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }

@@ -64,7 +64,7 @@ const PER_AXIS: f64 = 0.577_350_269_189_625_8;
 const SAFETY: f64 = 2.0;
 
 /// Half a turn: nothing is known.
-const LOST: f64 = core::f64::consts::PI;
+pub const LOST: f64 = core::f64::consts::PI;
 
 const NOISE: f64 = 4.0 * f64::EPSILON;
 

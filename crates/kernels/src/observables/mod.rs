@@ -19,6 +19,7 @@ pub(crate) mod group;
 pub mod headlines;
 mod inputs;
 pub(crate) mod law_columns;
+pub mod loop_error;
 mod measure;
 mod momenta;
 mod motion;
@@ -40,6 +41,7 @@ pub mod window;
 
 pub use group::{Group, Groups};
 pub use law_columns::{LawColumn, LawColumns, LawSeries};
+pub use loop_error::LoopError;
 pub use observer::{FlownRun, Observer};
 pub use reduction::{ChangeStatistic, ErrorStatistic, OrderStatistic, Reduction, ValueStatistic};
 pub use request::Request;

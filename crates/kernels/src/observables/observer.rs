@@ -11,6 +11,7 @@ use super::conditioning::{Conditioning, ErrorEstimate, ObservedStates};
 use super::exchange::{BodyEnergy, Exchange, exchange};
 use super::finished_run::{FinishedRun, final_point, principal_moments};
 use super::group::Group;
+use super::loop_error::LoopError;
 use super::measure::measure;
 use super::nominal_attitude::NominalAttitude;
 use super::points::{Magnetism, MeasuredRun, SeriesTable};
@@ -65,6 +66,8 @@ pub struct Observer {
     nominal: Option<NominalAttitude>,
     windows: Vec<(Window, Range<usize>)>,
     accuracy: Accuracy,
+    /// Errors of the next run under a law.
+    loop_error: Option<LoopError>,
     filled: usize,
 }
 
@@ -92,6 +95,7 @@ impl Observer {
             nominal: None,
             windows: request.windows.iter().map(|window| (*window, window.points(grid.times()))).collect(),
             accuracy: Accuracy::new(&request),
+            loop_error: None,
             filled: 0,
         }
     }
@@ -100,6 +104,11 @@ impl Observer {
     #[must_use]
     pub fn with_nominal(self, nominal: Option<NominalAttitude>) -> Self {
         Observer { nominal, ..self }
+    }
+
+    /// Sets the errors that the next runs under laws carry on; unknown errors (`None`) are not judged.
+    pub fn set_loop_error(&mut self, of_loop: Option<LoopError>) {
+        self.loop_error = of_loop;
     }
 
     /// The request.
@@ -191,7 +200,8 @@ impl Observer {
             self.plan.clear_unknown(row);
             return outcome.status;
         }
-        if self.accuracy.holds(row) { Status::Done } else { Status::Inaccurate }
+        let is_judged = !acting.is_flown() || self.loop_error.is_some_and(|of_loop| !of_loop.outcomes_agree);
+        if self.accuracy.holds(row, is_judged) { Status::Done } else { Status::Inaccurate }
     }
 
     /// Why the run of `row`, with the status from [`Observer::observe`], is not `ok`; else empty.
@@ -292,7 +302,13 @@ impl Work for Observation<'_> {
         }
         if let Some(conditioning) = &mut observer.conditioning {
             let states = ObservedStates { table, times: &observer.times, filled: points, local: &outcome.local_errors };
-            observer.estimate = conditioning.estimate(simd, acting, states);
+            observer.estimate = match observer.loop_error {
+                Some(of_loop) if acting.is_flown() => {
+                    of_loop.estimate(table, &observer.times, points, &outcome.local_errors)
+                }
+                None if acting.is_flown() => ErrorEstimate::UNKNOWN,
+                _ => conditioning.estimate(simd, acting, states),
+            };
             if let Some(body) = debris {
                 let states = ObservedStates { local: &outcome.debris_errors, ..states };
                 observer.debris_estimate = conditioning.estimate_debris(simd, body.inertia, states);

@@ -21,5 +21,5 @@ pub mod trajectory_recorder;
 pub use engine::{CompletedRun, CompletionCallback, Engine};
 pub use method::Method;
 pub use null_space_runs::NullSpaceRuns;
-pub use rotation_errors::{RotationError, debris_rotation_errors, rotation_errors};
+pub use rotation_errors::{RotationError, debris_rotation_errors, rotation_difference, rotation_errors};
 pub use settings::PropagationSettings;

@@ -1,7 +1,8 @@
 //! [`rotation_errors`]: errors of a run's rotation against its reference solution, in all digits of the latter.
 
 use super::taylor::reference_solution::ReferenceSolution;
-use crate::run::{Grid, StateField, StateTable, rate_scale};
+use crate::math::vector::{difference, norm};
+use crate::run::{Grid, StateField, StateTable, rate_scale, rate_scale_of};
 
 /// Error of the rotation at one observation point, or the largest of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +30,21 @@ impl RotationError {
 
 fn larger_or_nan(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
+}
+
+/// The largest difference of `table` from `truth` over the first `filled` of `times`.
+pub fn rotation_difference(truth: &StateTable, table: &StateTable, times: &[f64], filled: usize) -> RotationError {
+    let scale = rate_scale_of(truth, times, filled);
+    RotationError::largest((0..filled).map(|point| {
+        let rate = |table: &StateTable| table.at::<3>(StateField::Rate, point);
+        let [a, b] = [truth, table].map(|table| table.at::<4>(StateField::Attitude, point));
+        let turned = |sign: f64| {
+            let squares = a.iter().zip(b).map(|(a, b)| (a - sign * b) * (a - sign * b));
+            2.0 * squares.sum::<f64>().sqrt()
+        };
+        let omega = norm(difference(rate(truth), rate(table))) / scale;
+        RotationError { omega, attitude: turned(1.0).min(turned(-1.0)) }
+    }))
 }
 
 /// The error at each point of `table` on `grid`.

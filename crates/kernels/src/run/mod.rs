@@ -9,7 +9,7 @@ mod telemetry;
 mod trajectory;
 
 pub use grid::{Grid, points_before, points_to};
-pub use outcome::{LocalErrors, Outcome, Status, StepStatistics, rate_scale};
+pub use outcome::{LocalErrors, Outcome, Status, StepStatistics, rate_scale, rate_scale_of};
 pub use quantity::Quantity;
 pub use state_field::{StateField, StateFields};
 pub use state_table::StateTable;

@@ -1,6 +1,8 @@
 //! Outcome and effort of a run.
 
 use crate::math::enumeration::named;
+use super::state_field::StateField;
+use super::state_table::StateTable;
 use crate::math::real::Real;
 
 named! {
@@ -90,6 +92,13 @@ pub fn rate_scale(largest: f64, duration: f64) -> f64 {
     if duration > 0.0 { largest.larger(1.0 / duration) } else { 1.0 }
 }
 
+/// [`rate_scale`] of a run with the states `table` at the first `filled` of `times`.
+pub fn rate_scale_of(table: &StateTable, times: &[f64], filled: usize) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|axis| &table.column(StateField::Rate, axis)[..filled]);
+    let square = |point: usize| x[point] * x[point] + y[point] * y[point] + z[point] * z[point];
+    rate_scale((0..filled).map(square).fold(0.0, f64::max).sqrt(), times[filled - 1])
+}
+
 /// Estimated errors of the rotational state over all steps of a run, added in magnitude, before their amplification by
 /// the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -107,4 +116,9 @@ pub struct LocalErrors {
 impl LocalErrors {
     /// No errors.
     pub const NONE: LocalErrors = LocalErrors { truncation: 0.0, rounding: 0.0, feedback: 0.0, attitude: 0.0 };
+
+    /// Their sum, with errors of omega relative to `scale`, rad/s ([`rate_scale`]).
+    pub fn total(&self, scale: f64) -> f64 {
+        (self.truncation + self.feedback) / scale + self.rounding + self.attitude
+    }
 }

@@ -29,6 +29,8 @@ pub struct LawContext<'a> {
     pub record: Option<&'a SharedRecord>,
     /// True if the law records telemetry ([`crate::dynamics::actuation::ActuationLaw::telemetry`]).
     pub records: bool,
+    /// Number of arcs, of equal lengths, into which each arc of the law is divided; 1 except in twins of runs.
+    pub parts: u32,
 }
 
 impl LawContext<'_> {

@@ -153,7 +153,8 @@ impl LawRuns {
         // both answer at the first arc
         let answers = [Actuation::none(f64::NEG_INFINITY); 2];
         let schedule = if self.make.spec().is_some() { Vec::new() } else { context.drawn.schedule.clone() };
-        let begun = BesideSchedule { schedule, law, answers };
+        let divided = (context.parts > 1).then_some((context.parts, context.end));
+        let begun = BesideSchedule { schedule, law, answers, divided, held: (answers[0], 0.0) };
         match self.laws.get(run) {
             Some(place) => *place.lock() = begun,
             None => self.laws.push(SharedLaw(Arc::new(Mutex::new(begun)))),
@@ -188,10 +189,26 @@ struct BesideSchedule {
     law: Box<dyn ActuationLaw + Send>,
     /// Last arcs of schedule and law.
     answers: [Actuation; 2],
+    /// Number of parts of each arc, and the end of the run, s.
+    divided: Option<(u32, f64)>,
+    /// The arc that is divided, and the length of a part, s.
+    held: (Actuation, f64),
 }
 
 impl BesideSchedule {
     fn arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
+        let Some((parts, end)) = self.divided else { return self.whole_arc(time, body, wheels) };
+        if time >= self.held.0.until {
+            let arc = self.whole_arc(time, body, wheels);
+            self.held = (arc, (arc.until.min(end) - time) / f64::from(parts));
+        }
+        let (arc, length) = self.held;
+        // the last part ends as the arc does
+        let is_last = arc.ends_run || time + 1.5 * length >= arc.until.min(end) || !(time + length > time);
+        Actuation { until: if is_last { arc.until } else { time + length }, ..arc }
+    }
+
+    fn whole_arc(&mut self, time: f64, body: &BodyState, wheels: &WheelState) -> Actuation {
         if self.schedule.is_empty() {
             return self.law.arc(time, body, wheels);
         }

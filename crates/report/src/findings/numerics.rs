@@ -13,6 +13,7 @@ use crate::findings::names;
 use crate::findings::number::{self, counted, short};
 use crate::findings::outcome::shown;
 use crate::findings::requirement::{LAUNCHED, NOT_LAUNCHED, against};
+use crate::observables::accuracy::INACCURATE_STATE;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
 use crate::statistics::quantile::percent;
 use crate::statistics::spread::Spread;
@@ -172,6 +173,10 @@ const ERRORS: [(&str, &str); 5] = [
     ("debris_state_error_estimate", "estimated state error of the debris"),
 ];
 
+/// Only loops whose outcomes are proved have computed runs with such an error.
+const PARTING: &str = "where states of two runs that differ by rounding part for good (a pulse that fires or not), \
+    while their outcomes agree to 0.1%: runs are judged by outcomes";
+
 /// Largest errors, audits and runs to look at: the worst against the requirements, the worst of each observable, those
 /// in `required` first, those with the largest errors, and the first with each failure.
 pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) -> Vec<Finding> {
@@ -183,7 +188,11 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
     let errors: Vec<Number> = ERRORS.iter().filter_map(largest).collect();
     let mut found = Vec::new();
     if !errors.is_empty() {
-        let said: Vec<String> = errors.iter().map(|one| format!("{} {}", one.name, one.text())).collect();
+        let mut said: Vec<String> = errors.iter().map(|one| format!("{} {}", one.name, one.text())).collect();
+        let state = statistics.column(STATE_ERROR_ESTIMATE.name()).and_then(|column| column.moments.max());
+        if state.is_some_and(|error| error >= INACCURATE_STATE) {
+            said.push(PARTING.to_owned());
+        }
         let said = Finding::new(Kind::Numerics, "errors", "largest numerical errors, relative", said.join(", "));
         found.push(Finding { numbers: errors, rank: 1, ..said });
     }

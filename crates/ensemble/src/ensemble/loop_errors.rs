@@ -1,0 +1,215 @@
+//! [`LoopErrors`]: what the control loop of a plan does to the errors of its runs, measured on pilots
+//! ([`crate::observables::loop_error`]).
+//!
+//! Pilots are the nominal sample, which is judged by itself, and the first drawn samples, which judge all others. They
+//! depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits and ticks, but
+//! no step: the twin's arcs are halved and its tolerance is a thousandth.
+
+use crate::campaign::{Plan, Requirement, SceneDraws};
+use crate::ensemble::audit::compared;
+use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
+use crate::ensemble::flights::{Flights, LawDraw, Means, Runs, end_of, nominal_attitude};
+use crate::ensemble::settings::{Engines, propagator};
+use crate::math::Isa;
+use crate::observables::nominal_attitude::NominalAttitude;
+use crate::observables::loop_error::{LoopError, Pilot};
+use crate::observables::Request;
+use crate::ode::Tolerance;
+use crate::propagation::{RotationError, rotation_difference};
+use crate::run::{Grid, LocalErrors, StateField, StateFields, StateTable, Status, points_to, rate_scale_of};
+use crate::sampling::SampleId;
+use std::ops::Range;
+
+/// Number of drawn pilots: with the nominal sample they fill the lanes.
+const DRAWN: u64 = 7;
+
+/// How much finer a loop is integrated than in its campaign.
+#[derive(Clone, Copy, Debug)]
+pub struct Finer {
+    /// Parts of each arc.
+    pub parts: u32,
+    /// Factor on the tolerance.
+    tolerance: f64,
+    /// Factor on the step of fixed-step methods.
+    step: f64,
+}
+
+pub const TWIN: Finer = Finer { parts: 2, tolerance: 1e-3, step: 0.25 };
+pub const TRUTH: Finer = Finer { parts: 3, tolerance: 1e-5, step: 0.125 };
+
+/// Smallest tolerance of the finer runs: rounding rejects steps below.
+const LEAST: f64 = 1e-15;
+
+impl Finer {
+    pub fn plan(self, plan: &Plan) -> Plan {
+        let Tolerance { relative, absolute } = plan.tolerance;
+        let factor = (relative * self.tolerance).max(LEAST).min(relative) / relative;
+        let tolerance = Tolerance { relative: relative * factor, absolute: absolute * factor };
+        let max_steps = plan.max_steps.saturating_mul(64);
+        Plan { tolerance, step_s: plan.step_s.map(|step| step * self.step), max_steps, ..plan.clone() }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoopErrors {
+    nominal: Option<LoopError>,
+    drawn: Option<LoopError>,
+}
+
+/// A run with the states that are compared.
+pub struct Flown {
+    pub table: StateTable,
+    pub filled: usize,
+    pub status: Status,
+    pub local: LocalErrors,
+    /// Its row without columns of a nominal run, if observed.
+    pub row: Vec<f64>,
+}
+
+impl Flown {
+    /// The error of this run against `truth`; infinite if they end differently.
+    pub fn error(&self, truth: &Flown, times: &[f64]) -> RotationError {
+        let filled = self.filled.min(truth.filled);
+        if self.status != truth.status || self.filled.abs_diff(truth.filled) > 1 || filled == 0 {
+            return RotationError { omega: f64::INFINITY, attitude: f64::INFINITY };
+        }
+        rotation_difference(&truth.table, &self.table, times, filled)
+    }
+
+    /// A run that reached its end, and its twin.
+    fn pilot(&self, twin: &Flown, grid: &Grid) -> Option<Pilot> {
+        let made = || self.local.total(rate_scale_of(&self.table, grid.times(), self.filled));
+        let is_whole = self.status == Status::Done && self.filled > 0;
+        is_whole.then(|| Pilot { error: self.error(twin, grid.times()).state(), made: made() })
+    }
+}
+
+impl LoopErrors {
+    /// For the run with the noise of `sample`.
+    pub fn of(self, sample: SampleId) -> Option<LoopError> {
+        if sample == SampleId(0) { self.nominal } else { self.drawn }
+    }
+
+    /// For the nominal sample, and for all others, where `wanted`; none without a law.
+    pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2]) -> Self {
+        if plan.law.is_none() || wanted == [false; 2] {
+            return LoopErrors::default();
+        }
+        let finer = TWIN.plan(plan);
+        let of_drawn = 1..if wanted[1] { DRAWN + 1 } else { 1 };
+        let samples = wanted[0].then_some(0).into_iter().chain(of_drawn).map(SampleId);
+        let (mut scenes, mut draws, mut source) = (Vec::new(), Vec::new(), SceneDraws::new(plan));
+        for sample in samples {
+            // a list has what it has, and some draws are not physical
+            let Ok(scene) = source.scene(sample) else { continue };
+            scenes.push(scene);
+            draws.extend(LawDraw::of(plan, sample, source.drawn()));
+        }
+        let all = Runs { scenes: &scenes, draws: &draws };
+        let (own, twins) = (states(plan, 1, isa, all), states(&finer, TWIN.parts, isa, all));
+        let nominals = draws.iter().take_while(|draw| draw.sample == SampleId(0)).count();
+        let of = |which: Range<usize>| {
+            let pilots = || own[which.clone()].iter().zip(&twins[which.clone()]);
+            let mut found = LoopError::of_pilots(pilots().filter_map(|(own, twin)| own.pilot(twin, &plan.grid)));
+            if found.parts {
+                let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which.clone()] };
+                found.outcomes_agree = outcomes_agree([(plan, 1), (&finer, TWIN.parts)], isa, runs);
+            }
+            found
+        };
+        LoopErrors {
+            nominal: wanted[0].then(|| of(0..nominals)),
+            drawn: wanted[1].then(|| of(nominals..scenes.len())),
+        }
+    }
+}
+
+/// Largest difference of equal outcomes, as a share of the largest value among the pilots: below the digits that are
+/// printed.
+const EQUAL: f64 = 1e-3;
+
+/// True if what the file requires, lists or locates in time, and the columns of the law, are equal in `runs` of both
+/// plans.
+fn outcomes_agree(plans: [(&Plan, u32); 2], isa: Isa, runs: Runs<'_>) -> bool {
+    let (plan, _) = plans[0];
+    let request = plan.request();
+    let [own, twins] = plans.map(|(plan, parts)| {
+        outcomes(plan, parts, isa, runs, &Wanted::of(plan, request, &plan.grid, isa))
+    });
+    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
+    let named: Vec<&str> = required.chain(plan.analysis.summary_columns.iter().map(String::as_str)).collect();
+    let columns = request.columns();
+    let is_named = |place: &usize| columns.get(*place).is_some_and(|column| named.contains(&column.quantity.name()));
+    let of_law = request.places_of_law().start;
+    let mut places = (0..of_law).filter(is_named).chain(of_law..columns.len());
+    places.all(|place| {
+        let pairs = || own.iter().zip(&twins).map(|(own, twin)| [own.row[place], twin.row[place]]);
+        let largest = pairs().flatten().filter(|value| value.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()));
+        pairs().all(|[own, twin]| (own - twin).abs() <= EQUAL * largest || own.is_nan() && twin.is_nan())
+    })
+}
+
+const COMPARED: StateFields = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
+
+/// `runs` of `plan` with the arcs of their laws in `parts`, without rows.
+fn states(plan: &Plan, parts: u32, isa: Isa, runs: Runs<'_>) -> Vec<Flown> {
+    let mut found: Vec<Option<Flown>> = runs.scenes.iter().map(|_| None).collect();
+    let settings = propagator(plan, plan.grid.clone(), COMPARED);
+    let times = plan.grid.times();
+    Flights::new(plan, &settings, Engines::of(isa)).divided(parts).fly(runs, &mut |run, _| {
+        let filled = run.outcome.points.min(points_to(times, end_of(&run)));
+        let (status, local) = (run.outcome.status, run.outcome.local_errors);
+        found[run.index] = Some(Flown { table: run.table.clone(), filled, status, local, row: Vec::new() });
+    });
+    found.into_iter().flatten().collect()
+}
+
+/// What is observed of runs that are compared.
+pub struct Wanted<'a> {
+    pub request: Request,
+    pub grid: &'a Grid,
+    pub end: Option<RunEnd>,
+    pub nominal: Option<NominalAttitude>,
+    pub errors: LoopErrors,
+}
+
+impl<'a> Wanted<'a> {
+    pub fn of(plan: &Plan, request: Request, grid: &'a Grid, isa: Isa) -> Self {
+        let nominal = nominal_attitude(plan, &request, grid, isa);
+        Wanted { request, grid, end: None, nominal, errors: LoopErrors::default() }
+    }
+}
+
+/// `runs` of `plan` with the arcs of their laws in `parts`, with rows: columns of law and events included.
+pub fn outcomes(plan: &Plan, parts: u32, isa: Isa, runs: Runs<'_>, wanted: &Wanted<'_>) -> Vec<Flown> {
+    let Wanted { request, grid, end, nominal, errors } = wanted;
+    let means = Means { request: *request, ..Means::new(plan, Engines::of(isa)) };
+    let mut observed = means.runs_with(grid, compared(request).union(request.fields()), nominal.clone()).judged(*errors);
+    observed.flights = observed.flights.divided(parts);
+    let mut events = EventFinder::new(plan, grid, means.engines).map(|events| events.ended_by(*end));
+    if let Some(events) = &mut events {
+        events.restart(runs.scenes.len());
+    }
+    let mut found: Vec<Option<Flown>> = runs.scenes.iter().map(|_| None).collect();
+    observed.fly(runs, &mut |seen| {
+        if let Some(events) = &mut events {
+            events.look(&seen.run, seen.observer, seen.status);
+        }
+        let filled = seen.run.outcome.points.min(points_to(grid.times(), end_of(&seen.run)));
+        let (status, local) = (seen.run.outcome.status, seen.run.outcome.local_errors);
+        let (table, row) = (seen.run.table.clone(), seen.row.to_vec());
+        found[seen.run.index] = Some(Flown { table, filled, status, local, row });
+    });
+    let mut found: Vec<Flown> = found.into_iter().flatten().collect();
+    if let Some(events) = &mut events {
+        events.locate(runs);
+    }
+    for (run, flown) in found.iter_mut().enumerate().filter(|(_, flown)| flown.status == Status::Done) {
+        observed.flights.report(run, &mut flown.row[request.places_of_law()]);
+        if let Some(events) = &events {
+            let places = event_finder::places(plan, request);
+            flown.row[places].iter_mut().zip(events.values(run)).for_each(|(place, value)| *place = value);
+        }
+    }
+    found
+}
