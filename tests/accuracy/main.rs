@@ -21,6 +21,7 @@ mod feedback;
 mod golden_truth;
 mod hard_families;
 mod jeod;
+mod loop_errors;
 mod magnetic_torque;
 mod many_wheels;
 mod null_space;

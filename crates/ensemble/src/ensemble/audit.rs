@@ -73,7 +73,7 @@ audit_values! {
         whichever is larger."
     Tolerance "audit_truth_tolerance" "" "Tolerance of the reference solution that the run was compared with: 1e-31 in \
         double-double, 1e-17 there with drag or sunlight, 1e-16 in plain doubles where the run was too long for \
-        double-double."
+        double-double. Under a control law: of the loop that was flown again, in thirds of its arcs."
     Estimate "audit_state_error_estimate" "" "What the run estimates audit_state_error to be: state_error_estimate, \
         whether it is observed or not."
     DebrisEstimate "audit_debris_state_error_estimate" "" "What the run estimates audit_debris_error to be: \

@@ -19,6 +19,7 @@ use crate::propagation::{RotationError, rotation_difference};
 use crate::run::{Grid, LocalErrors, StateField, StateFields, StateTable, Status, points_to, rate_scale_of};
 use crate::sampling::SampleId;
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Number of drawn pilots: with the nominal sample they fill the lanes.
 const DRAWN: u64 = 7;
@@ -105,15 +106,24 @@ impl LoopErrors {
             scenes.push(scene);
             draws.extend(LawDraw::of(plan, sample, source.drawn()));
         }
-        let all = Runs { scenes: &scenes, draws: &draws };
-        let (own, twins) = (states(plan, 1, isa, all), states(&finer, TWIN.parts, isa, all));
+        let plans = [(plan, 1), (&finer, TWIN.parts)];
+        // as in a campaign, a panic ends one run only
+        let fly = |runs| catch_unwind(AssertUnwindSafe(|| plans.map(|(plan, parts)| states(plan, parts, isa, runs)))).ok();
+        let alone = |pilot: usize| {
+            let [own, twins] = fly(Runs { scenes: &scenes[pilot..=pilot], draws: &draws[pilot..=pilot] })?;
+            own.into_iter().next().zip(twins.into_iter().next())
+        };
+        let pairs: Vec<Option<(Flown, Flown)>> = match fly(Runs { scenes: &scenes, draws: &draws }) {
+            Some([own, twins]) => own.into_iter().zip(twins).map(Some).collect(),
+            None => (0..scenes.len()).map(alone).collect(),
+        };
         let nominals = draws.iter().take_while(|draw| draw.sample == SampleId(0)).count();
         let of = |which: Range<usize>| {
-            let pilots = || own[which.clone()].iter().zip(&twins[which.clone()]);
-            let mut found = LoopError::of_pilots(pilots().filter_map(|(own, twin)| own.pilot(twin, &plan.grid)));
+            let pilots = pairs[which.clone()].iter().flatten();
+            let mut found = LoopError::of_pilots(pilots.filter_map(|(own, twin)| own.pilot(twin, &plan.grid)));
             if found.parts {
-                let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which.clone()] };
-                found.outcomes_agree = outcomes_agree([(plan, 1), (&finer, TWIN.parts)], isa, runs);
+                let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which] };
+                found.outcomes_agree = catch_unwind(AssertUnwindSafe(|| outcomes_agree(plans, isa, runs))).unwrap_or(false);
             }
             found
         };

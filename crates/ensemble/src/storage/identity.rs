@@ -21,7 +21,8 @@ pub const FORMAT: u32 = 6;
 /// estimates count steps in part shadow in full. Since 5 what Taylor steps leave out under effects that change within
 /// an arc is added up as vectors, and their growth of errors is averaged. Since 6 estimates follow errors through
 /// repeated periods, past separatrices, and from perigee to perigee. Since 7 steps in penumbra count with their ratio
-/// of error to estimate; since 8 control loops read what depends on the orbit alone from series in time.
+/// of error to estimate. Since 8 control loops read what depends on the orbit alone from series in time, their arcs
+/// start with the step that their controller knows, and their errors are carried on through the closed loop.
 pub const ARITHMETIC: u32 = 8;
 
 /// The identity of rows. Rows of two datasets with the same identity can be mixed.

@@ -7,7 +7,7 @@ use super::request::Request;
 use super::table::{ColumnId, Series, error_id};
 
 /// Estimated error of the rotational state of spacecraft or debris (rad, or relative to the largest rate) of an
-/// `inaccurate` run.
+/// `inaccurate` run; under a law also of pilots whose outcomes are compared ([`super::loop_error`]).
 pub const INACCURATE_STATE: f64 = 0.1;
 /// Relative error of a balance (energy, momentum) of an `inaccurate` run.
 pub const INACCURATE_BALANCE: f64 = 1e-2;

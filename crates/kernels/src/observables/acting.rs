@@ -72,41 +72,30 @@ impl<'a> Acting<'a> {
         last.filter(|arc| arc.applied.ends_run).map(|arc| arc.start)
     }
 
-    /// True if nothing acts in the first `duration` seconds.
-    pub fn is_free(&self, duration: f64) -> bool {
+    /// The arcs of a schedule; a law has none.
+    fn schedule(&self) -> &'a [Arc] {
         match self.arcs {
-            Arcs::Scheduled(arcs) => !self.scene.environment.acts() && arcs.iter().all(|arc| arc.start >= duration),
-            Arcs::Flown(arcs) => arcs.is_empty() || duration <= 0.0,
+            Arcs::Scheduled(arcs) => arcs,
+            Arcs::Flown(_) => &[],
         }
     }
 
+    /// True if nothing acts on a run without a law in the first `duration` seconds.
+    pub fn is_free(&self, duration: f64) -> bool {
+        !self.scene.environment.acts() && self.schedule().iter().all(|arc| arc.start >= duration)
+    }
+
+    /// True if something acts on a run without a law at `time`.
     #[inline(always)]
     pub fn acts(&self, time: f64) -> bool {
-        match self.arcs {
-            Arcs::Scheduled(arcs) => {
-                self.scene.environment.acts() || arcs.iter().any(|arc| arc.start <= time && time <= arc.end())
-            }
-            Arcs::Flown(arcs) => arcs.last().is_some_and(|last| time <= last.end()),
-        }
+        self.scene.environment.acts() || self.schedule().iter().any(|arc| arc.start <= time && time <= arc.end())
     }
 
-    /// Upper bound of the torque on the body, N m.
+    /// Upper bound of the torque on the body of a run without a law, N m.
     #[inline(always)]
     pub fn largest_torque(&self) -> f64 {
-        let changing = largest_changing_torque(self.scene);
-        match self.arcs {
-            Arcs::Scheduled(arcs) => {
-                let effects = largest_constant_torque(self.scene) + changing;
-                arcs.iter().fold(effects, |largest, arc| largest.larger(self.torque(arc, effects)))
-            }
-            Arcs::Flown(arcs) => {
-                let (mut arcs, mut largest) = (arcs.reader(), changing);
-                while let Some(arc) = arcs.next() {
-                    largest = largest.larger(self.torque(arc, changing));
-                }
-                largest
-            }
-        }
+        let effects = largest_constant_torque(self.scene) + largest_changing_torque(self.scene);
+        self.schedule().iter().fold(effects, |largest, arc| largest.larger(self.torque(arc, effects)))
     }
 
     fn torque(&self, arc: &Arc, effects: f64) -> f64 {

@@ -1,0 +1,70 @@
+//! Law: over loops of every kind, `state_error_estimate` covers the error against the loop flown again at a tighter
+//! tolerance in at least 95% of the runs, and is at most 100 times too large in the median; no run is `inaccurate`. A
+//! row does not depend on the number of samples.
+
+use crate::prelude::*;
+use crate::support::plans::seen;
+use spindrift::ensemble::audit::AuditValue;
+use std::fmt::Write as _;
+
+/// A shipped campaign, and what is changed.
+const LOOPS: [(&str, &[(&str, &str)]); 12] = [
+    ("slew_closed", &[]),
+    ("slew_closed", &[("1e-12", "1e-6"), ("\"auto\"", "\"dormand_prince\"")]),
+    ("slew_closed", &[("\"auto\"\ntolerance = 1e-12", "\"runge_kutta_4\"\nstep_s = 0.05")]),
+    ("slew_closed", &[("torque_limit_n_m = 1.0", "torque_limit_n_m = 0.2")]),
+    ("detumble", &[]),
+    ("detumble", &[("1e-12", "1e-7"), ("\"auto\"", "\"dop853\"")]),
+    ("detumble", &[("\"pulse_width\"", "\"hysteresis\"")]),
+    ("point_at_debris", &[("\"10 min\"", "\"2 min\"")]),
+    ("nadir_pointing", &[("\"10 min\"", "\"2 min\"")]),
+    ("detumble_magnetic", &[]),
+    ("detumble_magnetic", &[("1e-10", "1e-6")]),
+    ("detumble_magnetic", &[("1e-10", "1e-8"), ("period_s = 5.0", "period_s = 10.0")]),
+];
+
+const SAMPLES: u64 = 40;
+
+fn plan_of((name, changes): (&str, &[(&str, &str)]), samples: u64) -> Plan {
+    let mut text = campaign_text(name);
+    for (from, to) in changes {
+        assert!(text.contains(from), "{name} has no {from}");
+        text = text.replacen(from, to, 1);
+    }
+    let overrides = Overrides { samples: Some(samples), audit_fraction: Some(1.0), ..Overrides::default() };
+    Plan::from_text_in(&root().join("campaigns"), name, &text, overrides).unwrap()
+}
+
+/// Rows, each with its estimate and its true error.
+fn audited(plan: &Plan) -> Vec<(RowBits, [f64; 2])> {
+    let ensemble = Ensemble::new(plan, Isa::best());
+    let kept = seen(&ensemble, None, |rows, row| {
+        let audit = rows.audits().iter().find(|(audited, _)| *audited == row).and_then(|(_, audit)| audit.as_ref());
+        let errors = audit.map(|audit| [audit.value(AuditValue::Estimate), audit.state()]);
+        (row_bits(rows, row), errors.unwrap_or_else(|| panic!("no audit: {:?}", rows.audit_reasons())))
+    });
+    kept.into_iter().map(|(_, found)| found).collect()
+}
+
+#[test]
+fn loops_carry_their_errors() {
+    let mut said = String::new();
+    let (mut all, mut all_covered) = (0, 0);
+    for of in LOOPS {
+        let found = audited(&plan_of(of, SAMPLES));
+        assert!(audited(&plan_of(of, 5)) == found[..5], "{of:?}: rows are those of the longer campaign");
+        let (mut ratios, mut covered) = (Vec::new(), 0);
+        for ((status, ..), [estimate, error]) in &found {
+            assert_eq!(*status, Status::Done, "{of:?}");
+            covered += usize::from(estimate >= error);
+            ratios.push(estimate / error.max(1e-17));
+        }
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios[ratios.len() / 2];
+        let _ = writeln!(said, "{covered} of {}, {median:.3e}: {of:?}", found.len());
+        assert!(10 * covered >= 9 * found.len() && median <= 100.0, "{said}");
+        (all, all_covered) = (all + found.len(), all_covered + covered);
+    }
+    println!("{said}{all_covered} of {all}");
+    assert!(100 * all_covered >= 95 * all, "{said}");
+}
