@@ -138,25 +138,34 @@ impl LoopErrors {
 /// printed.
 const EQUAL: f64 = 1e-3;
 
-/// True if what the file requires, lists or locates in time, and the columns of the law, are equal in `runs` of both
-/// plans.
+/// True if `runs` of both plans meet the same requirements and have equal values of all else that the file lists or
+/// locates in time; without any of these, of all columns of the law.
 fn outcomes_agree(plans: [(&Plan, u32); 2], isa: Isa, runs: Runs<'_>) -> bool {
     let (plan, _) = plans[0];
     let request = plan.request();
-    let [own, twins] = plans.map(|(plan, parts)| {
-        outcomes(plan, parts, isa, runs, &Wanted::of(plan, request, &plan.grid, isa))
-    });
-    let required = plan.analysis.requirements.iter().filter_map(Requirement::observable);
-    let named: Vec<&str> = required.chain(plan.analysis.summary_columns.iter().map(String::as_str)).collect();
+    let [own, twins] = plans
+        .map(|(plan, parts)| outcomes(plan, parts, isa, runs, &Wanted::of(plan, request, &plan.grid, isa)));
     let columns = request.columns();
-    let is_named = |place: &usize| columns.get(*place).is_some_and(|column| named.contains(&column.quantity.name()));
-    let of_law = request.places_of_law().start;
-    let mut places = (0..of_law).filter(is_named).chain(of_law..columns.len());
-    places.all(|place| {
-        let pairs = || own.iter().zip(&twins).map(|(own, twin)| [own.row[place], twin.row[place]]);
-        let largest = pairs().flatten().filter(|value| value.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()));
-        pairs().all(|[own, twin]| (own - twin).abs() <= EQUAL * largest || own.is_nan() && twin.is_nan())
-    })
+    let pairs = |place: usize| own.iter().zip(&twins).map(move |(own, twin)| [own.row[place], twin.row[place]]);
+    let are_equal = |place: usize| {
+        let finite = pairs(place).flatten().filter(|value| value.is_finite());
+        let largest = finite.fold(0.0, |most: f64, value| most.max(value.abs()));
+        pairs(place).all(|[own, twin]| (own - twin).abs() <= EQUAL * largest || own.is_nan() && twin.is_nan())
+    };
+    // what no column of a run has is not proved
+    let at = |name: &str| columns.iter().position(|column| column.quantity.name() == name);
+    let meets_alike = |one: &Requirement| {
+        let is_met = |place: usize| pairs(place).all(|pair| one.limit.is_met(pair[0]) == one.limit.is_met(pair[1]));
+        let of_runs = one.of_runs().and_then(at).is_some_and(is_met);
+        of_runs || one.observable().and_then(at).is_some_and(are_equal)
+    };
+    let (required, listed) = (&plan.analysis.requirements, &plan.analysis.summary_columns);
+    let events = request.places_of_events();
+    if required.is_empty() && listed.is_empty() && events.is_empty() {
+        return request.places_of_law().all(are_equal);
+    }
+    let mut listed = listed.iter().map(|name| at(name));
+    required.iter().all(meets_alike) && listed.all(|place| place.is_some_and(are_equal)) && { events }.all(are_equal)
 }
 
 const COMPARED: StateFields = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);

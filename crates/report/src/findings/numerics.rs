@@ -175,7 +175,7 @@ const ERRORS: [(&str, &str); 5] = [
 
 /// Only loops whose outcomes are proved have computed runs with such an error.
 const PARTING: &str = "where states of two runs that differ by rounding part for good (a pulse that fires or not), \
-    while their outcomes agree to 0.1%: runs are judged by outcomes";
+    while their outcomes agree: runs are judged by outcomes";
 
 /// Largest errors, audits and runs to look at: the worst against the requirements, the worst of each observable, those
 /// in `required` first, those with the largest errors, and the first with each failure.
