@@ -78,8 +78,11 @@ impl<'p> Batch<'p> {
             let auditor = of_end.as_mut().unwrap_or(&mut *auditor);
             let rows_of_group: Vec<usize> = group.iter().map(|index| self.rows_of_scenes[*index]).collect();
             let scenes: Vec<Scene> = group.iter().map(|index| self.scenes[*index].clone()).collect();
-            let draws: Vec<LawDraw> =
-                if has_law { group.iter().map(|index| self.draws_of_laws[*index].clone()).collect() } else { Vec::new() };
+            let draws: Vec<LawDraw> = if has_law {
+                group.iter().map(|index| self.draws_of_laws[*index].clone()).collect()
+            } else {
+                Vec::new()
+            };
             let statuses: Vec<Status> = rows_of_group.iter().map(|row| rows.statuses()[*row]).collect();
             let audits = auditor.audit_flown(Runs { scenes: &scenes, draws: &draws }, end, &statuses);
             for (row, audit) in rows_of_group.into_iter().zip(audits) {

@@ -8,15 +8,16 @@
 use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::audit::compared;
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
-use crate::ensemble::flights::{Flights, LawDraw, Means, Runs, end_of, nominal_attitude};
-use crate::ensemble::settings::{Engines, propagator};
+use crate::ensemble::flights::{LawDraw, Means, Runs, end_of, nominal_attitude};
+use crate::ensemble::settings::Engines;
 use crate::math::Isa;
-use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::loop_error::{LoopError, Pilot};
-use crate::observables::Request;
+use crate::observables::nominal_attitude::NominalAttitude;
+use crate::observables::window::NO_WINDOWS;
+use crate::observables::{Groups, Request};
 use crate::ode::Tolerance;
 use crate::propagation::{RotationError, rotation_difference};
-use crate::run::{Grid, LocalErrors, StateField, StateFields, StateTable, Status, points_to, rate_scale_of};
+use crate::run::{Grid, LocalErrors, StateTable, Status, points_to, rate_scale_of};
 use crate::sampling::SampleId;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -86,6 +87,10 @@ impl Flown {
 }
 
 impl LoopErrors {
+    /// Of runs that are not judged.
+    pub const UNMEASURED: LoopErrors =
+        LoopErrors { nominal: Some(LoopError::UNMEASURED), drawn: Some(LoopError::UNMEASURED) };
+
     /// For the run with the noise of `sample`.
     pub fn of(self, sample: SampleId) -> Option<LoopError> {
         if sample == SampleId(0) { self.nominal } else { self.drawn }
@@ -108,7 +113,12 @@ impl LoopErrors {
         }
         let plans = [(plan, 1), (&finer, TWIN.parts)];
         // as in a campaign, a panic ends one run only
-        let fly = |runs| catch_unwind(AssertUnwindSafe(|| plans.map(|(plan, parts)| states(plan, parts, isa, runs)))).ok();
+        let fly = |runs| {
+            catch_unwind(AssertUnwindSafe(|| {
+                plans.map(|(plan, parts)| outcomes(plan, parts, isa, runs, &Wanted::nothing(plan)))
+            }))
+            .ok()
+        };
         let alone = |pilot: usize| {
             let [own, twins] = fly(Runs { scenes: &scenes[pilot..=pilot], draws: &draws[pilot..=pilot] })?;
             own.into_iter().next().zip(twins.into_iter().next())
@@ -123,14 +133,12 @@ impl LoopErrors {
             let mut found = LoopError::of_pilots(pilots.filter_map(|(own, twin)| own.pilot(twin, &plan.grid)));
             if found.parts {
                 let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which] };
-                found.outcomes_agree = catch_unwind(AssertUnwindSafe(|| outcomes_agree(plans, isa, runs))).unwrap_or(false);
+                found.outcomes_agree =
+                    catch_unwind(AssertUnwindSafe(|| outcomes_agree(plans, isa, runs))).unwrap_or(false);
             }
             found
         };
-        LoopErrors {
-            nominal: wanted[0].then(|| of(0..nominals)),
-            drawn: wanted[1].then(|| of(nominals..scenes.len())),
-        }
+        LoopErrors { nominal: wanted[0].then(|| of(0..nominals)), drawn: wanted[1].then(|| of(nominals..scenes.len())) }
     }
 }
 
@@ -143,8 +151,8 @@ const EQUAL: f64 = 1e-3;
 fn outcomes_agree(plans: [(&Plan, u32); 2], isa: Isa, runs: Runs<'_>) -> bool {
     let (plan, _) = plans[0];
     let request = plan.request();
-    let [own, twins] = plans
-        .map(|(plan, parts)| outcomes(plan, parts, isa, runs, &Wanted::of(plan, request, &plan.grid, isa)));
+    let [own, twins] =
+        plans.map(|(plan, parts)| outcomes(plan, parts, isa, runs, &Wanted::of(plan, request, &plan.grid, isa)));
     let columns = request.columns();
     let pairs = |place: usize| own.iter().zip(&twins).map(move |(own, twin)| [own.row[place], twin.row[place]]);
     let are_equal = |place: usize| {
@@ -168,21 +176,6 @@ fn outcomes_agree(plans: [(&Plan, u32); 2], isa: Isa, runs: Runs<'_>) -> bool {
     required.iter().all(meets_alike) && listed.all(|place| place.is_some_and(are_equal)) && { events }.all(are_equal)
 }
 
-const COMPARED: StateFields = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
-
-/// `runs` of `plan` with the arcs of their laws in `parts`, without rows.
-fn states(plan: &Plan, parts: u32, isa: Isa, runs: Runs<'_>) -> Vec<Flown> {
-    let mut found: Vec<Option<Flown>> = runs.scenes.iter().map(|_| None).collect();
-    let settings = propagator(plan, plan.grid.clone(), COMPARED);
-    let times = plan.grid.times();
-    Flights::new(plan, &settings, Engines::of(isa)).divided(parts).fly(runs, &mut |run, _| {
-        let filled = run.outcome.points.min(points_to(times, end_of(&run)));
-        let (status, local) = (run.outcome.status, run.outcome.local_errors);
-        found[run.index] = Some(Flown { table: run.table.clone(), filled, status, local, row: Vec::new() });
-    });
-    found.into_iter().flatten().collect()
-}
-
 /// What is observed of runs that are compared.
 pub struct Wanted<'a> {
     pub request: Request,
@@ -193,7 +186,13 @@ pub struct Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    pub fn of(plan: &Plan, request: Request, grid: &'a Grid, isa: Isa) -> Self {
+    /// States alone.
+    fn nothing(plan: &'a Plan) -> Self {
+        let request = Request { groups: Groups::NONE, windows: NO_WINDOWS, debris: false, ..plan.request() };
+        Wanted { request, grid: &plan.grid, end: None, nominal: None, errors: LoopErrors::default() }
+    }
+
+    fn of(plan: &Plan, request: Request, grid: &'a Grid, isa: Isa) -> Self {
         let nominal = nominal_attitude(plan, &request, grid, isa);
         Wanted { request, grid, end: None, nominal, errors: LoopErrors::default() }
     }
@@ -203,9 +202,12 @@ impl<'a> Wanted<'a> {
 pub fn outcomes(plan: &Plan, parts: u32, isa: Isa, runs: Runs<'_>, wanted: &Wanted<'_>) -> Vec<Flown> {
     let Wanted { request, grid, end, nominal, errors } = wanted;
     let means = Means { request: *request, ..Means::new(plan, Engines::of(isa)) };
-    let mut observed = means.runs_with(grid, compared(request).union(request.fields()), nominal.clone()).judged(*errors);
+    let mut observed =
+        means.runs_with(grid, compared(request).union(request.fields()), nominal.clone()).judged(*errors);
     observed.flights = observed.flights.divided(parts);
-    let mut events = EventFinder::new(plan, grid, means.engines).map(|events| events.ended_by(*end));
+    let is_observed = request.groups != Groups::NONE;
+    let events = if is_observed { EventFinder::new(plan, grid, means.engines) } else { None };
+    let mut events = events.map(|events| events.ended_by(*end));
     if let Some(events) = &mut events {
         events.restart(runs.scenes.len());
     }

@@ -61,7 +61,7 @@ impl RunProbe {
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let (whole, isa) = (ensemble.plan(), ensemble.isa());
         let plan = limited(whole);
-        let ensemble = Ensemble::new(&plan, isa);
+        let ensemble = Ensemble::new(&plan, isa).unjudged();
         let most = usize::try_from(plan.rows()).unwrap_or(usize::MAX).min(MOST_SAMPLES);
         let mut rows = ensemble.rows(most);
         let mut worker = ensemble.worker();

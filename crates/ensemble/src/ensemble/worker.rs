@@ -13,9 +13,9 @@ use crate::ensemble::run_cost::{run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
-use crate::observables::{Group, Request};
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
+use crate::observables::{Group, Request};
 use crate::propagation::PropagationSettings;
 use crate::sampling::SampleId;
 use std::sync::atomic::Ordering;
@@ -95,6 +95,12 @@ impl<'p> Ensemble<'p> {
         });
         let layout = Arc::new(BandLayout { series, times, nominal: kept });
         Some(PartBands::new(layout, reader, plan.last_counted()))
+    }
+
+    /// Without pilots: runs under a law are not judged by their estimates.
+    #[must_use]
+    pub fn unjudged(self) -> Self {
+        Ensemble { errors: OnceLock::from(LoopErrors::UNMEASURED), ..self }
     }
 
     /// Keeps the time of a run where other ensembles of the plan find it.

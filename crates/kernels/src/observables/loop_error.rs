@@ -38,6 +38,9 @@ pub struct LoopError {
 }
 
 impl LoopError {
+    /// Of runs that are not judged, which keep no errors.
+    pub const UNMEASURED: LoopError = LoopError { kept: 0.0, parts: false, outcomes_agree: true };
+
     /// By `pilots`; unknown without any.
     pub fn of_pilots(pilots: impl Iterator<Item = Pilot>) -> Self {
         let mut found: Option<LoopError> = None;

@@ -1,8 +1,8 @@
 //! Outcome and effort of a run.
 
-use crate::math::enumeration::named;
 use super::state_field::StateField;
 use super::state_table::StateTable;
+use crate::math::enumeration::named;
 use crate::math::real::Real;
 
 named! {
