@@ -5,7 +5,6 @@ use crate::analysis::part_columns::RowNames;
 use crate::campaign::Plan;
 use crate::ensemble::plausibility::implausible;
 use crate::ensemble::probe::{AuditProbe, RunProbe};
-use crate::ensemble::run_cost::parts;
 use crate::ensemble::{Ensemble, influence, undefined};
 use crate::findings::checked::Probed;
 use crate::run::Status;
@@ -35,7 +34,7 @@ pub fn probed<'p>(ensemble: &'p Ensemble<'p>) -> Result<Probed<'p>> {
         runs,
         audits: (plan.audit_fraction > 0.0).then(|| AuditProbe::new(ensemble)),
         notes,
-        files: [parts(ensemble).count(), rows_file::columns(ensemble).len() as u64],
+        files: [ensemble.parts().count(), rows_file::columns(ensemble).len() as u64],
         needs: [disk, memory],
         cores: std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get),
     })

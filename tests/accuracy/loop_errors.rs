@@ -12,7 +12,7 @@ const LOOPS: [(&str, &[(&str, &str)]); 12] = [
     ("slew_closed", &[]),
     ("slew_closed", &[("1e-12", "1e-6"), ("\"auto\"", "\"dormand_prince\"")]),
     ("slew_closed", &[("\"auto\"\ntolerance = 1e-12", "\"runge_kutta_4\"\nstep_s = 0.05")]),
-    ("slew_closed", &[("torque_limit_n_m = 1.0", "torque_limit_n_m = 0.2")]),
+    ("slew_closed", &[("torque_limit_n_m = 0.02", "torque_limit_n_m = 0.004")]),
     ("detumble", &[]),
     ("detumble", &[("1e-12", "1e-7"), ("\"auto\"", "\"dop853\"")]),
     ("detumble", &[("\"pulse_width\"", "\"hysteresis\"")]),

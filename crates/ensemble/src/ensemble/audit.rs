@@ -17,7 +17,8 @@ use crate::dynamics::effects::ForceModel;
 use crate::dynamics::gyrostat::Gyrostat;
 use crate::ensemble::event_finder::RunEnd;
 use crate::ensemble::flights::{Runs, nominal_attitude};
-use crate::ensemble::loop_errors::{LoopErrors, TRUTH, Wanted, outcomes};
+use crate::ensemble::loop_errors::LoopErrors;
+use crate::ensemble::pilots::{TRUTH, Wanted, compared, outcomes};
 use crate::ensemble::settings::propagator;
 use crate::math::Isa;
 use crate::observables::headlines::{DEBRIS_STATE_ERROR_ESTIMATE, STATE_ERROR_ESTIMATE};
@@ -29,7 +30,7 @@ use crate::propagation::taylor::reference_solution::{self, ReferenceSolution};
 use crate::propagation::{
     CompletedRun, Engine, Method, PropagationSettings, RotationError, debris_rotation_errors, rotation_errors,
 };
-use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateField, StateFields, StateTable, Status, StepStatistics};
+use crate::run::{Grid, LocalErrors, Outcome, Quantity, StateFields, StateTable, Status, StepStatistics};
 use crate::sampling::{SampleId, Stream};
 use crate::scene::Scene;
 use thiserror::Error;
@@ -225,8 +226,8 @@ impl<'p> Auditor<'p> {
         self.compare(scene, scene)
     }
 
-    /// Audits runs that ended with `statuses`, at `end` if an event ended them. Under a law the loop is flown again, at a
-    /// tighter tolerance and in shorter arcs.
+    /// Audits runs that ended with `statuses`, at `end` if an event ended them. Under a law the loop is flown again, at
+    /// a tighter tolerance and in shorter arcs.
     pub fn audit_flown(
         &mut self,
         runs: Runs<'_>,
@@ -355,9 +356,4 @@ impl<'p> Auditor<'p> {
         let low = StateTable::new(high.fields(), high.wheels(), high.points());
         Ok((ReferenceSolution { high, low }, PLAIN_TOLERANCE))
     }
-}
-
-pub fn compared(request: &Request) -> StateFields {
-    let spacecraft = StateFields::NONE.with(StateField::Rate).with(StateField::Attitude);
-    if request.debris { spacecraft.with(StateField::DebrisRate).with(StateField::DebrisAttitude) } else { spacecraft }
 }

@@ -19,6 +19,7 @@ pub mod loop_errors;
 pub mod parts;
 mod peak;
 pub mod percentiles;
+pub mod pilots;
 pub mod plausibility;
 pub mod precision;
 pub mod probe;

@@ -5,7 +5,6 @@ use crate::campaign::Plan;
 use crate::ensemble::flights::Flights;
 use crate::ensemble::parts::Parts;
 use crate::ensemble::settings::{Engines, propagator};
-use crate::ensemble::worker::Ensemble;
 use crate::loops::callback::is_law_of;
 use crate::math::Isa;
 use crate::ode::{Control, PACE_STEPS};
@@ -42,12 +41,9 @@ fn has_callback(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
 }
 
-pub fn parts(ensemble: &Ensemble<'_>) -> Parts {
-    let plan = ensemble.plan();
-    if has_callback(plan) {
-        return Parts::up_to(plan.rows(), SERVED);
-    }
-    parts_of_runs(plan, ensemble.run_seconds())
+/// The parts of `plan` by the time of a run, `seconds()`.
+pub fn parts(plan: &Plan, seconds: impl FnOnce() -> f64) -> Parts {
+    if has_callback(plan) { Parts::up_to(plan.rows(), SERVED) } else { parts_of_runs(plan, seconds()) }
 }
 
 pub fn parts_of_runs(plan: &Plan, seconds: f64) -> Parts {

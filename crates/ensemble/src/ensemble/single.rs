@@ -6,6 +6,7 @@ use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EndFinder, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe};
 use crate::ensemble::loop_errors::LoopErrors;
+use crate::ensemble::pilots::measured;
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
 use crate::math::Isa;
@@ -54,7 +55,7 @@ impl SingleRun {
     /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
         let mut runs = SingleRuns::new(plan, grid, isa, &GROUPS, false);
-        runs.runs.errors = LoopErrors::measured(plan, isa, [sample == SampleId(0), sample != SampleId(0)]);
+        runs.runs.errors = measured(plan, isa, [sample == SampleId(0), sample != SampleId(0)]);
         runs.run(sample)
     }
 

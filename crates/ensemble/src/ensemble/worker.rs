@@ -7,9 +7,10 @@ use crate::ensemble::batch::Batch;
 use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Means, Runs};
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::parts::Part;
+use crate::ensemble::parts::{Part, Parts};
+use crate::ensemble::pilots::measured;
 use crate::ensemble::rows::{Rows, Shape};
-use crate::ensemble::run_cost::{run_seconds, thread_seconds};
+use crate::ensemble::run_cost::{parts, run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
 use crate::ensemble::supervision::{Report, Supervision};
 use crate::math::Isa;
@@ -114,12 +115,17 @@ impl<'p> Ensemble<'p> {
         *self.seconds.get_or_init(|| run_seconds(self.plan(), self.isa()))
     }
 
+    /// Its parts, sized by the cost of its runs.
+    pub fn parts(&self) -> Parts {
+        parts(self.plan(), || self.run_seconds())
+    }
+
     fn errors(&self) -> LoopErrors {
         let plan = self.plan();
         let is_judged = self.request().groups.contains(Group::Numerics);
         let rows = [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()];
         let wanted = rows.map(|rows| is_judged && rows > 0);
-        *self.errors.get_or_init(|| LoopErrors::measured(plan, self.isa(), wanted))
+        *self.errors.get_or_init(|| measured(plan, self.isa(), wanted))
     }
 
     /// Running samples does not allocate once warm.

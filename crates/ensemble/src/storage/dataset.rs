@@ -14,7 +14,6 @@
 //! manifest lists changes, `_SUCCESS` and the manifest are removed.
 
 use super::store::{Result, Store};
-use crate::ensemble::run_cost::parts;
 use crate::ensemble::threads::unpoisoned;
 use crate::ensemble::{Ensemble, Part, PartId, Parts};
 use crate::storage::identity::{Identity, SEAL_KEY, UNSEALED, seal, sealed, sha256};
@@ -66,7 +65,7 @@ pub struct Head {
 impl Head {
     /// For `ensemble`, with parts of `largest_part` samples, else sized by counted work.
     pub fn of(ensemble: &Ensemble<'_>, largest_part: Option<u64>) -> Self {
-        let largest_part = largest_part.unwrap_or_else(|| parts(ensemble).largest());
+        let largest_part = largest_part.unwrap_or_else(|| ensemble.parts().largest());
         Head { identity: identity(ensemble), largest_part }
     }
 

@@ -474,8 +474,8 @@ direct_values! {
     Numerics [NUMERICS, &[], false] {
         StateError All Float "state_error_estimate" ""
             "Estimated largest error in the body's rotation on the grid: in omega relative to the largest |omega| (or \
-                to one radian over the duration if that is more), or in the attitude in rad, whichever is larger. Under \
-                a control law it is measured by runs that are flown twice.";
+                to one radian over the duration if that is more), or in the attitude in rad, whichever is larger. \
+                Under a control law it is measured by runs that are flown twice.";
         Amplification All Float "error_amplification" ""
             "Estimated factor by which the motion, under a control law the loop, amplifies relative errors in the \
                 rotational state that arise evenly along the run.";
