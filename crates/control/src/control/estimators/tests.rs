@@ -126,8 +126,8 @@ fn at_once(sensor: usize, values: Values) -> Measurement {
 }
 
 /// Estimate and truth after 60 s of a slew at constant rate under thrust beside tumbling debris, with noiseless but
-/// late sensors and a truth that starts off the nominal scene; `gyro_period` in ticks of 0.1 s, 0 for none. Updates are at
-/// the ticks at which a sensor measures or delivers.
+/// late sensors and a truth that starts off the nominal scene; `gyro_period` in ticks of 0.1 s, 0 for none.
+/// Updates are at the ticks at which a sensor measures or delivers.
 fn without_noise(gyro_period: u64) -> (Estimate, Truth) {
     let mut nominal = scene(&SceneInput::report().with_debris(DEBRIS));
     // p turns about c, so that c relative to it depends on the time of the measurement
