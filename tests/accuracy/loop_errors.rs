@@ -1,6 +1,6 @@
 //! Law: over loops of every kind, `state_error_estimate` covers the error against the loop flown again at a tighter
 //! tolerance in at least 95% of the runs, and is at most 100 times too large in the median; no run is `inaccurate`. A
-//! row does not depend on the number of samples.
+//! row does not depend on the number of samples. Where runs part for good, requirements are judged.
 
 use crate::prelude::*;
 use crate::support::plans::seen;
@@ -67,4 +67,32 @@ fn loops_carry_their_errors() {
     }
     println!("{said}{all_covered} of {all}");
     assert!(100 * all_covered >= 95 * all, "{said}");
+}
+
+/// Thrusters that turn the body back and forth: a pulse more or less changes all later ones.
+#[test]
+fn parted_runs_are_judged_by_requirements() {
+    const HOLD: &str = "\
+[[guidance]]
+phase = \"hold\"
+law = \"quaternion_feedback\"
+bandwidth_rad_s = 2.5
+damping = 0.5
+target = \"attitude\"
+attitude = [1, 0, 0, 0]
+
+";
+    let text = campaign_text("detumble");
+    let [guidance, draws, required] = ["[[guidance]]", "[[disperse]]", "[[require]]"].map(|at| text.find(at).unwrap());
+    let scene = format!("{}{HOLD}{}", &text[..guidance], &text[draws..required]);
+    for (observable, limit, status) in
+        [("propellant_kg", 5.0, Status::Done), ("pointing_error_final_rad", 0.03, Status::Inaccurate)]
+    {
+        let require = format!("[[require]]\nobservable = \"{observable}\"\nfraction = 0.9\nat_most = {limit:?}\n");
+        let overrides = Overrides { samples: Some(9), ..Overrides::default() };
+        let found = rows(&Plan::from_text("c.toml", &(scene.clone() + &require), overrides).unwrap());
+        let estimates = found.column("state_error_estimate");
+        assert!(estimates[1..].iter().all(|estimate| *estimate > 1.0), "{estimates:?}");
+        assert!(found.statuses[1..].iter().all(|found| *found == status), "{observable}: {:?}", found.statuses);
+    }
 }

@@ -86,7 +86,8 @@ fn single_runs_end_where_their_rows_do() {
     }
 }
 
-/// Law: a control loop ends at the tick of the crossing with the columns of a campaign of that duration.
+/// Law: a control loop ends at the tick of the crossing with the columns of a campaign of that duration, but for the
+/// error that its pilots, which fly to the end, show.
 #[test]
 fn loops_end_as_in_a_campaign_of_that_duration() {
     let shipped = SLEW_CLOSED.replace("points = 181", "points = 721");
@@ -107,7 +108,8 @@ fn loops_end_as_in_a_campaign_of_that_duration() {
             let is_same = a.to_bits() == b.to_bits() || (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-15;
             (!is_same).then(|| format!("{name}: {a} and {b}"))
         };
-        let compared = names(&short).into_iter().filter(|name| !name.starts_with("nutation_angle"));
+        let is_compared = |name: &String| !name.starts_with("nutation_angle") && name != "state_error_estimate";
+        let compared = names(&short).into_iter().filter(is_compared);
         let wrong: Vec<String> = compared.filter_map(|name| off(&name)).collect();
         assert!(wrong.is_empty(), "sample {row} at {end} s: {wrong:#?}");
         assert!(single(&ends, row as u64).telemetry.times.last().is_some_and(|last| *last <= end));

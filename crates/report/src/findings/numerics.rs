@@ -198,7 +198,7 @@ pub(super) fn findings(plan: &Plan, analysed: &Analysed, required: &[String]) ->
     }
     if let Some(audit) = AuditSummary::of(plan, &analysed.tally) {
         found.extend(audit.estimates().map(|(name, one)| coverage(&name, &one)));
-        found.push(audit.finding());
+        found.push(audit.finding(plan.law.is_some()));
         found.extend(observed(plan, analysed));
     }
     let worst = analysed.survey.against.runs.first();
@@ -267,7 +267,9 @@ pub(super) fn beyond_tolerance(plan: &Plan, analysed: &Analysed) -> Option<Findi
         } else {
             format!("tolerance {} allows about {}", number::written(plan.tolerance.relative), number::trimmed(limit, 3))
         };
-        Finding::new(Kind::Note, BEYOND_TOLERANCE, "numerical errors", format!("{name} {reached}; {promised}"))
+        let is_parting = outcome.quantity.name() == STATE_ERROR_ESTIMATE.name() && ratio * limit >= INACCURATE_STATE;
+        let parting = if is_parting { format!(", {PARTING}") } else { String::new() };
+        Finding::new(Kind::Note, BEYOND_TOLERANCE, "numerical errors", format!("{name} {reached}{parting}; {promised}"))
     })
 }
 
@@ -308,14 +310,16 @@ fn number(name: &str, value: Option<f64>, runs: u64, unit: &str) -> Number {
     Number { digits: 4, ..Number::new(name, value, runs, unit, &ShownUnit::own(unit)) }
 }
 impl AuditSummary {
-    fn finding(&self) -> Finding {
+    fn finding(&self, has_law: bool) -> Finding {
         let (audited, plain) = (self.audited, self.audited - self.in_double_double);
-        let mut said = format!(
-            "{} compared with reference solutions, {} of them in double-double",
-            counted(audited, "run"),
-            self.in_double_double
-        );
-        if plain > 0 {
+        let runs = counted(audited, "run");
+        let mut said = match has_law {
+            true => format!("{runs} compared with the same loops at a tighter tolerance"),
+            false => {
+                format!("{runs} compared with reference solutions, {} of them in double-double", self.in_double_double)
+            }
+        };
+        if plain > 0 && !has_law {
             said += &format!(", {plain} too long for that, in plain doubles with tolerance 1e-16");
         }
         if self.failed > 0 {
