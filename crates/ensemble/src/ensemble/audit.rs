@@ -250,7 +250,7 @@ impl<'p> Auditor<'p> {
         let tolerance = finer.tolerance.relative;
         let mut found = Vec::with_capacity(statuses.len());
         for ((own, truth), status) in own.into_iter().zip(truths).zip(statuses) {
-            let audited = refused(status).and_then(|()| match (own.status, truth.status) {
+            let audited = refused(status).and(match (own.status, truth.status) {
                 (Status::Done, Status::Done) => Ok(()),
                 (Status::Done, of_truth) => Err(NoAudit::Reference(of_truth)),
                 (of_run, _) => Err(NoAudit::Run(of_run)),

@@ -11,7 +11,8 @@ use super::conditioning::{ErrorEstimate, LOST};
 use super::torque_growth::MOST;
 use crate::run::{LocalErrors, StateTable, rate_scale_of};
 
-/// Safety factor: with seven pilots it covers 96% of the errors of 20 loops, of which each covers 95%.
+/// Safety factor: with seven pilots it covers 477 of 480 errors in the loops of `tests/accuracy/loop_errors.rs`, and
+/// 97% of the errors of a detumbling in orbit, which vary by seven powers of ten.
 const SAFETY: f64 = 5.0;
 
 /// Least error in roundings of the run: states on which no error shows round as well.

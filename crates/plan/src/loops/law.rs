@@ -204,7 +204,7 @@ impl BesideSchedule {
         }
         let (arc, length) = self.held;
         // the last part ends as the arc does
-        let is_last = arc.ends_run || time + 1.5 * length >= arc.until.min(end) || !(time + length > time);
+        let is_last = arc.ends_run || time + 1.5 * length >= arc.until.min(end) || time + length <= time;
         Actuation { until: if is_last { arc.until } else { time + length }, ..arc }
     }
 
