@@ -30,12 +30,6 @@ impl<'a> ArcSource<'a> {
         self.duration
     }
 
-    /// True if arcs are those of control laws instead of schedules.
-    #[inline(always)]
-    pub fn follow_laws(&self) -> bool {
-        !matches!(self.laws, Laws::OpenLoop)
-    }
-
     /// Sets the time scale of `gyrostat` before its first arc, from its schedule if it follows one.
     pub fn prepare(&self, run: usize, gyrostat: &mut Gyrostat<f64>) {
         if let (Some(scene), Laws::OpenLoop) = (self.scenes.get(run), &self.laws) {

@@ -16,6 +16,8 @@ pub const SMALLEST_OFFSET: f64 = 1e-3;
 pub struct GyrostatRuns<'a, R, E> {
     runs: &'a mut [Gyrostat<f64>],
     arcs: ArcSource<'a>,
+    /// True if arcs are those of a control loop.
+    continues: bool,
     constants: Constants<R>,
     effects: E,
     run_in_lane: [usize; WIDTH],
@@ -24,11 +26,13 @@ pub struct GyrostatRuns<'a, R, E> {
 }
 
 impl<'a, R: Real, E: WithinArcs<R>> GyrostatRuns<'a, R, E> {
-    /// Runs before their first arcs, which `arcs` provides; `zero` determines the number of lanes.
-    pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>) -> Self {
+    /// Runs before their first arcs, which `arcs` provides, those of a loop if it `continues`; `zero` determines the
+    /// number of lanes.
+    pub fn new(zero: R, runs: &'a mut [Gyrostat<f64>], arcs: ArcSource<'a>, continues: bool) -> Self {
         GyrostatRuns {
             runs,
             arcs,
+            continues,
             constants: Constants::zero(zero),
             effects: E::none(zero),
             run_in_lane: [0; WIDTH],
@@ -88,7 +92,7 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
 
     #[inline(always)]
     fn continues(&self) -> bool {
-        self.arcs.follow_laws()
+        self.continues
     }
 
     #[inline(always)]

@@ -60,7 +60,7 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
         };
         if let Some(DebrisRuns { runs, trajectories, outcomes }) = batch.load_debris(scenes) {
             // one kernel for debris and spacecraft compiles faster, although the debris needs its attitude only
-            let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(grid.duration()));
+            let mut runs = GyrostatRuns::new(*zero, runs, ArcSource::free(grid.duration()), false);
             integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
                 trajectories[index].copy_from(trajectory);
                 outcomes[index] = *outcome;
@@ -69,7 +69,7 @@ impl<S: Simd, R: Real, M: LaneMethod, E: WithinArcs<R>, const N: usize> RungeKut
         }
         let arcs = ArcSource::new(scenes, laws.reborrow(), grid);
         let (runs, completion) = batch.load(scenes, &arcs);
-        let mut runs = GyrostatRuns::new(*zero, runs, arcs);
+        let mut runs = GyrostatRuns::new(*zero, runs, arcs, settings.feedback);
         integrate(&mut runs, &mut |runs, index, trajectory, outcome| {
             let run = runs.run(index);
             let mut outcome = *outcome;
