@@ -80,7 +80,11 @@ impl<R: Real> ChangingEffects<R> {
     /// The Sun at `time`, s, if an effect needs it.
     #[inline(always)]
     pub fn sun(&self, time: R) -> Sun<R> {
-        self.solar_pressure.as_ref().map_or(Sun::none(time.zero()), |pressure| pressure.light.sun(time))
+        // no closure: it may be compiled without vector instructions
+        match &self.solar_pressure {
+            Some(pressure) => pressure.light.sun(time),
+            None => Sun::none(time.zero()),
+        }
     }
 }
 

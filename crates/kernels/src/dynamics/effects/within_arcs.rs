@@ -280,6 +280,8 @@ struct Along<R> {
     /// Lanes whose present arcs lie in their segments, or without a run.
     is_covered: [bool; WIDEST],
     is_everywhere: bool,
+    /// True if the present arc of a run lies in its segment.
+    is_anywhere: bool,
 }
 
 impl<R: Real> Along<R> {
@@ -289,6 +291,7 @@ impl<R: Real> Along<R> {
             runs: [const { None }; WIDEST],
             is_covered: [true; WIDEST],
             is_everywhere: true,
+            is_anywhere: false,
         }
     }
 
@@ -307,6 +310,7 @@ impl<R: Real> Along<R> {
         }
         self.is_covered[lane] = covering.is_some();
         self.is_everywhere = self.is_covered.iter().all(|is_covered| *is_covered);
+        self.is_anywhere = self.runs.iter().zip(&self.is_covered).any(|(run, is_covered)| run.is_some() && *is_covered);
     }
 }
 
@@ -322,9 +326,12 @@ impl<R: Real> Acting<R> {
     /// Arguments of the effects, and the motion of the reference point if the spacecraft may leave its orbit.
     #[inline(always)]
     fn motion<const N: usize>(&self, time: R, state: &[R; N], for_torques: bool) -> (Motion<R>, Option<Carrier<R>>) {
-        let Some(along) = &self.along else {
-            let (place, carrier) = self.place(time, state);
-            return (Motion::of(time, state, place, &self.effects, for_torques), carrier);
+        let along = match &self.along {
+            Some(along) if along.is_anywhere => along,
+            _ => {
+                let (place, carrier) = self.place(time, state);
+                return (Motion::of(time, state, place, &self.effects, for_torques), carrier);
+            }
         };
         let segment = &along.segment;
         let has_field = for_torques && self.effects.magnetic_torque.is_some();
