@@ -25,6 +25,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Number of drawn pilots: with the nominal sample they fill the lanes.
 const DRAWN: u64 = 7;
 
+/// Steps of a pilot over those of a run, at most.
+const PATIENCE: u64 = 4;
+
 /// How much finer a loop is integrated than in its campaign.
 #[derive(Clone, Copy, Debug)]
 pub struct Finer {
@@ -95,7 +98,9 @@ pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2]) -> LoopErrors {
         scenes.push(scene);
         draws.extend(LawDraw::of(plan, sample, source.drawn()));
     }
-    let plans = [(plan, 1), (&finer, TWIN.parts)];
+    // the limit of steps of the campaign's runs is no limit of what is known of them
+    let patient = Plan { max_steps: plan.max_steps.saturating_mul(PATIENCE), ..plan.clone() };
+    let plans = [(&patient, 1), (&finer, TWIN.parts)];
     // as in a campaign, a panic ends one run only
     let fly = |runs| {
         catch_unwind(AssertUnwindSafe(|| {
