@@ -33,7 +33,8 @@ struct Bar {
 fn line(done: u64, samples: u64, elapsed: Duration) -> String {
     let seconds = elapsed.as_secs_f64();
     let left = seconds * (samples - done) as f64 / done as f64;
-    format!("{done} of {samples} samples after {}, about {} left", time(seconds), time(left))
+    let whole = |seconds: f64| if seconds < 120.0 { seconds.round() } else { 60.0 * (seconds / 60.0).round() };
+    format!("{done} of {samples} samples after {}, about {} left", time(whole(seconds)), time(whole(left)))
 }
 
 impl Terminal {
@@ -96,7 +97,7 @@ mod tests {
     /// Law: at an even pace, the time left is to the time taken as the samples left are to those done.
     #[test]
     fn the_time_left_follows_from_the_pace() {
-        let text = line(250, 1000, Duration::from_secs(600));
+        let text = line(250, 1000, Duration::from_secs_f64(601.3));
         assert_eq!(text, "250 of 1000 samples after 10 minutes, about 30 minutes left");
     }
 }

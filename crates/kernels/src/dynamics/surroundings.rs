@@ -3,7 +3,7 @@
 //!
 //! The k-th [`Segment`] covers two strides from k strides on and interpolates direct evaluations at Chebyshev points,
 //! so that any interval of up to one stride lies in the segment of its start. The stride is a power of two and at most
-//! [`HALF_TURN`] at the fastest rate of orbit and Earth: position and field are those of direct evaluation to a few
+//! `HALF_TURN` at the fastest rate of orbit and Earth: position and field are those of direct evaluation to a few
 //! 1e-15. A segment depends on orbit and time alone, by the same operations on every instruction set.
 
 use std::sync::LazyLock;
