@@ -1,5 +1,5 @@
-//! Every shipped campaign keeps its values, bit for bit: hashes of each column of its first 257 rows in
-//! `golden/value_hashes.json`.
+//! Every shipped campaign keeps its values, bit for bit: hashes of each column of its first 257 rows (of a CubeSat in
+//! orbit 17) in `golden/value_hashes.json`.
 //!
 //! A renamed column is renamed there by hand. Any other difference is a defect, unless CHANGELOG.md records its
 //! decision; then `SPINDRIFT_WRITE_HASHES=1 cargo test --release --test determinism value_hashes` writes the file.
@@ -10,12 +10,15 @@ use arrow_schema::DataType;
 use rayon::prelude::*;
 
 const SAMPLES: u64 = 257;
+/// Of campaigns with thousands of ticks in orbit.
+const FEW_SAMPLES: u64 = 17;
 
 const AUDITED: [&str; 3] = ["spin_sweep", "burn", "inertia"];
 
-const FAILS: &str = "acceptance";
+const FAILS: [&str; 2] = ["acceptance", "cubesat_detumble"];
 
-const UNDECIDED: [&str; 3] = ["slew", "slew_closed", "net_launch"];
+const UNDECIDED: [&str; 7] =
+    ["slew", "slew_closed", "net_launch", "cubesat_nadir", "cubesat_slew", "cubesat_wheel_failure", "cubesat_day"];
 
 /// Columns that measure the machine and not the run.
 const OF_THE_MACHINE: [&str; 2] = ["cpu_s", "wall_s"];
@@ -101,11 +104,13 @@ struct Found {
 fn run(scratch: &ScratchFolder, file: &Path) -> Found {
     let name = file.file_stem().unwrap().to_string_lossy().into_owned();
     let text = fs::read_to_string(file).unwrap();
-    let samples = if text.contains("kind = \"table\"") { String::new() } else { format!("--samples {SAMPLES}") };
+    let count = if name.starts_with("cubesat") { FEW_SAMPLES } else { SAMPLES };
+    let samples = if text.contains("kind = \"table\"") { String::new() } else { format!("--samples {count}") };
+    let samples = format!("{samples} {}", shortened(&name));
     let audit = if AUDITED.contains(&name.as_str()) { "--audit 0.04" } else { "" };
     let campaign = file.file_name().unwrap().to_string_lossy().into_owned();
     let code = match name.as_str() {
-        FAILS => 3,
+        name if FAILS.contains(&name) => 3,
         name if UNDECIDED.contains(&name) => 5,
         _ => 0,
     };

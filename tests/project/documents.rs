@@ -109,9 +109,10 @@ fn program_problem(words: &[&str]) -> Option<String> {
         Command::Columns(options) => options.campaign.as_ref()?,
     };
     let shipped = || root().join("campaigns").join(file).is_file() || find(file).is_ok();
-    let is_known =
-        ["my_sweep.toml", "satellite.toml", "calibrated.toml", "FILE"].iter().any(|name| Path::new(name) == file)
-            || shipped();
+    let is_known = ["my_sweep.toml", "satellite.toml", "calibrated.toml", "orbit.toml", "FILE"]
+        .iter()
+        .any(|name| Path::new(name) == file)
+        || shipped();
     (!is_known).then(|| format!("there is no {}", file.display()))
 }
 

@@ -116,3 +116,12 @@ pub fn value(run: &SingleRun, name: &str) -> f64 {
     let place = run.request.columns().iter().position(|column| column.quantity.name() == name);
     run.row[place.unwrap_or_else(|| panic!("no column {name}"))]
 }
+
+/// Settings for tests of a shipped campaign whose runs have tens of thousands of ticks.
+pub fn shortened(name: &str) -> &'static str {
+    match name {
+        "cubesat_day" => "--set campaign.duration_s=5700",
+        "cubesat_detumble" => "--set campaign.duration_s=3000",
+        _ => "",
+    }
+}

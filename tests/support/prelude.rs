@@ -13,7 +13,10 @@ pub use super::{
     golden::Golden,
     observed::{observed, request},
     orbits::{MU, body, circle, near_rounding, plated, tumbling},
-    plans::{RowBits, campaign_text, files, parsed, planned, root, row_bits, rows, shipped, single, single_on, value},
+    plans::{
+        RowBits, campaign_text, files, parsed, planned, root, row_bits, rows, shipped, shortened, single, single_on,
+        value,
+    },
     runs::{
         DOP853, DORMAND_PRINCE, GAUSS_LEGENDRE, RUNGE_KUTTA, Run, adaptive, blocks, done, everything, fixed, propagate,
         propagate_on, propagate_one, relative, rotational, up_to_sign,
