@@ -193,7 +193,8 @@ fn agrees(scratch: &ScratchFolder, name: &str, samples: &str) {
     }
 }
 
-/// Law: each sentence, number and name of one renderer is that of the others, in every shipped campaign.
+/// Law: each sentence, number and name of one renderer is that of the others, in every shipped campaign; of those of
+/// the CubeSat in the shortest.
 #[test]
 fn shipped_campaigns_are_said_once() {
     let scratch = folder("said-once");
@@ -203,8 +204,10 @@ fn shipped_campaigns_are_said_once() {
     for file in files.iter().filter(|file| file.extension().is_some_and(|kind| kind == "toml")) {
         let text = fs::read_to_string(file).unwrap();
         let samples = if text.contains("kind = \"table\"") { "" } else { "--samples 24" };
-        let samples = format!("{samples} {}", shortened(&file.file_stem().unwrap().to_string_lossy()));
-        agrees(&scratch, &file.display().to_string(), &samples);
+        let name = file.file_stem().unwrap().to_string_lossy();
+        if !name.starts_with("cubesat") || name == "cubesat_slew" {
+            agrees(&scratch, &file.display().to_string(), samples);
+        }
     }
 }
 
