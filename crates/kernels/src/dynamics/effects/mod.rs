@@ -4,6 +4,7 @@
 //! engine declares the [`Form`]s that it integrates (`propagation::integrated_effects`) and refuses a run with any
 //! other. Kernels for scenes without effects are compiled without them.
 
+mod along_orbit;
 mod changing_effects;
 pub(crate) mod plates;
 pub mod within_arcs;

@@ -3,16 +3,15 @@
 
 use super::ChangingEffects;
 use super::ChangingSeries;
+use super::along_orbit::Along;
 use crate::dynamics::environment::sun::Sun;
 use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::offset_series::OffsetSeries;
-use crate::dynamics::orbit_path::{OrbitPath, PathsInLanes};
+use crate::dynamics::orbit_path::PathsInLanes;
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
-use crate::dynamics::surroundings::{Segment, Surroundings};
 use crate::math::prelude::*;
-use crate::scene::Arc;
 
 /// Actions on a body other than its actuators', one run per lane.
 #[derive(Clone, Copy, Debug)]
@@ -72,9 +71,7 @@ impl<R: Real> Motion<R> {
             sun: effects.sun(time),
         }
     }
-}
 
-impl<R: Real> Motion<R> {
     /// Keeps the surroundings in the lanes `kept` and copies those of `other` in all others.
     #[inline(always)]
     fn choose(&mut self, kept: R::Mask, other: &Self) {
@@ -269,49 +266,6 @@ pub struct Acting<R> {
     effects: ChangingEffects<R>,
     leaving: Option<Leaving<R>>,
     along: Option<Along<R>>,
-}
-
-/// Surroundings by series, for arcs within a segment of an orbit that the spacecraft does not leave.
-#[derive(Clone, Debug)]
-struct Along<R> {
-    segment: Segment<R>,
-    /// Surroundings of the run in each lane, and the number of the segment.
-    runs: [Option<(Surroundings, f64)>; WIDEST],
-    /// Lanes whose present arcs lie in their segments, or without a run.
-    is_covered: [bool; WIDEST],
-    is_everywhere: bool,
-    /// True if the present arc of a run lies in its segment.
-    is_anywhere: bool,
-}
-
-impl<R: Real> Along<R> {
-    fn blank(zero: R) -> Self {
-        Along {
-            segment: Segment::blank(zero),
-            runs: [const { None }; WIDEST],
-            is_covered: [true; WIDEST],
-            is_everywhere: true,
-            is_anywhere: false,
-        }
-    }
-
-    fn follow(&mut self, lane: usize, path: &OrbitPath, effects: &ChangingEffects<f64>, arc: &Arc) {
-        let (around, number) = self.runs[lane].get_or_insert_with(|| {
-            let field = effects.magnetic_torque.as_ref().map(|torque| torque.field);
-            let epoch = effects.solar_pressure.as_ref().map(|pressure| pressure.light.epoch);
-            (Surroundings::new(path, field, epoch), f64::NAN)
-        });
-        let covering = around.covering(arc.start, arc.end());
-        if let Some(next) = covering
-            && next != *number
-        {
-            *number = next;
-            self.segment.set_lane(lane, &around.segment(next));
-        }
-        self.is_covered[lane] = covering.is_some();
-        self.is_everywhere = self.is_covered.iter().all(|is_covered| *is_covered);
-        self.is_anywhere = self.runs.iter().zip(&self.is_covered).any(|(run, is_covered)| run.is_some() && *is_covered);
-    }
 }
 
 /// Masses (kg) and orbital rates (rad/s) of runs that may leave their orbits.
