@@ -4,7 +4,7 @@
 //! the audited run's method and periodic folding. Long runs use the Taylor method at 1e-16 in plain doubles, as noted
 //! in the row ([`AuditValue::Tolerance`]). The audited run is repeated with the states of the comparison; the
 //! campaign's row stays unchanged. Under a control law the reference is the same loop at a tighter tolerance and in
-//! shorter arcs ([`crate::ensemble::loop_errors`]).
+//! shorter arcs ([`crate::ensemble::pilots`]).
 //!
 //! Bodies that turn too fast for a reference solution in reasonable time are not audited ([`NoAudit`]); the limit
 //! counts the motion's units of time, not seconds.
