@@ -9,7 +9,10 @@ use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, Runs, end_of, nominal_attitude};
 use crate::ensemble::loop_errors::LoopErrors;
+use crate::ensemble::run_cost::has_callback;
 use crate::ensemble::settings::Engines;
+use crate::ensemble::supervision::Crew;
+use crate::ensemble::threads::unpoisoned;
 use crate::math::Isa;
 use crate::observables::loop_error::{LoopError, Pilot};
 use crate::observables::nominal_attitude::NominalAttitude;
@@ -19,8 +22,11 @@ use crate::ode::Tolerance;
 use crate::propagation::{RotationError, rotation_difference};
 use crate::run::{Grid, LocalErrors, StateField, StateFields, StateTable, Status, points_to, rate_scale_of};
 use crate::sampling::SampleId;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Number of drawn pilots: with the nominal sample they fill the lanes.
 const DRAWN: u64 = 7;
@@ -83,8 +89,8 @@ impl Flown {
     }
 }
 
-/// For the nominal sample, and for all others, where `wanted`; none without a law.
-pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2]) -> LoopErrors {
+/// For the nominal sample, and for all others, where `wanted`; none without a law. A callback is asked by `crew`.
+pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2], crew: &dyn Crew) -> LoopErrors {
     if plan.law.is_none() || wanted == [false; 2] {
         return LoopErrors::default();
     }
@@ -102,20 +108,30 @@ pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2]) -> LoopErrors {
     let patient = Plan { max_steps: plan.max_steps.saturating_mul(PATIENCE), ..plan.clone() };
     let plans = [(&patient, 1), (&finer, TWIN.parts)];
     // as in a campaign, a panic ends one run only
-    let fly = |runs| {
-        catch_unwind(AssertUnwindSafe(|| {
-            plans.map(|(plan, parts)| outcomes(plan, parts, isa, runs, &Wanted::nothing(plan)))
-        }))
-        .ok()
+    let fly = |(plan, parts): (&Plan, u32), which: Range<usize>| {
+        let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which] };
+        catch_unwind(AssertUnwindSafe(|| outcomes(plan, parts, isa, runs, &Wanted::nothing(plan)))).ok()
     };
-    let alone = |pilot: usize| {
-        let [own, twins] = fly(Runs { scenes: &scenes[pilot..=pilot], draws: &draws[pilot..=pilot] })?;
-        own.into_iter().next().zip(twins.into_iter().next())
+    let together = || {
+        let [own, twins] = plans.map(|plan| fly(plan, 0..scenes.len()));
+        Some(own?.into_iter().zip(twins?).map(Some).collect())
     };
-    let pairs: Vec<Option<(Flown, Flown)>> = match fly(Runs { scenes: &scenes, draws: &draws }) {
-        Some([own, twins]) => own.into_iter().zip(twins).map(Some).collect(),
-        None => (0..scenes.len()).map(alone).collect(),
+    let apart = || {
+        let (next, found) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
+        crew.work(&|| {
+            while let flight = next.fetch_add(1, Ordering::Relaxed)
+                && flight < 2 * scenes.len()
+            {
+                let flown = fly(plans[flight % 2], flight / 2..flight / 2 + 1);
+                unpoisoned(found.lock()).insert(flight, flown.and_then(|mut flown| flown.pop()));
+            }
+        });
+        let mut found = unpoisoned(found.into_inner()).into_values();
+        std::iter::from_fn(|| Some(found.next()?.zip(found.next()?))).collect()
     };
+    // runs of a callback take turns, and lanes would ask it one by one
+    let together = if has_callback(plan) { None } else { together() };
+    let pairs: Vec<Option<(Flown, Flown)>> = together.unwrap_or_else(apart);
     let nominals = draws.iter().take_while(|draw| draw.sample == SampleId(0)).count();
     let of = |which: Range<usize>| {
         let pilots = pairs[which.clone()].iter().flatten();

@@ -6,9 +6,11 @@ use crate::ensemble::failure_reasons::FailureReasons;
 use crate::ensemble::flights::{LawDraw, Runs};
 use crate::ensemble::parts::{Part, PartId};
 use crate::ensemble::rows::Rows;
+use crate::ensemble::run_cost::has_callback;
 use crate::ensemble::single::SingleRuns;
 use crate::ensemble::supervision::Supervision;
 use crate::ensemble::worker::Ensemble;
+use crate::math::lanes::WIDTH;
 use crate::ode::PACE_STEPS;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
@@ -57,7 +59,7 @@ pub struct RunProbe {
 }
 
 impl RunProbe {
-    /// Runs growing numbers of first samples for half a second.
+    /// Runs growing numbers of first samples for half a second, under a loop from one for each lane on.
     pub fn new(ensemble: &Ensemble<'_>) -> Self {
         let (whole, isa) = (ensemble.plan(), ensemble.isa());
         let plan = limited(whole);
@@ -67,7 +69,9 @@ impl RunProbe {
         let mut worker = ensemble.worker();
         let points = whole.grid.points() as f64 / plan.grid.points() as f64;
         let longer = whole.grid.duration() / plan.grid.duration();
-        let (mut count, mut total) = (1, 0.0);
+        // loops of many ticks are not flown alone: a run alone would take the time of all lanes
+        let first = if plan.loop_spec().is_some() && !has_callback(&plan) { WIDTH } else { 1 };
+        let (mut count, mut total) = (first.min(most), 0.0);
         loop {
             let start = Instant::now();
             let part = Part { id: PartId(0), first: SampleId(0), count };

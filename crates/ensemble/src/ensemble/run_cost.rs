@@ -33,12 +33,21 @@ const AUDIT: f64 = 300.0;
 /// The same under a law: the loop, and again in thirds of its arcs.
 const AUDIT_OF_LOOP: f64 = 6.0;
 
+/// Work of the pilots that judge the loop of a campaign ([`crate::ensemble::pilots`]), in runs.
+const PILOTS: f64 = 24.0;
+
 /// Samples of a part under a callback that serves many runs at once: more parts make larger calls.
 const SERVED: u64 = 64;
 
 /// True if the law is a callback of unknown work.
-fn has_callback(plan: &Plan) -> bool {
+pub fn has_callback(plan: &Plan) -> bool {
     plan.loop_spec().is_some_and(is_law_of)
+}
+
+/// Time of a campaign of `plan` on `cores`, s, by that of a run on one core, s; its pilots are flown on one core.
+pub fn campaign_seconds(plan: &Plan, run_seconds: f64, cores: usize) -> f64 {
+    let pilots = if plan.law.is_some() { PILOTS } else { 0.0 };
+    run_seconds * (plan.rows() as f64 / cores as f64 + pilots)
 }
 
 /// The parts of `plan` by the time of a run, `seconds()`.

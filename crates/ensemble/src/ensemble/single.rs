@@ -9,6 +9,7 @@ use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::pilots::measured;
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
+use crate::ensemble::supervision::Alone;
 use crate::math::Isa;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry, points_to};
@@ -55,7 +56,7 @@ impl SingleRun {
     /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
         let mut runs = SingleRuns::new(plan, grid, isa, &GROUPS, false);
-        runs.runs.errors = measured(plan, isa, [sample == SampleId(0), sample != SampleId(0)]);
+        runs.runs.errors = measured(plan, isa, [sample == SampleId(0), sample != SampleId(0)], &Alone);
         runs.run(sample)
     }
 

@@ -12,7 +12,7 @@ use crate::ensemble::pilots::measured;
 use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::run_cost::{parts, run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
-use crate::ensemble::supervision::{Report, Supervision};
+use crate::ensemble::supervision::{Alone, Crew, Report, Supervision};
 use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
@@ -120,19 +120,20 @@ impl<'p> Ensemble<'p> {
         parts(self.plan(), || self.run_seconds())
     }
 
-    fn errors(&self) -> LoopErrors {
+    /// What the loop does to errors, by pilots of `crew`, flown on first use.
+    pub fn judge(&self, crew: &dyn Crew) -> LoopErrors {
         let plan = self.plan();
         let is_judged = self.request().groups.contains(Group::Numerics);
         let rows = [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()];
         let wanted = rows.map(|rows| is_judged && rows > 0);
-        *self.errors.get_or_init(|| measured(plan, self.isa(), wanted))
+        *self.errors.get_or_init(|| measured(plan, self.isa(), wanted, crew))
     }
 
     /// Running samples does not allocate once warm.
     pub fn worker(&self) -> Worker<'_> {
         let plan = self.plan();
         let is_audited = plan.audit_fraction > 0.0;
-        let batch = Batch::new(self.means, plan.grid.clone(), self.errors());
+        let batch = Batch::new(self.means, plan.grid.clone(), self.judge(&Alone));
         Worker {
             campaign: self,
             draws: SceneDraws::new(plan),

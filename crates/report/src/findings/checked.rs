@@ -3,6 +3,7 @@
 use crate::campaign::{Plan, failed_device};
 use crate::ensemble::Ensemble;
 use crate::ensemble::probe::{AuditProbe, LongRun, RunProbe, part_of_run};
+use crate::ensemble::run_cost::campaign_seconds;
 use crate::findings::finding::{Finding, Kind};
 use crate::findings::number::{brief, bytes, counted, duration, short, trimmed};
 use crate::findings::{dispersions, loss, scene};
@@ -217,7 +218,7 @@ fn estimate(probed: &Probed<'_>) -> Vec<Finding> {
         brief(probe.seconds * 1e3),
         counted(plan.rows(), "sample"),
         counted(*cores, "core"),
-        brief(probe.seconds * plan.rows() as f64 / *cores as f64),
+        brief(campaign_seconds(plan, probe.seconds, *cores)),
     );
     let [rows, columns] = *files;
     let [disk, memory] = needs.map(|needed| bytes(needed as u64));
