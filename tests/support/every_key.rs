@@ -151,7 +151,7 @@ fn on_plates() -> String {
     let plates = "semi_major_axis_m = 9e6\n\
         [[plates]]\nname = \"panel\"\narea_m2 = 2.5\nnormal = [0, 0.5, 1]\ntilt_rad = [0.01, 0.0]\ncenter_m = [0.1, \
         0.8, 0]\n\
-        drag_coefficient = 2.5\nspecular = 0.4\ndiffuse = 0.3\n";
+        drag_coefficient = 2.5\nspecular = 0.4\ndiffuse = 0.3\ncell_efficiency = 0.2\n";
     let effects = "gravity_gradient = true\ndrag = true\nsolar_pressure = true\nshadow = \"cylinder\"\ndensity_scale = \
         1.5\n\
         base_density_kg_m3 = 1e-11\nbase_height_m = 5e5\nscale_height_m = 6e4\nsolar_pressure_n_m2 = \

@@ -17,6 +17,7 @@ fn shipped(name: &str) -> String {
 
 fn text() -> String {
     let text = shipped("drag_tumble").replace("samples = 1000 ", "samples = 400 ");
+    let text = text.replace("area_m2 = 0.25", "cell_efficiency = 0.3\narea_m2 = 0.25");
     text.replace("duration_s = 5600.0", &format!("duration_s = {DURATION:?}")).replace(
         "[environment]",
         "eccentricity = 0.01\n[environment]\ndensity_scale = 0.01\nmagnetic_field = \
@@ -35,13 +36,14 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The direction of the Sun by the series of `docs/environment.md`.
-fn sun(time: f64) -> [f64; 3] {
+/// Direction and distance, au, of the Sun by the series of `docs/environment.md`.
+fn sun(time: f64) -> ([f64; 3], f64) {
     let n = DAYS + time / 86_400.0;
     let g = (357.528 + 0.985_600_3 * n).to_radians();
     let lambda = (280.460 + 0.985_647_4 * n + 1.915 * g.sin() + 0.020 * (2.0 * g).sin()).to_radians();
     let epsilon = (23.439 - 4e-7 * n).to_radians();
-    [lambda.cos(), epsilon.cos() * lambda.sin(), epsilon.sin() * lambda.sin()]
+    let direction = [lambda.cos(), epsilon.cos() * lambda.sin(), epsilon.sin() * lambda.sin()];
+    (direction, 1.00014 - 0.01671 * g.cos() - 0.00014 * (2.0 * g).cos())
 }
 
 /// Greenwich mean sidereal time, deg (J. Meeus, *Astronomical Algorithms*, 1998, eq. 12.4).
@@ -91,7 +93,7 @@ fn arrows_point_where_the_run_has_them() {
         for (name, row_of) in [
             ("nadir", &(|row: usize| unit(positions[row].map(|x| -x))) as &dyn Fn(usize) -> [f64; 3]),
             ("velocity", &|row| unit(velocities[row])),
-            ("sun", &|row| sun(times[row])),
+            ("sun", &|row| sun(times[row]).0),
             ("field", &|row| field(times[row], positions[row])),
         ] {
             let shown = found.array(&orbit[name]);
@@ -121,7 +123,8 @@ fn series(run: &SingleRun, wanted: Series) -> &[f64] {
     &run.series.iter().find(|(series, _)| *series == wanted).unwrap_or_else(|| panic!("no {wanted:?}")).1
 }
 
-/// Law: the hidden share of the Sun in the replay is its column at each time.
+/// Law: the hidden share of the Sun in the replay is its column at each time; cells on the two ends of the bus have the
+/// power 1361 W/m^2 eta A |s3 . s|/d^2 of what is not hidden.
 #[test]
 fn shadow_is_that_of_the_column() {
     let found = &*ORBIT;
@@ -137,6 +140,14 @@ fn shadow_is_that_of_the_column() {
         for (value, column) in hidden.iter().zip(series(&columns, Series::SunHidden)) {
             assert!((value - column).abs() < 1e-3, "{value} for {column}");
             seen[usize::from(*column > 0.5)] += 1;
+        }
+        let powers = series(&columns, Series::SolarPower).iter().zip(series(&columns, Series::SunHidden));
+        for (point, (power, hidden)) in powers.enumerate() {
+            let [w, x, y, z]: [f64; 4] = columns.table.at(StateField::Attitude, point);
+            let s3 = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z];
+            let (s, distance) = sun(times[point]);
+            let expected = 1361.0 * 0.3 * 0.25 * dot(s3, s).abs() / (distance * distance) * (1.0 - hidden);
+            assert!((power - expected).abs() < 2e-3, "{power} W for {expected} W");
         }
     }
     assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
@@ -186,7 +197,7 @@ fn the_track_in_shadow_has_its_share() {
         parts.iter().filter(|(label, ..)| label == wanted).map(|(_, x, _)| x.len() as f64).sum()
     };
     let (sin_i, cos_i) = INCLINATION.to_radians().sin_cos();
-    let sin_beta = dot(sun(0.5 * period), [0.0, -sin_i, cos_i]);
+    let sin_beta = dot(sun(0.5 * period).0, [0.0, -sin_i, cos_i]);
     let share = (6_378_137.0_f64 / AXIS).powi(2);
     let expected = ((1.0 - share).sqrt() / (1.0 - sin_beta * sin_beta).sqrt()).acos() / PI;
     let shown = of("in shadow") / (of("in shadow") + of("in sunlight"));

@@ -13,6 +13,10 @@ use crate::dynamics::orbit_state::OrbitState;
 use crate::math::prelude::*;
 use crate::run::StateField;
 
+/// Power of sunlight at one astronomical unit, W/m^2 (G. Kopp, J. Lean, *Geophysical Research Letters* 38, 2011:
+/// 1360.8).
+const SOLAR_CONSTANT: f64 = 1361.0;
+
 #[inline(always)]
 pub fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTable) {
     let has = |series: [Series; 2]| series.into_iter().any(|series| run.observed.has(series));
@@ -21,7 +25,8 @@ pub fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
     {
         air(simd, run, &drag, out);
     }
-    let light = Light::of(zero, run.scene).filter(|_| has([Series::SunHidden, Series::SolarTorqueSquare]));
+    let light = Light::of(zero, run.scene)
+        .filter(|_| has([Series::SunHidden, Series::SolarTorqueSquare]) || run.observed.has(Series::SolarPower));
     if let (Some(light), Some(pressure)) = (light, solar_pressure::of(zero, run.scene, None)) {
         sunlight(simd, run, &light, &pressure, out);
     }
@@ -57,13 +62,21 @@ fn sunlight<S: Simd>(
     let positions: [_; 3] = needed(table, StateField::ComPosition, vectors);
     let attitude = Attitude::of(table, vectors);
     let one = Lanes::broadcast(simd, 1.0);
-    let [hidden, torques] = out.write([Series::SunHidden, Series::SolarTorqueSquare], vectors);
+    let [hidden, torques, powers] =
+        out.write([Series::SunHidden, Series::SolarTorqueSquare, Series::SolarPower], vectors);
     for at in 0..vectors {
         // beyond the last point its time is repeated
         let times: [f64; WIDTH] = core::array::from_fn(|lane| run.times[(WIDTH * at + lane).min(run.points - 1)]);
         let (sun, lit) = light.at(Lanes::load(simd, &times), three(simd, positions, at));
         let direction = transposed_product(attitude.c_es(simd, at), sun.direction);
-        let torque = pressure.torque_at(lit / (sun.distance * sun.distance), direction);
+        let share = lit / (sun.distance * sun.distance);
+        let torque = pressure.torque_at(share, direction);
+        let mut facing = one.zero();
+        for plate in &run.scene.plates {
+            let cosine = dot(constant(one, plate.normal), direction);
+            facing = cosine.larger(one.zero()).mul_add(one.splat(plate.cells), facing);
+        }
+        (share * facing * one.splat(SOLAR_CONSTANT)).store(&mut powers[at]);
         dot(torque, torque).store(&mut torques[at]);
         (one - lit).store(&mut hidden[at]);
     }

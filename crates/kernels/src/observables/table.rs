@@ -405,6 +405,9 @@ series! {
             "Fraction of the Sun's disc that the Earth hides: 0 in full light, 1 in full shadow.";
         SolarTorqueSquare [1] Square [LIGHT] ["solar_pressure_torque_n_m" "N m"]
             "Magnitude of the torque of sunlight on the spacecraft.";
+        SolarPower [1] Quantity [LIGHT] ["solar_power_w" "W"]
+            "Electrical power of the solar cells: 1361 W/m^2 at one astronomical unit, times efficiency, area and \
+                cosine of the angle of incidence, in the light.";
     }
     Law {
         PointingError [1] Quantity [] ["pointing_error_rad" "rad"]
@@ -645,6 +648,8 @@ static FAMILIES: &[&[Column]] = &[
             "Mean over the points of the fraction of the Sun's disc that the Earth hides.";
         SolarTorqueSquare [Order Max] "solar_pressure_torque_max_n_m" "N m"
             "Maximum magnitude of the torque from sunlight on the grid.";
+        SolarPower [Value Mean] "solar_power_mean_w" "W"
+            "Mean over the points of the electrical power of the solar cells.";
     },
 ];
 

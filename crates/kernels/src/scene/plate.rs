@@ -27,6 +27,8 @@ pub struct Plate {
     pub specular: f64,
     /// Share of diffuse reflection.
     pub diffuse: f64,
+    /// Area of the solar cells times their efficiency, m^2.
+    pub cells: f64,
 }
 
 pub(super) fn of_parts(input: &SceneInput) -> usize {
@@ -64,6 +66,7 @@ fn written(plate: &PlateInput) -> Plate {
         drag_coefficient: plate.drag_coefficient,
         specular: plate.specular,
         diffuse: plate.diffuse,
+        cells: plate.area_m2 * plate.cell_efficiency,
     }
 }
 

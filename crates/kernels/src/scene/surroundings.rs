@@ -129,4 +129,8 @@ pub(super) fn check_plate(plate: &PlateInput, problems: &mut Problems) {
             "write smaller shares",
         );
     }
+    if plate.cell_efficiency > 1.0 {
+        let name = Table::Plate.name(plate.name, "cell_efficiency");
+        problems.add(name, shown(&[plate.cell_efficiency]), "at most 1".to_owned(), "write 0.28 for 28%");
+    }
 }

@@ -54,7 +54,7 @@ pub(super) fn name_of((parameter, component): (Parameter, Option<usize>)) -> Str
 pub fn lacking(environment: &EnvironmentInput, header: &str, key: &str) -> Option<&'static str> {
     let (acts, setting) = match (header, key) {
         ("environment", "density_scale") | ("plates", "drag_coefficient") => (environment.drag, "drag = true"),
-        ("environment", "solar_pressure_n_m2" | "shadow") | ("plates", "specular" | "diffuse") => {
+        ("environment", "solar_pressure_n_m2" | "shadow") | ("plates", "specular" | "diffuse" | "cell_efficiency") => {
             (environment.solar_pressure, "solar_pressure = true")
         }
         ("environment", "area_scale") | ("plates", _) => {

@@ -18,6 +18,9 @@ rows! {
         "Fraction of the light that is reflected as by a mirror; what is reflected neither this way nor diffusely is \
         absorbed", NotNegative;
     diffuse: f64 = 0.0, "1", "Fraction of the light that is reflected diffusely (Lambert)", NotNegative;
+    cell_efficiency: f64 = 0.0, "1",
+        "Electrical power of the solar cells on the plate over the light that falls on the plate: the efficiency of \
+        the cells times their share of the area", NotNegative;
     } others {
         /// The name.
         name: Name = Name::NONE,
