@@ -39,62 +39,12 @@ pub fn without_draws() -> String {
     [&EVERY_TABLE[..at("[design]")], &EVERY_TABLE[at("[bands]")..]].concat()
 }
 
-/// A table of each distribution and each way to say its numbers, with a table `data.csv` of columns a and b.
+/// The name of each distribution with a table, in each way to write its numbers, and a table `data.csv` of columns a
+/// and b.
 pub fn distribution_tables() -> Vec<(&'static str, String)> {
-    let of = |parameter: &str, name: &'static str, keys: &str| {
-        let target = if parameter.is_empty() { String::new() } else { format!("parameter = {parameter:?}\n") };
-        (name, format!("[[disperse]]\n{target}distribution = {name:?}\n{keys}\n"))
-    };
-    let magnitude = "magnitude = { distribution = \"uniform\", min = 1.0, max = 2.0 }";
-    let scalar = [
-        ("normal", "std = 0.01"),
-        ("normal", "relative_std = 0.02"),
-        ("normal", "three_sigma = 0.06"),
-        ("truncated_normal", "std = 0.1\nsigmas = 3.0"),
-        ("truncated_normal", "three_sigma = 0.9\nsigmas = 3.0"),
-        ("truncated_normal", "std = 0.1\nlower = 0.05\nupper = 0.5"),
-        ("truncated_normal", "relative_std = 0.02\nrelative_lower = -0.1\nrelative_upper = 0.1"),
-        ("truncated_normal", "std = 0.01\nlower_sigmas = 2.0\nupper_sigmas = 1.5"),
-        ("uniform", "half_width = 0.01"),
-        ("uniform", "relative_half_width = 0.01"),
-        ("uniform", "min = 0.05\nmax = 0.5"),
-        ("log_normal", "log_std = 0.1\nmedian = 0.3"),
-        ("log_uniform", "factor = 1.5"),
-        ("log_uniform", "min = 0.05\nmax = 0.5"),
-        ("triangular", "min = 0.05\nmax = 0.5\nmode = 0.2"),
-        ("pert", "min = 0.05\nmax = 0.5\nmode = 0.2"),
-        ("beta", "alpha = 2.0\nbeta = 3.5\nmin = 0.05\nmax = 0.5"),
-        ("gamma", "shape = 2.0\nscale = 0.1\nmin = 0.05"),
-        ("weibull", "shape = 2.0\nscale = 0.1\nmin = 0.05"),
-        ("exponential", "scale = 0.1\nmin = 0.05"),
-        ("rayleigh", "scale = 0.1"),
-        ("student_t", "degrees_of_freedom = 5.0\nscale = 0.01"),
-        ("student_t", "degrees_of_freedom = 5.0\nrelative_scale = 0.01"),
-        ("bernoulli", "value = 0.3\nprobability = 0.05"),
-        ("choice", "values = [0.2, 0.3]\nweights = [1.0, 2.0]"),
-        ("empirical", "file = \"data.csv\"\ncolumn = \"a\"\ninterpolation = \"none\""),
-        ("offset", "offset = 0.01"),
-        ("offset", "relative_offset = 0.01"),
-    ];
-    let rates = [
-        ("uniform_direction", "axis = [0.0, 3.0, 4.0]".to_owned()),
-        ("cone", "half_angle_rad = 0.2\naxis = [0.0, 3.0, 4.0]".to_owned()),
-        ("von_mises_fisher", "concentration = 20.0\naxis = [0.0, 3.0, 4.0]".to_owned()),
-    ];
-    let attitudes = [
-        ("uniform_attitude", ""),
-        ("attitude_error", "std_rad = [0.01, 0.02, 0.04]"),
-        ("attitude_error", "covariance_rad2 = [[4e-4, 1e-4, 0.0], [1e-4, 1e-4, 0.0], [0.0, 0.0, 2e-4]]"),
-        ("about_axis", "axis = [1.0, 2.0, 2.0]\nangle_rad = { distribution = \"normal\", std = 0.1 }"),
-    ];
-    let rows = "file = \"data.csv\"\nparameters = [\"wheels.w1.radius_m\", \"body.parts.tank.radius_m\"]\ncolumns = \
-        [\"a\", \"b\"]";
-    let scalar = scalar.into_iter().map(|(name, keys)| of("wheels.w1.radius_m", name, keys));
-    let rates = rates
-        .into_iter()
-        .map(|(name, keys)| of("initial.angular_velocity_rad_s", name, &format!("{keys}\n{magnitude}")));
-    let attitudes = attitudes.into_iter().map(|(name, keys)| of("initial.attitude", name, keys));
-    scalar.chain(rates).chain(attitudes).chain([of("", "bootstrap", rows)]).collect()
+    let tables = include_str!("every_distribution.toml").split("\n\n").skip(1);
+    let name = |table: &'static str| table.split_once("distribution = \"").unwrap().1.split('"').next().unwrap();
+    tables.map(|table| (name(table), format!("{}\n", table.trim_end()))).collect()
 }
 
 pub fn every_scene() -> Vec<String> {
@@ -160,18 +110,7 @@ fn on_plates() -> String {
 }
 
 fn on_orbit(keys: &str) -> String {
-    format!(
-        "[campaign]\nname = \"orbit\"\nsamples = 10\nseed = 1\nduration_s = 100.0\n\
-         [body]\nmass_kg = 10\nincludes_wheels = false\ninertia_kg_m2 = [[3, 0, 0], [0, 3, 0], [0, 0, 2]]\n\
-         [[wheels]]\nname = \"w1\"\naxis = [0, 0, 1]\nposition_m = [0, 0, 0]\nradius_m = 0.1\nlength_m = \
-         0.05\ndensity_kg_m3 = 100\n\
-         [[actuation]]\nname = \"burn\"\nstart_s = 0.0\nend_s = 3.0\ntorque_n_m = {{ w1 = 0.001 }}\n\
-         [[actuation]]\nname = \"later\"\nstart_s = 4.0\nend_s = 6.0\ntorque_n_m = {{ w1 = 0.002 }}\n\
-         [initial]\nangular_velocity_rad_s = [0, 0, 0.001]\n\
-         [environment]\nbody_torque_n_m = [0, 0.001, 0]\ngravity_gradient = true\nmagnetic_field = \
-         \"igrf\"\nmagnetic_dipole_a_m2 = [0.1, 0.2, 0.3]\n\
-         [orbit]\nepoch = \"2026-11-24T01:02:03.25Z\"\nbody_radius_m = 0\n{keys}\n"
-    )
+    format!("{}{keys}\n", include_str!("orbit.toml"))
 }
 
 /// Loops of every estimator, modulation, sensor, law, target and maneuver, with their keys.

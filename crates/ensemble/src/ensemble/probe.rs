@@ -39,7 +39,9 @@ pub fn part_of_run(plan: &Plan) -> Option<f64> {
 pub fn limited(plan: &Plan) -> Plan {
     let points = plan.grid.points().min(MOST_POINTS);
     let grid = Grid::uniform(part_of_run(plan).unwrap_or(plan.grid.duration()), points);
-    Plan { max_steps: plan.max_steps.min(PACE_STEPS), grid, audit_fraction: 0.0, ..plan.clone() }
+    // a tick may take two steps
+    let ticks = plan.loop_spec().map_or(0.0, |spec| grid.duration() / spec.period);
+    Plan { max_steps: plan.max_steps.min(PACE_STEPS + 2 * ticks as u64), grid, audit_fraction: 0.0, ..plan.clone() }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
