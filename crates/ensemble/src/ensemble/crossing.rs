@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 /// Exact to rounding for motions of up to about a turn.
-const DEGREE: usize = 16;
+pub(super) const DEGREE: usize = 16;
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Halvings until neighbouring numbers.
 const HALVINGS: usize = 60;
@@ -52,9 +52,13 @@ pub(super) fn of_steps(times: &[f64], values: &[f64], wanted: Wanted, is_next: i
     }
 }
 
-/// The crossing of a quantity with `values` at the [`nodes`] `times`, interpolated if its error is at most `error`, s.
+/// The crossing of a quantity with `values` at `times`, the [`nodes`] of one or several intervals, interpolated if its
+/// error is at most `error`, s.
 pub(super) fn of_curve(times: &[f64], values: &[f64], wanted: Wanted, error: f64) -> Located {
-    let Some(place) = wanted.place(values) else { return Located::At(nearest(times, values)) };
+    let pieces = times.chunks_exact(DEGREE + 1).zip(values.chunks_exact(DEGREE + 1));
+    let mut crossed = pieces.filter_map(|(times, values)| Some((times, values, wanted.place(values)?)));
+    let found = if wanted.is_last { crossed.next_back() } else { crossed.next() };
+    let Some((times, values, place)) = found else { return Located::At(nearest(times, values)) };
     let [start, end] = [times[place], times[place + 1]];
     let slope = (values[place + 1] - values[place]) / (end - start);
     let series = Series::of(values);

@@ -173,9 +173,9 @@ impl<'p> EventFinder<'p> {
             match located {
                 Located::At(time) => {
                     found[one.run * events.len() + one.quantity].time = time;
-                    None
+                    Vec::new()
                 }
-                Located::Between(start, end) => Some([start, end]),
+                Located::Between(start, end) => vec![[start, end]],
             }
         });
         // a jump, located to rounding

@@ -9,17 +9,14 @@ use crate::campaign::extreme::Extreme;
 use crate::campaign::watched_quantity::parsed;
 use crate::ensemble::flights::{Runs, end_of};
 use crate::ensemble::lookup::{ERRORS, Lookup, Search, ticks};
-use crate::ensemble::peak::{Peak, of_curve};
+use crate::ensemble::peak::{BEYOND, largest, may_exceed, of_curve};
 use crate::ensemble::settings::Engines;
 use crate::observables::Observer;
 use crate::observables::band_series::event_series;
 use crate::propagation::CompletedRun;
 use crate::run::Grid;
 
-const TICKS: usize = 4096;
-/// A parabola exceeds its value at a point by an eighth of its second difference; points are searched if four times
-/// that could make them largest.
-const BEYOND: f64 = 0.5;
+const TICKS: usize = 16_384;
 
 pub(super) struct ExtremeFinder<'p> {
     plan: &'p Plan,
@@ -105,17 +102,9 @@ impl<'p> ExtremeFinder<'p> {
         let error = self.plan.tolerance.relative.clamp(ERRORS[0], ERRORS[1]);
         lookup.refine(pending, runs, f64::INFINITY, &mut |one, times, values| {
             let values: Vec<f64> = values.iter().map(|value| sign(&extremes[one.quantity]) * value).collect();
-            let peak = match lookup.period(one.quantity) {
-                Some(_) => Peak::Value(values.iter().fold(f64::NAN, |most, value| most.max(*value))),
-                None => of_curve(times, &values, error),
-            };
-            let (value, between) = match peak {
-                Peak::Value(value) => (value, None),
-                Peak::Between(value, between) => (value, Some(between)),
-            };
             let found = &mut found[one.run * extremes.len() + one.quantity];
-            *found = found.max(value);
-            between
+            *found = found.max(largest(&values));
+            if lookup.period(one.quantity).is_some() { Vec::new() } else { of_curve(times, &values, error) }
         });
     }
 
@@ -131,18 +120,27 @@ impl<'p> ExtremeFinder<'p> {
         if first >= after {
             return vec![[start, end]];
         }
-        let known = values[first..after].iter().fold(f64::NAN, |most, value| most.max(*value));
+        let known = largest(&values[first..after]);
         let can_be = |point: &usize| {
             let [before, here, next] = [values[point - 1], values[*point], values[point + 1]];
-            // an unknown neighbour is no larger and bounds nothing
+            // an unknown neighbour is no larger
             let has_larger = [before, next].into_iter().any(|beside| beside > here);
-            let stays_below = here + BEYOND * (before - 2.0 * here + next).abs() < known;
-            !here.is_nan() && !has_larger && (before != here || next != here) && !stays_below
+            !has_larger && (before != here || next != here) && may_exceed([before, here, next], known)
         };
         let inner = (first + 1..after.saturating_sub(1)).filter(can_be);
         let mut places: Vec<[f64; 2]> = inner.map(|point| [times[point - 1], times[point + 1]]).collect();
-        places.push([start, times[(first + 1).min(after - 1)]]);
-        places.push([times[after.saturating_sub(2).max(first)], end]);
+        let stays_below = |limit: f64, three: [usize; 3]| {
+            let [edge, beside, third] = three.map(|point| values[point]);
+            let bound = edge.max(beside) + BEYOND * (edge - 2.0 * beside + third).abs();
+            times[three[0]] == limit && bound < known
+        };
+        let has_three = after - first >= 3;
+        if !has_three || !stays_below(start, [first, first + 1, first + 2]) {
+            places.push([start, times[(first + 1).min(after - 1)]]);
+        }
+        if !has_three || !stays_below(end, [after - 1, after - 2, after - 3]) {
+            places.push([times[after.saturating_sub(2).max(first)], end]);
+        }
         let found = &mut self.found[run * extremes + extreme];
         *found = found.max(known);
         places

@@ -1,6 +1,6 @@
 //! [`Lookup`]: quantities of runs at observation points and other times, for which the sample is flown again with
 //! points there: observation does not change the integration of any engine, effect and loop. Each run has its own
-//! times, so a few are flown at once, in lanes.
+//! times, so a few are flown at once, in lanes. A loop is flown no further than the last of these times.
 
 use crate::campaign::Plan;
 use crate::ensemble::crossing::nodes;
@@ -17,7 +17,7 @@ use crate::scene::Scene;
 /// One in each lane.
 const TOGETHER: usize = 8;
 /// Most times of one flight, beyond those of one query.
-const MOST_TIMES: usize = 4096;
+const MOST_TIMES: usize = 16_384;
 
 /// Relative rounding of a dozen products and sums from state to quantity.
 const ROUNDING_OF_VARIABLES: f64 = 16.0 * f64::EPSILON;
@@ -37,6 +37,8 @@ struct Query {
     times: Vec<f64>,
 }
 
+/// Most pieces of an interval in one flight of a loop, which bends a curve at its ticks.
+const MOST_PIECES: f64 = 64.0;
 /// Most flights of a search: they locate a jump or corner between points an hour apart to rounding.
 const MOST_FLIGHTS: usize = 24;
 /// Limits of a search's relative error, which is that of the integration within them.
@@ -109,8 +111,9 @@ impl PointValues<'_> {
     }
 }
 
-/// Takes a search with times of its interval and their values; returns an interval for another look, if any.
-pub type Narrow<'n, T> = dyn FnMut(Search<T>, &[f64], &[f64]) -> Option<[f64; 2]> + 'n;
+/// Takes a search with times of its interval (of a curve, the [`nodes`] of its pieces) and their values; returns
+/// intervals for another look.
+pub type Narrow<'n, T> = dyn FnMut(Search<T>, &[f64], &[f64]) -> Vec<[f64; 2]> + 'n;
 
 impl<'p> Lookup<'p> {
     pub fn new(
@@ -145,8 +148,22 @@ impl<'p> Lookup<'p> {
 
     /// Period of the ticks at which a quantity changes, s; `None` if it also changes between them.
     pub fn period(&self, quantity: usize) -> Option<f64> {
-        let spec = self.means.plan.law.as_ref()?.spec()?;
-        self.quantities[quantity].changes_at_ticks.then_some(spec.period)
+        self.means.plan.loop_spec().filter(|_| self.quantities[quantity].changes_at_ticks).map(|spec| spec.period)
+    }
+
+    /// The times at which a search looks at its interval.
+    fn times<T>(&self, &Search { quantity, between: [start, end], .. }: &Search<T>, most_ticks: f64) -> Vec<f64> {
+        if start == end {
+            return vec![start];
+        }
+        match (self.period(quantity), self.means.plan.loop_spec()) {
+            (Some(period), _) => ticks(period, start, end, most_ticks),
+            (None, Some(spec)) => {
+                let ends = ticks(spec.period, start, end, MOST_PIECES);
+                ends.windows(2).flat_map(|piece| nodes(piece[0], piece[1])).collect()
+            }
+            (None, None) => nodes(start, end).collect(),
+        }
     }
 
     /// The values of the run observed last by `observer`.
@@ -156,23 +173,27 @@ impl<'p> Lookup<'p> {
         PointValues { quantities: &self.quantities, sources: &self.sources, kept, points }
     }
 
-    /// Answers `queries`, ordered by run: passes the index of each with the values at its times.
+    /// Answers `queries`, those of one flight side by side: passes the index of each with the values at its times.
     fn answer(&self, queries: &[Query], of_runs: Runs<'_>, take: &mut dyn FnMut(usize, &[f64])) {
         let mut first = 0;
         while first < queries.len() {
-            let (mut runs, mut times, mut next): (Vec<usize>, usize, usize) = (Vec::new(), 0, first);
+            let (mut runs, mut times, mut next): (Vec<usize>, Vec<f64>, usize) = (Vec::new(), Vec::new(), first);
             while let Some(one) = queries.get(next) {
-                let is_new = runs.last() != Some(&one.run);
-                times += one.times.len();
-                if next > first && (is_new && runs.len() == TOGETHER || times > MOST_TIMES) {
+                let is_new = !runs.contains(&one.run);
+                let mut with_own = [&times[..], &one.times].concat();
+                with_own.sort_unstable_by(f64::total_cmp);
+                with_own.dedup();
+                if next > first && (is_new && runs.len() == TOGETHER || with_own.len() > MOST_TIMES) {
                     break;
                 }
+                times = with_own;
                 if is_new {
                     runs.push(one.run);
                 }
                 next += 1;
             }
-            self.fly_again(&runs, &queries[first..next], of_runs, &mut |index, values| take(first + index, values));
+            let queries = &queries[first..next];
+            self.fly_again(&runs, (queries, times), of_runs, &mut |index, values| take(first + index, values));
             first = next;
         }
     }
@@ -189,20 +210,16 @@ impl<'p> Lookup<'p> {
             if searches.is_empty() {
                 break;
             }
-            searches.sort_by_key(|one| one.run);
-            let query = |&Search { run, quantity, between: [start, end], .. }: &Search<T>| {
-                let times = match self.period(quantity) {
-                    Some(period) => ticks(period, start, end, most_ticks),
-                    None if start == end => vec![start],
-                    None => nodes(start, end).collect(),
-                };
-                Query { run, quantity, times }
+            // flights end with their last search
+            searches.sort_by(|one, other| one.between[1].total_cmp(&other.between[1]).then(one.run.cmp(&other.run)));
+            let query = |one: &Search<T>| {
+                Query { run: one.run, quantity: one.quantity, times: self.times(one, most_ticks) }
             };
             let queries: Vec<Query> = searches.iter().map(query).collect();
             let mut again = Vec::new();
             self.answer(&queries, runs, &mut |index, values| {
                 let between = narrow(searches[index], &queries[index].times, values);
-                again.extend(between.map(|between| Search { between, ..searches[index] }));
+                again.extend(between.into_iter().map(|between| Search { between, ..searches[index] }));
             });
             searches = again;
         }
@@ -212,17 +229,19 @@ impl<'p> Lookup<'p> {
     fn fly_again(
         &self,
         runs: &[usize],
-        queries: &[Query],
+        (queries, mut times): (&[Query], Vec<f64>),
         Runs { scenes, draws }: Runs<'_>,
         take: &mut dyn FnMut(usize, &[f64]),
     ) {
-        let mut times = vec![0.0, self.grid.duration()];
-        times.extend(queries.iter().flat_map(|one| &one.times));
+        let Means { plan, request, engines } = self.means;
+        // the arc of the last time keeps its length
+        let beyond = plan.loop_spec().map_or(f64::INFINITY, |spec| spec.period);
+        let end = times.last().map_or(0.0, |last| last + beyond);
+        times.extend([0.0, self.grid.duration().min(end)]);
         times.sort_unstable_by(f64::total_cmp);
         times.dedup();
         let grid = Grid::at(times);
         let is_compared = self.sources.iter().any(BandSeries::is_from_nominal);
-        let Means { plan, request, engines } = self.means;
         let nominal = is_compared.then(|| nominal_attitude(plan, &request, &grid, engines.isa)).flatten();
         let mut observed = self.means.runs_with(&grid, self.fields, nominal);
         let points = grid.points();
