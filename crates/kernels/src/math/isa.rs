@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use fearless_simd::{Level, Simd};
 
 use crate::math::lanes::Lanes;
+use crate::math::one::One;
 use crate::math::pair::Pair;
 use crate::math::real::Real;
 
@@ -115,6 +116,16 @@ impl Isa {
     /// The target's baseline; on x86-64 fused operations are library calls.
     fn plain() -> Self {
         Isa { level: Level::baseline(), name: "plain" }
+    }
+
+    /// Runs `work` one number at a time, with the fused operation of AVX2 if there is one.
+    pub fn run_one<W: LaneWork>(self, work: W) -> W::Output {
+        dispatch! { self, simd,
+            "avx512" as_avx2 => work.run(simd, One(0.0, simd)),
+            "avx2" as_avx2 => work.run(simd, One(0.0, simd)),
+            plain => work.run(simd, 0.0),
+            elsewhere => work.run(simd, 0.0),
+        }
     }
 
     /// Runs `work` in lanes of AVX2 if there are any, else one number at a time, to save compile time.

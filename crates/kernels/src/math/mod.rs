@@ -9,6 +9,7 @@ pub mod isa;
 pub mod lanes;
 pub mod list;
 pub mod normal;
+pub(crate) mod one;
 pub(crate) mod pair;
 pub(crate) mod power;
 pub(crate) mod prelude;

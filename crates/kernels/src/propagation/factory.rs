@@ -4,19 +4,20 @@ use core::marker::PhantomData;
 
 use fearless_simd::Simd;
 
-use super::engine::Engine;
+use super::engine::{CompletionCallback, Engine};
 use super::method::Method;
 use super::null_space_engine::{ALL_WHEELS, NullSpaceEngine, TWO_WHEELS};
 use super::runge_kutta_engine::RungeKuttaEngine;
 use super::settings::PropagationSettings;
 use super::taylor::engine::TaylorEngine;
+use crate::dynamics::actuation::Laws;
 use crate::dynamics::effects::within_arcs::{Acting, NoEffects, WithinArcs};
 use crate::dynamics::gyrostat::{RATES_ONLY, WITH_ANGLES, WITH_ATTITUDE, WITH_MOTORS, WITH_THRUST};
 use crate::math::isa::LaneWork;
 use crate::math::{Isa, Real};
 use crate::ode::integrators::Visitor;
-use crate::ode::{self, Adaptive, DormandPrince, Integrator};
-use crate::scene::MAX_WHEELS;
+use crate::ode::{self, Adaptive, Dop853, DormandPrince, Integrator};
+use crate::scene::{MAX_WHEELS, Scene};
 
 impl PropagationSettings {
     /// The engine for one worker on the instruction set `isa`.
@@ -26,10 +27,73 @@ impl PropagationSettings {
     pub fn engine(&self, isa: Isa) -> Box<dyn Engine> {
         let Self { method, forces, .. } = self;
         assert!(method.integrates(*forces), "{} leaves out an effect of {forces:?}", method.name());
+        if self.feedback && self.has_narrow_kernel() {
+            return Box::new(ByNumber { settings: self.clone(), isa, few: None, many: None });
+        }
+        self.engine_in_lanes(isa)
+    }
+
+    /// True if a kernel of loops integrates these runs one at a time.
+    fn has_narrow_kernel(&self) -> bool {
+        match self.method {
+            Method::Auto | Method::Taylor => self.changes_within_arcs() || self.thrust || self.motors,
+            Method::Gyrostat(Integrator::Dop853) => self.changes_within_arcs(),
+            _ => false,
+        }
+    }
+
+    fn engine_in_lanes(&self, isa: Isa) -> Box<dyn Engine> {
         match self.method {
             Method::Auto | Method::Taylor => isa.run_wide(BuildTaylor(self)),
             Method::Gyrostat(integrator) => isa.run_narrow(BuildGyrostat(self, integrator)),
             Method::NullSpace => isa.run_narrow(BuildNullSpace(self)),
+        }
+    }
+}
+
+/// Most runs of a loop that are flown one after the other: a lane costs a third of all eight.
+const FEW: usize = 2;
+
+/// Flies few runs of a loop one after the other, and more in lanes, with the same bits.
+struct ByNumber {
+    settings: PropagationSettings,
+    isa: Isa,
+    few: Option<Box<dyn Engine>>,
+    many: Option<Box<dyn Engine>>,
+}
+
+impl Engine for ByNumber {
+    fn propagate_under(&mut self, laws: Laws<'_>, scenes: &[Scene], finish: &mut CompletionCallback<'_>) {
+        let Self { settings, isa, few, many } = self;
+        let engine = if scenes.len() <= FEW {
+            few.get_or_insert_with(|| isa.run_one(BuildNarrow(settings)))
+        } else {
+            many.get_or_insert_with(|| settings.engine_in_lanes(*isa))
+        };
+        engine.propagate_under(laws, scenes, finish);
+    }
+}
+
+/// The kernels of loops ([`PropagationSettings::has_narrow_kernel`]).
+struct BuildNarrow<'a>(&'a PropagationSettings);
+
+impl LaneWork for BuildNarrow<'_> {
+    type Output = Box<dyn Engine>;
+
+    fn run<S: Simd, R: Real + Send + 'static>(self, simd: S, zero: R) -> Self::Output {
+        let settings = self.0;
+        macro_rules! taylor {
+            ($Effects:ty, $components:ident, $series:ident) => {
+                Box::new(TaylorEngine::<S, R, $Effects, $components, $series, true>::new(simd, zero, settings))
+            };
+        }
+        match (settings.method, settings.changes_within_arcs()) {
+            (Method::Gyrostat(_), _) => {
+                OnGyrostats { simd, zero, settings, effects: PhantomData::<Acting<R>> }.visit(Adaptive(Dop853))
+            }
+            (_, true) => taylor!(Acting<R>, WITH_THRUST, WITH_THRUST),
+            _ if settings.components() == WITH_THRUST => taylor!(NoEffects, WITH_THRUST, WITH_ANGLES),
+            _ => taylor!(NoEffects, WITH_MOTORS, WITH_ANGLES),
         }
     }
 }
