@@ -7,6 +7,7 @@ use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::rows::Rows;
 use crate::ensemble::supervision::Report;
 use crate::math::lanes::WIDTH;
+use crate::observables::nominal_attitude::NominalAttitude;
 use crate::propagation::CompletedRun;
 use crate::run::{Grid, Status};
 use crate::sampling::SampleId;
@@ -27,6 +28,7 @@ pub(super) struct Batch<'p> {
     pub draws_of_laws: Vec<LawDraw>,
     is_done: Vec<bool>,
     ends: Vec<Option<RunEnd>>,
+    nominal: Option<NominalAttitude>,
     runs: ObservedRuns<'p>,
     places_of_law: Range<usize>,
     report: Vec<f64>,
@@ -37,7 +39,7 @@ pub(super) struct Batch<'p> {
 
 impl<'p> Batch<'p> {
     /// Running scenes allocates nothing once warm, unless an event ends them.
-    pub fn new(means: Means<'p>, grid: Grid, errors: LoopErrors) -> Self {
+    pub fn new(means: Means<'p>, grid: Grid, nominal: Option<NominalAttitude>, errors: LoopErrors) -> Self {
         let Means { plan, request, engines } = means;
         Batch {
             of_campaign: grid.points(),
@@ -47,7 +49,8 @@ impl<'p> Batch<'p> {
             draws_of_laws: Vec::new(),
             is_done: Vec::new(),
             ends: Vec::new(),
-            runs: means.runs(&grid).judged(errors),
+            runs: means.runs_with(&grid, request.fields(), nominal.clone()).judged(errors),
+            nominal,
             places_of_law: request.places_of_law(),
             report: vec![f64::NAN; request.places_of_law().len()],
             events: EventFinder::new(plan, &grid, engines),
@@ -130,7 +133,8 @@ impl<'p> Batch<'p> {
     }
 
     fn renew(&mut self) {
-        self.runs = self.means.runs(&self.grid).judged(self.runs.errors);
+        let Batch { means, grid, nominal, .. } = self;
+        self.runs = means.runs_with(grid, means.request.fields(), nominal.clone()).judged(self.runs.errors);
     }
 
     fn report_laws(&mut self, which: Range<usize>, rows: &mut Rows) {
@@ -199,7 +203,8 @@ impl<'p> Batch<'p> {
         for scene in which {
             let Some(end) = self.ends[scene].filter(|_| !self.is_done[scene]) else { continue };
             let (grid, of_campaign) = end.grid(&self.grid);
-            let mut own = Batch::new(self.means, grid, self.runs.errors);
+            let nominal = self.means.nominal_attitude(&grid);
+            let mut own = Batch::new(self.means, grid, nominal, self.runs.errors);
             own.events = own.events.map(|events| events.ended_by(Some(end)));
             own.of_campaign = of_campaign;
             own.scenes.push(self.scenes[scene].clone());

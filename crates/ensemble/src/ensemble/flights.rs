@@ -4,6 +4,7 @@ use crate::campaign::{Plan, event_columns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::ensemble::loop_errors::LoopErrors;
+use crate::ensemble::pilots::OwnTwin;
 use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::loops::loop_record::SharedRecord;
@@ -284,9 +285,13 @@ impl<'p> Means<'p> {
         Means { plan, request: plan.request(), engines }
     }
 
+    /// [`nominal_attitude`] of its request.
+    pub fn nominal_attitude(self, grid: &Grid) -> Option<NominalAttitude> {
+        nominal_attitude(self.plan, &self.request, grid, self.engines.isa)
+    }
+
     pub fn runs(self, grid: &Grid) -> ObservedRuns<'p> {
-        let nominal = nominal_attitude(self.plan, &self.request, grid, self.engines.isa);
-        self.runs_with(grid, self.request.fields(), nominal)
+        self.runs_with(grid, self.request.fields(), self.nominal_attitude(grid))
     }
 
     /// Runs with the states `fields`, compared with the `nominal` attitude if known.
@@ -298,6 +303,7 @@ impl<'p> Means<'p> {
             observer: Observer::new(self.request, grid).with_nominal(nominal),
             row: vec![f64::NAN; self.request.columns().len()],
             errors: LoopErrors::default(),
+            of_nominal: None,
         }
     }
 }
@@ -310,6 +316,8 @@ pub struct ObservedRuns<'p> {
     row: Vec<f64>,
     /// Runs under a law are judged by these errors, if known.
     pub errors: LoopErrors,
+    /// Set for flights of the nominal run alone, with its twin, if it is judged.
+    of_nominal: Option<Option<OwnTwin<'p>>>,
 }
 
 pub struct ObservedRun<'a> {
@@ -320,15 +328,27 @@ pub struct ObservedRun<'a> {
     pub row: &'a [f64],
 }
 
-impl ObservedRuns<'_> {
+impl<'p> ObservedRuns<'p> {
+    /// For the nominal run, which is compared with itself and judged by its `twin`.
+    #[must_use]
+    pub fn of_nominal(self, twin: Option<OwnTwin<'p>>) -> Self {
+        ObservedRuns { of_nominal: Some(twin), ..self }
+    }
+
     #[must_use]
     pub fn judged(self, errors: LoopErrors) -> Self {
         ObservedRuns { errors, ..self }
     }
 
     pub fn fly(&mut self, runs: Runs<'_>, finish: &mut dyn FnMut(ObservedRun<'_>)) {
-        let ObservedRuns { means: Means { plan, engines, .. }, flights, observer, row, errors } = self;
+        let ObservedRuns { means: Means { plan, request, engines }, flights, observer, row, errors, of_nominal } = self;
         flights.fly(runs, &mut |run, of_law| {
+            if let Some(twin) = of_nominal {
+                if request.groups.contains(Group::Motion) {
+                    observer.set_nominal(NominalAttitude::of(run.table, run.outcome));
+                }
+                errors.nominal = twin.as_ref().map(|twin| twin.error(&run));
+            }
             observer.set_loop_error(runs.draws.get(run.index).and_then(|draw| errors.of(draw.sample)));
             let status = observe(plan, observer, engines.isa, &runs.scenes[run.index], (&run, of_law), row);
             finish(ObservedRun { run, of_law, status, observer, row });

@@ -212,9 +212,8 @@ impl<'p> Lookup<'p> {
             }
             // flights end with their last search
             searches.sort_by(|one, other| one.between[1].total_cmp(&other.between[1]).then(one.run.cmp(&other.run)));
-            let query = |one: &Search<T>| {
-                Query { run: one.run, quantity: one.quantity, times: self.times(one, most_ticks) }
-            };
+            let query =
+                |one: &Search<T>| Query { run: one.run, quantity: one.quantity, times: self.times(one, most_ticks) };
             let queries: Vec<Query> = searches.iter().map(query).collect();
             let mut again = Vec::new();
             self.answer(&queries, runs, &mut |index, values| {

@@ -1,9 +1,9 @@
 //! [`measured`]: what the control loop of a plan does to the errors of its runs, by pilots
 //! ([`crate::observables::loop_error`]).
 //!
-//! Pilots are the nominal sample, which is judged by itself, and the first drawn samples, which judge all others. They
-//! depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits and ticks, but
-//! no step: the twin's arcs are halved and its tolerance is a thousandth.
+//! Pilots are the nominal sample, which is judged by itself ([`OwnTwin`]), and the first drawn samples, which judge all
+//! others. They depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits
+//! and ticks, but no step: the twin's arcs are halved and its tolerance is a thousandth.
 
 use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
@@ -17,18 +17,19 @@ use crate::math::Isa;
 use crate::observables::loop_error::{LoopError, Pilot};
 use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::window::NO_WINDOWS;
-use crate::observables::{Groups, Request};
+use crate::observables::{Group, Groups, Request};
 use crate::ode::Tolerance;
-use crate::propagation::{RotationError, rotation_difference};
+use crate::propagation::{CompletedRun, RotationError, rotation_difference};
 use crate::run::{Grid, LocalErrors, StateField, StateFields, StateTable, Status, points_to, rate_scale_of};
 use crate::sampling::SampleId;
+use crate::scene::Scene;
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Number of drawn pilots: with the nominal sample they fill the lanes.
+/// Number of drawn pilots.
 const DRAWN: u64 = 7;
 
 /// Steps of a pilot over those of a run, at most.
@@ -72,6 +73,16 @@ pub struct Flown {
 }
 
 impl Flown {
+    fn of(run: &CompletedRun<'_>, row: &[f64], grid: &Grid) -> Self {
+        Flown {
+            table: run.table.clone(),
+            filled: run.outcome.points.min(points_to(grid.times(), end_of(run))),
+            status: run.outcome.status,
+            local: run.outcome.local_errors,
+            row: row.to_vec(),
+        }
+    }
+
     /// The error of this run against `truth`; infinite if they end differently.
     pub fn error(&self, truth: &Flown, times: &[f64]) -> RotationError {
         let filled = self.filled.min(truth.filled);
@@ -91,58 +102,121 @@ impl Flown {
 
 /// For the nominal sample, and for all others, where `wanted`; none without a law. A callback is asked by `crew`.
 pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2], crew: &dyn Crew) -> LoopErrors {
-    if plan.law.is_none() || wanted == [false; 2] {
-        return LoopErrors::default();
+    let of = |samples| Pilots::of(plan, isa, samples).measured(crew);
+    let [nominal, drawn] = wanted.map(|wanted| wanted && plan.law.is_some());
+    LoopErrors { nominal: nominal.then(|| of(0..=0)), drawn: drawn.then(|| of(1..=DRAWN)) }
+}
+
+/// Samples that are flown as in their campaign, and finer.
+struct Pilots<'p> {
+    plan: &'p Plan,
+    isa: Isa,
+    patient: Plan,
+    finer: Plan,
+    scenes: Vec<Scene>,
+    draws: Vec<LawDraw>,
+}
+
+impl<'p> Pilots<'p> {
+    fn of(plan: &'p Plan, isa: Isa, samples: RangeInclusive<u64>) -> Self {
+        let (mut scenes, mut draws, mut source) = (Vec::new(), Vec::new(), SceneDraws::new(plan));
+        for sample in samples.map(SampleId) {
+            // a list has what it has, and some draws are not physical
+            let Ok(scene) = source.scene(sample) else { continue };
+            scenes.push(scene);
+            draws.extend(LawDraw::of(plan, sample, source.drawn()));
+        }
+        // the limit of steps of the campaign's runs is no limit of what is known of them
+        let patient = Plan { max_steps: plan.max_steps.saturating_mul(PATIENCE), ..plan.clone() };
+        Pilots { plan, isa, patient, finer: TWIN.plan(plan), scenes, draws }
     }
-    let finer = TWIN.plan(plan);
-    let of_drawn = 1..if wanted[1] { DRAWN + 1 } else { 1 };
-    let samples = wanted[0].then_some(0).into_iter().chain(of_drawn).map(SampleId);
-    let (mut scenes, mut draws, mut source) = (Vec::new(), Vec::new(), SceneDraws::new(plan));
-    for sample in samples {
-        // a list has what it has, and some draws are not physical
-        let Ok(scene) = source.scene(sample) else { continue };
-        scenes.push(scene);
-        draws.extend(LawDraw::of(plan, sample, source.drawn()));
+
+    /// The plans of a pilot and of its twin, with the parts of their arcs.
+    fn plans(&self) -> [(&Plan, u32); 2] {
+        [(&self.patient, 1), (&self.finer, TWIN.parts)]
     }
-    // the limit of steps of the campaign's runs is no limit of what is known of them
-    let patient = Plan { max_steps: plan.max_steps.saturating_mul(PATIENCE), ..plan.clone() };
-    let plans = [(&patient, 1), (&finer, TWIN.parts)];
-    // as in a campaign, a panic ends one run only
-    let fly = |(plan, parts): (&Plan, u32), which: Range<usize>| {
-        let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which] };
-        catch_unwind(AssertUnwindSafe(|| outcomes(plan, parts, isa, runs, &Wanted::nothing(plan)))).ok()
-    };
-    let together = || {
-        let [own, twins] = plans.map(|plan| fly(plan, 0..scenes.len()));
-        Some(own?.into_iter().zip(twins?).map(Some).collect())
-    };
-    let apart = || {
+
+    fn fly(&self, plan: (&Plan, u32)) -> Vec<Option<Flown>> {
+        let pilots = 0..self.scenes.len();
+        // as in a campaign, a panic ends one run only
+        match self.flown(plan, pilots.clone()) {
+            Some(all) => all.into_iter().map(Some).collect(),
+            None => pilots.map(|pilot| self.alone(plan, pilot)).collect(),
+        }
+    }
+
+    fn flown(&self, (plan, parts): (&Plan, u32), pilots: Range<usize>) -> Option<Vec<Flown>> {
+        let runs = self.runs(pilots);
+        catch_unwind(AssertUnwindSafe(|| outcomes(plan, parts, self.isa, runs, &Wanted::nothing(plan)))).ok()
+    }
+
+    fn alone(&self, plan: (&Plan, u32), pilot: usize) -> Option<Flown> {
+        self.flown(plan, pilot..pilot + 1)?.pop()
+    }
+
+    fn runs(&self, pilots: Range<usize>) -> Runs<'_> {
+        Runs { scenes: &self.scenes[pilots.clone()], draws: &self.draws[pilots] }
+    }
+
+    fn measured(&self, crew: &dyn Crew) -> LoopError {
+        let plans = self.plans();
+        // runs of a callback take turns; lanes would ask it one by one
+        let [own, twins] = if has_callback(self.plan) { self.by_turns(crew) } else { plans.map(|plan| self.fly(plan)) };
+        self.compared(&own, &twins)
+    }
+
+    /// Pilots and twins, each alone.
+    fn by_turns(&self, crew: &dyn Crew) -> [Vec<Option<Flown>>; 2] {
+        let pilots = self.scenes.len();
         let (next, found) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
         crew.work(&|| {
             while let flight = next.fetch_add(1, Ordering::Relaxed)
-                && flight < 2 * scenes.len()
+                && flight < 2 * pilots
             {
-                let flown = fly(plans[flight % 2], flight / 2..flight / 2 + 1);
-                unpoisoned(found.lock()).insert(flight, flown.and_then(|mut flown| flown.pop()));
+                let flown = self.alone(self.plans()[flight / pilots], flight % pilots);
+                unpoisoned(found.lock()).insert(flight, flown);
             }
         });
-        let mut found = unpoisoned(found.into_inner()).into_values();
-        std::iter::from_fn(|| Some(found.next()?.zip(found.next()?))).collect()
-    };
-    // runs of a callback take turns, and lanes would ask it one by one
-    let together = if has_callback(plan) { None } else { together() };
-    let pairs: Vec<Option<(Flown, Flown)>> = together.unwrap_or_else(apart);
-    let nominals = draws.iter().take_while(|draw| draw.sample == SampleId(0)).count();
-    let of = |which: Range<usize>| {
-        let pilots = pairs[which.clone()].iter().flatten();
-        let mut found = LoopError::of_pilots(pilots.filter_map(|(own, twin)| own.pilot(twin, &plan.grid)));
+        let mut own: Vec<Option<Flown>> = unpoisoned(found.into_inner()).into_values().collect();
+        let twins = own.split_off(pilots);
+        [own, twins]
+    }
+
+    fn compared(&self, own: &[Option<Flown>], twins: &[Option<Flown>]) -> LoopError {
+        let pairs = own.iter().zip(twins).filter_map(|(own, twin)| own.as_ref().zip(twin.as_ref()));
+        let mut found = LoopError::of_pilots(pairs.filter_map(|(own, twin)| own.pilot(twin, &self.plan.grid)));
         if found.parts {
-            let runs = Runs { scenes: &scenes[which.clone()], draws: &draws[which] };
-            found.outcomes_agree = catch_unwind(AssertUnwindSafe(|| outcomes_agree(plans, isa, runs))).unwrap_or(false);
+            let agree = || outcomes_agree(self.plans(), self.isa, self.runs(0..self.scenes.len()));
+            found.outcomes_agree = catch_unwind(AssertUnwindSafe(agree)).unwrap_or(false);
         }
         found
-    };
-    LoopErrors { nominal: wanted[0].then(|| of(0..nominals)), drawn: wanted[1].then(|| of(nominals..scenes.len())) }
+    }
+}
+
+/// The twin of the nominal sample, with which the sample itself is compared as it is flown.
+pub struct OwnTwin<'p> {
+    pilots: Pilots<'p>,
+    twin: Vec<Option<Flown>>,
+}
+
+impl<'p> OwnTwin<'p> {
+    /// `None` without a law, and where no column estimates errors.
+    pub fn new(plan: &'p Plan, isa: Isa) -> Option<Self> {
+        if plan.law.is_none() || !plan.request().groups.contains(Group::Numerics) {
+            return None;
+        }
+        let pilots = Pilots::of(plan, isa, 0..=0);
+        let twin = pilots.fly(pilots.plans()[1]);
+        Some(OwnTwin { pilots, twin })
+    }
+
+    /// What the loop does to the errors of `run`, the nominal sample at the campaign's points.
+    pub fn error(&self, run: &CompletedRun<'_>) -> LoopError {
+        if run.outcome.status == Status::StepLimit {
+            return self.pilots.compared(&self.pilots.fly(self.pilots.plans()[0]), &self.twin);
+        }
+        self.pilots.compared(&[Some(Flown::of(run, &[], &self.pilots.plan.grid))], &self.twin)
+    }
 }
 
 /// Largest difference of equal outcomes, as a share of the largest value among the pilots: below the digits that are
@@ -225,10 +299,7 @@ pub fn outcomes(plan: &Plan, parts: u32, isa: Isa, runs: Runs<'_>, wanted: &Want
         if let Some(events) = &mut events {
             events.look(&seen.run, seen.observer, seen.status);
         }
-        let filled = seen.run.outcome.points.min(points_to(grid.times(), end_of(&seen.run)));
-        let (status, local) = (seen.run.outcome.status, seen.run.outcome.local_errors);
-        let (table, row) = (seen.run.table.clone(), seen.row.to_vec());
-        found[seen.run.index] = Some(Flown { table, filled, status, local, row });
+        found[seen.run.index] = Some(Flown::of(&seen.run, seen.row, grid));
     });
     let mut found: Vec<Flown> = found.into_iter().flatten().collect();
     if let Some(events) = &mut events {

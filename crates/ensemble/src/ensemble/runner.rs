@@ -73,8 +73,7 @@ pub fn run<E: Send>(
     pool.broadcast(|_| {
         if !parts.is_empty() {
             // made before the worker's memory, as runs take no turns here: one would wait for another of its thread
-            ensemble.bands();
-            ensemble.judge(supervision.crew);
+            ensemble.prepare(supervision.crew);
         }
         supervision.crew.work(&share);
     });

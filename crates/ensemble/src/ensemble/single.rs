@@ -6,11 +6,12 @@ use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EndFinder, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe};
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::pilots::measured;
+use crate::ensemble::pilots::{OwnTwin, measured};
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
 use crate::ensemble::supervision::Alone;
 use crate::math::Isa;
+use crate::observables::nominal_attitude::NominalAttitude;
 use crate::observables::{Group, Observer, Request, Series};
 use crate::run::{Grid, Outcome, StateField, StateFields, StateTable, Status, Telemetry, points_to};
 use crate::sampling::SampleId;
@@ -55,8 +56,17 @@ impl SingleRun {
     /// # Errors
     /// The drawn scene is not physical.
     pub fn new(plan: &Plan, sample: SampleId, grid: Grid, isa: Isa) -> Result<Self, Vec<SceneError>> {
-        let mut runs = SingleRuns::new(plan, grid, isa, &GROUPS, false);
-        runs.runs.errors = measured(plan, isa, [sample == SampleId(0), sample != SampleId(0)], &Alone);
+        let is_nominal = sample == SampleId(0);
+        let is_judged = plan.request().groups.contains(Group::Numerics);
+        let requests = requests(plan, &grid, &GROUPS);
+        let ends = EndFinder::new(plan, Engines::of(isa));
+        if is_nominal && grid == plan.grid && ends.is_none() {
+            let mut runs = SingleRuns::without_ends(plan, grid, isa, requests, (None, false));
+            runs.runs = runs.runs.of_nominal(OwnTwin::new(plan, isa));
+            return runs.run(sample);
+        }
+        let mut runs = SingleRuns { ends, ..SingleRuns::compared(plan, grid, isa, requests, false) };
+        runs.runs.errors = measured(plan, isa, [is_nominal, !is_nominal].map(|of_run| of_run && is_judged), &Alone);
         runs.run(sample)
     }
 
@@ -66,7 +76,10 @@ impl SingleRun {
     /// A failure of the run or its reference solution, or the limit of work.
     pub fn audit(&self, plan: &Plan, isa: Isa) -> Result<Audit, NoAudit> {
         let run = Runs::one(&self.scene, self.draw.as_slice());
-        let mut auditor = Auditor::new(plan, isa, &self.grid).under(self.errors);
+        let is_known = self.request.groups.contains(Group::Numerics);
+        let is_nominal = self.draw.as_ref().is_some_and(|draw| draw.sample == SampleId(0));
+        let errors = if is_known { self.errors } else { measured(plan, isa, [is_nominal, !is_nominal], &Alone) };
+        let mut auditor = Auditor::new(plan, isa, &self.grid).under(errors);
         auditor.audit_flown(run, self.end, &[self.outcome.status]).swap_remove(0)
     }
 }
@@ -92,17 +105,27 @@ impl<'p> SingleRuns<'p> {
     /// Runs with the series of `groups` at the times of `grid`; replays are without differences from the nominal run
     /// and times of events, which only rows have.
     pub fn new(plan: &'p Plan, grid: Grid, isa: Isa, groups: &[Group], is_replay: bool) -> Self {
-        let request = plan.request_over(grid.duration());
-        let shown = Request { groups: groups.iter().copied().collect(), ..request };
+        let requests = requests(plan, &grid, groups);
         let ends = EndFinder::new(plan, Engines::of(isa));
-        SingleRuns { ends, ..Self::without_ends(plan, grid, isa, [request, shown], is_replay) }
+        SingleRuns { ends, ..Self::compared(plan, grid, isa, requests, is_replay) }
+    }
+
+    /// For runs that no event ends, compared with the nominal one unless they are replays.
+    fn compared(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2], is_replay: bool) -> Self {
+        let mut compared = requests.iter().filter(|_| !is_replay);
+        let nominal = compared.find_map(|request| nominal_attitude(plan, request, &grid, isa));
+        Self::without_ends(plan, grid, isa, requests, (nominal, is_replay))
     }
 
     /// For requests of rows and of series; no event ends the runs.
-    fn without_ends(plan: &'p Plan, grid: Grid, isa: Isa, requests: [Request; 2], is_replay: bool) -> Self {
+    fn without_ends(
+        plan: &'p Plan,
+        grid: Grid,
+        isa: Isa,
+        requests: [Request; 2],
+        (nominal, is_replay): (Option<NominalAttitude>, bool),
+    ) -> Self {
         let [request, shown] = requests;
-        let nominal =
-            requests.iter().filter(|_| !is_replay).find_map(|request| nominal_attitude(plan, request, &grid, isa));
         let fields = states(&request).union(shown.fields()).union(request.fields());
         let engines = Engines::of(isa);
         let mut runs = Means { plan, request, engines }.runs_with(&grid, fields, nominal.clone());
@@ -144,7 +167,7 @@ impl<'p> SingleRuns<'p> {
             return Ok(self.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0));
         };
         let grid = end.grid(&self.grid).0;
-        let mut ended = Self::without_ends(plan, grid, self.isa, [self.request, self.shown], self.is_replay);
+        let mut ended = Self::compared(plan, grid, self.isa, [self.request, self.shown], self.is_replay);
         (ended.runs.errors, ended.ended) = (self.runs.errors, Some(end));
         ended.events = ended.events.map(|events| events.ended_by(Some(end)));
         Ok(ended.fly(Runs::one(&scene, draw.as_slice())).swap_remove(0))
@@ -172,7 +195,7 @@ impl<'p> SingleRuns<'p> {
     fn fly(&mut self, runs: Runs<'_>) -> Vec<SingleRun> {
         let (isa, series_observer) = (self.isa, &mut self.series_observer);
         let (plan, ignored, events, grid) = (self.plan, &mut self.ignored, &mut self.events, &self.grid);
-        let (request, errors, end) = (self.request, self.runs.errors, self.ended);
+        let (request, end) = (self.request, self.ended);
         let mut flown: Vec<Option<SingleRun>> = vec![None; runs.scenes.len()];
         if let Some(events) = events {
             events.restart(runs.scenes.len());
@@ -197,7 +220,7 @@ impl<'p> SingleRuns<'p> {
                 row: row.to_vec(),
                 request,
                 draw: runs.draws.get(run.index).cloned(),
-                errors,
+                errors: LoopErrors::default(),
                 end,
             });
         });
@@ -228,6 +251,7 @@ impl<'p> SingleRuns<'p> {
                 _ => {}
             }
             run.telemetry = self.runs.flights.telemetry(index).unwrap_or_default();
+            run.errors = self.runs.errors;
         }
         flown
     }
@@ -236,6 +260,12 @@ impl<'p> SingleRuns<'p> {
     pub fn applied(&self) -> &[f64] {
         self.draws.applied()
     }
+}
+
+/// The requests of rows and of the series of `groups`.
+fn requests(plan: &Plan, grid: &Grid, groups: &[Group]) -> [Request; 2] {
+    let request = plan.request_over(grid.duration());
+    [request, Request { groups: groups.iter().copied().collect(), ..request }]
 }
 
 /// The results of `job` on `samples`, in order, on `threads` threads.

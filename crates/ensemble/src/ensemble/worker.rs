@@ -8,7 +8,7 @@ use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Means, Runs};
 use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::parts::{Part, Parts};
-use crate::ensemble::pilots::measured;
+use crate::ensemble::pilots::{OwnTwin, compared, measured};
 use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::run_cost::{parts, run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
@@ -16,7 +16,8 @@ use crate::ensemble::supervision::{Alone, Crew, Report, Supervision};
 use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
-use crate::observables::{Group, Request};
+use crate::observables::nominal_attitude::NominalAttitude;
+use crate::observables::{Group, LoopError, Request};
 use crate::propagation::PropagationSettings;
 use crate::sampling::SampleId;
 use std::sync::atomic::Ordering;
@@ -29,17 +30,36 @@ pub const BATCH: usize = 128;
 pub struct Ensemble<'p> {
     means: Means<'p>,
     propagator: PropagationSettings,
-    /// Bands without runs, made on first use by the nominal run.
+    nominal: OnceLock<NominalRun>,
+    /// Bands without runs, made on first use.
     bands: OnceLock<Option<PartBands>>,
     errors: OnceLock<LoopErrors>,
     seconds: Arc<OnceLock<f64>>,
+}
+
+/// What a campaign needs of its nominal run, flown once.
+#[derive(Debug, Default)]
+struct NominalRun {
+    /// If angles from it are observed.
+    attitude: Option<NominalAttitude>,
+    /// If it is judged.
+    error: Option<LoopError>,
+    /// The numbers of bands, if any.
+    kept: Vec<f64>,
 }
 
 impl<'p> Ensemble<'p> {
     pub fn new(plan: &'p Plan, isa: Isa) -> Self {
         let means = Means::new(plan, Engines::of(isa));
         let propagator = propagator(plan, plan.grid.clone(), means.request.fields());
-        Ensemble { means, propagator, bands: OnceLock::new(), errors: OnceLock::new(), seconds: Arc::default() }
+        Ensemble {
+            means,
+            propagator,
+            nominal: OnceLock::new(),
+            bands: OnceLock::new(),
+            errors: OnceLock::new(),
+            seconds: Arc::default(),
+        }
     }
 
     /// With the caller's engines for all runs; audits keep their reference. A run must depend on its scene alone.
@@ -78,24 +98,64 @@ impl<'p> Ensemble<'p> {
     }
 
     fn no_bands(&self) -> Option<PartBands> {
-        let Means { plan, request, engines } = self.means;
-        let points = plan.grid.evenly(plan.band_points);
-        let sources = band_series(&request);
-        if points.is_empty() || sources.is_empty() {
-            return None;
-        }
-        let series = sources.iter().map(|source| (source.quantity.clone(), source.form)).collect();
-        let times = points.iter().map(|point| plan.grid.times()[*point]).collect();
-        let mut reader = BandReader::new(sources, points);
+        let Means { plan, engines, .. } = self.means;
+        let mut reader = self.band_reader()?;
+        let series = reader.sources().iter().map(|source| (source.quantity.clone(), source.form)).collect();
+        let times = plan.grid.evenly(plan.band_points).iter().map(|point| plan.grid.times()[*point]).collect();
         let (scene, draw) = (nominal(plan), LawDraw::nominal(plan));
-        let mut kept = vec![f64::NAN; reader.columns()];
         let end = EndFinder::new(plan, engines).and_then(|mut ends| ends.end(&scene, draw.as_slice()));
-        let (grid, end) = end.map_or_else(|| (plan.grid.clone(), usize::MAX), |end| end.grid(&plan.grid));
-        self.means.runs(&grid).fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
-            kept.copy_from_slice(reader.kept(seen.observer, seen.run.table, end));
-        });
-        let layout = Arc::new(BandLayout { series, times, nominal: kept });
+        let nominal = match end {
+            None => self.nominal().kept.clone(),
+            Some(end) => {
+                let (grid, end) = end.grid(&plan.grid);
+                let mut kept = Vec::new();
+                self.means.runs(&grid).of_nominal(None).fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
+                    kept = reader.kept(seen.observer, seen.run.table, end).to_vec();
+                });
+                kept
+            }
+        };
+        let layout = Arc::new(BandLayout { series, times, nominal });
         Some(PartBands::new(layout, reader, plan.last_counted()))
+    }
+
+    /// `None` without bands.
+    fn band_reader(&self) -> Option<BandReader> {
+        let plan = self.plan();
+        let (sources, points) = (band_series(self.request()), plan.grid.evenly(plan.band_points));
+        (!points.is_empty() && !sources.is_empty()).then(|| BandReader::new(sources, points))
+    }
+
+    fn nominal(&self) -> &NominalRun {
+        self.nominal.get_or_init(|| {
+            let Means { plan, request, engines } = self.means;
+            let mut reader = self.band_reader();
+            let is_judged = self.wanted()[0] && self.errors.get().is_none();
+            let twin = if is_judged { OwnTwin::new(plan, engines.isa) } else { None };
+            let mut found = NominalRun::default();
+            let has_attitude = request.groups.contains(Group::Motion);
+            if !has_attitude && reader.is_none() && twin.is_none() {
+                return found;
+            }
+            let fields = compared(&request).union(request.fields());
+            let mut runs = self.means.runs_with(&plan.grid, fields, None).of_nominal(twin);
+            let (scene, draw) = (nominal(plan), LawDraw::nominal(plan));
+            runs.fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
+                found.attitude = has_attitude.then(|| NominalAttitude::of(seen.run.table, seen.run.outcome));
+                if let Some(reader) = &mut reader {
+                    found.kept = reader.kept(seen.observer, seen.run.table, usize::MAX).to_vec();
+                }
+            });
+            found.error = runs.errors.nominal;
+            found
+        })
+    }
+
+    /// True for the nominal sample, and for all others, if the plan has rows of them whose errors are estimated.
+    fn wanted(&self) -> [bool; 2] {
+        let plan = self.plan();
+        let is_judged = self.request().groups.contains(Group::Numerics);
+        [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()].map(|rows| is_judged && rows > 0)
     }
 
     /// Without pilots: runs under a law are not judged by their estimates.
@@ -120,20 +180,26 @@ impl<'p> Ensemble<'p> {
         parts(self.plan(), || self.run_seconds())
     }
 
-    /// What the loop does to errors, by pilots of `crew`, flown on first use.
-    pub fn judge(&self, crew: &dyn Crew) -> LoopErrors {
-        let plan = self.plan();
-        let is_judged = self.request().groups.contains(Group::Numerics);
-        let rows = [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()];
-        let wanted = rows.map(|rows| is_judged && rows > 0);
-        *self.errors.get_or_init(|| measured(plan, self.isa(), wanted, crew))
+    fn errors(&self, crew: &dyn Crew) -> LoopErrors {
+        *self.errors.get_or_init(|| {
+            let drawn = measured(self.plan(), self.isa(), [false, self.wanted()[1]], crew);
+            LoopErrors { nominal: self.nominal().error, ..drawn }
+        })
+    }
+
+    /// Flies what is known before the first row; a callback is asked by `crew`.
+    pub fn prepare(&self, crew: &dyn Crew) {
+        self.bands();
+        self.errors(crew);
+        self.nominal();
     }
 
     /// Running samples does not allocate once warm.
     pub fn worker(&self) -> Worker<'_> {
         let plan = self.plan();
         let is_audited = plan.audit_fraction > 0.0;
-        let batch = Batch::new(self.means, plan.grid.clone(), self.judge(&Alone));
+        let nominal = self.nominal().attitude.clone();
+        let batch = Batch::new(self.means, plan.grid.clone(), nominal, self.errors(&Alone));
         Worker {
             campaign: self,
             draws: SceneDraws::new(plan),

@@ -106,6 +106,11 @@ impl Observer {
         Observer { nominal, ..self }
     }
 
+    /// Sets the attitude of the nominal run on the same grid for the next runs.
+    pub fn set_nominal(&mut self, nominal: NominalAttitude) {
+        self.nominal = Some(nominal);
+    }
+
     /// Sets the errors that the next runs under laws carry on; unknown errors (`None`) are not judged.
     pub fn set_loop_error(&mut self, of_loop: Option<LoopError>) {
         self.loop_error = of_loop;
