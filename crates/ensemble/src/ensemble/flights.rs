@@ -4,7 +4,7 @@ use crate::campaign::{Plan, event_columns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::pilots::OwnTwin;
+use crate::ensemble::pilots::Pilots;
 use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::loops::loop_record::SharedRecord;
@@ -316,8 +316,8 @@ pub struct ObservedRuns<'p> {
     row: Vec<f64>,
     /// Runs under a law are judged by these errors, if known.
     pub errors: LoopErrors,
-    /// Set for flights of the nominal run alone, with its twin, if it is judged.
-    of_nominal: Option<Option<OwnTwin<'p>>>,
+    /// Set for flights of the nominal run alone, with its twin if it is judged.
+    of_nominal: Option<Option<Pilots<'p>>>,
 }
 
 pub struct ObservedRun<'a> {
@@ -329,10 +329,10 @@ pub struct ObservedRun<'a> {
 }
 
 impl<'p> ObservedRuns<'p> {
-    /// For the nominal run, which is compared with itself and judged by its `twin`.
+    /// For the nominal run alone, which is compared with itself, and judged by its twin in `pilots`.
     #[must_use]
-    pub fn of_nominal(self, twin: Option<OwnTwin<'p>>) -> Self {
-        ObservedRuns { of_nominal: Some(twin), ..self }
+    pub fn of_nominal(self, pilots: Option<Pilots<'p>>) -> Self {
+        ObservedRuns { of_nominal: Some(pilots), ..self }
     }
 
     #[must_use]
@@ -343,11 +343,11 @@ impl<'p> ObservedRuns<'p> {
     pub fn fly(&mut self, runs: Runs<'_>, finish: &mut dyn FnMut(ObservedRun<'_>)) {
         let ObservedRuns { means: Means { plan, request, engines }, flights, observer, row, errors, of_nominal } = self;
         flights.fly(runs, &mut |run, of_law| {
-            if let Some(twin) = of_nominal {
+            if let Some(pilots) = of_nominal {
                 if request.groups.contains(Group::Motion) {
                     observer.set_nominal(NominalAttitude::of(run.table, run.outcome));
                 }
-                errors.nominal = twin.as_ref().map(|twin| twin.error(&run));
+                errors.nominal = pilots.as_ref().map(|pilots| pilots.error(Some(&run)));
             }
             observer.set_loop_error(runs.draws.get(run.index).and_then(|draw| errors.of(draw.sample)));
             let status = observe(plan, observer, engines.isa, &runs.scenes[run.index], (&run, of_law), row);

@@ -1,18 +1,18 @@
 //! [`measured`]: what the control loop of a plan does to the errors of its runs, by pilots
 //! ([`crate::observables::loop_error`]).
 //!
-//! Pilots are the nominal sample, which is judged by itself ([`OwnTwin`]), and the first drawn samples, which judge all
-//! others. They depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits
-//! and ticks, but no step: the twin's arcs are halved and its tolerance is a thousandth.
+//! Pilots are the nominal sample, which is judged by itself, and the first drawn samples, which judge all others. They
+//! depend on the plan alone, not on its number of rows. A pilot and its twin share noise, filter, limits and ticks, but
+//! no step: the twin's arcs are halved and its tolerance is a thousandth.
 
 use crate::campaign::{Plan, Requirement, SceneDraws};
 use crate::ensemble::event_finder::{self, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, Runs, end_of, nominal_attitude};
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::run_cost::has_callback;
 use crate::ensemble::settings::Engines;
-use crate::ensemble::supervision::Crew;
+use crate::ensemble::supervision::{Alone, Crew};
 use crate::ensemble::threads::unpoisoned;
+use crate::loops::callback::is_law_of;
 use crate::math::Isa;
 use crate::observables::loop_error::{LoopError, Pilot};
 use crate::observables::nominal_attitude::NominalAttitude;
@@ -102,23 +102,31 @@ impl Flown {
 
 /// For the nominal sample, and for all others, where `wanted`; none without a law. A callback is asked by `crew`.
 pub fn measured(plan: &Plan, isa: Isa, wanted: [bool; 2], crew: &dyn Crew) -> LoopErrors {
-    let of = |samples| Pilots::of(plan, isa, samples).measured(crew);
+    let of = |samples| Pilots::of(plan, isa, samples, crew).error(None);
     let [nominal, drawn] = wanted.map(|wanted| wanted && plan.law.is_some());
     LoopErrors { nominal: nominal.then(|| of(0..=0)), drawn: drawn.then(|| of(1..=DRAWN)) }
 }
 
-/// Samples that are flown as in their campaign, and finer.
-struct Pilots<'p> {
+/// Samples with their twins.
+pub struct Pilots<'p> {
     plan: &'p Plan,
     isa: Isa,
+    crew: &'p dyn Crew,
     patient: Plan,
     finer: Plan,
     scenes: Vec<Scene>,
     draws: Vec<LawDraw>,
+    twins: Vec<Option<Flown>>,
 }
 
 impl<'p> Pilots<'p> {
-    fn of(plan: &'p Plan, isa: Isa, samples: RangeInclusive<u64>) -> Self {
+    /// For the nominal sample, which is compared as it is flown; `None` where no column estimates the error of a loop.
+    pub fn of_nominal(plan: &'p Plan, isa: Isa) -> Option<Self> {
+        let is_judged = plan.law.is_some() && plan.request().groups.contains(Group::Numerics);
+        is_judged.then(|| Self::of(plan, isa, 0..=0, &Alone))
+    }
+
+    fn of(plan: &'p Plan, isa: Isa, samples: RangeInclusive<u64>, crew: &'p dyn Crew) -> Self {
         let (mut scenes, mut draws, mut source) = (Vec::new(), Vec::new(), SceneDraws::new(plan));
         for sample in samples.map(SampleId) {
             // a list has what it has, and some draws are not physical
@@ -128,7 +136,9 @@ impl<'p> Pilots<'p> {
         }
         // the limit of steps of the campaign's runs is no limit of what is known of them
         let patient = Plan { max_steps: plan.max_steps.saturating_mul(PATIENCE), ..plan.clone() };
-        Pilots { plan, isa, patient, finer: TWIN.plan(plan), scenes, draws }
+        let mut pilots = Pilots { plan, isa, crew, patient, finer: TWIN.plan(plan), scenes, draws, twins: Vec::new() };
+        pilots.twins = pilots.fly(pilots.plans()[1]);
+        pilots
     }
 
     /// The plans of a pilot and of its twin, with the parts of their arcs.
@@ -136,86 +146,47 @@ impl<'p> Pilots<'p> {
         [(&self.patient, 1), (&self.finer, TWIN.parts)]
     }
 
-    fn fly(&self, plan: (&Plan, u32)) -> Vec<Option<Flown>> {
-        let pilots = 0..self.scenes.len();
-        // as in a campaign, a panic ends one run only
-        match self.flown(plan, pilots.clone()) {
-            Some(all) => all.into_iter().map(Some).collect(),
-            None => pilots.map(|pilot| self.alone(plan, pilot)).collect(),
-        }
-    }
-
-    fn flown(&self, (plan, parts): (&Plan, u32), pilots: Range<usize>) -> Option<Vec<Flown>> {
-        let runs = self.runs(pilots);
-        catch_unwind(AssertUnwindSafe(|| outcomes(plan, parts, self.isa, runs, &Wanted::nothing(plan)))).ok()
-    }
-
-    fn alone(&self, plan: (&Plan, u32), pilot: usize) -> Option<Flown> {
-        self.flown(plan, pilot..pilot + 1)?.pop()
-    }
-
     fn runs(&self, pilots: Range<usize>) -> Runs<'_> {
         Runs { scenes: &self.scenes[pilots.clone()], draws: &self.draws[pilots] }
     }
 
-    fn measured(&self, crew: &dyn Crew) -> LoopError {
-        let plans = self.plans();
-        // runs of a callback take turns; lanes would ask it one by one
-        let [own, twins] = if has_callback(self.plan) { self.by_turns(crew) } else { plans.map(|plan| self.fly(plan)) };
-        self.compared(&own, &twins)
-    }
-
-    /// Pilots and twins, each alone.
-    fn by_turns(&self, crew: &dyn Crew) -> [Vec<Option<Flown>>; 2] {
+    fn fly(&self, (plan, parts): (&Plan, u32)) -> Vec<Option<Flown>> {
+        let fly = |runs| {
+            catch_unwind(AssertUnwindSafe(|| outcomes(plan, parts, self.isa, runs, &Wanted::nothing(plan)))).ok()
+        };
         let pilots = self.scenes.len();
+        // runs of a callback take turns, and lanes would ask it one by one
+        let is_callback = self.plan.loop_spec().is_some_and(is_law_of);
+        if let Some(all) = (!is_callback).then(|| fly(self.runs(0..pilots))).flatten() {
+            return all.into_iter().map(Some).collect();
+        }
+        // as in a campaign, a panic ends one run only
+        let alone = |pilot| fly(self.runs(pilot..pilot + 1))?.pop();
         let (next, found) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
-        crew.work(&|| {
-            while let flight = next.fetch_add(1, Ordering::Relaxed)
-                && flight < 2 * pilots
+        self.crew.work(&|| {
+            while let pilot = next.fetch_add(1, Ordering::Relaxed)
+                && pilot < pilots
             {
-                let flown = self.alone(self.plans()[flight / pilots], flight % pilots);
-                unpoisoned(found.lock()).insert(flight, flown);
+                let flown = alone(pilot);
+                unpoisoned(found.lock()).insert(pilot, flown);
             }
         });
-        let mut own: Vec<Option<Flown>> = unpoisoned(found.into_inner()).into_values().collect();
-        let twins = own.split_off(pilots);
-        [own, twins]
+        unpoisoned(found.into_inner()).into_values().collect()
     }
 
-    fn compared(&self, own: &[Option<Flown>], twins: &[Option<Flown>]) -> LoopError {
-        let pairs = own.iter().zip(twins).filter_map(|(own, twin)| own.as_ref().zip(twin.as_ref()));
+    /// What the loop does to the errors of the pilots, the only one of which may be `flown` at the campaign's points.
+    pub fn error(&self, flown: Option<&CompletedRun<'_>>) -> LoopError {
+        let own = match flown.filter(|run| run.outcome.status != Status::StepLimit) {
+            Some(run) => vec![Some(Flown::of(run, &[], &self.plan.grid))],
+            None => self.fly(self.plans()[0]),
+        };
+        let pairs = own.iter().zip(&self.twins).filter_map(|(own, twin)| own.as_ref().zip(twin.as_ref()));
         let mut found = LoopError::of_pilots(pairs.filter_map(|(own, twin)| own.pilot(twin, &self.plan.grid)));
         if found.parts {
             let agree = || outcomes_agree(self.plans(), self.isa, self.runs(0..self.scenes.len()));
             found.outcomes_agree = catch_unwind(AssertUnwindSafe(agree)).unwrap_or(false);
         }
         found
-    }
-}
-
-/// The twin of the nominal sample, with which the sample itself is compared as it is flown.
-pub struct OwnTwin<'p> {
-    pilots: Pilots<'p>,
-    twin: Vec<Option<Flown>>,
-}
-
-impl<'p> OwnTwin<'p> {
-    /// `None` without a law, and where no column estimates errors.
-    pub fn new(plan: &'p Plan, isa: Isa) -> Option<Self> {
-        if plan.law.is_none() || !plan.request().groups.contains(Group::Numerics) {
-            return None;
-        }
-        let pilots = Pilots::of(plan, isa, 0..=0);
-        let twin = pilots.fly(pilots.plans()[1]);
-        Some(OwnTwin { pilots, twin })
-    }
-
-    /// What the loop does to the errors of `run`, the nominal sample at the campaign's points.
-    pub fn error(&self, run: &CompletedRun<'_>) -> LoopError {
-        if run.outcome.status == Status::StepLimit {
-            return self.pilots.compared(&self.pilots.fly(self.pilots.plans()[0]), &self.twin);
-        }
-        self.pilots.compared(&[Some(Flown::of(run, &[], &self.pilots.plan.grid))], &self.twin)
     }
 }
 

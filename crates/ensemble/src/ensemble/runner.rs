@@ -73,7 +73,7 @@ pub fn run<E: Send>(
     pool.broadcast(|_| {
         if !parts.is_empty() {
             // made before the worker's memory, as runs take no turns here: one would wait for another of its thread
-            ensemble.prepare(supervision.crew);
+            ensemble.prepare(&is_on, supervision.crew);
         }
         supervision.crew.work(&share);
     });

@@ -6,7 +6,7 @@ use crate::ensemble::audit::{Audit, Auditor, NoAudit};
 use crate::ensemble::event_finder::{self, EndFinder, EventFinder, RunEnd};
 use crate::ensemble::flights::{LawDraw, Means, ObservedRun, ObservedRuns, Runs, nominal_attitude, observe};
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::pilots::{OwnTwin, measured};
+use crate::ensemble::pilots::{Pilots, measured};
 use crate::ensemble::runner::RunError;
 use crate::ensemble::settings::Engines;
 use crate::ensemble::supervision::Alone;
@@ -62,7 +62,7 @@ impl SingleRun {
         let ends = EndFinder::new(plan, Engines::of(isa));
         if is_nominal && grid == plan.grid && ends.is_none() {
             let mut runs = SingleRuns::without_ends(plan, grid, isa, requests, (None, false));
-            runs.runs = runs.runs.of_nominal(OwnTwin::new(plan, isa));
+            runs.runs = runs.runs.of_nominal(Pilots::of_nominal(plan, isa));
             return runs.run(sample);
         }
         let mut runs = SingleRuns { ends, ..SingleRuns::compared(plan, grid, isa, requests, false) };

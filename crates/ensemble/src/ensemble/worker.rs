@@ -8,7 +8,7 @@ use crate::ensemble::event_finder::EndFinder;
 use crate::ensemble::flights::{LawDraw, Means, Runs};
 use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::parts::{Part, Parts};
-use crate::ensemble::pilots::{OwnTwin, compared, measured};
+use crate::ensemble::pilots::{Pilots, compared, measured};
 use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::run_cost::{parts, run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
@@ -131,14 +131,14 @@ impl<'p> Ensemble<'p> {
             let Means { plan, request, engines } = self.means;
             let mut reader = self.band_reader();
             let is_judged = self.wanted()[0] && self.errors.get().is_none();
-            let twin = if is_judged { OwnTwin::new(plan, engines.isa) } else { None };
+            let pilots = if is_judged { Pilots::of_nominal(plan, engines.isa) } else { None };
             let mut found = NominalRun::default();
             let has_attitude = request.groups.contains(Group::Motion);
-            if !has_attitude && reader.is_none() && twin.is_none() {
+            if !has_attitude && reader.is_none() && pilots.is_none() {
                 return found;
             }
             let fields = compared(&request).union(request.fields());
-            let mut runs = self.means.runs_with(&plan.grid, fields, None).of_nominal(twin);
+            let mut runs = self.means.runs_with(&plan.grid, fields, None).of_nominal(pilots);
             let (scene, draw) = (nominal(plan), LawDraw::nominal(plan));
             runs.fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
                 found.attitude = has_attitude.then(|| NominalAttitude::of(seen.run.table, seen.run.outcome));
@@ -187,11 +187,17 @@ impl<'p> Ensemble<'p> {
         })
     }
 
-    /// Flies what is known before the first row; a callback is asked by `crew`.
-    pub fn prepare(&self, crew: &dyn Crew) {
-        self.bands();
-        self.errors(crew);
-        self.nominal();
+    /// Flies what is known before the first row, while it `is_on`; a callback is asked by `crew`.
+    pub fn prepare(&self, is_on: &dyn Fn() -> bool, crew: &dyn Crew) {
+        if is_on() {
+            self.nominal();
+        }
+        if is_on() {
+            self.bands();
+        }
+        if is_on() {
+            self.errors(crew);
+        }
     }
 
     /// Running samples does not allocate once warm.
