@@ -38,12 +38,16 @@ const SEEN_BY_LAWS: StateFields = StateFields::NONE
 /// Settings for scenes of `plan` with `fields` at the times of `grid`, and the law's states.
 pub fn propagator(plan: &Plan, grid: Grid, fields: StateFields) -> PropagationSettings {
     let control = Control { tolerance: plan.tolerance, step: plan.step_s, max_steps: plan.max_steps };
-    let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal(plan));
+    let nominal = nominal(plan);
+    let settings = |fields| PropagationSettings::new(plan.method, control, grid, fields, &nominal);
     // it may end at the surface
     let place = StateFields::NONE.with(StateField::ComPosition).with(StateField::ComVelocity);
     let fields = if leaves_orbit(plan) { fields.union(place) } else { fields };
     match &plan.law {
-        Some(law) => settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands),
+        Some(law) => {
+            let period = law.spec().map_or(f64::INFINITY, |spec| spec.period);
+            settings(fields.union(SEEN_BY_LAWS)).with_feedback(law.commands).in_periods(plan.method, period, &nominal)
+        }
         None => settings(fields),
     }
 }

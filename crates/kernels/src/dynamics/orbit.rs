@@ -135,6 +135,12 @@ impl KeplerOrbit<f64> {
         self.rate() * (1.0 + self.eccentricity).sqrt()
     }
 
+    /// Upper bounds of speed and radial speed, m/s.
+    pub fn speeds(&self) -> [f64; 2] {
+        let speed = self.fastest() * self.axis * (1.0 - self.eccentricity);
+        [speed, speed * self.eccentricity]
+    }
+
     /// Any circle, for empty lanes.
     pub fn blank() -> Self {
         KeplerOrbit::new(&Orbit {

@@ -6,6 +6,7 @@
 //! `HALF_TURN` at the fastest rate of orbit and Earth: position and field are those of direct evaluation to a few
 //! 1e-15. A segment depends on orbit and time alone, by the same operations on every instruction set.
 
+use std::cell::RefCell;
 use std::sync::LazyLock;
 
 use fearless_simd::Simd;
@@ -17,7 +18,7 @@ use super::orbit_path::OrbitPath;
 use super::orbit_state::OrbitState;
 use crate::math::isa::{Isa, LaneWork, Work};
 use crate::math::prelude::*;
-use crate::scene::Scene;
+use crate::scene::{Arc, Epoch, Scene};
 
 /// Coefficients of the series of position, velocity and field; of the Sun.
 const TERMS: usize = 10;
@@ -77,6 +78,13 @@ impl<R: Real> Segment<R> {
         OrbitState { position, velocity: [u, v, w], distance: norm(position) }
     }
 
+    /// [`Segment::place`] with a velocity of zero.
+    #[inline(always)]
+    pub fn position(&self, time: R) -> OrbitState<R> {
+        let position = value(&self.place, self.fraction(time));
+        OrbitState { position, velocity: [time.zero(); 3], distance: norm(position) }
+    }
+
     /// Magnetic field at `time` (s), F_e, T.
     #[inline(always)]
     pub fn field(&self, time: R) -> [R; 3] {
@@ -96,12 +104,25 @@ impl<R: Real> Segment<R> {
     }
 }
 
-/// The polynomials with `coefficients` at `x`.
+impl Segment<f64> {
+    /// Its number: strides before its start.
+    pub fn number(&self) -> f64 {
+        self.middle.mul_add(self.scale, -1.0)
+    }
+
+    /// True if it covers `time`, s.
+    pub fn covers(&self, time: f64) -> bool {
+        self.fraction(time).abs() <= 1.0
+    }
+}
+
+/// The first `D` of the polynomials with `coefficients` at `x`.
 #[inline(always)]
-fn value<R: Real, const C: usize, const T: usize>(coefficients: &[[R; C]; T], x: R) -> [R; C] {
-    let mut value = coefficients[T - 1];
+fn value<R: Real, const C: usize, const D: usize, const T: usize>(coefficients: &[[R; C]; T], x: R) -> [R; D] {
+    let mut value = [x; D];
+    value.copy_from_slice(&coefficients[T - 1][..D]);
     for n in (0..T - 1).rev() {
-        for i in 0..C {
+        for i in 0..D {
             value[i] = value[i].mul_add(x, coefficients[n][i]);
         }
     }
@@ -114,26 +135,16 @@ static COSINES: LazyLock<[[f64; TERMS]; TERMS]> = LazyLock::new(|| {
     core::array::from_fn(|j| core::array::from_fn(|k| libm::cos((j * (2 * k + 1) % (4 * TERMS)) as f64 * step)))
 });
 
-/// Coefficients, in powers, of the first `T` Chebyshev terms of the polynomials with `values` at the Chebyshev points.
-#[inline(always)]
-fn fitted<const C: usize, const T: usize>(values: &[[f64; C]; TERMS]) -> [[f64; C]; T] {
-    // differences from a value near the middle have smaller rounding errors
-    let near = values[TERMS / 2];
-    let mut fitted = [[0.0; C]; T];
-    fitted[0] = near;
+/// Coefficients, in powers, of the first `T` Chebyshev terms of polynomials, for values at the Chebyshev points.
+fn powers<const T: usize>() -> [[f64; TERMS]; T] {
+    let mut coefficients = [[0.0; TERMS]; T];
     let (mut before, mut powers) = ([0.0; T], [0.0; T]);
     powers[0] = 1.0;
     for (j, cosines) in COSINES.iter().enumerate().take(T) {
-        let mut term = [0.0; C];
-        for (value, cosine) in values.iter().zip(cosines) {
-            for i in 0..C {
-                term[i] = (value[i] - near[i]).mul_add(*cosine, term[i]);
-            }
-        }
         let share = if j == 0 { 1.0 } else { 2.0 } / TERMS as f64;
-        for (coefficients, power) in fitted.iter_mut().zip(powers) {
-            for i in 0..C {
-                coefficients[i] = (share * term[i]).mul_add(power, coefficients[i]);
+        for (coefficients, power) in coefficients.iter_mut().zip(powers) {
+            for (coefficient, cosine) in coefficients.iter_mut().zip(cosines) {
+                *coefficient = (share * cosine).mul_add(power, *coefficient);
             }
         }
         let mut next = [0.0; T];
@@ -142,6 +153,26 @@ fn fitted<const C: usize, const T: usize>(values: &[[f64; C]; TERMS]) -> [[f64; 
             *next = if j == 0 { raised } else { 2.0 * raised - before[n] };
         }
         (before, powers) = (powers, next);
+    }
+    coefficients
+}
+
+static POWERS: LazyLock<[[f64; TERMS]; TERMS]> = LazyLock::new(powers);
+static POWERS_OF_SUN: LazyLock<[[f64; TERMS]; TERMS_OF_SUN]> = LazyLock::new(powers);
+
+/// Coefficients in powers of the polynomials with `values` at the Chebyshev points.
+#[inline(always)]
+fn fitted<const C: usize, const T: usize>(values: &[[f64; C]; TERMS], powers: &[[f64; TERMS]; T]) -> [[f64; C]; T] {
+    // differences from a value near the middle have smaller rounding errors
+    let near = values[TERMS / 2];
+    let mut fitted = [[0.0; C]; T];
+    fitted[0] = near;
+    for (coefficients, powers) in fitted.iter_mut().zip(powers) {
+        for (values, power) in values.iter().zip(powers) {
+            for i in 0..C {
+                coefficients[i] = (values[i] - near[i]).mul_add(*power, coefficients[i]);
+            }
+        }
     }
     fitted
 }
@@ -171,15 +202,34 @@ impl Surroundings {
         (end <= (index + 2.0) * self.stride).then_some(index)
     }
 
-    /// Segment `index`.
+    /// Segment `index`, from those that this thread has made last if it is among them: runs on one orbit share them.
     pub fn segment(&self, index: f64) -> Segment<f64> {
-        Isa::best().run_narrow(Fit { of: self, index })
+        KNOWN.with_borrow_mut(|known| {
+            known.resize_with(MOST_KNOWN, || None);
+            let [[x, y, _], _] = self.path.at_start().start();
+            let hash = (x.to_bits() ^ y.to_bits().rotate_left(21) ^ index.to_bits()).wrapping_mul(SPREAD);
+            let known = &mut known[(hash >> 32) as usize % MOST_KNOWN];
+            if known.as_ref().is_none_or(|known| known.index != index || !known.of.is_same(self)) {
+                *known = None;
+            }
+            let made = || Known { of: self.clone(), index, segment: Isa::best().run_narrow(Fit { of: self, index }) };
+            known.get_or_insert_with(made).segment
+        })
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        let key = |of: &Self| {
+            let start = of.path.at_start();
+            (start.start(), start.gravity(), of.field.map(|field| field.numbers()), of.epoch)
+        };
+        key(self) == key(other)
     }
 
     #[inline(always)]
     fn fit<R: Real>(&self, zero: R, index: f64) -> Segment<f64> {
         let middle = (index + 1.0) * self.stride;
-        let mut values = ([[0.0; 6]; TERMS], [[0.0; 3]; TERMS], [[0.0; 4]; TERMS]);
+        // place and field side by side, filled up to whole vectors
+        let mut values = ([[0.0; 12]; TERMS], [[0.0; 4]; TERMS]);
         for first in (0..TERMS).step_by(R::LANES) {
             let mut since = zero;
             for lane in 0..R::LANES {
@@ -198,15 +248,36 @@ impl Surroundings {
             };
             for lane in 0..R::LANES.min(TERMS - first) {
                 let ([x, y, z], [u, v, w]) = (lane_of(&place.position, lane), lane_of(&place.velocity, lane));
-                values.0[first + lane] = [x, y, z, u, v, w];
-                values.1[first + lane] = lane_of(&field, lane);
+                let [a, b, c] = lane_of(&field, lane);
+                values.0[first + lane] = [x, y, z, u, v, w, a, b, c, 0.0, 0.0, 0.0];
                 let [x, y, z] = lane_of(&direction, lane);
-                values.2[first + lane] = [x, y, z, distance.lane(lane)];
+                values.1[first + lane] = [x, y, z, distance.lane(lane)];
             }
         }
-        let (place, field, sun) = (fitted(&values.0), fitted(&values.1), fitted(&values.2));
-        Segment { middle, scale: 1.0 / self.stride, place, field, sun }
+        let (both, sun) = (fitted(&values.0, &POWERS), fitted(&values.1, &POWERS_OF_SUN));
+        let mut segment = Segment { middle, scale: 1.0 / self.stride, sun, ..Segment::blank(0.0) };
+        for (n, [x, y, z, u, v, w, a, b, c, ..]) in both.into_iter().enumerate() {
+            (segment.place[n], segment.field[n]) = ([x, y, z, u, v, w], [a, b, c]);
+        }
+        segment
     }
+}
+
+/// A segment made by a thread.
+struct Known {
+    of: Surroundings,
+    index: f64,
+    segment: Segment<f64>,
+}
+
+/// Segments that a thread keeps: two of each of its lanes, for truth and flight software.
+const MOST_KNOWN: usize = 64;
+
+/// An odd factor that spreads bits (2^64 over the golden ratio).
+const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+
+thread_local! {
+    static KNOWN: RefCell<Vec<Option<Known>>> = const { RefCell::new(Vec::new()) };
 }
 
 struct Fit<'a> {
@@ -225,6 +296,30 @@ impl LaneWork for Fit<'_> {
     }
 }
 
+/// Surroundings of the arcs of a run.
+#[derive(Clone, Debug)]
+pub struct OfArcs {
+    of: Surroundings,
+    /// The last segment.
+    pub segment: Segment<f64>,
+}
+
+impl OfArcs {
+    /// Those of `of`.
+    pub fn new(of: Surroundings) -> Self {
+        OfArcs { of, segment: Segment { scale: f64::NAN, ..Segment::blank(0.0) } }
+    }
+
+    /// The segment that covers `arc`, if one does.
+    pub fn covering(&mut self, arc: &Arc) -> Option<&Segment<f64>> {
+        let number = self.of.covering(arc.start, arc.end())?;
+        if self.segment.number() != number {
+            self.segment = self.of.segment(number);
+        }
+        Some(&self.segment)
+    }
+}
+
 /// Surroundings at one time after another: the last two segments are kept.
 #[derive(Clone, Debug)]
 pub struct Window {
@@ -233,10 +328,11 @@ pub struct Window {
 }
 
 impl Window {
-    /// The surroundings of `scene`, if it has an orbit.
+    /// The surroundings of `scene`, if it has an orbit; the Sun if it shines on plates, as in the equations of motion.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let path = OrbitPath::new(scene.orbit.as_ref()?);
-        let of = Surroundings::new(&path, MagneticField::of(scene), None);
+        let orbit = scene.orbit.as_ref()?;
+        let epoch = orbit.epoch.filter(|_| scene.environment.solar_pressure).map(Epoch::days_since_j2000);
+        let of = Surroundings::new(&OrbitPath::new(orbit), MagneticField::of(scene), epoch);
         Some(Window { of, segments: [None, None] })
     }
 
@@ -252,6 +348,22 @@ impl Window {
     /// Magnetic field at `time` (s), F_e, T.
     pub fn field(&mut self, time: f64) -> [f64; 3] {
         Isa::best().run(FieldAt(self.at(time), time))
+    }
+
+    /// Position and velocity at `time`, s.
+    pub fn place(&mut self, time: f64) -> OrbitState<f64> {
+        Isa::best().run(PlaceAt(self.at(time), time))
+    }
+}
+
+struct PlaceAt<'a>(&'a Segment<f64>, f64);
+
+impl Work for PlaceAt<'_> {
+    type Output = OrbitState<f64>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _simd: S) -> OrbitState<f64> {
+        self.0.place(self.1)
     }
 }
 
@@ -269,7 +381,7 @@ impl Work for FieldAt<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Epoch, FieldModel, Orbit};
+    use crate::scene::{FieldModel, Orbit};
 
     const MU: f64 = 3.986004418e14;
     const J2: f64 = 1.08262668e-3;

@@ -23,7 +23,7 @@ pub fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
     let zero = Lanes::broadcast(simd, 0.0);
     if let Some(drag) = drag::of(zero, run.scene, None).filter(|_| has([Series::AirDensity, Series::DragTorqueSquare]))
     {
-        air(simd, run, &drag, out);
+        air(simd, run, drag, out);
     }
     let light = Light::of(zero, run.scene)
         .filter(|_| has([Series::SunHidden, Series::SolarTorqueSquare]) || run.observed.has(Series::SolarPower));
@@ -33,7 +33,7 @@ pub fn surroundings<S: Simd>(simd: S, run: &MeasuredRun<'_>, out: &mut SeriesTab
 }
 
 #[inline(always)]
-fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, drag: &Drag<Lanes<S>>, out: &mut SeriesTable) {
+fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, mut drag: Drag<Lanes<S>>, out: &mut SeriesTable) {
     let (table, vectors) = (run.table, run.vectors());
     let positions: [_; 3] = needed(table, StateField::ComPosition, vectors);
     let velocities: [_; 3] = needed(table, StateField::ComVelocity, vectors);
@@ -42,7 +42,7 @@ fn air<S: Simd>(simd: S, run: &MeasuredRun<'_>, drag: &Drag<Lanes<S>>, out: &mut
     for at in 0..vectors {
         let (position, velocity) = (three(simd, positions, at), three(simd, velocities, at));
         let place = OrbitState { position, velocity, distance: norm(position) };
-        let density = drag.density(place.distance);
+        let density = drag.density_anywhere(place.distance);
         let wind = transposed_product(attitude.c_es(simd, at), Air::relative_velocity(&place));
         let torque = drag.torque_at(density, wind);
         dot(torque, torque).store(&mut torques[at]);

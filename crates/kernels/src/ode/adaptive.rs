@@ -35,6 +35,7 @@ impl<M: Embedded> LaneMethod for Adaptive<M> {
             retry: zero.never(),
             cut: zero.never(),
             resumed: zero,
+            is_prepared: false,
         }
     }
 }
@@ -55,6 +56,8 @@ pub struct AdaptiveStepper<M: Embedded, R: Real, const N: usize> {
     /// True if the step ends at a switch; the step that it replaces, s.
     cut: R::Mask,
     resumed: R,
+    /// True if states inside the last attempted step can be computed.
+    is_prepared: bool,
 }
 
 impl<M: Embedded, R: Real, const N: usize> AdaptiveStepper<M, R, N> {
@@ -123,6 +126,7 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         end: &mut Carried<R, N>,
     ) -> Attempt<R> {
         let one = step.time.splat(1.0);
+        self.is_prepared = false;
         let attempt = M::attempt(system, step, &lanes.now, self.tolerance, &mut self.stages, end);
         lanes.evaluations += one.splat(M::EVALUATIONS);
         let sound = attempt.poison.lt(one);
@@ -139,7 +143,14 @@ impl<M: Embedded, R: Real, const N: usize> Stepper<R, N> for AdaptiveStepper<M, 
         inside: R::Mask,
         lanes: &mut StepperLane<R, N>,
     ) {
-        M::prepare_inside(system, step, &lanes.now, end, &mut self.stages);
+        if !self.is_prepared {
+            self.is_prepared = true;
+            let (start, stages) = (&lanes.now, &mut self.stages);
+            step.time.apart(
+                #[inline(always)]
+                || M::prepare_inside(system, step, start, end, stages),
+            );
+        }
         lanes.count(inside, M::DENSE_EVALUATIONS);
     }
 

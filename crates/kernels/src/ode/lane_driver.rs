@@ -94,7 +94,7 @@ where
                     slots.clear(lane);
                     let loaded = slots.load_lane(lane, runs, recorder);
                     lanes.start(lane, loaded, recorder.next_time(lane), &mut stepper, control);
-                    switches.start_arc(lane);
+                    switches.start_run(lane);
                 }
             }
         }

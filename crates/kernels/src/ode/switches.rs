@@ -5,7 +5,8 @@
 //! 1993, section II.6; L. Shampine & S. Thompson, Comput. Math. Appl. 39, 2000). If a branch is wrong at the end of a
 //! step, the switch is located on the dense output, and a step to it replaces the first one. The signs a little later
 //! then choose the branches, whichever side the step ended on. A pair of switches within a step, which leaves all signs
-//! as they were, shows in the derivatives at both ends ([`dip`]): the step first ends at the minimum of the function.
+//! as they were, shows in the derivatives at both ends ([`dip`]): the step first ends at the minimum of the function. No
+//! function is evaluated while none can have come to zero since the last evaluation ([`System::sway`]).
 //!
 //! Nothing hangs: a switch function that is zero to rounding does not count, a step is replaced at most eight times,
 //! and every accepted step counts against `max_steps`.
@@ -60,6 +61,8 @@ pub(super) struct Switches<R: Real> {
     landing: R::Mask,
     /// Smallest switch function at the end of such a step.
     landed: R,
+    /// Lower bound of the switch functions at the present time; zero if unknown.
+    margin: R,
 }
 
 impl<R: Real> Switches<R> {
@@ -76,12 +79,22 @@ impl<R: Real> Switches<R> {
             next: zero,
             landing: never,
             landed,
+            margin: zero,
         }
     }
 
     #[inline(always)]
+    pub(super) fn start_run(&mut self, lane: usize) {
+        self.margin.set_lane(lane, 0.0);
+        self.start_arc(lane);
+    }
+
+    /// An arc goes on in the branches of the last, unless a switch may be near.
+    #[inline(always)]
     pub(super) fn start_arc(&mut self, lane: usize) {
-        self.pending.set(lane, true);
+        if self.margin.lane(lane) <= 0.0 {
+            self.pending.set(lane, true);
+        }
         self.ahead.set_lane(lane, 0.0);
         self.landing.set(lane, false);
         self.cuts.set_lane(lane, 0.0);
@@ -122,11 +135,27 @@ impl<R: Real> Switches<R> {
         P: Stepper<R, N>,
     {
         let (zero, one) = (self.cuts.zero(), self.cuts.splat(1.0));
-        let open = attempt.accepted & self.cuts.lt(one.splat(MOST_CUTS));
+        let reach = runs.sway(step.length, [&lanes.now.state, end]);
+        let twice = reach + reach;
+        let near = attempt.accepted & !twice.lt(self.margin);
+        let before = self.margin;
+        self.margin = R::select(attempt.accepted, before - reach, before);
+        if !near.any() {
+            self.cut = zero.never();
+            self.cuts = R::select(attempt.accepted, zero, self.cuts);
+            return;
+        }
         let margin = runs.margin(step.end, end);
+        self.margin = R::select(near, margin, self.margin);
+        let open = near & self.cuts.lt(one.splat(MOST_CUTS));
         let over = open & margin.lt(R::select(self.landing, self.landed, one.splat(-NOISE)));
         let [first, last] = stepper.slopes();
-        let mut fraction = runs.dip(step, [[&lanes.now.state, first], [end, last]]);
+        let may_dip = open & !twice.lt(before + margin);
+        let mut fraction = one.splat(f64::INFINITY);
+        if may_dip.any() {
+            let dip = runs.dip(step, [[&lanes.now.state, first], [end, last]]);
+            fraction = R::select(may_dip, dip, fraction);
+        }
         let cut = over | (open & fraction.lt(one));
         self.cut = cut;
         if over.any() {
@@ -134,6 +163,7 @@ impl<R: Real> Switches<R> {
             let located = locate(runs, stepper, lanes, step, over, margin);
             fraction = R::select(over, located, fraction);
         }
+        self.margin = R::select(cut, before, self.margin);
         attempt.accepted = attempt.accepted & !cut;
         self.next = fraction * step.length;
         self.whole = R::select(cut & !self.landing, step.length, self.whole);

@@ -33,6 +33,12 @@ pub trait System<R: Real, const N: usize> {
         time.splat(f64::INFINITY)
     }
 
+    /// Upper bound of the change of a switch function over `length` s, from the states at both ends.
+    #[inline(always)]
+    fn sway(&self, length: R, _ends: [&[R; N]; 2]) -> R {
+        length.splat(f64::INFINITY)
+    }
+
     /// Lanes in which f is not smooth within its branches, as near a fractional power: high order gains nothing.
     #[inline(always)]
     fn is_rough(&self, zero: R) -> R::Mask {

@@ -111,6 +111,11 @@ impl<R: Real, E: WithinArcs<R>, const N: usize> System<R, N> for GyrostatRuns<'_
     }
 
     #[inline(always)]
+    fn sway(&self, length: R, [first, last]: [&[R; N]; 2]) -> R {
+        self.effects.sway(length, norm(three(first, OMEGA)).larger(norm(three(last, OMEGA))))
+    }
+
+    #[inline(always)]
     fn dip(&self, step: Step<R>, ends: [[&[R; N]; 2]; 2]) -> R {
         let (times, [after, before]) = beside(step, ends);
         self.effects.dip(times, [ends[0][0], &after, &before, ends[1][0]])

@@ -7,7 +7,8 @@ use crate::ode::Integrator;
 /// A formulation of the equations of motion with an integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Gyrostat, Taylor series with periodic folding: the fastest.
+    /// Gyrostat, Taylor series with periodic folding, or what else is the fastest ([`Method::chosen`],
+    /// [`super::PropagationSettings::with_feedback`] and `in_periods`).
     Auto,
     /// Gyrostat, Taylor series, order and step from the tolerance (Jorba & Zou 2005).
     Taylor,

@@ -15,7 +15,7 @@
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 
-use crate::math::normal::quantile;
+use crate::math::normal::quantiles;
 
 /// The number of a sample within a campaign; 0 is the nominal scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -105,28 +105,43 @@ pub(super) fn unit(bits: u64) -> f64 {
 /// (seed, name, `noise`) with the sample as ChaCha's stream number, the k-th word for tick k. Reading ticks in order is
 /// fastest.
 #[derive(Debug)]
-pub struct Noise(Stream);
+pub struct Noise {
+    stream: Stream,
+    /// Normal numbers of the eight ticks from eight times `block` on.
+    normals: [f64; 8],
+    block: Option<u64>,
+}
 
 impl Noise {
     pub fn new(seed: u64, name: &str, sample: SampleId) -> Self {
         let mut generator = generator(seed, name, *b"noise\0\0\0");
         generator.set_stream(sample.0);
-        Noise(Stream { generator, next: 0 })
+        Noise { stream: Stream { generator, next: 0 }, normals: [0.0; 8], block: None }
     }
 
     /// The number u of `tick`, 0 < u < 1.
     pub fn uniform(&mut self, tick: u64) -> f64 {
-        self.0.uniform(SampleId(tick))
+        self.stream.uniform(SampleId(tick))
     }
 
+    /// The standard normal number of `tick`.
+    #[inline]
     pub fn normal(&mut self, tick: u64) -> f64 {
-        quantile(self.uniform(tick))
+        let block = tick / 8;
+        if self.block != Some(block) {
+            self.block = Some(block);
+            let mut u = [0.0; 8];
+            self.stream.uniforms(block, &mut u);
+            quantiles(&u, &mut self.normals);
+        }
+        self.normals[(tick % 8) as usize]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::normal::quantile;
 
     /// ChaCha8, key and nonce zero: first bytes of the key stream (J. Strombergson, *Test Vectors for the Stream Cipher
     /// ChaCha*, draft-strombergson-chacha-test-vectors-01, TC1, 256-bit key, 8 rounds).
@@ -152,6 +167,7 @@ mod tests {
         let in_order: Vec<f64> = (0..40).map(|tick| noise.uniform(tick)).collect();
         for tick in [39, 0, 17, 17, 3] {
             assert_eq!(noise.uniform(tick), in_order[tick as usize]);
+            assert_eq!(noise.normal(tick), quantile(in_order[tick as usize]));
         }
         for mut other in
             [Noise::new(2, "gyro", SampleId(7)), Noise::new(1, "gyrp", SampleId(7)), Noise::new(1, "gyro", SampleId(8))]

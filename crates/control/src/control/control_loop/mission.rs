@@ -88,8 +88,8 @@ impl Mission {
             }
             let geometry = truth.state().centers().map(|centers| self.outcome.criteria.launch.geometry(centers));
             let to_go = software.velocity_to_go(geometry.as_ref(), truth.time);
-            let (r_e, v_e) = (truth.body.r_co_e, truth.body.v_co_e);
-            let orbit = plant.drawn.orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, truth.time, r_e, v_e));
+            let place = [truth.body.r_co_e, truth.body.v_co_e];
+            let orbit = plant.drawn.orbit.as_ref().map(|orbit| OrbitMotion::of(orbit, target, truth.time, place));
             TargetInput { geometry: geometry.as_ref(), to_go: &to_go, orbit }.error(target, truth.body.q_es)
         });
         let errors = if knows { EstimateErrors::NONE } else { EstimateErrors::of(&software.estimate, truth) };

@@ -46,17 +46,30 @@ pub struct Gain<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> Gain<N, M> {
-    /// The gain for the sensitivity `h` and measurement noise `r`; updates the covariance `p` in Joseph form, (1 - K H)
-    /// P (1 - K H)^T + K R K^T (R. S. Bucy & P. D. Joseph, 1968). `None`, with no change, unless the innovation
-    /// covariance is positive definite.
-    pub fn of(p: &mut [[f64; N]; N], h: &[[f64; N]; M], r: &[[f64; M]; M]) -> Option<Self> {
-        let pht = multiplied(p, &transposed(h));
-        let factor = cholesky(&added(&multiplied(h, &pht), r))?;
+    /// The gain for the sensitivity `h` to the first `K` states and measurement noise `r`; updates the covariance `p` in
+    /// Joseph form, (1 - K H) P (1 - K H)^T + K R K^T (R. S. Bucy & P. D. Joseph, 1968). `None`, with no change, unless
+    /// the innovation covariance is positive definite.
+    pub fn of<const K: usize>(p: &mut [[f64; N]; N], h: &[[f64; K]; M], r: &[[f64; M]; M]) -> Option<Self> {
+        let pht = multiplied(&first(p), &transposed(h));
+        let factor = cholesky(&added(&multiplied(h, &top::<N, M, K>(&pht)), r))?;
         let gain: [[f64; M]; N] = std::array::from_fn(|i| solved(&factor, pht[i]));
-        let kh = multiplied(&gain, h);
-        let rest = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j)) - kh[i][j]));
+        // the first K columns of 1 - K H; the others are those of the identity
+        let mut rest = multiplied(&gain, h);
+        for (i, row) in rest.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = f64::from(u8::from(i == j)) - *entry;
+            }
+        }
+        let mut once = multiplied(&rest, &top::<N, N, K>(p));
+        for (row, p) in once.iter_mut().zip(&*p).skip(K) {
+            row.iter_mut().zip(p).for_each(|(entry, p)| *entry += p);
+        }
+        let mut twice = multiplied(&first(&once), &transposed(&rest));
+        for (row, once) in twice.iter_mut().zip(&once) {
+            row.iter_mut().zip(once).skip(K).for_each(|(entry, once)| *entry += once);
+        }
         let noise = multiplied(&multiplied(&gain, r), &transposed(&gain));
-        *p = symmetric(&added(&transported(&rest, p), &noise));
+        *p = symmetric(&added(&twice, &noise));
         Some(Gain { gain, factor })
     }
 
@@ -67,6 +80,20 @@ impl<const N: usize, const M: usize> Gain<N, M> {
     pub fn square(&self, e: [f64; M]) -> NormalizedSquare {
         square_of(&self.factor, e)
     }
+}
+
+/// The first `K` columns.
+fn first<const N: usize, const M: usize, const K: usize>(a: &[[f64; M]; N]) -> [[f64; K]; N] {
+    let mut columns = [[0.0; K]; N];
+    columns.iter_mut().zip(a).for_each(|(row, of_a)| row.copy_from_slice(&of_a[..K]));
+    columns
+}
+
+/// The first `K` rows.
+fn top<const N: usize, const M: usize, const K: usize>(a: &[[f64; M]; N]) -> [[f64; M]; K] {
+    let mut rows = [[0.0; M]; K];
+    rows.copy_from_slice(&a[..K]);
+    rows
 }
 
 pub fn transported<const N: usize>(a: &[[f64; N]; N], p: &[[f64; N]; N]) -> [[f64; N]; N] {
@@ -123,8 +150,7 @@ fn updated_by<const M: usize>(
     innovation: &Innovation<M>,
     covariance: &mut [[f64; 6]; 6],
 ) -> Option<([f64; 6], NormalizedSquare)> {
-    let sensitivity = innovation.sensitivity.map(|[x, y, z]| [x, y, z, 0.0, 0.0, 0.0]);
-    let gain = Gain::of(covariance, &sensitivity, &innovation.covariance)?;
+    let gain = Gain::of(covariance, &innovation.sensitivity, &innovation.covariance)?;
     Some((gain.correction(innovation.value), gain.square(innovation.value)))
 }
 

@@ -5,6 +5,7 @@
 mod commands;
 mod maneuver;
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::actuators::{DelayQueue, PulseState, ThrustMode, modulation};
@@ -21,8 +22,8 @@ use super::laws::rod_law::MeasuredField;
 use super::laws::{AttitudeLaw, KnownBody, LawSettings};
 use super::parameters::{AttitudeNumbers, ConditionNumbers, LoopNumbers, PhaseNumbers};
 use super::tick_times::TickTimes;
-use crate::dynamics::orbit_path::OrbitPath;
 use crate::dynamics::orbit_state::OrbitState;
+use crate::dynamics::surroundings::Window;
 use crate::loops::attitude_law::{Constant, stored_momentum};
 use crate::loops::condition::GuidanceInput;
 use crate::loops::context::LawContext;
@@ -84,7 +85,8 @@ pub struct FlightSoftware {
     thrust_mode: ThrustMode,
     pulses: [PulseState; MAX_THRUSTERS],
     launch: LaunchState,
-    orbit: Option<OrbitPath>,
+    /// The nominal orbit.
+    orbit: Option<RefCell<Window>>,
     /// Estimated launch geometry at the control tick; `None` without debris.
     geometry: Option<LaunchGeometry>,
     is_recorded: bool,
@@ -165,7 +167,7 @@ impl FlightSoftware {
             thrust_mode: modulation::mode(spec.modulation, numbers),
             pulses: [PulseState::default(); MAX_THRUSTERS],
             launch: LaunchState::of(numbers, believed.orbit.as_ref()),
-            orbit: believed.orbit.as_ref().map(OrbitPath::new),
+            orbit: Window::of(&believed).map(RefCell::new),
             geometry: None,
             is_recorded: context.records,
             delay,
@@ -288,11 +290,13 @@ impl FlightSoftware {
     /// The orbit as flight software knows it: nominal, or with perfect knowledge the true one.
     pub fn orbit_motion(&self, time: f64) -> Option<OrbitMotion> {
         let (orbit, nominal) = self.orbit.as_ref().zip(self.believed.orbit.as_ref())?;
-        if self.spec.knows_the_truth() {
-            return Some(OrbitMotion::of(nominal, time, self.estimate.r_co_e, self.estimate.v_co_e));
-        }
-        let OrbitState { position, velocity, .. } = orbit.state(time);
-        Some(OrbitMotion::of(nominal, time, position, velocity))
+        let place = if self.spec.knows_the_truth() {
+            [self.estimate.r_co_e, self.estimate.v_co_e]
+        } else {
+            let OrbitState { position, velocity, .. } = orbit.borrow_mut().place(time);
+            [position, velocity]
+        };
+        Some(OrbitMotion::of(nominal, self.phase().target, time, place))
     }
 
     pub fn phase(&self) -> &Phase {

@@ -16,21 +16,22 @@ pub struct OrbitMotion {
     /// Position of the centre of mass.
     pub r_e: [f64; 3],
     pub v_e: [f64; 3],
-    /// Acceleration by gravity.
+    /// Acceleration by gravity, for the target that needs it, else zero.
     pub a_e: [f64; 3],
-    /// Unit vector to the Sun; zero without a date.
+    /// Unit vector to the Sun, likewise; zero without a date.
     pub sun_e: [f64; 3],
 }
 
 impl OrbitMotion {
-    /// Motion at `r_e`, `v_e` on `orbit` at `time`.
-    pub fn of(orbit: &Orbit, time: f64, r_e: [f64; 3], v_e: [f64; 3]) -> Self {
-        OrbitMotion {
-            r_e,
-            v_e,
-            a_e: Gravity::of(orbit).acceleration(r_e, norm(r_e)),
-            sun_e: orbit.epoch.map_or([0.0; 3], |epoch| sun_after(epoch, time).direction),
+    /// Motion at `r_e`, `v_e` on `orbit` at `time`, for `target`.
+    pub fn of(orbit: &Orbit, target: Target, time: f64, [r_e, v_e]: [[f64; 3]; 2]) -> Self {
+        let (mut a_e, mut sun_e) = ([0.0; 3], [0.0; 3]);
+        match target {
+            Target::OrbitalVelocity => a_e = Gravity::of(orbit).acceleration(r_e, norm(r_e)),
+            Target::Sun => sun_e = orbit.epoch.map_or(sun_e, |epoch| sun_after(epoch, time).direction),
+            _ => {}
         }
+        OrbitMotion { r_e, v_e, a_e, sun_e }
     }
 
     /// Attitude q_eo of the local orbital frame ([`crate::scene::LocalFrame`]), F_o -> F_e, and its angular velocity in
@@ -146,11 +147,12 @@ mod tests {
         let (r_e, v_e) = ([7e6, 1e5, -2e5], [200.0, 5_000.0, 5_700.0]);
         let pull = scaled(-mu / norm(r_e).powi(3), r_e);
         // two-body motion to second order
-        let at = |time: f64| {
+        let at = |time: f64, target: Target| {
             let r_e = sum(sum(r_e, scaled(time, v_e)), scaled(0.5 * time * time, pull));
             let epoch = Epoch::parse("2026-06-21T09:00:00Z");
             let scene = Orbit { mu, position: r_e, velocity: v_e, body_radius: 0.0, j2: None, epoch };
-            TargetInput { orbit: Some(OrbitMotion::of(&scene, time, r_e, sum(v_e, scaled(time, pull)))), ..NOTHING }
+            let orbit = OrbitMotion::of(&scene, target, time, [r_e, sum(v_e, scaled(time, pull))]);
+            TargetInput { orbit: Some(orbit), ..NOTHING }
         };
         // at the solstice the Sun is over the tropic
         let solstice = [0.0, libm::cos(0.40909), libm::sin(0.40909)];
@@ -161,13 +163,13 @@ mod tests {
             (Target::OrbitalVelocity, quaternion_of([-0.5, 0.3, 0.1])),
             (Target::Sun, quaternion_of([-0.5, 1.3, 0.1])),
         ] {
-            let error = at(0.0).error(target, q_es);
+            let error = at(0.0, target).error(target, q_es);
             let q_et = hamilton(q_es, conjugate(error.q_ts));
             // on target there is no error, and s3 points along the wanted direction
-            assert!(at(0.0).error(target, q_et).angle() < 1e-14);
+            assert!(at(0.0, target).error(target, q_et).angle() < 1e-14);
             let wished = match target {
                 Target::OrbitalVelocity => scaled(1.0 / norm(v_e), v_e),
-                Target::Sun => at(0.0).orbit.expect("an orbit").sun_e,
+                Target::Sun => at(0.0, Target::Sun).orbit.expect("an orbit").sun_e,
                 _ => scaled(-1.0 / norm(r_e), r_e),
             };
             let in_target = transposed_product(dcm_from_quaternion(q_et), wished);
@@ -178,17 +180,17 @@ mod tests {
             assert!(norm(difference(in_target, wanted)) < 1e-14, "{in_target:?}");
             // q_et(t)' q_et(t + h) is the rotation by omega_te h; for nadir, the part across
             let h = 1e-2;
-            let moved = [-h, h].map(|time| at(time).error(target, q_et).q_ts);
+            let moved = [-h, h].map(|time| at(time, target).error(target, q_et).q_ts);
             let slope = scaled(-0.5 / h, difference(vector_of(moved[1]), vector_of(moved[0])));
-            let rate = at(0.0).error(target, q_et).omega_te_s;
+            let rate = at(0.0, target).error(target, q_et).omega_te_s;
             // neglects the Sun's motion, 2e-7 rad/s
             let bound = if target == Target::Sun { 2.1e-7 } else { 1e-9 };
             assert!(norm(difference(slope, rate)) < bound, "{target:?}: {slope:?} for {rate:?}");
             assert_eq!(norm(rate) > 1e-4, target != Target::Sun);
         }
         // within a day of the solstice: 1 deg along the ecliptic
-        assert!(norm(difference(at(0.0).orbit.expect("an orbit").sun_e, solstice)) < 0.02);
-        let orbit = at(0.0).orbit.expect("an orbit");
+        assert!(norm(difference(at(0.0, Target::Sun).orbit.expect("an orbit").sun_e, solstice)) < 0.02);
+        let orbit = at(0.0, Target::Nadir).orbit.expect("an orbit");
         let (q_eo, _) = orbit.local_frame();
         let [ahead, across] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| product(dcm_from_quaternion(q_eo), axis));
         assert!(dot(ahead, v_e) > 0.9 * norm(v_e) && dot(across, cross(r_e, v_e)) < 0.0);

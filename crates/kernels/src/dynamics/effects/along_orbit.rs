@@ -1,18 +1,16 @@
 //! [`Along`]: surroundings of runs in lanes, by their series along the orbits.
 
-use super::ChangingEffects;
-use crate::dynamics::orbit_path::OrbitPath;
-use crate::dynamics::surroundings::{Segment, Surroundings};
+use crate::dynamics::gyrostat::Gyrostat;
+use crate::dynamics::surroundings::Segment;
 use crate::math::prelude::*;
-use crate::scene::Arc;
 
 /// Surroundings by series, for arcs within a segment of an orbit that the spacecraft does not leave.
 #[derive(Clone, Debug)]
 pub struct Along<R> {
     /// Series of the lanes' present arcs.
     pub segment: Segment<R>,
-    /// Surroundings of the run in each lane, and the number of the segment.
-    pub runs: [Option<(Surroundings, f64)>; WIDEST],
+    /// Numbers of the segments; NaN before the first.
+    numbers: [f64; WIDEST],
     /// Lanes whose present arcs lie in their segments, or without a run.
     pub is_covered: [bool; WIDEST],
     /// True if that holds in all lanes.
@@ -26,29 +24,31 @@ impl<R: Real> Along<R> {
     pub fn blank(zero: R) -> Self {
         Along {
             segment: Segment::blank(zero),
-            runs: [const { None }; WIDEST],
+            numbers: [f64::NAN; WIDEST],
             is_covered: [true; WIDEST],
             is_everywhere: true,
             is_anywhere: false,
         }
     }
 
-    /// The run in lane `lane`, on `path` under `effects`, begins `arc`.
-    pub fn follow(&mut self, lane: usize, path: &OrbitPath, effects: &ChangingEffects<f64>, arc: &Arc) {
-        let (around, number) = self.runs[lane].get_or_insert_with(|| {
-            let field = effects.magnetic_torque.as_ref().map(|torque| torque.field);
-            let epoch = effects.solar_pressure.as_ref().map(|pressure| pressure.light.epoch);
-            (Surroundings::new(path, field, epoch), f64::NAN)
-        });
-        let covering = around.covering(arc.start, arc.end());
-        if let Some(next) = covering
-            && next != *number
+    /// The lane `lane` gets another run.
+    pub fn clear(&mut self, lane: usize) {
+        self.numbers[lane] = f64::NAN;
+        self.is_covered[lane] = true;
+    }
+
+    /// The run in lane `lane` has begun an arc.
+    pub fn follow(&mut self, lane: usize, run: &mut Gyrostat<f64>) {
+        let covering = run.covering();
+        if let Some(segment) = covering
+            && segment.number() != self.numbers[lane]
         {
-            *number = next;
-            self.segment.set_lane(lane, &around.segment(next));
+            self.numbers[lane] = segment.number();
+            self.segment.set_lane(lane, segment);
         }
         self.is_covered[lane] = covering.is_some();
         self.is_everywhere = self.is_covered.iter().all(|is_covered| *is_covered);
-        self.is_anywhere = self.runs.iter().zip(&self.is_covered).any(|(run, is_covered)| run.is_some() && *is_covered);
+        self.is_anywhere =
+            self.numbers.iter().zip(&self.is_covered).any(|(number, is_covered)| !number.is_nan() && *is_covered);
     }
 }

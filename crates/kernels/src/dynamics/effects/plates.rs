@@ -1,7 +1,7 @@
 //! [`PlatesInLanes`]: the plates of a spacecraft, one run per lane, in the frame B of the equations.
 //!
 //! The switch function of a plate is the cosine of its normal to the incoming direction. If steps end at switches, the
-//! chosen side is frozen.
+//! chosen side is frozen, and the torque of all plates is a polynomial of the direction.
 
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
@@ -81,6 +81,32 @@ impl<R: Real, const K: usize> PlatesInLanes<R, K> {
         }
     }
 
+    /// Sum over the plates on their chosen sides of `own` in the lanes `lanes`, else `before`.
+    #[inline(always)]
+    pub fn add_chosen<const M: usize>(
+        &self,
+        lanes: R::Mask,
+        before: &mut [[R; M]; 3],
+        own: impl Fn(&PlateInLanes<R, K>) -> [[R; M]; 3],
+    ) {
+        let zero = before[0][0].zero();
+        let mut sums = [[zero; M]; 3];
+        for plate in self.iter() {
+            let side = zero.lt(plate.limits[1]);
+            let own = own(plate);
+            for i in 0..3 {
+                for j in 0..M {
+                    sums[i][j] += R::select(side, own[i][j], zero);
+                }
+            }
+        }
+        for i in 0..3 {
+            for j in 0..M {
+                before[i][j] = R::select(lanes, sums[i][j], before[i][j]);
+            }
+        }
+    }
+
     #[inline(always)]
     pub fn iter(&self) -> impl Iterator<Item = &PlateInLanes<R, K>> {
         self.plates[..self.count].iter()
@@ -94,6 +120,18 @@ impl<R: Real, const K: usize> PlateInLanes<R, K> {
     pub fn facing(&self, direction: [R; 3]) -> R {
         dot(self.normal, direction).larger(self.limits[0]).smaller(self.limits[1])
     }
+}
+
+/// a b^T.
+#[inline(always)]
+pub fn outer<R: Real, const M: usize>(a: [R; 3], b: [R; M]) -> [[R; M]; 3] {
+    let mut products = [b; 3];
+    for i in 0..3 {
+        for product in &mut products[i] {
+            *product = a[i] * *product;
+        }
+    }
+    products
 }
 
 /// Sum over the plates of `weight` times area times distance from the centre of mass, m^3.

@@ -4,10 +4,12 @@
 use super::ChangingEffects;
 use super::ChangingSeries;
 use super::along_orbit::Along;
+use crate::dynamics::environment::air::SWITCH_UNIT;
 use crate::dynamics::environment::sun::Sun;
 use crate::dynamics::gravity::Gravity;
 use crate::dynamics::gyrostat::{ATTITUDE, Gyrostat, IMPULSE, IMPULSE_INTEGRAL, OMEGA, WITH_THRUST};
 use crate::dynamics::offset_series::OffsetSeries;
+use crate::dynamics::orbit::KeplerOrbit;
 use crate::dynamics::orbit_path::PathsInLanes;
 use crate::dynamics::orbit_series::OrbitSeries;
 use crate::dynamics::orbit_state::OrbitState;
@@ -194,7 +196,7 @@ pub trait WithinArcs<R: Real> {
     fn set_arc(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
 
     /// Reads the surroundings of the last arc of `run` in lane `lane` from their series, if that arc is short.
-    fn follow(&mut self, _lane: usize, _run: &Gyrostat<f64>) {}
+    fn follow(&mut self, _lane: usize, _run: &mut Gyrostat<f64>) {}
 
     /// Actions at the integrated components `state` (SI) and `time` (s).
     #[inline(always)]
@@ -218,6 +220,12 @@ pub trait WithinArcs<R: Real> {
     #[inline(always)]
     fn margin<const N: usize>(&self, time: R, _state: &[R; N]) -> R {
         time.splat(f64::INFINITY)
+    }
+
+    /// Upper bound of the change of a switch function over `length` s at rates up to `rate`, rad/s.
+    #[inline(always)]
+    fn sway(&self, length: R, _rate: R) -> R {
+        length.splat(f64::INFINITY)
     }
 
     /// [`crate::ode::switches::dip`] of all switch functions, from times and states at four fractions of a step.
@@ -266,7 +274,15 @@ pub struct Acting<R> {
     effects: ChangingEffects<R>,
     leaving: Option<Leaving<R>>,
     along: Option<Along<R>>,
+    /// Upper bounds of the rates at which switch functions change with the motion along the orbit, 1/s.
+    drift: R,
 }
+
+/// Margin of bounds on the changes of switch functions: rates within steps, wind, J2.
+const SWAY: f64 = 1.25;
+
+/// Radial speed by J2 over the speed, at most.
+const OBLATE: f64 = 0.01;
 
 /// Masses (kg) and orbital rates (rad/s) of runs that may leave their orbits.
 #[derive(Clone, Copy, Debug)]
@@ -293,7 +309,7 @@ impl<R: Real> Acting<R> {
             time,
             attitude: four(state, ATTITUDE),
             rate: three(state, OMEGA),
-            place: segment.place(time),
+            place: if self.effects.drag.is_some() { segment.place(time) } else { segment.position(time) },
             field: if has_field { segment.field(time) } else { [time.zero(); 3] },
             sun: segment.sun(time),
         };
@@ -324,6 +340,15 @@ impl<R: Real> Acting<R> {
     }
 }
 
+/// Upper bound of the rates at which switch functions change along `orbit`, 1/s: cosines to the flow turn with the
+/// velocity, edges of shadows pass at the speed per Earth radius, heights change by the radial speed.
+fn drift(orbit: &KeplerOrbit<f64>, effects: &ChangingEffects<f64>) -> f64 {
+    let [speed, radial] = orbit.speeds();
+    let radius = effects.solar_pressure.as_ref().map_or(f64::INFINITY, |pressure| pressure.light.radius);
+    let heights = (radial + OBLATE * speed) / (1e3 * SWITCH_UNIT);
+    SWAY * orbit.fastest().max(speed / radius).max(heights)
+}
+
 /// Position of a spacecraft near the point `place` on its orbit, and the point's motion.
 #[inline(always)]
 pub fn beside_orbit<R: Real, const N: usize>(
@@ -341,17 +366,18 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
     const ACT: bool = true;
 
     fn none(zero: R) -> Self {
-        Acting { zero, orbit: None, effects: ChangingEffects::none(), leaving: None, along: None }
+        Acting { zero, orbit: None, effects: ChangingEffects::none(), leaving: None, along: None, drift: zero }
     }
 
     fn set_lane(&mut self, lane: usize, run: &Gyrostat<f64>) {
         let zero = self.zero;
         self.effects.set_lane(zero, lane, &run.effects);
         if let Some(along) = &mut self.along {
-            along.runs[lane] = None;
+            along.clear(lane);
         }
         if let Some(orbit) = run.orbit.as_ref().filter(|_| !run.effects.is_empty() || run.offset.is_some()) {
             self.orbit.get_or_insert_with(|| PathsInLanes::blank(zero)).set_lane(lane, orbit);
+            self.drift.set_lane(lane, drift(orbit.at_start(), &run.effects));
         }
         if let (Some(orbit), Some(_)) = (&run.orbit, &run.offset) {
             let one = zero.splat(1.0);
@@ -367,11 +393,10 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         self.effects.set_arc(lane, &run.effects);
     }
 
-    fn follow(&mut self, lane: usize, run: &Gyrostat<f64>) {
-        if let (Some(path), None, Some(last), false) = (&run.orbit, run.offset, run.arcs.last(), run.effects.is_empty())
-        {
+    fn follow(&mut self, lane: usize, run: &mut Gyrostat<f64>) {
+        if run.orbit.is_some() && run.offset.is_none() && !run.effects.is_empty() {
             let zero = self.zero;
-            self.along.get_or_insert_with(|| Along::blank(zero)).follow(lane, path, &run.effects, &last.arc);
+            self.along.get_or_insert_with(|| Along::blank(zero)).follow(lane, run);
         }
     }
 
@@ -406,6 +431,11 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
             #[inline(always)]
             || self.effects.margin(&self.motion(time, state, false).0),
         )
+    }
+
+    #[inline(always)]
+    fn sway(&self, length: R, rate: R) -> R {
+        length * rate.mul_add(rate.splat(SWAY), self.drift)
     }
 
     #[inline(always)]
@@ -448,5 +478,53 @@ impl<R: Real> WithinArcs<R> for Acting<R> {
         let place = self.orbit.as_ref().map(|orbit| (orbit.gravity(), orbit.state_at(time)));
         memory.begin(&self.effects, place.as_ref(), self.leaving.is_some(), time[0], unit);
         Some(memory)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{EnvironmentInput, Epoch, Name, OrbitInput, PlateInput, Scene, SceneInput};
+
+    /// Law: no switch function changes by more than the sway of a step, along low, eccentric and geostationary orbits, at
+    /// rest and tumbling.
+    #[test]
+    fn switch_functions_change_within_their_sway() {
+        let plate = |name, normal| PlateInput { name: Name::of(name), normal, area_m2: 1.0, ..PlateInput::DEFAULT };
+        for (axis, eccentricity, rate) in
+            [(6.7e6, 1e-3, 0.0), (6.9e6, 0.0, 0.05), (2.4e7, 0.72, 1e-3), (4.2e7, 0.0, 0.0)]
+        {
+            let scene = Scene::resolve(&SceneInput {
+                orbit: Some(OrbitInput {
+                    semi_major_axis_m: Some(axis),
+                    eccentricity: Some(eccentricity),
+                    inclination_rad: Some(0.9),
+                    epoch: Epoch::parse("2026-11-24T00:00:00Z"),
+                    j2: Some(1.08262668e-3),
+                    ..OrbitInput::DEFAULT
+                }),
+                environment: EnvironmentInput { drag: true, solar_pressure: true, ..EnvironmentInput::DEFAULT },
+                plates: vec![plate("a", [1.0, 0.2, 0.0]), plate("b", [0.0, -1.0, 0.3]), plate("c", [0.1, 0.0, 1.0])],
+                ..SceneInput::default()
+            })
+            .expect("a legal scene");
+            let mut acting = Acting::none(0.0);
+            acting.set_lane(0, &Gyrostat::new(0.0, &scene, 1e5));
+            let state = |time: f64| {
+                let (s, c) = libm::sincos(0.5 * rate * time);
+                [0.0, 0.6 * rate, 0.8 * rate, c, 0.0, 0.6 * s, 0.8 * s]
+            };
+            for k in 0..400 {
+                let (start, length) = (2e2 * f64::from(k), [0.1, 10.0][k as usize % 2]);
+                let end = start + length;
+                acting.choose_branches(true, start, &state(start));
+                let change = acting.margin(end, &state(end)) - acting.margin(start, &state(start));
+                let most = acting.sway(length, rate);
+                assert!(
+                    change.abs() < most,
+                    "{axis:e} m, {eccentricity}, {rate} rad/s: {change:e} of {most:e} at {start}"
+                );
+            }
+        }
     }
 }

@@ -8,6 +8,7 @@
 use super::{EARTH_RATE, each_lane};
 use crate::dynamics::orbit_state::OrbitState;
 use crate::math::lanes::WIDEST;
+use crate::math::power::exp2;
 use crate::math::vector::{lane_of, set_lanes};
 use crate::math::{Mask, Real};
 use crate::scene::EnvironmentInput;
@@ -25,9 +26,9 @@ pub struct AirTable {
 const OUTERMOST: f64 = 3.019e-15 / core::f64::consts::E;
 
 /// Unit of height in the switch functions of the layers, km.
-const SWITCH_UNIT: f64 = 100.0;
+pub(crate) const SWITCH_UNIT: f64 = 100.0;
 
-/// A layer: base and thickness, km; density at its base, kg/m^3; logarithm of the density ratio of top to base; for
+/// A layer: base and thickness, km; density at its base, kg/m^3; slope of the binary logarithm of the density, 1/km; for
 /// base and top, infinity if the layer extends beyond.
 type Layer<R> = [R; 6];
 
@@ -55,8 +56,7 @@ impl AirTable {
 
     /// Density at `height` m above the surface, kg/m^3.
     pub fn density(&self, height: f64) -> f64 {
-        let [base, thickness, density, logarithm, ..] = self.layer_at(height);
-        density_in([base, thickness, density, logarithm], height)
+        density_in(&self.layer_at(height), height * 1e-3)
     }
 
     fn layer_at(&self, height: f64) -> Layer<f64> {
@@ -68,13 +68,15 @@ impl AirTable {
         let [density, thinner] = [self.densities[layer], self.densities[layer + 1]];
         let beyond = |is_outermost: bool| if is_outermost { f64::INFINITY } else { 0.0 };
         let thickness = km(self.heights[layer + 1]) - base;
-        [base, thickness, density, libm::log(thinner / density), beyond(layer == 0), beyond(layer == last)]
+        let slope = libm::log2(thinner / density) / thickness;
+        [base, thickness, density, slope, beyond(layer == 0), beyond(layer == last)]
     }
 }
 
-/// Density of a layer at `height` m, extrapolated outside the layer.
-fn density_in([base, thickness, density, logarithm]: [f64; 4], height: f64) -> f64 {
-    density * libm::exp((height * 1e-3 - base) / thickness * logarithm)
+/// Density of a layer at a height in km, extrapolated outside the layer.
+#[inline(always)]
+fn density_in<R: Real>([base, _, density, slope, ..]: &Layer<R>, height: R) -> R {
+    *density * exp2((height - *base) * *slope)
 }
 
 /// The Earth's atmosphere, one run per lane.
@@ -84,9 +86,6 @@ pub struct Air<R> {
     pub scale: R,
     /// Radius of the Earth, m.
     pub surface: R,
-    /// Exponential atmosphere: density at the base, kg/m^3, height of the base and scale height, m; a scale height of
-    /// zero selects the table.
-    pub exponential: [R; 3],
     tables: [AirTable; WIDEST],
     /// Chosen layer of the table; its thickness is zero before the choice.
     layer: Layer<R>,
@@ -96,19 +95,13 @@ impl<R: Real> Air<R> {
     /// No air.
     pub fn none(zero: R) -> Self {
         let tables = [AirTable::VALLADO; WIDEST];
-        Air { scale: zero, surface: zero, exponential: [zero; 3], tables, layer: [zero; 6] }
-    }
-
-    /// Air above a surface of radius `surface` m, its density times `scale`; no layer is chosen.
-    pub fn new(scale: R, surface: R, exponential: [R; 3], table: AirTable) -> Self {
-        Air { scale, surface, exponential, tables: [table; WIDEST], ..Self::none(scale.zero()) }
+        Air { scale: zero, surface: zero, tables, layer: [zero; 6] }
     }
 
     /// Copies `air` into lane `lane`.
     pub fn set_lane(&mut self, lane: usize, air: &Air<f64>) {
         self.scale.set_lane(lane, air.scale);
         self.surface.set_lane(lane, air.surface);
-        set_lanes(&mut self.exponential, lane, &air.exponential);
         self.tables[lane] = air.tables[0];
         set_lanes(&mut self.layer, lane, &air.layer);
     }
@@ -118,9 +111,9 @@ impl<R: Real> Air<R> {
     pub fn choose_branches(&mut self, lanes: R::Mask, distance: R) {
         let height = distance - self.surface;
         for lane in (0..R::LANES).filter(|lane| lanes.test(*lane)) {
-            let (km, [base, thickness, ..]) = (height.lane(lane) * 1e-3, lane_of(&self.layer, lane));
+            let (km, [base, thickness, .., below, above]) = (height.lane(lane) * 1e-3, lane_of(&self.layer, lane));
             // a layer extends to its top
-            if !(base <= km && km < base + thickness) {
+            if !(base <= km + below && km < base + thickness + above) {
                 set_lanes(&mut self.layer, lane, &self.tables[lane].layer_at(height.lane(lane)));
             }
         }
@@ -130,14 +123,13 @@ impl<R: Real> Air<R> {
     #[inline(always)]
     pub fn switches<const M: usize>(&self, distances: &[R; M], visit: &mut impl FnMut([R; M])) {
         let number = |value: f64| self.scale.splat(value);
-        let is_table = !self.scale.zero().lt(self.exponential[2]);
         let [base, thickness, .., below_it, above_it] = self.layer;
         let (mut above, mut below) = (*distances, *distances);
         for (above, below) in above.iter_mut().zip(&mut below) {
             let since = (*above - self.surface).mul_add(number(1e-3), -base);
             let left = thickness - since;
-            *above = R::select(is_table, since.mul_add(number(1.0 / SWITCH_UNIT), below_it), number(f64::INFINITY));
-            *below = R::select(is_table, left.mul_add(number(1.0 / SWITCH_UNIT), above_it), number(f64::INFINITY));
+            *above = since.mul_add(number(1.0 / SWITCH_UNIT), below_it);
+            *below = left.mul_add(number(1.0 / SWITCH_UNIT), above_it);
         }
         visit(above);
         visit(below);
@@ -146,19 +138,14 @@ impl<R: Real> Air<R> {
     /// Density at `distance` m from the Earth's centre, kg/m^3.
     #[inline(always)]
     pub fn density(&self, distance: R) -> R {
-        let [density, base, scale_height] = self.exponential;
-        let [b0, b1, b2, b3, ..] = self.layer;
-        let numbers = [distance - self.surface, density, base, scale_height, b0, b1, b2, b3];
-        self.scale
-            * each_lane(numbers, |lane, [height, density, base, scale_height, b0, thickness, b2, b3]| {
-                if scale_height > 0.0 {
-                    density * libm::exp((base - height) / scale_height)
-                } else if thickness > 0.0 {
-                    density_in([b0, thickness, b2, b3], height)
-                } else {
-                    self.tables[lane].density(height)
-                }
-            })
+        let height = distance - self.surface;
+        let density = density_in(&self.layer, height * height.splat(1e-3));
+        let chosen = height.zero().lt(self.layer[1]);
+        let by_table = match (!chosen).any() {
+            true => each_lane([height], |lane, [height]| self.tables[lane].density(height)),
+            false => density,
+        };
+        self.scale * R::select(chosen, density, by_table)
     }
 
     /// Velocity relative to air that rotates with the Earth, F_e, m/s.
@@ -168,6 +155,20 @@ impl<R: Real> Air<R> {
         let rate = x.splat(EARTH_RATE);
         let [u, v, w] = place.velocity;
         [rate.mul_add(y, u), rate.neg_mul_add(x, v), w]
+    }
+}
+
+impl Air<f64> {
+    /// Air above a surface of radius `surface` m, its density times `scale`: by `table`, of which no layer is chosen, or
+    /// exponential, with density at the base (kg/m^3), height of the base and scale height (m), if that is not zero.
+    pub fn new(scale: f64, surface: f64, [density, base, scale_height]: [f64; 3], table: AirTable) -> Self {
+        let infinite = f64::INFINITY;
+        let slope = -core::f64::consts::LOG2_E / (1e-3 * scale_height);
+        let layer = match scale_height > 0.0 {
+            true => [1e-3 * base, infinite, density, slope, infinite, infinite],
+            false => [0.0; 6],
+        };
+        Air { scale, surface, tables: [table; WIDEST], layer }
     }
 }
 

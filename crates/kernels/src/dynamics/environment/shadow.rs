@@ -107,15 +107,19 @@ fn edges<R: Real>(shadow: Shadow, position: [R; 3], sun: &Sun<R>, radius: R) -> 
     let beside = R::select(zero.lt(behind), norm(cross(position, sun.direction)), norm(position));
     let depth = behind.larger(zero);
     let one = radius.splat(1.0);
-    let edge = |sine: R| (beside * sine.neg_mul_add(sine, one).sqrt() - sine.mul_add(depth, radius)) / radius;
-    match shadow {
-        Shadow::Cylinder => [edge(zero); 2],
+    let sines = match shadow {
+        Shadow::Cylinder => [zero; 2],
         Shadow::Cone => {
             let per = one / (sun.distance * radius.splat(ASTRONOMICAL_UNIT));
             let size = radius.splat(SUN_RADIUS);
-            [edge((size + radius) * per), edge((radius - size) * per)]
+            [(size + radius) * per, (radius - size) * per]
         }
+    };
+    let mut edges = sines;
+    for (edge, sine) in edges.iter_mut().zip(sines) {
+        *edge = (beside * sine.neg_mul_add(sine, one).sqrt() - sine.mul_add(depth, radius)) / radius;
     }
+    edges
 }
 
 /// Visible share of a disc, from the distances of Sun and Earth, cross and dot product of the vectors to them, and the

@@ -30,6 +30,8 @@ use crate::dynamics::applied::scheduled_arc;
 use crate::dynamics::arc_record::ArcRecord;
 use crate::dynamics::effects::{ChangingEffects, ForceModel, largest_changing_rate};
 use crate::dynamics::orbit_path::OrbitPath;
+use crate::dynamics::orbit_state::OrbitState;
+use crate::dynamics::surroundings::{OfArcs, Segment, Surroundings};
 use crate::math::prelude::*;
 use crate::math::symmetric::principal_axes;
 use crate::scene::{Actuation, Arc, MAX_WHEELS, Offsets, Scene, WheelMode};
@@ -108,6 +110,8 @@ pub struct Gyrostat<R> {
     pub offset: Option<[[R; 3]; 2]>,
     /// The effects that change within an arc, in B.
     pub effects: ChangingEffects<R>,
+    /// Surroundings by series, once a short arc has asked for them.
+    around: Option<OfArcs>,
     /// The arcs so far, without gaps from time zero; under a law only those with observation points, and the last.
     pub arcs: Vec<GyrostatArc<R>>,
     /// All arcs flown under a law.
@@ -145,6 +149,7 @@ impl<R: Real> Gyrostat<R> {
             orbit: None,
             offset: None,
             effects: ChangingEffects::none(),
+            around: None,
             arcs: Vec::new(),
             flown: ArcRecord::default(),
             passed: 0,
@@ -171,6 +176,7 @@ impl<R: Real> Gyrostat<R> {
             (Some(path), Some(orbit)) => path.reset(orbit),
             (path, orbit) => *path = orbit.as_ref().map(OrbitPath::new),
         }
+        self.around = None;
         let changes = ForceModel::of(scene).changes_within_arcs();
         if changes || !self.effects.is_empty() {
             // some kilobytes, not copied for runs without effects
@@ -440,8 +446,30 @@ impl<R: Real> Gyrostat<R> {
         }
     }
 
+    /// The state on its orbit `path` at `time`, the end of the last arc (or zero), s.
+    #[inline(always)]
+    pub fn place(&self, path: &OrbitPath, time: f64) -> OrbitState<f64> {
+        match &self.around {
+            Some(around) if around.segment.covers(time) => around.segment.place(time),
+            _ => path.state(time),
+        }
+    }
+
     /// Power of two near the time scale of the run, s.
     pub fn time_unit(&self) -> f64 {
         time_scale::time_unit(self.rate)
+    }
+}
+
+impl Gyrostat<f64> {
+    /// The segment of its surroundings that covers the last arc, if it is on an orbit and one does.
+    pub fn covering(&mut self) -> Option<&Segment<f64>> {
+        let (path, last, effects) = (self.orbit.as_ref()?, self.arcs.last()?, &self.effects);
+        let around = self.around.get_or_insert_with(|| {
+            let field = effects.magnetic_torque.as_ref().map(|torque| torque.field);
+            let epoch = effects.solar_pressure.as_ref().map(|pressure| pressure.light.epoch);
+            OfArcs::new(Surroundings::new(path, field, epoch))
+        });
+        around.covering(&last.arc)
     }
 }

@@ -23,7 +23,7 @@ pub fn observed_state<R: Real>(
     let inverse_mass = run.mass.splat(1.0) / run.mass;
     let (r_co_e, v_co_e) = match &run.orbit {
         Some(orbit) => {
-            let mut place = orbit.state(time);
+            let mut place = run.place(orbit, time);
             if run.offset.is_some() {
                 place = place.displaced(
                     [IMPULSE_INTEGRAL, IMPULSE]

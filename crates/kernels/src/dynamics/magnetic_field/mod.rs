@@ -54,6 +54,11 @@ impl MagneticField<f64> {
         MagneticField { tables: &TABLES, degree, higher, after, before, turns: turns_at(epoch) }
     }
 
+    /// Numbers on which it depends.
+    pub fn numbers(&self) -> [f64; 4] {
+        [self.degree as f64, self.after, self.before, self.turns]
+    }
+
     /// [`MagneticField::at`] by the best instruction set of the processor.
     pub fn at_point(&self, time: f64, position: [f64; 3]) -> [f64; 3] {
         Isa::best().run(AtPoint { field: self, time, position })
