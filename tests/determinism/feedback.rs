@@ -108,30 +108,38 @@ fn bits_of_brief_arcs_are_a_run_s_own() {
 #[test]
 fn short_arcs_read_series_along_the_orbit() {
     const LONG: f64 = 900.0;
-    let mut scenes = in_thin_air(13, 59);
-    for (k, scene) in scenes.iter_mut().enumerate() {
-        scene.environment.magnetic_field = Some(FieldModel::Igrf);
-        scene.environment.magnetic_dipole_a_m2 = Some([0.3, -0.2, 0.1]);
-        scene.environment.gravity_gradient = true;
-        scene.orbit.as_mut().unwrap().j2 = k.is_multiple_of(2).then_some(1.08262668e-3);
-    }
+    let (control, grid) = (adaptive(1e-12), Grid::uniform(LONG, 29));
     let period = |k: usize| [1.0, 300.0, 7.0, 20.0][k % 4];
     let nothing = |_: f64, _: &BodyState, _: &WheelState| Actuation::none(f64::INFINITY);
     let single = |k: usize| ZeroOrderHold::new(period(k), nothing);
-    let (control, grid) = (adaptive(1e-12), Grid::uniform(LONG, 29));
-    let settings = PropagationSettings::new(DOP853, control, grid.clone(), everything(DOP853), &scenes[0])
-        .with_feedback(Actuated::ALL);
-    let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![single(k)], Isa::best(), &settings, &scenes[k..=k]));
-    let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
-    for isa in Isa::available() {
-        let mut laws: Vec<_> = (0..scenes.len()).map(single).collect();
-        let together = fly_under(&mut laws, isa, &settings, &scenes);
-        assert!(bits(&together) == bits(&alone), "{}", isa.name());
-    }
-    for (k, (own, free)) in alone.iter().zip(propagate(DOP853, control, &grid, &scenes)).enumerate() {
-        for field in [StateField::Attitude, StateField::Rate] {
-            let off = relative_field(&own.run.table, &free.table, field, 28);
-            assert!(off < 1e-9, "run {k}, {field:?}: {off:e}");
+    // series of the motion know neither air, light nor field
+    for method in [DOP853, Method::Taylor] {
+        let mut scenes = in_thin_air(13, 59);
+        for (k, scene) in scenes.iter_mut().enumerate() {
+            let environment = &mut scene.environment;
+            if method == DOP853 {
+                environment.magnetic_field = Some(FieldModel::Igrf);
+                environment.magnetic_dipole_a_m2 = Some([0.3, -0.2, 0.1]);
+            } else {
+                (environment.drag, environment.solar_pressure) = (false, false);
+            }
+            environment.gravity_gradient = true;
+            scene.orbit.as_mut().unwrap().j2 = k.is_multiple_of(2).then_some(1.08262668e-3);
+        }
+        let settings = PropagationSettings::new(method, control, grid.clone(), everything(method), &scenes[0])
+            .with_feedback(Actuated::ALL);
+        let alone = (0..scenes.len()).map(|k| fly_under(&mut vec![single(k)], Isa::best(), &settings, &scenes[k..=k]));
+        let alone: Vec<Flight> = alone.map(|mut flights| flights.remove(0)).collect();
+        for isa in Isa::available() {
+            let mut laws: Vec<_> = (0..scenes.len()).map(single).collect();
+            let together = fly_under(&mut laws, isa, &settings, &scenes);
+            assert!(bits(&together) == bits(&alone), "{} on {}", method.name(), isa.name());
+        }
+        for (k, (own, free)) in alone.iter().zip(propagate(method, control, &grid, &scenes)).enumerate() {
+            for field in [StateField::Attitude, StateField::Rate] {
+                let off = relative_field(&own.run.table, &free.table, field, 28);
+                assert!(off < 1e-9, "{}, run {k}, {field:?}: {off:e}", method.name());
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::campaign::{Plan, event_columns};
 use crate::dynamics::actuation::{ActuationLaw, BodyState, Laws, WheelState};
 use crate::dynamics::orbit_path::OrbitPath;
 use crate::ensemble::loop_errors::LoopErrors;
-use crate::ensemble::pilots::Pilots;
+use crate::ensemble::pilots::{Flown, Pilots};
 use crate::ensemble::settings::{Engines, nominal, propagator};
 use crate::ensemble::surface;
 use crate::loops::loop_record::SharedRecord;
@@ -347,7 +347,8 @@ impl<'p> ObservedRuns<'p> {
                 if request.groups.contains(Group::Motion) {
                     observer.set_nominal(NominalAttitude::of(run.table, run.outcome));
                 }
-                errors.nominal = pilots.as_ref().map(|pilots| pilots.error(Some(&run)));
+                let own = || Some(Flown::of(&run, &[], &plan.grid));
+                errors.nominal = pilots.as_ref().map(|pilots| pilots.error(own()));
             }
             observer.set_loop_error(runs.draws.get(run.index).and_then(|draw| errors.of(draw.sample)));
             let status = observe(plan, observer, engines.isa, &runs.scenes[run.index], (&run, of_law), row);

@@ -63,6 +63,7 @@ impl Finer {
 }
 
 /// A run with the states that are compared.
+#[derive(Clone, Debug)]
 pub struct Flown {
     pub table: StateTable,
     pub filled: usize,
@@ -73,7 +74,7 @@ pub struct Flown {
 }
 
 impl Flown {
-    fn of(run: &CompletedRun<'_>, row: &[f64], grid: &Grid) -> Self {
+    pub fn of(run: &CompletedRun<'_>, row: &[f64], grid: &Grid) -> Self {
         Flown {
             table: run.table.clone(),
             filled: run.outcome.points.min(points_to(grid.times(), end_of(run))),
@@ -175,9 +176,9 @@ impl<'p> Pilots<'p> {
     }
 
     /// What the loop does to the errors of the pilots, the only one of which may be `flown` at the campaign's points.
-    pub fn error(&self, flown: Option<&CompletedRun<'_>>) -> LoopError {
-        let own = match flown.filter(|run| run.outcome.status != Status::StepLimit) {
-            Some(run) => vec![Some(Flown::of(run, &[], &self.plan.grid))],
+    pub fn error(&self, flown: Option<Flown>) -> LoopError {
+        let own = match flown.filter(|run| run.status != Status::StepLimit) {
+            Some(run) => vec![Some(run)],
             None => self.fly(self.plans()[0]),
         };
         let pairs = own.iter().zip(&self.twins).filter_map(|(own, twin)| own.as_ref().zip(twin.as_ref()));

@@ -5,10 +5,10 @@ use crate::ensemble::audit::Selection;
 use crate::ensemble::bands::{BandLayout, PartBands};
 use crate::ensemble::batch::Batch;
 use crate::ensemble::event_finder::EndFinder;
-use crate::ensemble::flights::{LawDraw, Means, Runs};
+use crate::ensemble::flights::{LawDraw, Means, ObservedRuns, Runs};
 use crate::ensemble::loop_errors::LoopErrors;
 use crate::ensemble::parts::{Part, Parts};
-use crate::ensemble::pilots::{Pilots, compared, measured};
+use crate::ensemble::pilots::{Flown, Pilots, compared, measured};
 use crate::ensemble::rows::{Rows, Shape};
 use crate::ensemble::run_cost::{parts, run_seconds, thread_seconds};
 use crate::ensemble::settings::{EngineMaker, Engines, nominal, propagator};
@@ -17,8 +17,9 @@ use crate::math::Isa;
 use crate::observables::band_reader::BandReader;
 use crate::observables::band_series::band_series;
 use crate::observables::nominal_attitude::NominalAttitude;
-use crate::observables::{Group, LoopError, Request};
+use crate::observables::{Group, Request};
 use crate::propagation::PropagationSettings;
+use crate::run::Grid;
 use crate::sampling::SampleId;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
@@ -42,8 +43,8 @@ pub struct Ensemble<'p> {
 struct NominalRun {
     /// If angles from it are observed.
     attitude: Option<NominalAttitude>,
-    /// If it is judged.
-    error: Option<LoopError>,
+    /// If it was flown.
+    own: Option<Flown>,
     /// The numbers of bands, if any.
     kept: Vec<f64>,
 }
@@ -109,7 +110,7 @@ impl<'p> Ensemble<'p> {
             Some(end) => {
                 let (grid, end) = end.grid(&plan.grid);
                 let mut kept = Vec::new();
-                self.means.runs(&grid).of_nominal(None).fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
+                self.nominal_runs(&grid).fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
                     kept = reader.kept(seen.observer, seen.run.table, end).to_vec();
                 });
                 kept
@@ -126,36 +127,27 @@ impl<'p> Ensemble<'p> {
         (!points.is_empty() && !sources.is_empty()).then(|| BandReader::new(sources, points))
     }
 
-    fn nominal(&self) -> &NominalRun {
-        self.nominal.get_or_init(|| {
-            let Means { plan, request, engines } = self.means;
-            let mut reader = self.band_reader();
-            let is_judged = self.wanted()[0] && self.errors.get().is_none();
-            let pilots = if is_judged { Pilots::of_nominal(plan, engines.isa) } else { None };
-            let mut found = NominalRun::default();
-            let has_attitude = request.groups.contains(Group::Motion);
-            if !has_attitude && reader.is_none() && pilots.is_none() {
-                return found;
-            }
-            let fields = compared(&request).union(request.fields());
-            let mut runs = self.means.runs_with(&plan.grid, fields, None).of_nominal(pilots);
-            let (scene, draw) = (nominal(plan), LawDraw::nominal(plan));
-            runs.fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
-                found.attitude = has_attitude.then(|| NominalAttitude::of(seen.run.table, seen.run.outcome));
-                if let Some(reader) = &mut reader {
-                    found.kept = reader.kept(seen.observer, seen.run.table, usize::MAX).to_vec();
-                }
-            });
-            found.error = runs.errors.nominal;
-            found
-        })
+    fn nominal_runs(&self, grid: &Grid) -> ObservedRuns<'p> {
+        let fields = compared(self.request()).union(self.request().fields());
+        self.means.runs_with(grid, fields, None).of_nominal(None)
     }
 
-    /// True for the nominal sample, and for all others, if the plan has rows of them whose errors are estimated.
-    fn wanted(&self) -> [bool; 2] {
-        let plan = self.plan();
-        let is_judged = self.request().groups.contains(Group::Numerics);
-        [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()].map(|rows| is_judged && rows > 0)
+    fn nominal(&self) -> &NominalRun {
+        self.nominal.get_or_init(|| {
+            let (plan, mut reader, mut found) = (self.plan(), self.band_reader(), NominalRun::default());
+            let has_attitude = self.request().groups.contains(Group::Motion);
+            if has_attitude || reader.is_some() {
+                let (scene, draw) = (nominal(plan), LawDraw::nominal(plan));
+                self.nominal_runs(&plan.grid).fly(Runs::one(&scene, draw.as_slice()), &mut |seen| {
+                    found.attitude = has_attitude.then(|| NominalAttitude::of(seen.run.table, seen.run.outcome));
+                    found.own = plan.law.as_ref().map(|_| Flown::of(&seen.run, &[], &plan.grid));
+                    if let Some(reader) = &mut reader {
+                        found.kept = reader.kept(seen.observer, seen.run.table, usize::MAX).to_vec();
+                    }
+                });
+            }
+            found
+        })
     }
 
     /// Without pilots: runs under a law are not judged by their estimates.
@@ -182,8 +174,13 @@ impl<'p> Ensemble<'p> {
 
     fn errors(&self, crew: &dyn Crew) -> LoopErrors {
         *self.errors.get_or_init(|| {
-            let drawn = measured(self.plan(), self.isa(), [false, self.wanted()[1]], crew);
-            LoopErrors { nominal: self.nominal().error, ..drawn }
+            let (plan, isa) = (self.plan(), self.isa());
+            let is_judged = self.request().groups.contains(Group::Numerics);
+            let rows = [plan.rows() - plan.dispersed_rows(), plan.dispersed_rows()];
+            let [nominal, drawn] = rows.map(|rows| is_judged && rows > 0);
+            let pilots = if nominal { Pilots::of_nominal(plan, isa) } else { None };
+            let nominal = pilots.map(|pilots| pilots.error(self.nominal().own.clone()));
+            LoopErrors { nominal, ..measured(plan, isa, [false, drawn], crew) }
         })
     }
 
